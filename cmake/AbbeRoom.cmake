@@ -1,0 +1,17 @@
+# abbe_room(<name> SOURCES ... [LINKS <rooms and header libraries>...] [HIDES <third parties>...])
+#
+# LINKS are the room's allowed edges (public); HIDES are the third parties whose headers stay inside the room.
+function(abbe_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;HIDES" ${ARGN})
+  add_library(abbe_${name} STATIC ${ROOM_SOURCES})
+  add_library(abbe::${name} ALIAS abbe_${name})
+  target_include_directories(abbe_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(abbe_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_HIDES})
+  abbe_compile_options(abbe_${name})
+endfunction()
+
+# Warnings and the CPU family for one target; every build of one machine family gives the same bits. GCC 12 warns of overlapping copies in
+# `"literal" + std::string` where there are none (GCC bug 105651), so -Wrestrict is off.
+function(abbe_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-restrict -march=x86-64-v3 -fno-math-errno)
+endfunction()

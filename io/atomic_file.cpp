@@ -1,0 +1,112 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& message) {
+  throw Error(ErrorCode::output, path.string(), message);
+}
+
+std::string reason() {
+  return std::generic_category().message(errno);
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Keeps the extension, by which image libraries choose the format, and differs between processes and
+/// threads.
+fs::path temporary_for(const fs::path& path) {
+  static std::atomic<unsigned> count = 0;
+  return folder_of(path) / fmt::format(".{}.abbe-{}-{}{}", path.stem().string(), ::getpid(), count++,
+                                       path.extension().string());
+}
+
+/// Waits until a file or folder is on the disk.
+void flush(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, fmt::format("cannot reopen ({})", reason()));
+  const bool flushed = ::fsync(descriptor) == 0;
+  const std::string why = flushed ? "" : reason();
+  ::close(descriptor);
+  if (!flushed) fail(path, fmt::format("cannot flush to disk ({})", why));
+}
+
+/// Removes its file on every way out; after the rename there is none.
+struct Removal {
+  explicit Removal(fs::path file) : path(std::move(file)) {}
+  Removal(const Removal&) = delete;
+  Removal& operator=(const Removal&) = delete;
+  ~Removal() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+
+  fs::path path;
+};
+
+}  // namespace
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,
+                      const std::function<bool(const fs::path&)>& verify) {
+  require_writable(path);
+  const Removal temporary(temporary_for(path));
+  try {
+    write(temporary.path);
+    flush(temporary.path);
+    if (!verify(temporary.path)) fail(path, "what was written does not read back; is the disk full?");
+    fs::rename(temporary.path, path);
+    flush(folder_of(path));
+  } catch (const Error& error) {
+    if (error.code != ErrorCode::input) throw;  // what cannot be read back is an output failure
+    fail(path, error.what());
+  } catch (const std::exception& error) {
+    fail(path, error.what());
+  }
+}
+
+void write_atomically(const fs::path& path, std::string_view bytes) {
+  write_atomically(
+      path,
+      [&](const fs::path& temporary) {
+        std::ofstream file(temporary, std::ios::binary);
+        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        file.close();
+        if (!file) fail(path, fmt::format("cannot write ({})", reason()));
+      },
+      [&](const fs::path& temporary) {
+        std::ifstream file(temporary, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {}) == bytes;
+      });
+}
+
+void require_writable(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path folder = folder_of(path);
+  if (!path.has_filename()) fail(path, "no file name");
+  if (!fs::is_directory(folder, ignored)) fail(path, fmt::format("no such folder \"{}\"", folder.string()));
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) fail(path, "is a folder");
+  if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "is a device, not a regular file");
+  const Removal probe(temporary_for(path));
+  const int descriptor = ::open(probe.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0) fail(path, fmt::format("cannot create a file there ({})", reason()));
+  ::close(descriptor);
+}
+
+}  // namespace abbe

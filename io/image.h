@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/error.h"
+
+namespace abbe {
+
+/// One float plane of an image.
+struct ImageChannel {
+  std::string name;
+  std::vector<float> values;  ///< Row by row from the top left, `width * height` of them.
+};
+
+/// Named float channels and metadata. Channel names are unique.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<ImageChannel> channels;
+  std::map<std::string, std::string> metadata;
+
+  [[nodiscard]] const ImageChannel* find(std::string_view name) const {
+    for (const ImageChannel& channel : channels)
+      if (channel.name == name) return &channel;
+    return nullptr;
+  }
+  [[nodiscard]] std::size_t pixels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+};
+
+/// Largest image edge and pixel count accepted from any file or scene; checked before allocation.
+inline constexpr int kMaxImageEdge = 65536;
+inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 28;
+/// Largest sum of all float channels of an image file.
+inline constexpr std::size_t kMaxImageBytes = std::size_t{8} << 30;
+
+/// Throws Error{resource} naming `where` for an image file beyond these limits; asked before its pixels are
+/// allocated.
+inline void require_image_size(const std::string& where, std::int64_t width, std::int64_t height,
+                               std::size_t channels) {
+  if (width > kMaxImageEdge || height > kMaxImageEdge ||
+      width * height > static_cast<std::int64_t>(kMaxImagePixels))
+    throw Error(ErrorCode::resource, where,
+                "image too large (got " + std::to_string(width) + " x " + std::to_string(height) +
+                    " pixels, allowed edges of " + std::to_string(kMaxImageEdge) + " and " +
+                    std::to_string(kMaxImagePixels) + " in all)");
+  const std::size_t pixels = static_cast<std::size_t>(width * height);
+  if (channels > 0 && pixels > kMaxImageBytes / sizeof(float) / channels)
+    throw Error(ErrorCode::resource, where,
+                "image too large (got " + std::to_string(channels) + " channels of " +
+                    std::to_string(pixels) + " pixels, allowed " + std::to_string(kMaxImageBytes) +
+                    " bytes)");
+}
+
+}  // namespace abbe

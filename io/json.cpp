@@ -1,0 +1,327 @@
+#include "io/json.h"
+
+#include <fmt/format.h>
+#include <rapidjson/reader.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/algorithm/string/predicate.hpp>
+#include <cctype>
+
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::size_t kMaxDepth = 256;
+constexpr std::size_t kMaxPointer = 1024;  // every value stores its pointer, so long keys would multiply
+constexpr unsigned kFlags = rapidjson::kParseIterativeFlag | rapidjson::kParseInsituFlag |
+                            rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag |
+                            rapidjson::kParseNumbersAsStringsFlag;
+
+std::string escaped(std::string_view key) {
+  std::string token;
+  for (const char c : key) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return token;
+}
+
+std::string unescaped(std::string_view token) {
+  std::string key;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const bool escape =
+        token[i] == '~' && i + 1 < token.size() && (token[i + 1] == '0' || token[i + 1] == '1');
+    key += !escape ? token[i] : token[++i] == '0' ? '~' : '/';
+  }
+  return key;
+}
+
+/// Receives the parser's events and grows the tree. Parsing in place makes the strings and numbers it is
+/// given point into the parsed copy of the text, which tells where they stand.
+class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
+ public:
+  TreeBuilder(rapidjson::InsituStringStream& stream, std::shared_ptr<const SourceText> source,
+              std::string pointer, Diagnostics& diagnostics)
+      : stream_(stream),
+        source_(std::move(source)),
+        pointer_(std::move(pointer)),
+        diagnostics_(diagnostics) {}
+
+  bool Null() { return add(nullptr, stream_.Tell() - std::string_view("null").size()); }
+  bool Bool(bool b) { return add(b, stream_.Tell() - std::string_view(b ? "true" : "false").size()); }
+  bool StartObject() { return open(JsonValue::Object{}); }
+  bool StartArray() { return open(JsonValue::Array{}); }
+  bool EndArray(rapidjson::SizeType) { return close(); }
+
+  bool RawNumber(const char* text, rapidjson::SizeType size, bool) {
+    const std::size_t offset = offset_of(text);
+    const std::string_view digits(text, size);
+    if (const auto number = parse_number(digits)) return add(*number, offset);
+    return refuse(offset,
+                  fmt::format("number out of range (got {}, allowed magnitudes from 4.94e-324 to 1.797e308)",
+                              digits.substr(0, 40)));
+  }
+
+  bool String(const char* text, rapidjson::SizeType size, bool) {
+    const std::size_t offset = offset_of(text) - 1;
+    return is_text({text, size}, offset) && add(std::string(text, size), offset);
+  }
+
+  bool Key(const char* text, rapidjson::SizeType size, bool) {
+    key_.assign(text, size);
+    key_offset_ = offset_of(text) - 1;
+    return is_text(key_, key_offset_);
+  }
+
+  bool EndObject(rapidjson::SizeType) {
+    std::vector<const JsonValue::Member*> members;
+    for (const auto& member : std::get<JsonValue::Object>(open_.back()->value)) members.push_back(&member);
+    std::stable_sort(members.begin(), members.end(), [](auto* a, auto* b) { return a->first < b->first; });
+    for (std::size_t i = 1; i < members.size(); ++i)
+      if (members[i]->first == members[i - 1]->first)
+        refuse(members[i]->second.key_offset, fmt::format("duplicate key \"{}\"", members[i]->first),
+               members[i]->second.where.pointer);
+    return close();
+  }
+
+  /// Where the parser stands, as a JSON pointer.
+  [[nodiscard]] std::string pointer() const { return open_.empty() ? pointer_ : open_.back()->where.pointer; }
+  [[nodiscard]] bool refused() const { return refused_; }
+  [[nodiscard]] JsonValue take() { return std::move(root_); }
+
+ private:
+  [[nodiscard]] std::size_t offset_of(const char* text) const {
+    return static_cast<std::size_t>(text - stream_.head_);
+  }
+
+  bool refuse(std::size_t offset, std::string message, std::string pointer) {
+    diagnostics_.error({source_, offset, std::move(pointer)}, std::move(message));
+    refused_ = true;
+    return false;
+  }
+  bool refuse(std::size_t offset, std::string message) {
+    return refuse(offset, std::move(message), next_pointer());
+  }
+
+  bool is_text(std::string_view text, std::size_t offset) {
+    return valid_prefix(text) == text.size() ||
+           refuse(offset, "invalid string (got NUL or half a surrogate pair)", pointer());
+  }
+
+  [[nodiscard]] std::string next_pointer() const {
+    if (open_.empty()) return pointer_;
+    const JsonValue& parent = *open_.back();
+    if (const auto* array = std::get_if<JsonValue::Array>(&parent.value))
+      return fmt::format("{}/{}", parent.where.pointer, array->size());
+    return fmt::format("{}/{}", parent.where.pointer, escaped(key_));
+  }
+
+  /// The new value stays in place while it is open: its parent grows again only after it was closed.
+  JsonValue* place(JsonValue value) {
+    if (open_.empty()) return &(root_ = std::move(value));
+    JsonValue& parent = *open_.back();
+    if (auto* array = std::get_if<JsonValue::Array>(&parent.value))
+      return &array->emplace_back(std::move(value));
+    value.key_offset = key_offset_;
+    auto& object = std::get<JsonValue::Object>(parent.value);
+    object.push_back({std::move(key_), std::move(value)});
+    return &object.back().second;
+  }
+
+  template <class Content>
+  bool add(Content content, std::size_t offset) {
+    std::string pointer = next_pointer();
+    if (pointer.size() > kMaxPointer)
+      return refuse(
+          offset,
+          fmt::format("keys too long (got a path of {} bytes, allowed {})", pointer.size(), kMaxPointer),
+          this->pointer());
+    last_ = place({std::move(content), {source_, offset, std::move(pointer)}});
+    return true;
+  }
+
+  template <class Container>
+  bool open(Container container) {
+    if (open_.size() == kMaxDepth)
+      return refuse(stream_.Tell(), fmt::format("nesting too deep (allowed {} levels)", kMaxDepth), "");
+    if (!add(std::move(container), stream_.Tell())) return false;
+    open_.push_back(last_);
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  rapidjson::InsituStringStream& stream_;
+  std::shared_ptr<const SourceText> source_;
+  std::string pointer_;
+  Diagnostics& diagnostics_;
+  JsonValue root_;
+  std::vector<JsonValue*> open_;
+  JsonValue* last_ = nullptr;
+  std::string key_;
+  std::size_t key_offset_ = 0;
+  bool refused_ = false;
+};
+
+/// What the grammar wanted where the parser stopped.
+std::string_view expectation(rapidjson::ParseErrorCode code) {
+  switch (code) {
+    case rapidjson::kParseErrorDocumentRootNotSingular:
+      return "the end of the text";
+    case rapidjson::kParseErrorObjectMissName:
+      return "a key in double quotes or '}'";
+    case rapidjson::kParseErrorObjectMissColon:
+      return "':'";
+    case rapidjson::kParseErrorObjectMissCommaOrCurlyBracket:
+      return "',' or '}'";
+    case rapidjson::kParseErrorArrayMissCommaOrSquareBracket:
+      return "',' or ']'";
+    case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
+      return "four hexadecimal digits after \\u";
+    case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
+      return "a complete surrogate pair";
+    case rapidjson::kParseErrorStringEscapeInvalid:
+      return "a printable character or an escape JSON knows";
+    case rapidjson::kParseErrorStringMissQuotationMark:
+      return "'\"' at the end of the string";
+    case rapidjson::kParseErrorNumberMissFraction:
+      return "a digit after the decimal point";
+    case rapidjson::kParseErrorNumberMissExponent:
+      return "a digit in the exponent";
+    case rapidjson::kParseErrorUnspecificSyntaxError:
+      return "a complete comment";
+    default:
+      return "a value";
+  }
+}
+
+bool in_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.' || c == '_';
+}
+
+bool names_not_finite(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return boost::iequals(word, "nan") || boost::iequals(word, "inf") || boost::iequals(word, "infinity");
+}
+
+void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnostics& diagnostics) {
+  const std::string_view text = where.source->text;
+  where.offset = std::min(result.Offset(), text.size());
+  if (where.offset == text.size() && text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    return diagnostics.error({where.source, 0, ""}, "expected a value (got an empty text)");
+  if (result.Code() ==
+      rapidjson::kParseErrorValueInvalid)  // found inside the word, or after the sign of "-Infinity"
+    while (where.offset > 0 && in_word(text[where.offset - 1])) --where.offset;
+  if (where.offset == text.size())
+    return diagnostics.error(
+        where, fmt::format("expected {} (got the end of the text)", expectation(result.Code())));
+
+  const std::string_view rest = text.substr(where.offset, 40);
+  std::size_t size =
+      static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), in_word) - rest.begin());
+  if (size == 0)  // show one whole character instead
+    for (size = 1; size < rest.size() && valid_prefix(rest.substr(0, size)) < size;) ++size;
+  const std::string_view word = rest.substr(0, size);
+  if (result.Code() == rapidjson::kParseErrorNumberTooBig)
+    return diagnostics.error(
+        where, fmt::format("number out of range (got {}, allowed magnitudes to 1.797e308)", word));
+  if (names_not_finite(word))
+    return diagnostics.error(where, fmt::format("expected a value (got {}, allowed finite numbers)", word));
+  diagnostics.error(where, fmt::format("expected {} (got {})", expectation(result.Code()), word));
+}
+
+std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, const std::string& pointer,
+                               Diagnostics& diagnostics) {
+  std::string scratch = source->text;
+  rapidjson::InsituStringStream stream(scratch.data());
+  TreeBuilder builder(stream, source, pointer, diagnostics);
+  rapidjson::Reader reader;
+  const rapidjson::ParseResult result = reader.Parse<kFlags>(stream, builder);
+  if (result.IsError() && result.Code() != rapidjson::kParseErrorTermination)
+    report(result, {source, 0, builder.pointer()}, diagnostics);
+  else if (!builder.refused() && stream.Tell() != source->text.size())
+    diagnostics.error({source, stream.Tell(), ""}, "NUL byte in a text");
+  else if (!builder.refused())
+    return builder.take();
+  return std::nullopt;
+}
+
+/// The element a pointer's token names in an array, created when it is the one after the last.
+JsonValue* element(JsonValue::Array& array, const std::string& token) {
+  const bool digits = !token.empty() && std::all_of(token.begin(), token.end(),
+                                                    [](unsigned char c) { return std::isdigit(c); });
+  if (token != "-" && (!digits || token.size() > 9)) return nullptr;
+  const std::size_t index = token == "-" ? array.size() : std::stoul(token);
+  if (index > array.size()) return nullptr;
+  if (index == array.size()) array.emplace_back();
+  return &array[index];
+}
+
+/// The value at `pointer`, created with the objects on its way where it is missing; nullptr where there is no
+/// way.
+JsonValue* reach(JsonValue& root, const std::string& pointer,
+                 const std::shared_ptr<const SourceText>& source) {
+  JsonValue* at = &root;
+  for (std::size_t begin = 0; begin < pointer.size();) {
+    const std::size_t end = std::min(pointer.find('/', begin + 1), pointer.size());
+    const std::string token = unescaped(std::string_view(pointer).substr(begin + 1, end - begin - 1));
+    if (auto* array = std::get_if<JsonValue::Array>(&at->value)) {
+      at = element(*array, token);
+    } else if (auto* object = std::get_if<JsonValue::Object>(&at->value)) {
+      JsonValue* member = at->find(token);
+      if (!member) object->push_back({token, {}});
+      at = member ? member : &object->back().second;
+    } else {
+      return nullptr;
+    }
+    if (!at) return nullptr;
+    if (!at->where.source) *at = {JsonValue::Object{}, {source, 0, pointer.substr(0, end)}};
+    begin = end;
+  }
+  return at;
+}
+
+}  // namespace
+
+std::string_view JsonValue::kind() const {
+  constexpr std::array<std::string_view, 6> kNames{"null",     "a boolean", "a number",
+                                                   "a string", "an array",  "an object"};
+  return kNames[value.index()];
+}
+
+const JsonValue* JsonValue::find(std::string_view key) const {
+  if (const auto* object = std::get_if<Object>(&value))
+    for (const Member& member : *object)
+      if (member.first == key) return &member.second;
+  return nullptr;
+}
+
+JsonValue* JsonValue::find(std::string_view key) {
+  return const_cast<JsonValue*>(std::as_const(*this).find(key));
+}
+
+std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source,
+                                    Diagnostics& diagnostics) {
+  return parse(source, "", diagnostics);
+}
+
+void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics) {
+  const auto source = std::make_shared<const SourceText>(SourceText{"--set", std::string(text)});
+  const SourcePosition where{source, 0, std::string(pointer)};
+  Diagnostics complaints;
+  std::optional<JsonValue> value = parse(source, where.pointer, complaints);
+  if (!value && text.find_first_of("[{\"") == 0) {
+    const Diagnostic& first = complaints.all().front();
+    return diagnostics.error(first.where, first.message, ErrorCode::usage);
+  }
+  if (!value) value = JsonValue{std::string(text), where};
+
+  JsonValue* target =
+      pointer.empty() || pointer.starts_with('/') ? reach(root, where.pointer, source) : nullptr;
+  if (!target) return diagnostics.error(where, "no such place in the scene", ErrorCode::usage);
+  *target = std::move(*value);
+}
+
+}  // namespace abbe

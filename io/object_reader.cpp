@@ -1,0 +1,174 @@
+#include "io/object_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abbe {
+namespace {
+
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
+constexpr double kLargestInteger = 9007199254740992;  // 2^53: beyond it a double skips integers
+
+std::string bound(double x) {
+  if (std::abs(x) == std::numeric_limits<double>::max()) return x < 0 ? "-inf" : "inf";
+  return fmt::format("{}", x);
+}
+
+/// The value itself when it is short, else its kind.
+std::string shown(const JsonValue& value) {
+  if (const auto* number = std::get_if<double>(&value.value)) return fmt::format("{}", *number);
+  if (const auto* boolean = std::get_if<bool>(&value.value)) return *boolean ? "true" : "false";
+  if (const auto* string = std::get_if<std::string>(&value.value))
+    return string->size() <= 40 ? fmt::format("\"{}\"", *string) : "a long string";
+  return std::string(value.kind());
+}
+
+std::nullopt_t mismatch(const JsonValue& value, std::string_view expected, std::string_view allowed,
+                        Diagnostics& diagnostics) {
+  diagnostics.error(value.where,
+                    fmt::format("expected {} (got {}, allowed {})", expected, shown(value), allowed));
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool Range::contains(double x) const {
+  return (open_low ? x > low : x >= low) && (open_high ? x < high : x <= high);
+}
+
+std::string Range::text() const {
+  const bool no_low = low == std::numeric_limits<double>::lowest();
+  const bool no_high = high == std::numeric_limits<double>::max();
+  return fmt::format("{}{}, {}{}", open_low || no_low ? '(' : '[', bound(low), bound(high),
+                     open_high || no_high ? ')' : ']');
+}
+
+std::optional<double> read_number(const JsonValue& value, Range allowed, Diagnostics& diagnostics) {
+  const auto* number = std::get_if<double>(&value.value);
+  if (!number || !allowed.contains(*number)) return mismatch(value, "a number", allowed.text(), diagnostics);
+  if (std::abs(*number) > kLargestFloat)
+    return mismatch(value, "a number of single precision", fmt::format("magnitudes to {:.6g}", kLargestFloat),
+                    diagnostics);
+  return *number;
+}
+
+std::optional<std::int64_t> read_integer(const JsonValue& value, Range allowed, Diagnostics& diagnostics) {
+  const auto* number = std::get_if<double>(&value.value);
+  if (number && std::abs(*number) > kLargestInteger)
+    return mismatch(value, "an integer", fmt::format("magnitudes to {:.0f}", kLargestInteger), diagnostics);
+  if (!number || *number != std::floor(*number) || !allowed.contains(*number))
+    return mismatch(value, "an integer", allowed.text(), diagnostics);
+  return static_cast<std::int64_t>(*number);
+}
+
+std::optional<std::string> read_string(const JsonValue& value, Diagnostics& diagnostics) {
+  if (const auto* string = std::get_if<std::string>(&value.value)) return *string;
+  return mismatch(value, "a string", "text in double quotes", diagnostics);
+}
+
+std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics) {
+  if (const auto* boolean = std::get_if<bool>(&value.value)) return *boolean;
+  return mismatch(value, "a boolean", "true or false", diagnostics);
+}
+
+std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::size_t count, Range allowed,
+                                                Diagnostics& diagnostics) {
+  const auto* array = std::get_if<JsonValue::Array>(&value.value);
+  if (!array) return mismatch(value, "an array of numbers", allowed.text(), diagnostics);
+  if (count != 0 && array->size() != count) {
+    diagnostics.error(value.where,
+                      fmt::format("wrong number of elements (got {}, allowed {})", array->size(), count));
+    return std::nullopt;
+  }
+  std::vector<double> numbers;
+  for (const JsonValue& element : *array)
+    if (const auto number = read_number(element, allowed, diagnostics)) numbers.push_back(*number);
+  if (numbers.size() != array->size()) return std::nullopt;
+  return numbers;
+}
+
+ObjectReader::ObjectReader(const JsonValue& value, Diagnostics& diagnostics)
+    : value_(value), diagnostics_(diagnostics), known_{"$schema"} {
+  if (!std::holds_alternative<JsonValue::Object>(value.value))
+    mismatch(value, "an object", "{...}", diagnostics);
+}
+
+const JsonValue* ObjectReader::find(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  return value_.find(key);
+}
+
+const JsonValue* ObjectReader::require(std::string_view key) {
+  const JsonValue* member = find(key);
+  if (!member && std::holds_alternative<JsonValue::Object>(value_.value))
+    diagnostics_.error(value_.where, fmt::format("missing key \"{}\"", key));
+  return member;
+}
+
+std::optional<double> ObjectReader::number(std::string_view key, Range allowed) {
+  const JsonValue* member = find(key);
+  return member ? read_number(*member, allowed, diagnostics_) : std::nullopt;
+}
+
+std::optional<double> ObjectReader::require_number(std::string_view key, Range allowed) {
+  return require(key) ? number(key, allowed) : std::nullopt;
+}
+
+double ObjectReader::number_or(std::string_view key, double otherwise, Range allowed) {
+  return number(key, allowed).value_or(otherwise);
+}
+
+std::optional<std::int64_t> ObjectReader::integer(std::string_view key, Range allowed) {
+  const JsonValue* member = find(key);
+  return member ? read_integer(*member, allowed, diagnostics_) : std::nullopt;
+}
+
+std::optional<std::string> ObjectReader::string(std::string_view key) {
+  const JsonValue* member = find(key);
+  return member ? read_string(*member, diagnostics_) : std::nullopt;
+}
+
+std::optional<std::string> ObjectReader::require_string(std::string_view key) {
+  return require(key) ? string(key) : std::nullopt;
+}
+
+bool ObjectReader::boolean_or(std::string_view key, bool otherwise) {
+  const JsonValue* member = find(key);
+  return member ? read_boolean(*member, diagnostics_).value_or(otherwise) : otherwise;
+}
+
+std::optional<std::vector<double>> ObjectReader::numbers(std::string_view key, std::size_t count,
+                                                         Range allowed) {
+  const JsonValue* member = find(key);
+  return member ? read_numbers(*member, count, allowed, diagnostics_) : std::nullopt;
+}
+
+std::optional<std::vector<double>> ObjectReader::require_numbers(std::string_view key, std::size_t count,
+                                                                 Range allowed) {
+  return require(key) ? numbers(key, count, allowed) : std::nullopt;
+}
+
+std::optional<std::string> ObjectReader::exactly_one(std::initializer_list<std::string_view> keys) {
+  std::vector<std::string> present;
+  for (const std::string_view key : keys)
+    if (find(key)) present.emplace_back(key);
+  if (present.size() == 1) return present.front();
+  if (std::holds_alternative<JsonValue::Object>(value_.value))
+    diagnostics_.error(value_.where,
+                       fmt::format("expected exactly one key (got {}, allowed {})",
+                                   present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
+                                   fmt::join(keys, ", ")));
+  return std::nullopt;
+}
+
+void ObjectReader::finish() {
+  const auto* object = std::get_if<JsonValue::Object>(&value_.value);
+  if (!object) return;
+  for (const auto& [key, member] : *object)
+    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+      diagnostics_.error(member.key_position(), unknown_name("key", key, known_));
+}
+
+}  // namespace abbe

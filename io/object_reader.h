@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/json.h"
+
+namespace abbe {
+
+/// The numbers a field accepts. `text()` is how an error names them, e.g. "(0, 180)" or "[0, inf)".
+struct Range {
+  double low = -std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::max();
+  bool open_low = false;
+  bool open_high = false;
+
+  [[nodiscard]] bool contains(double x) const;
+  [[nodiscard]] std::string text() const;
+
+  static constexpr Range any() { return {}; }
+  static constexpr Range positive() { return {0, std::numeric_limits<double>::max(), true, false}; }
+  static constexpr Range non_negative() { return {0, std::numeric_limits<double>::max(), false, false}; }
+  static constexpr Range unit() { return {0, 1, false, false}; }
+};
+
+/// Typed reading of single values; a mismatch is reported as `expected <type> (got <kind or value>, allowed
+/// <range>)`.
+[[nodiscard]] std::optional<double> read_number(const JsonValue& value, Range allowed,
+                                                Diagnostics& diagnostics);
+[[nodiscard]] std::optional<std::int64_t> read_integer(const JsonValue& value, Range allowed,
+                                                       Diagnostics& diagnostics);
+[[nodiscard]] std::optional<std::string> read_string(const JsonValue& value, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics);
+/// An array of numbers, each in `allowed`; of exactly `count` of them unless `count` is 0.
+[[nodiscard]] std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::size_t count,
+                                                              Range allowed, Diagnostics& diagnostics);
+
+/// Reads the members of one JSON object. Every key asked for is a known key; `finish` reports the others,
+/// each with the nearest known name. "$schema" is known everywhere. Getters return nothing for an absent key
+/// (reporting it when the getter is `require_`) and for a malformed value (reporting that).
+class ObjectReader {
+ public:
+  /// A `value` that is no object is reported here, and every getter then returns nothing silently.
+  ObjectReader(const JsonValue& value, Diagnostics& diagnostics);
+
+  [[nodiscard]] const JsonValue* find(std::string_view key);
+  [[nodiscard]] const JsonValue* require(std::string_view key);
+
+  [[nodiscard]] std::optional<double> number(std::string_view key, Range allowed = Range::any());
+  [[nodiscard]] std::optional<double> require_number(std::string_view key, Range allowed = Range::any());
+  [[nodiscard]] double number_or(std::string_view key, double otherwise, Range allowed = Range::any());
+  [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, Range allowed);
+  [[nodiscard]] std::optional<std::string> string(std::string_view key);
+  [[nodiscard]] std::optional<std::string> require_string(std::string_view key);
+  [[nodiscard]] bool boolean_or(std::string_view key, bool otherwise);
+  [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count,
+                                                           Range allowed = Range::any());
+  [[nodiscard]] std::optional<std::vector<double>> require_numbers(std::string_view key, std::size_t count,
+                                                                   Range allowed = Range::any());
+
+  /// The one present among `keys`; none, or more than one, is reported.
+  [[nodiscard]] std::optional<std::string> exactly_one(std::initializer_list<std::string_view> keys);
+
+  /// Reports the unknown keys. Call once, after the last getter.
+  void finish();
+
+  [[nodiscard]] const SourcePosition& where() const { return value_.where; }
+
+ private:
+  const JsonValue& value_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace abbe

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "io/image.h"
+
+namespace abbe {
+
+/// Writes the first three channels (or the only one, as grey) as an 8-bit sRGB-encoded file: values are
+/// display code values in [0, 1], clamped and rounded. The format follows the extension (.png, .jpg, .tif).
+/// Atomic; throws Error{output}.
+void write_picture(const std::filesystem::path& path, const Image& image);
+
+/// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files. Throws
+/// Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
+[[nodiscard]] Image read_picture(const std::filesystem::path& path);
+
+}  // namespace abbe

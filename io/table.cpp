@@ -1,0 +1,320 @@
+#include "io/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <mutex>
+
+#include "io/data_directory.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Cell {
+  std::string text;
+  std::size_t offset;  ///< In the line.
+};
+
+/// The cells of one line; nothing if a quoted cell is not closed by a quote followed by a comma or the end.
+std::optional<std::vector<Cell>> cells_of(std::string_view line) {
+  std::vector<Cell> cells;
+  for (std::size_t at = 0;;) {
+    at = std::min(line.find_first_not_of(" \t", at), line.size());
+    Cell cell{"", at};
+    if (at < line.size() && line[at] == '"') {
+      for (++at; at < line.size() && (line[at] != '"' || line.substr(at, 2) == "\"\""); ++at) {
+        if (line[at] == '"') ++at;
+        cell.text += line[at];
+      }
+      if (at == line.size()) return std::nullopt;
+      at = std::min(line.find_first_not_of(" \t", at + 1), line.size());
+      if (at < line.size() && line[at] != ',') return std::nullopt;
+    } else {
+      const std::size_t end = std::min(line.find(',', at), line.size());
+      cell.text = line.substr(at, end - at);
+      cell.text.erase(cell.text.find_last_not_of(" \t") + 1);
+      at = end;
+    }
+    cells.push_back(std::move(cell));
+    if (at == line.size()) return cells;
+    ++at;
+  }
+}
+
+/// The line beginning at `offset`, without its end.
+std::string_view line_from(std::string_view text, std::size_t offset) {
+  std::string_view line = text.substr(offset, text.find('\n', offset) - offset);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+/// `# key: value` taken apart; nothing for a comment that has not this form.
+std::optional<std::pair<std::string, std::string>> key_line(std::string_view line) {
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  return std::pair{split(line.substr(1, colon - 1), '\n').front(),
+                   split(line.substr(colon + 1), '\n').front()};
+}
+
+/// Grows one table line by line, complaining about each line it cannot use.
+class TableReader {
+ public:
+  TableReader(std::shared_ptr<const SourceText> source, Diagnostics& diagnostics)
+      : source_(std::move(source)), diagnostics_(diagnostics) {
+    table_.where.source = source_;
+  }
+
+  void read_lines() {
+    const std::string_view text = source_->text;
+    for (std::size_t offset = 0; offset < text.size();) {
+      const std::string_view line = line_from(text, offset);
+      if (line.starts_with('#'))
+        read_key(line, offset);
+      else if (!is_blank(line))
+        read_cells(line, offset);
+      offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
+    }
+    if (table_.rows.empty()) complain(text.size(), "expected a line of column names and at least one row");
+  }
+
+  void check_provenance(TableOrigin origin) {
+    Provenance& provenance = table_.provenance;
+    const bool shipped = origin == TableOrigin::shipped;
+    if (!shipped) {
+      provenance.title = fs::path(source_->file).stem().string();
+      provenance.source = fmt::format("{} (SHA-256 {})", source_->file, sha256(source_->text));
+    }
+    take("title", provenance.title, shipped);
+    take("unit", provenance.unit, true);
+    take("source", provenance.source, shipped);
+    take("status", provenance.status, shipped);
+    take("processing", provenance.processing, shipped);
+    std::string outside = "error";
+    take("outside", outside, shipped);
+    constexpr std::array<std::string_view, 3> kNames{"clamp", "zero", "error"};
+    const auto name = std::find(kNames.begin(), kNames.end(), outside);
+    if (name == kNames.end())
+      complain(key_offsets_["outside"],
+               fmt::format("unknown range rule (got {}, allowed {})", outside, fmt::join(kNames, ", ")));
+    else
+      table_.outside = static_cast<Outside>(name - kNames.begin());
+  }
+
+  [[nodiscard]] std::optional<Table> result() {
+    if (complained_) return std::nullopt;
+    return std::move(table_);
+  }
+
+ private:
+  void complain(std::size_t offset, std::string message) {
+    diagnostics_.error({source_, offset, ""}, std::move(message), ErrorCode::input);
+    complained_ = true;
+  }
+
+  void read_key(std::string_view line, std::size_t offset) {
+    const auto key = key_line(line);
+    if (!table_.columns.empty() || !key) return;
+    if (!table_.keys.insert(*key).second)
+      complain(offset, fmt::format("repeated line \"# {}:\"", key->first));
+    key_offsets_[key->first] = offset;
+  }
+
+  void read_cells(std::string_view line, std::size_t offset) {
+    auto cells = cells_of(line);
+    if (!cells) return complain(offset, "quoted cell without its closing quote");
+    if (!table_.columns.empty()) {
+      if (cells->size() != table_.columns.size())
+        return complain(offset, fmt::format("wrong number of cells (got {}, allowed {})", cells->size(),
+                                            table_.columns.size()));
+      table_.row_offsets.push_back(offset);
+      std::vector<std::string>& row = table_.rows.emplace_back();
+      for (Cell& cell : *cells) row.push_back(std::move(cell.text));
+      return;
+    }
+    for (Cell& cell : *cells) {
+      if (cell.text.empty()) complain(offset + cell.offset, "empty column name");
+      if (!cell.text.empty() && table_.column(cell.text))
+        complain(offset + cell.offset, fmt::format("duplicate column \"{}\"", cell.text));
+      table_.columns.push_back(std::move(cell.text));
+    }
+  }
+
+  void take(const std::string& key, std::string& value, bool required) {
+    const auto found = table_.keys.find(key);
+    if (found != table_.keys.end() && !found->second.empty())
+      value = found->second;
+    else if (required)
+      complain(0, fmt::format("missing {}; add a line \"# {}: <{}>\"", key, key, key));
+  }
+
+  std::shared_ptr<const SourceText> source_;
+  Diagnostics& diagnostics_;
+  Table table_;
+  std::map<std::string, std::size_t> key_offsets_;
+  bool complained_ = false;
+};
+
+/// What the lines above the rows say of a table, without reading the rows.
+struct Heading {
+  std::string aliases;
+  std::vector<std::string> values;  ///< Column names but for the first, the abscissa.
+};
+
+Heading heading_of(const fs::path& path) {
+  Heading heading;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with('#')) {
+      const auto key = key_line(line);
+      if (key && key->first == "aliases") heading.aliases = key->second;
+    } else if (!is_blank(line)) {
+      if (line.ends_with('\r')) line.pop_back();
+      for (Cell& cell : cells_of(line).value_or(std::vector<Cell>{}))
+        heading.values.push_back(std::move(cell.text));
+      if (!heading.values.empty()) heading.values.erase(heading.values.begin());
+      break;
+    }
+  }
+  return heading;
+}
+
+std::string only_value(const Heading& heading) {
+  return heading.values.size() == 1 ? heading.values.front() : "";
+}
+
+using Names = std::map<std::string, TableColumn, std::less<>>;
+
+/// Every name of a folder; stems win over aliases, these over column names.
+Names index_folder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == ".csv" && entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+
+  Names names;
+  Names aliases;
+  std::map<std::string, std::vector<TableColumn>> columns;
+  for (const fs::path& path : files) {
+    const Heading heading = heading_of(path);
+    const std::string stem = path.stem().string();
+    names[stem] = {path, only_value(heading)};
+    for (const std::string& column : heading.values) {
+      names[fmt::format("{}:{}", stem, column)] = {path, column};
+      columns[column].push_back({path, column});
+    }
+    if (heading.aliases.empty()) continue;
+    for (const std::string& alias : split(heading.aliases, ',')) {
+      const std::vector<std::string> sides = split(alias, '=');
+      const bool whole = sides.size() < 2 || sides[1] == stem;
+      aliases.try_emplace(sides[0], TableColumn{path, whole ? only_value(heading) : sides[1]});
+    }
+  }
+  names.merge(aliases);
+  for (const auto& [name, places] : columns)
+    if (places.size() == 1) names.try_emplace(name, places.front());
+  return names;
+}
+
+const Names& names_in(std::string_view folder) {
+  static std::mutex mutex;
+  static std::map<std::string, Names, std::less<>> folders;
+  const std::lock_guard lock(mutex);
+  const auto known = folders.find(folder);
+  if (known != folders.end()) return known->second;
+  return folders.emplace(folder, index_folder(data_directory() / folder)).first->second;
+}
+
+/// `path.csv` or `path.csv:column` of a user.
+std::optional<TableColumn> user_column(const std::string& name, const SourcePosition& where,
+                                       Diagnostics& diagnostics) {
+  const std::size_t end = name.ends_with(".csv") ? name.size() : name.rfind(".csv:") + 4;
+  fs::path path = name.substr(0, end);
+  if (where.source) path = fs::path(where.source->file).parent_path() / path;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    diagnostics.error(where, fmt::format("no such file \"{}\"", path.string()), ErrorCode::input);
+    return std::nullopt;
+  }
+  const Heading heading = heading_of(path);
+  if (end == name.size()) return TableColumn{path, only_value(heading)};
+  const std::string column = name.substr(end + 1);
+  if (std::find(heading.values.begin(), heading.values.end(), column) != heading.values.end())
+    return TableColumn{path, column};
+  diagnostics.error(where, unknown_name("column", column, heading.values), ErrorCode::input);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::size_t> Table::column(std::string_view name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::optional<std::vector<double>> Table::numbers(std::size_t column, Diagnostics& diagnostics) const {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string& cell = rows[i][column];
+    if (const auto number = parse_number(cell)) {
+      numbers.push_back(*number);
+      continue;
+    }
+    SourcePosition at = position(i);
+    at.offset += cells_of(line_from(where.source->text, at.offset)).value()[column].offset;
+    diagnostics.error(
+        at,
+        fmt::format("expected a number in column \"{}\" (got \"{}\", allowed finite decimal numbers)",
+                    columns[column], cell.substr(0, 40)),
+        ErrorCode::input);
+  }
+  if (numbers.size() != rows.size()) return std::nullopt;
+  return numbers;
+}
+
+SourcePosition Table::position(std::size_t row) const {
+  return {where.source, row_offsets[row], ""};
+}
+
+std::optional<Table> read_table(const std::filesystem::path& path, TableOrigin origin,
+                                Diagnostics& diagnostics) {
+  auto source = read_text(path, diagnostics);
+  if (!source) return std::nullopt;
+  TableReader reader(std::move(source), diagnostics);
+  reader.read_lines();
+  reader.check_provenance(origin);
+  return reader.result();
+}
+
+std::optional<TableColumn> find_table(std::string_view folder, const std::string& name,
+                                      const SourcePosition& where, Diagnostics& diagnostics) {
+  if (name.ends_with(".csv") || name.find(".csv:") != std::string::npos)
+    return user_column(name, where, diagnostics);
+  const Names& names = names_in(folder);
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  diagnostics.error(where, unknown_name(folder, name, table_names(folder)));
+  return std::nullopt;
+}
+
+std::vector<std::string> table_names(std::string_view folder) {
+  const Names& names = names_in(folder);
+  std::vector<std::string> listed;
+  for (const auto& [name, place] : names) {
+    const std::size_t colon = name.find(':');
+    if (colon == std::string::npos || !names.contains(name.substr(colon + 1))) listed.push_back(name);
+  }
+  return listed;
+}
+
+}  // namespace abbe

@@ -1,0 +1,132 @@
+#include "io/text.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/locale/utf.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace abbe {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+class Descriptor {
+ public:
+  /// Does not wait for the writer of a FIFO.
+  explicit Descriptor(const std::filesystem::path& path)
+      : value_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  [[nodiscard]] int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+/// Appends up to `limit` bytes to `bytes`; gives the error number, or 0 at the end of the file or the limit.
+int read_bytes(int descriptor, std::size_t limit, std::string& bytes) {
+  std::array<char, 1 << 16> block;
+  while (bytes.size() < limit) {
+    const ssize_t got = ::read(descriptor, block.data(), std::min(block.size(), limit - bytes.size()));
+    if (got == 0) break;
+    if (got > 0)
+      bytes.append(block.data(), static_cast<std::size_t>(got));
+    else if (errno != EINTR)
+      return errno;
+  }
+  return 0;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+}  // namespace
+
+std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                            ErrorCode code, std::size_t limit_bytes) {
+  const auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
+  const auto refuse = [&](std::string message, std::size_t offset, ErrorCode why) {
+    diagnostics.error({source, offset, ""}, std::move(message), why);
+    return nullptr;
+  };
+  constexpr std::size_t kFile = SourcePosition::kWholeFile;
+
+  const Descriptor file(path);
+  struct stat status {};
+  if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
+    return refuse(fmt::format("cannot open the file ({})", reason(errno)), kFile, code);
+  if (!S_ISREG(status.st_mode)) return refuse("not a regular file", kFile, code);
+  const auto too_large = [&] {
+    return refuse(fmt::format("file too large (allowed {} bytes)", limit_bytes), kFile, ErrorCode::resource);
+  };
+  if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > limit_bytes) return too_large();
+  if (const int error = read_bytes(file.value(), limit_bytes + 1, source->text))
+    return refuse(fmt::format("cannot read the file ({})", reason(error)), kFile, code);
+  if (source->text.size() > limit_bytes) return too_large();
+
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (source->text.starts_with(kByteOrderMark)) source->text.erase(0, kByteOrderMark.size());
+  const std::size_t valid = valid_prefix(source->text);
+  if (valid == source->text.size()) return source;
+  const auto byte = static_cast<unsigned char>(source->text[valid]);
+  source->text.resize(valid);  // so that no excerpt shows the bad bytes
+  return refuse(byte == 0 ? "NUL byte in a text" : fmt::format("invalid UTF-8 (got byte 0x{:02X})", byte),
+                valid, code);
+}
+
+std::size_t valid_prefix(std::string_view text) {
+  using Utf8 = boost::locale::utf::utf_traits<char>;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end) {
+    const char* const start = at;
+    const boost::locale::utf::code_point point = Utf8::decode(at, end);
+    if (point == 0 || !boost::locale::utf::is_valid_codepoint(point))
+      return static_cast<std::size_t>(start - text.data());
+  }
+  return text.size();
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> pieces;
+  for (;;) {
+    const std::size_t cut = text.find(separator);
+    pieces.emplace_back(trimmed(text.substr(0, cut)));
+    if (cut == std::string_view::npos) return pieces;
+    text.remove_prefix(cut + 1);
+  }
+}
+
+std::string sha256(std::string_view bytes) {
+  std::array<unsigned char, 32> digest;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw Error(ErrorCode::internal, "", "SHA-256 is not available");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+}  // namespace abbe

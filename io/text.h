@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/diagnostics.h"
+
+namespace abbe {
+
+/// Reads a regular file of at most `limit_bytes` of valid UTF-8 text. A missing file, a folder, a FIFO or
+/// device, an oversized file, a NUL byte or invalid UTF-8 is reported and gives nullptr.
+[[nodiscard]] std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path,
+                                                          Diagnostics& diagnostics,
+                                                          ErrorCode code = ErrorCode::input,
+                                                          std::size_t limit_bytes = std::size_t{1} << 28);
+
+/// How many leading bytes of `text` are valid UTF-8 without NUL; all of them for a proper text.
+[[nodiscard]] std::size_t valid_prefix(std::string_view text);
+
+/// A finite number in the C locale's syntax, whatever the process's locale; nothing unless all of `text` is
+/// one.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// `text` cut at every `separator`, each piece without surrounding blanks.
+[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+
+/// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
+[[nodiscard]] std::string sha256(std::string_view bytes);
+
+}  // namespace abbe

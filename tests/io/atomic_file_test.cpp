@@ -1,0 +1,134 @@
+#include "io/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+
+#include "io/error.h"
+#include "test_files.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The message of the output error that `action` throws.
+template <class Action>
+std::string output_error(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::output);
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return "";
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
+}
+
+TEST(AtomicFile, WritesThroughATemporaryOfTheSameKindBesideIt) {
+  const auto path = test_folder() / "out.png";
+  put(path, "old");
+  fs::path seen;
+  write_atomically(
+      path,
+      [&](const fs::path& temporary) {
+        seen = temporary;
+        put(temporary, "new");
+      },
+      [&](const fs::path& temporary) {
+        EXPECT_EQ(bytes_of(path), "old") << "replaced before it was verified";
+        return bytes_of(temporary) == "new";
+      });
+  EXPECT_EQ(bytes_of(path), "new");
+  EXPECT_EQ(seen.parent_path(), path.parent_path());
+  EXPECT_EQ(seen.extension(), ".png");
+  EXPECT_NE(seen, path);
+  EXPECT_EQ(files_in(path.parent_path()), 1U);
+}
+
+TEST(AtomicFile, AnyFailureLeavesTheOldFileAlone) {
+  const auto path = test_folder() / "out.txt";
+  put(path, "old");
+  const auto keep = [](const fs::path&) { return true; };
+  const auto fill = [](const fs::path& temporary) { put(temporary, "half"); };
+  output_error([&] { write_atomically(path, fill, [](const fs::path&) { return false; }); });
+  const std::string thrown = output_error([&] {
+    write_atomically(
+        path,
+        [&](const fs::path& temporary) {
+          fill(temporary);
+          throw std::runtime_error("library failed");
+        },
+        keep);
+  });
+  EXPECT_EQ(thrown, path.string() + ": library failed");
+  output_error([&] {
+    write_atomically(
+        path, [](const fs::path&) {}, keep);
+  });
+  output_error([&] {
+    write_atomically(path, fill,
+                     [](const fs::path&) -> bool { throw Error(ErrorCode::input, "", "unreadable"); });
+  });
+  EXPECT_EQ(bytes_of(path), "old");
+  EXPECT_EQ(files_in(path.parent_path()), 1U) << "a temporary was left behind";
+}
+
+TEST(AtomicFile, OurOwnBugsKeepTheirCode) {
+  const auto path = test_folder() / "out.txt";
+  try {
+    write_atomically(
+        path, [](const fs::path&) { throw Error(ErrorCode::internal, "", "bug"); },
+        [](const fs::path&) { return true; });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::internal);
+  }
+}
+
+TEST(AtomicFile, WritesBytes) {
+  const auto path = test_folder() / "bytes";
+  const std::string bytes("a\0\r\n\xFF", 5);
+  write_atomically(path, bytes);
+  EXPECT_EQ(bytes_of(path), bytes);
+  write_atomically(path, "");
+  EXPECT_EQ(bytes_of(path), "");
+}
+
+TEST(AtomicFile, FullDiskIsAnOutputErrorAndKeepsTheOldFile) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // threads of libraries do not survive a fork
+  const auto path = test_folder() / "bytes";
+  put(path, "old");
+  for (const std::size_t space : {1U, 99999U})
+    EXPECT_EXIT(write_on_full_disk(space, [&] { write_atomically(path, std::string(100000, 'x')); }),
+                testing::ExitedWithCode(5), "");
+  EXPECT_EQ(bytes_of(path), "old");
+  EXPECT_EQ(files_in(path.parent_path()), 1U);
+}
+
+TEST(AtomicFile, UnwritablePlacesAreFoundBeforeTheWork) {
+  const auto folder = test_folder();
+  EXPECT_NO_THROW(require_writable(folder / "new.exr"));
+  EXPECT_NO_THROW(require_writable("relative.exr"));
+  EXPECT_FALSE(fs::exists(folder / "new.exr"));
+  const fs::path deep = folder / "no" / "out.exr";
+  EXPECT_EQ(output_error([&] { require_writable(deep); }),
+            deep.string() + ": no such folder \"" + deep.parent_path().string() + "\"");
+  EXPECT_EQ(output_error([&] { require_writable(folder); }), folder.string() + ": is a folder");
+  const fs::path fifo =
+      folder / "fifo";  // stands for every device: a failing test as root must not replace one
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(output_error([&] { write_atomically(fifo, "x"); }),
+            fifo.string() + ": is a device, not a regular file");
+  EXPECT_TRUE(fs::is_fifo(fifo));
+  EXPECT_EQ(output_error([&] { require_writable(""); }), "no file name");
+  EXPECT_NE(output_error([&] { require_writable("/proc/x.exr"); }).find("/proc/x.exr"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,147 @@
+#include "io/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <gtest/gtest.h>
+#include <half.h>
+
+#include <bit>
+#include <limits>
+
+#include "io/error.h"
+#include "test_files.h"
+
+namespace abbe {
+namespace {
+
+Image sample_image() {
+  Image image{3, 2, {}, {{"abbe:seed", "7"}, {"comments", "λ\nsecond line"}}};
+  image.channels.push_back({"R", {0, -0.0F, 1.5F, -2, 3e38F, 1e-40F}});
+  image.channels.push_back(
+      {"Variance.R",
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 4, 5, 6, 7}});
+  return image;
+}
+
+ErrorCode reading_error(const std::filesystem::path& path, std::string* message = nullptr) {
+  try {
+    const Image image = read_exr(path);
+  } catch (const Error& error) {
+    if (message) *message = error.what();
+    return error.code;
+  }
+  ADD_FAILURE() << "no error";
+  return ErrorCode::internal;
+}
+
+TEST(Exr, EveryBitAndTheMetadataSurvive) {
+  const auto path = test_folder() / "a.exr";
+  const Image image = sample_image();
+  write_exr(path, image);
+  const Image read = read_exr(path);
+  EXPECT_EQ(read.width, 3);
+  EXPECT_EQ(read.height, 2);
+  EXPECT_EQ(read.metadata, image.metadata);
+  ASSERT_EQ(read.channels.size(), 2U);
+  for (const ImageChannel& channel : image.channels)
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(read.find(channel.name)->values[i]),
+                std::bit_cast<std::uint32_t>(channel.values[i]))
+          << channel.name << i;
+}
+
+TEST(Exr, HalfAndIntegerChannelsBecomeFloatWhateverTheDataWindow) {
+  const auto path = test_folder() / "half.exr";
+  Imf::Header header(Imath::Box2i({0, 0}, {9, 9}), Imath::Box2i({5, -3}, {6, -3}));
+  header.channels().insert("H", Imf::Channel(Imf::HALF));
+  header.channels().insert("U", Imf::Channel(Imf::UINT));
+  half halves[2] = {half(0.5F), half(-2.0F)};
+  unsigned integers[2] = {3, 70000};
+  Imf::FrameBuffer buffer;
+  buffer.insert("H", Imf::Slice::Make(Imf::HALF, halves, header.dataWindow()));
+  buffer.insert("U", Imf::Slice::Make(Imf::UINT, integers, header.dataWindow()));
+  {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(1);
+  }
+  const Image image = read_exr(path);
+  EXPECT_EQ(image.width, 2);
+  EXPECT_EQ(image.height, 1);
+  EXPECT_EQ(image.find("H")->values, (std::vector<float>{0.5F, -2}));
+  EXPECT_EQ(image.find("U")->values, (std::vector<float>{3, 70000}));
+}
+
+TEST(Exr, EveryTruncationIsAnInputError) {
+  const auto path = test_folder() / "a.exr";
+  write_exr(path, sample_image());
+  const std::string bytes = bytes_of(path);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    put(path, bytes.substr(0, size));
+    EXPECT_EQ(reading_error(path), ErrorCode::input) << size << " of " << bytes.size();
+  }
+}
+
+TEST(Exr, MissingAndForeignFilesAreInputErrors) {
+  const auto folder = test_folder();
+  std::string message;
+  EXPECT_EQ(reading_error(folder / "none.exr", &message), ErrorCode::input);
+  EXPECT_EQ(message, (folder / "none.exr").string() + ": no such regular file");
+  EXPECT_EQ(reading_error(folder), ErrorCode::input);
+  put(folder / "text.exr", "no image");
+  EXPECT_EQ(reading_error(folder / "text.exr"), ErrorCode::input);
+}
+
+/// A file of a few hundred bytes that announces `width` x `height` pixels in `channels` channels.
+void put_announcement(const std::filesystem::path& path, int width, int height, int channels) {
+  Imf::Header header(width, height);
+  for (int i = 0; i < channels; ++i)
+    header.channels().insert("C" + std::to_string(i), Imf::Channel(Imf::FLOAT));
+  const Imf::OutputFile file(path.c_str(), header);
+}
+
+TEST(Exr, LimitsHoldBeforeAllocation) {
+  const auto path = test_folder() / "large.exr";
+  std::string message;
+  put_announcement(path, 65537, 1, 1);
+  EXPECT_EQ(reading_error(path, &message), ErrorCode::resource);
+  EXPECT_EQ(message,
+            path.string() +
+                ": image too large (got 65537 x 1 pixels, allowed edges of 65536 and 268435456 in all)");
+  put_announcement(path, 32768, 16384, 1);
+  EXPECT_EQ(reading_error(path), ErrorCode::resource);
+  put_announcement(path, 16384, 16384, 9);
+  EXPECT_EQ(reading_error(path, &message), ErrorCode::resource);
+  EXPECT_EQ(message, path.string() +
+                         ": image too large (got 9 channels of 268435456 pixels, allowed 8589934592 bytes)");
+}
+
+TEST(Exr, FullDiskIsAnOutputErrorAndKeepsTheOldFile) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // threads of libraries do not survive a fork
+  const auto path = test_folder() / "a.exr";
+  write_exr(path, sample_image());
+  const std::string old = bytes_of(path);
+  for (const std::size_t space : {std::size_t{100}, old.size() - 1})
+    EXPECT_EXIT(write_on_full_disk(space, [&] { write_exr(path, sample_image()); }),
+                testing::ExitedWithCode(5), "")
+        << space;
+  EXPECT_EXIT(write_on_full_disk(old.size(), [&] { write_exr(path, sample_image()); }),
+              testing::ExitedWithCode(0), "");
+  EXPECT_EQ(bytes_of(path), old);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
+}
+
+TEST(Exr, UnwritablePlacesAreOutputErrors) {
+  try {
+    write_exr("/nonexistent/a.exr", sample_image());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::output);
+  }
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,112 @@
+#include "io/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "io/error.h"
+#include "test_files.h"
+
+namespace abbe {
+namespace {
+
+TEST(Picture, CodeValuesAreClampedAndRounded) {
+  const auto path = test_folder() / "a.png";
+  Image image{4, 1, {}, {{"Software", "Abbe"}}};
+  image.channels.push_back({"R", {0, 0.5F, 1, 2}});
+  image.channels.push_back({"G", {-1, 0.25F, std::numeric_limits<float>::quiet_NaN(), 0.001F}});
+  image.channels.push_back(
+      {"B", {1.4F / 255, 1.6F / 255, 254.4F / 255, std::numeric_limits<float>::infinity()}});
+  image.channels.push_back({"ignored", {0, 0, 0, 0}});
+  write_picture(path, image);
+  const Image read = read_picture(path);
+  ASSERT_EQ(read.channels.size(), 3U);
+  const float expected[3][4] = {{0, 128, 255, 255}, {0, 64, 0, 0}, {1, 2, 254, 255}};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_FLOAT_EQ(read.channels[c].values[i], expected[c][i] / 255) << c << i;
+  EXPECT_EQ(read.channels[0].name, "R");
+  EXPECT_EQ(read.metadata.at("oiio:ColorSpace"), "sRGB");
+  EXPECT_EQ(read.metadata.at("Software"), "Abbe");
+}
+
+TEST(Picture, OneChannelIsGreyAndTheExtensionChoosesTheFormat) {
+  const auto folder = test_folder();
+  const Image image{2, 1, {{"Y", {0, 1}}}, {{"Software", "Abbe"}, {"abbe:seed", "7"}}};
+  for (const char* name : {"a.png", "a.tif", "a.jpg"}) write_picture(folder / name, image);
+  EXPECT_EQ(bytes_of(folder / "a.png").substr(1, 3), "PNG");
+  EXPECT_EQ(bytes_of(folder / "a.tif").substr(0, 2), "II");
+  EXPECT_EQ(bytes_of(folder / "a.jpg").substr(0, 2), "\xFF\xD8");
+  for (const char* name : {"a.png", "a.tif"}) {
+    const Image read = read_picture(folder / name);
+    ASSERT_EQ(read.channels.size(), 1U);
+    EXPECT_EQ(read.channels[0].values, image.channels[0].values);
+  }
+}
+
+TEST(Picture, RowsRunFromTheTopLeft) {
+  const auto path = test_folder() / "a.png";
+  write_picture(path, {2, 2, {{"Y", {0, 0.2F, 0.4F, 0.6F}}}, {}});
+  const Image read = read_picture(path);
+  EXPECT_EQ(read.width, 2);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_FLOAT_EQ(read.channels[0].values[i], 0.2F * static_cast<float>(i));
+}
+
+TEST(Picture, UnknownFormatIsAnOutputErrorAndLeavesNothing) {
+  const auto folder = test_folder();
+  try {
+    write_picture(folder / "a.unknown", {1, 1, {{"Y", {0}}}, {}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::output);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST(Picture, BrokenFilesAreInputErrors) {
+  const auto folder = test_folder();
+  Image noise{16, 16, {{"Y", {}}}, {}};
+  for (std::size_t i = 0; i < 256; ++i)
+    noise.channels[0].values.push_back(static_cast<float>(i * 89 % 256) / 255);
+  write_picture(folder / "a.png", noise);
+  put(folder / "cut.png", bytes_of(folder / "a.png").substr(0, 200));
+  put(folder / "text.png", "no image");
+  for (const char* name : {"cut.png", "text.png", "none.png", ""}) {
+    try {
+      const Image image = read_picture(folder / name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::input) << name;
+    }
+  }
+}
+
+TEST(Picture, FullDiskIsAnOutputErrorAndKeepsTheOldFile) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // threads of libraries do not survive a fork
+  const auto folder = test_folder();
+  const Image image{64, 64, {{"Y", std::vector<float>(4096, 0.5F)}}, {}};
+  for (const char* name : {"a.png", "a.jpg"}) {
+    write_picture(folder / name, image);
+    const std::string old = bytes_of(folder / name);
+    EXPECT_EXIT(write_on_full_disk(old.size() - 1, [&] { write_picture(folder / name, image); }),
+                testing::ExitedWithCode(5), "");
+    EXPECT_EQ(bytes_of(folder / name), old);
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2);
+}
+
+/// The file announces 70000 x 1 pixels and holds none.
+TEST(Picture, LimitsHoldBeforeAllocation) {
+  const auto path = test_folder() / "wide.ppm";
+  put(path, "P5 70000 1 255\n");
+  try {
+    const Image image = read_picture(path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::resource) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace abbe
