@@ -1,0 +1,62 @@
+#include "spectral/colorimetry.h"
+
+#include <string>
+
+#include "io/error.h"
+#include "spectral/library.h"
+
+namespace abbe {
+namespace {
+
+ColorMatching load_color_matching(const std::string& table, const std::string& suffix) {
+  const auto load = [&table](const std::string& column) {
+    Diagnostics diagnostics;
+    auto curve = load_curve("observer", table + ":" + column, {}, diagnostics);
+    if (!curve) throw Error(ErrorCode::input, table, diagnostics.text());
+    return std::move(curve->curve);
+  };
+  return {load("xbar" + suffix), load("ybar" + suffix), load("zbar" + suffix)};
+}
+
+}  // namespace
+
+const ColorMatching& color_matching(Observer observer) {
+  if (observer == Observer::cie1931) {
+    static const ColorMatching cie1931 = load_color_matching("cie_1931_2deg", "");
+    return cie1931;
+  }
+  static const ColorMatching cie1964 = load_color_matching("cie_1964_10deg", "10");
+  return cie1964;
+}
+
+double sum_product(const Curve& a, const Curve& b, SumRange range) {
+  double total = 0;
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm);
+  return total;
+}
+
+double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
+  double total = 0;
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * c(nm);
+  return total;
+}
+
+XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
+  const ColorMatching& cmf = color_matching(observer);
+  const double k = 100 / sum_product(illuminant, cmf.y, range);
+  return {k * sum_product(illuminant, reflectance, cmf.x, range),
+          k * sum_product(illuminant, reflectance, cmf.y, range),
+          k * sum_product(illuminant, reflectance, cmf.z, range)};
+}
+
+std::array<double, 2> chromaticity(const XYZ& xyz) {
+  const double total = xyz[0] + xyz[1] + xyz[2];
+  if (total == 0) return {0, 0};
+  return {xyz[0] / total, xyz[1] / total};
+}
+
+double photometric(const Curve& spectral) {
+  return kLuminousEfficacy * integral_of_product(color_matching(Observer::cie1931).y, spectral);
+}
+
+}  // namespace abbe

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "io/table.h"
+#include "spectral/packet.h"
+
+namespace abbe {
+
+/// The wavelengths Abbe carries [nm]. Every curve is defined on all of them.
+inline constexpr int kMinWavelengthNm = 300;
+inline constexpr int kMaxWavelengthNm = 1100;
+
+/// A point of a piecewise linear curve.
+struct Knot {
+  double wavelength_nm;
+  double value;
+};
+
+/// A function of wavelength on [300, 1100] nm: piecewise linear between knots, with jumps where two knots
+/// share a wavelength (the value at a jump is that on its right). Tables and bands are represented exactly;
+/// smooth formulas are sampled every 1 nm. Cells of 1 nm make evaluation O(1).
+class Curve {
+ public:
+  /// Zero everywhere.
+  Curve();
+  /// The constant `value`.
+  explicit Curve(double value);
+  /// Through `knots`, sorted by wavelength; held constant before the first and after the last. Knots outside
+  /// the range are cut there. Throws Error{internal} unless sorted, finite and non-empty.
+  explicit Curve(std::vector<Knot> knots);
+
+  /// Value at a wavelength [nm]; a wavelength outside [300, 1100] takes the value at the nearer end.
+  [[nodiscard]] double operator()(double wavelength_nm) const;
+  [[nodiscard]] SampledSpectrum operator()(const SampledSpectrum& wavelengths_nm) const;
+
+  [[nodiscard]] std::span<const Knot> knots() const { return knots_; }
+  /// Exact integral over [low_nm, high_nm] (cut to the range).
+  [[nodiscard]] double integral(double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm) const;
+  [[nodiscard]] double max() const;
+  [[nodiscard]] double min() const;
+  [[nodiscard]] bool is_constant() const;
+
+ private:
+  // A cell [i, i+1) nm without an inner knot is value + slope (lambda - i); one with inner knots is searched
+  // from `first`.
+  struct Cell {
+    double value;
+    double slope;
+    std::uint32_t first;
+    bool searched;
+  };
+  std::vector<Knot> knots_;
+  std::vector<Cell> cells_;
+};
+
+/// Exact integral of the product over [300, 1100] nm.
+[[nodiscard]] double integral_of_product(const Curve& a, const Curve& b);
+
+/// Pointwise combinations, exact at the union of the knots and at every nanometre.
+[[nodiscard]] Curve product(const Curve& a, const Curve& b);
+[[nodiscard]] Curve sum(const Curve& a, const Curve& b);
+[[nodiscard]] Curve scaled(const Curve& curve, double factor);
+
+/// A table of samples, linear between them; beyond them clamped or zero (its last row still holds at its own
+/// wavelength). Throws Error{internal} unless strictly ascending. Outside::error is the caller's to check:
+/// the loader reports it.
+[[nodiscard]] Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double> values,
+                                Outside outside);
+
+}  // namespace abbe

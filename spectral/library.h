@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/diagnostics.h"
+#include "spectral/curve.h"
+
+namespace abbe {
+
+/// A curve read from a table, with what is known of it.
+struct NamedCurve {
+  std::string name;
+  std::string source;
+  std::string unit;
+  double low_nm = 0;   ///< First tabulated wavelength.
+  double high_nm = 0;  ///< Last tabulated wavelength.
+  Curve curve;
+};
+
+/// The wavelengths a caller will ask a curve for [nm]; by default those of a colorimetric sum.
+struct NeededRange {
+  double low_nm = 380;
+  double high_nm = 780;
+};
+
+/// Reads the curve `name` of a data folder ("illuminant", "reflectance", "camera", "filter", "observer"): see
+/// `find_table` for the names. The wavelength column is `wavelength_nm` (a user's file may have
+/// `wavelength_um`). Reports unsorted or duplicate wavelengths, fewer than two samples, wavelengths all
+/// outside [300, 1100] nm (a wrong unit), and a table declared `outside: error` that does not cover `needed`.
+[[nodiscard]] std::optional<NamedCurve> load_curve(std::string_view folder, const std::string& name,
+                                                   const SourcePosition& where, Diagnostics& diagnostics,
+                                                   NeededRange needed = {});
+
+/// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminant A beyond
+/// its table follows its definition.
+[[nodiscard]] std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
+                                                        Diagnostics& diagnostics, NeededRange needed = {});
+
+}  // namespace abbe

@@ -1,0 +1,167 @@
+#include "spectral/wavelength_distribution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace abbe {
+namespace {
+
+/// Share spread evenly over the support: it bounds every weight where the curves given here are not all there
+/// is.
+constexpr double kUniformShare = 0.05;
+
+/// Places closer than this [nm] are one edge: far below the spacing of float wavelengths, far above that of
+/// doubles.
+constexpr double kEdgeResolutionNm = 1e-9;
+
+/// Two interior points per cell; their mean integrates a product of two lines exactly (Gauss and Legendre).
+struct Cells {
+  std::vector<double> edges;
+
+  [[nodiscard]] std::size_t count() const { return edges.size() - 1; }
+  [[nodiscard]] double width(std::size_t cell) const { return edges[cell + 1] - edges[cell]; }
+  [[nodiscard]] std::vector<double> values(const Curve& curve) const {
+    static const double kOffset = 0.5 / std::sqrt(3.0);
+    std::vector<double> at;
+    at.reserve(2 * count());
+    for (std::size_t i = 0; i < count(); ++i) {
+      at.push_back(std::abs(curve(edges[i] + (0.5 - kOffset) * width(i))));
+      at.push_back(std::abs(curve(edges[i] + (0.5 + kOffset) * width(i))));
+    }
+    return at;
+  }
+};
+
+Cells cells_of(std::span<const Curve> emissions, std::span<const Curve> responses) {
+  std::vector<double> edges;
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) edges.push_back(nm);
+  for (const auto curves : {emissions, responses}) {
+    for (const Curve& curve : curves) {
+      for (const Knot& knot : curve.knots()) edges.push_back(knot.wavelength_nm);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto same = [](double a, double b) { return b - a < kEdgeResolutionNm; };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  return {std::move(edges)};
+}
+
+/// Scales `density` to integrate to 1 over the cells; false when it is zero everywhere.
+bool normalize(const Cells& cells, std::vector<double>& density) {
+  double total = 0;
+  for (std::size_t i = 0; i < density.size(); ++i) total += density[i] * cells.width(i);
+  if (!(total > 0)) return false;
+  for (double& d : density) d /= total;
+  return true;
+}
+
+bool same_shape(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kTolerance = 1e-9;
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](double x, double y) { return std::abs(x - y) <= kTolerance * std::max(x, y); });
+}
+
+/// The normalised densities |emission x response| of every (light, channel) pair, equal ones once: a hundred
+/// lamps of one kind must not outvote the single one of another.
+std::vector<std::vector<double>> pair_densities(const Cells& cells, std::span<const Curve> emissions,
+                                                const std::vector<std::vector<double>>& responses) {
+  std::vector<std::vector<double>> pairs;
+  std::vector<double> density(cells.count());
+  for (const Curve& emission : emissions) {
+    const std::vector<double> light = cells.values(emission);
+    for (const std::vector<double>& channel : responses) {
+      for (std::size_t i = 0; i < density.size(); ++i) {
+        density[i] = 0.5 * (light[2 * i] * channel[2 * i] + light[2 * i + 1] * channel[2 * i + 1]);
+      }
+      const auto known = [&density](const std::vector<double>& pair) { return same_shape(pair, density); };
+      if (normalize(cells, density) && std::none_of(pairs.begin(), pairs.end(), known))
+        pairs.push_back(density);
+    }
+  }
+  return pairs;
+}
+
+/// 1 where some channel responds; everywhere when none does.
+std::vector<double> support_of(const Cells& cells, const std::vector<std::vector<double>>& responses) {
+  std::vector<double> support(cells.count());
+  for (const std::vector<double>& channel : responses) {
+    for (std::size_t i = 0; i < support.size(); ++i) {
+      if (channel[2 * i] + channel[2 * i + 1] > 0) support[i] = 1;
+    }
+  }
+  if (std::find(support.begin(), support.end(), 1.0) == support.end())
+    std::fill(support.begin(), support.end(), 1.0);
+  return support;
+}
+
+/// The float nearest to `wavelength_nm` that lies in [low, high), if there is one.
+float float_inside(double wavelength_nm, double low, double high) {
+  auto value = static_cast<float>(wavelength_nm);
+  if (static_cast<double>(value) < low) value = std::nextafter(value, std::numeric_limits<float>::max());
+  if (static_cast<double>(value) >= high) value = std::nextafter(value, 0.0F);
+  return value;
+}
+
+}  // namespace
+
+WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
+                                               std::span<const Curve> responses) {
+  Cells cells = cells_of(emissions, responses);
+  std::vector<std::vector<double>> channels;
+  for (const Curve& response : responses) channels.push_back(cells.values(response));
+
+  std::vector<double> mixture(cells.count());
+  for (const std::vector<double>& pair : pair_densities(cells, emissions, channels)) {
+    for (std::size_t i = 0; i < mixture.size(); ++i) mixture[i] += pair[i];
+  }
+  std::vector<double> support = support_of(cells, channels);
+  const bool overlap = normalize(cells, mixture);
+  normalize(cells, support);
+
+  const auto first = static_cast<std::size_t>(
+      std::find_if(support.begin(), support.end(), [](double s) { return s > 0; }) - support.begin());
+  std::size_t last = support.size();
+  while (!(support[last - 1] > 0)) --last;
+  const double share = overlap ? kUniformShare : 1;
+  edges_.assign(cells.edges.begin() + static_cast<std::ptrdiff_t>(first),
+                cells.edges.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  cdf_.push_back(0);
+  for (std::size_t i = first; i < last; ++i) {
+    density_.push_back((1 - share) * mixture[i] + share * support[i]);
+    cdf_.push_back(cdf_.back() + density_.back() * cells.width(i));
+  }
+  cdf_.back() = 1;
+
+  const std::size_t size = density_.size();
+  std::size_t cell = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    while (cdf_[cell + 1] * static_cast<double>(size) <= static_cast<double>(i)) ++cell;
+    guide_.push_back(static_cast<std::uint32_t>(cell));
+  }
+}
+
+SampledWavelengths WavelengthDistribution::sample(float u) const {
+  SampledWavelengths result;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    double v = static_cast<double>(u) + static_cast<double>(lane) / kLanes;
+    if (v >= 1) v -= 1;
+    std::size_t cell = guide_[static_cast<std::size_t>(v * static_cast<double>(guide_.size()))];
+    while (cdf_[cell + 1] <= v) ++cell;
+    const double t = (v - cdf_[cell]) / (cdf_[cell + 1] - cdf_[cell]);
+    const double low = edges_[cell];
+    const double high = edges_[cell + 1];
+    result.lambda_nm[lane] = float_inside(low + t * (high - low), low, high);
+    result.pdf[lane] = static_cast<float>(density_[cell]);
+  }
+  return result;
+}
+
+double WavelengthDistribution::pdf(double wavelength_nm) const {
+  if (!(wavelength_nm >= low_nm() && wavelength_nm < high_nm())) return 0;
+  const auto above = std::upper_bound(edges_.begin(), edges_.end(), wavelength_nm);
+  return density_[static_cast<std::size_t>(above - edges_.begin()) - 1];
+}
+
+}  // namespace abbe

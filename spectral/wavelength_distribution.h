@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "spectral/curve.h"
+
+namespace abbe {
+
+/// Where the wavelengths of packets are drawn from. Each (light, channel) pair gives the density |emission x
+/// response|, normalised; 95 % of the density is the plain mean of the distinct ones, 5 % is uniform over the
+/// support of the channels. The mean weighs pairs equally whatever their power, because a pixel may see one
+/// lamp alone and every channel counts; so with N distinct pairs none is sampled at less than 0.95/N of its
+/// own ideal density, and no lamp, line or filter starves.
+///
+/// Piecewise constant on cells of at most 1 nm that also break at every knot, so that lines and band edges
+/// are met exactly.
+class WavelengthDistribution {
+ public:
+  /// From the emission curves of the lights and the weights of the sensor channels. Pairs that do not overlap
+  /// are dropped; when none overlaps the density is uniform over the channels' support (or over the whole
+  /// range when that is empty).
+  WavelengthDistribution(std::span<const Curve> emissions, std::span<const Curve> responses);
+
+  /// Eight wavelengths F^-1(frac(u + j/8)) for u in [0, 1), with their densities. Each is rounded to a float
+  /// of its own cell, so that the curves and `pdf` see the side of an edge it was drawn on; only a cell with
+  /// no float in it (narrower than 1.3e-4 nm) gives the nearest one outside.
+  [[nodiscard]] SampledWavelengths sample(float u) const;
+  /// Density at a wavelength [1/nm]; 0 outside the support.
+  [[nodiscard]] double pdf(double wavelength_nm) const;
+  /// Support [nm].
+  [[nodiscard]] double low_nm() const { return edges_.front(); }
+  [[nodiscard]] double high_nm() const { return edges_.back(); }
+
+ private:
+  std::vector<double> edges_;         // cell boundaries, ascending
+  std::vector<double> density_;       // one per cell
+  std::vector<double> cdf_;           // one per edge, from 0 to 1
+  std::vector<std::uint32_t> guide_;  // first cell whose cdf exceeds i/size
+};
+
+}  // namespace abbe
