@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include <ImathVec.h>
+
+#include "spectral/packet.h"
+
+namespace abbe {
+
+/// Which quantity a path carries: radiance (from the camera) or importance's adjoint, power (from a light).
+/// Refraction scales radiance by 1/eta^2 and leaves power alone.
+enum class TransportMode { radiance, power };
+
+/// Random numbers of one scattering event.
+struct BsdfRandom {
+  float lobe;
+  Imath::V2f direction;
+};
+
+/// One scattering event. Directions are local: z along the normal, both away from the surface.
+///
+/// The direction was drawn by the hero lane. `weight` is f |cos wi| / pdf(hero), lane by lane; `lane_pdf` is
+/// pdf(lane)/pdf(hero), so that transport can balance the lanes. Lanes that could not have taken this
+/// direction have weight and lane_pdf 0.
+struct BsdfSample {
+  Imath::V3f wi;
+  SampledSpectrum weight;
+  SampledSpectrum lane_pdf{1.0F};
+  float pdf = 0;  ///< Density of wi for the hero [1/sr]; for a delta event the probability of the event.
+  bool delta = false;
+  bool transmitted = false;
+  bool dispersive = false;  ///< wi depends on wavelength: only the hero follows.
+};
+
+/// Lambertian reflection on the side of the normal `wo` is on; both sides alike.
+struct DiffuseBsdf {
+  SampledSpectrum reflectance;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr bool delta() { return false; }
+};
+
+/// Smooth dielectric interface with the normal towards the outside; `n` is the inside index relative to the
+/// outside.
+struct DielectricBsdf {
+  SampledSpectrum n;
+  bool dispersive;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr bool delta() { return true; }
+};
+
+/// Smooth conductor, opaque, reflecting on both sides.
+struct ConductorBsdf {
+  SampledSpectrum n;
+  SampledSpectrum k;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr bool delta() { return true; }
+};
+
+/// The closed list of scattering models, evaluated at one packet of wavelengths. A new model is a file pair,
+/// an entry here, and one in `materials/material.h`; the statistical tests iterate the list.
+using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf>;
+
+[[nodiscard]] std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo, const BsdfRandom& u,
+                                               int hero, TransportMode mode);
+/// f(wo, wi) [1/sr] lane by lane, without the cosine; 0 for delta models.
+[[nodiscard]] SampledSpectrum eval(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi,
+                                   TransportMode mode);
+/// Density with which `sample` would draw wi were each lane the hero [1/sr]; 0 for delta models.
+[[nodiscard]] SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi);
+[[nodiscard]] bool is_delta(const Bsdf& bsdf);
+
+}  // namespace abbe

@@ -1,0 +1,26 @@
+#include <algorithm>
+#include <cmath>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/interface/fresnel.h"
+
+namespace abbe {
+
+std::optional<BsdfSample> ConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
+                                                TransportMode /*mode*/) const {
+  if (wo.z == 0) return std::nullopt;
+  const float cos_i = std::min(std::abs(wo.z), 1.0F);
+  const auto reflectance = [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); };
+  return BsdfSample{
+      .wi = {-wo.x, -wo.y, wo.z}, .weight = SampledSpectrum::map(n, k, reflectance), .pdf = 1, .delta = true};
+}
+
+SampledSpectrum ConductorBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
+  return {};
+}
+
+SampledSpectrum ConductorBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
+  return {};
+}
+
+}  // namespace abbe

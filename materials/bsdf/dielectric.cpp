@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/interface/fresnel.h"
+
+namespace abbe {
+namespace {
+
+// Reflection leaves in the same direction at every wavelength, so the packet stays together: each lane would
+// have drawn it with its own reflectance as probability, and carries that share.
+BsdfSample reflected(const Imath::V3f& wo, const SampledSpectrum& ratio, float probability) {
+  return {.wi = {-wo.x, -wo.y, wo.z}, .weight = ratio, .lane_pdf = ratio, .pdf = probability, .delta = true};
+}
+
+// Refraction goes where the hero goes; the other lanes could not have come along unless the index is the same
+// for all.
+BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float eta, TransportMode mode) {
+  const float probability = 1 - f.R();
+  const float scale = mode == TransportMode::radiance ? 1 / (eta * eta) : 1.0F;
+  return {.wi = {-wo.x / eta, -wo.y / eta, std::copysign(f.cos_t, -wo.z)},
+          .weight = SampledSpectrum(f.transmitted() / probability * scale),
+          .pdf = probability,
+          .delta = true,
+          .transmitted = true};
+}
+
+BsdfSample only_lane(BsdfSample s, int hero) {
+  const float weight = s.weight[hero];
+  s.weight = s.lane_pdf = SampledSpectrum();
+  s.weight[hero] = weight;
+  s.lane_pdf[hero] = 1;
+  s.dispersive = true;
+  return s;
+}
+
+}  // namespace
+
+std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const {
+  if (wo.z == 0) return std::nullopt;
+  const float cos_i = std::min(std::abs(wo.z), 1.0F);
+  const bool inside = wo.z < 0;
+  const auto fresnel = [&](float n) { return fresnel_dielectric(cos_i, inside ? 1 / n : n); };
+  const FresnelPower<float> f = fresnel(n[hero]);
+  if (u.lobe >= f.R()) {
+    const BsdfSample s = refracted(wo, f, inside ? 1 / n[hero] : n[hero], mode);
+    return dispersive ? only_lane(s, hero) : s;
+  }
+  if (!dispersive) return reflected(wo, SampledSpectrum(1), f.R());
+  return reflected(wo, SampledSpectrum::map(n, [&](float lane_n) { return fresnel(lane_n).R() / f.R(); }),
+                   f.R());
+}
+
+SampledSpectrum DielectricBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
+  return {};
+}
+
+SampledSpectrum DielectricBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
+  return {};
+}
+
+}  // namespace abbe

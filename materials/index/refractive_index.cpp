@@ -1,0 +1,111 @@
+#include "materials/index/refractive_index.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "spectral/air.h"
+
+namespace abbe {
+namespace {
+
+bool is_sellmeier(const DispersionFormula& f) {
+  return f.id == 1 || f.id == 2;
+}
+
+SampledSpectrum clamped(const SampledSpectrum& wavelengths_nm, double low_nm, double high_nm) {
+  const auto low = static_cast<float>(low_nm);
+  const auto high = static_cast<float>(high_nm);
+  return SampledSpectrum::map(wavelengths_nm, [=](float nm) { return std::min(std::max(nm, low), high); });
+}
+
+// Formulas 1 and 2 term by term over the whole packet: cheaper than a table look-up, and exact.
+SampledSpectrum sellmeier_index(const DispersionFormula& f, const SampledSpectrum& wavelengths_nm) {
+  const SampledSpectrum l2 =
+      SampledSpectrum::map(wavelengths_nm, [](float nm) { return nm * 1e-3F * (nm * 1e-3F); });
+  SampledSpectrum n2(static_cast<float>(1 + f.c[0]));
+  for (std::size_t i = 1; i + 1 < static_cast<std::size_t>(f.terms); i += 2) {
+    const auto strength = static_cast<float>(f.c[i]);
+    const auto pole = static_cast<float>(f.id == 1 ? f.c[i + 1] * f.c[i + 1] : f.c[i + 1]);
+    n2 += SampledSpectrum::map(l2, [=](float x) { return strength * x / (x - pole); });
+  }
+  return SampledSpectrum::map(n2, [](float x) { return std::sqrt(x); });
+}
+
+}  // namespace
+
+RefractiveIndex::RefractiveIndex(double n, double k)
+    : n_(Constant{n}), k_(k), low_nm_(0), high_nm_(std::numeric_limits<double>::infinity()) {}
+
+RefractiveIndex::RefractiveIndex(const DispersionFormula& formula, std::optional<Curve> k, IndexMedium medium,
+                                 double low_nm, double high_nm)
+    : n_(formula), k_(k ? *std::move(k) : Curve()), medium_(medium), low_nm_(low_nm), high_nm_(high_nm) {
+  bake();
+}
+
+RefractiveIndex::RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm)
+    : n_(std::move(n)), k_(std::move(k)), medium_(medium), low_nm_(low_nm), high_nm_(high_nm) {
+  bake();
+}
+
+void RefractiveIndex::bake() {
+  const auto* formula = std::get_if<DispersionFormula>(&n_);
+  if (medium_ == IndexMedium::air && (!formula || is_sellmeier(*formula))) return;
+  const auto* table = std::get_if<Curve>(&n_);
+  std::vector<Knot> knots;
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1)
+    knots.push_back({nm, table ? 1 / air_index(nm) : n(nm)});
+  baked_n_ = table ? product(*table, Curve(std::move(knots))) : Curve(std::move(knots));
+}
+
+double RefractiveIndex::catalogued_n(double wavelength_nm) const {
+  if (const auto* constant = std::get_if<Constant>(&n_)) return constant->n;
+  const double nm = std::clamp(wavelength_nm, low_nm_, high_nm_);
+  if (const auto* formula = std::get_if<DispersionFormula>(&n_)) return dispersion_index(*formula, nm * 1e-3);
+  return std::get<Curve>(n_)(nm);
+}
+
+double RefractiveIndex::n(double wavelength_nm) const {
+  const double catalogued = catalogued_n(wavelength_nm);
+  return medium_ == IndexMedium::vacuum ? catalogued / air_index(wavelength_nm) : catalogued;
+}
+
+SampledSpectrum RefractiveIndex::n(const SampledSpectrum& wavelengths_nm) const {
+  if (const auto* constant = std::get_if<Constant>(&n_))
+    return SampledSpectrum(static_cast<float>(constant->n));
+  if (baked_n_) return (*baked_n_)(wavelengths_nm);
+  if (const auto* formula = std::get_if<DispersionFormula>(&n_))
+    return sellmeier_index(*formula, clamped(wavelengths_nm, low_nm_, high_nm_));
+  return std::get<Curve>(n_)(wavelengths_nm);
+}
+
+double RefractiveIndex::k(double wavelength_nm) const {
+  return k_(wavelength_nm);
+}
+
+SampledSpectrum RefractiveIndex::k(const SampledSpectrum& wavelengths_nm) const {
+  return k_(wavelengths_nm);
+}
+
+double RefractiveIndex::absorption_per_m(double wavelength_nm) const {
+  return 4 * std::numbers::pi * k(wavelength_nm) / (wavelength_nm * 1e-9);
+}
+
+SampledSpectrum RefractiveIndex::absorption_per_m(const SampledSpectrum& wavelengths_nm) const {
+  constexpr auto kScale = static_cast<float>(4e9 * std::numbers::pi);
+  return SampledSpectrum::map(k(wavelengths_nm), wavelengths_nm,
+                              [](float k, float nm) { return kScale * k / nm; });
+}
+
+bool RefractiveIndex::dispersive() const {
+  if (const auto* curve = std::get_if<Curve>(&n_))
+    return medium_ == IndexMedium::vacuum || !curve->is_constant();
+  return std::holds_alternative<DispersionFormula>(n_);
+}
+
+bool RefractiveIndex::absorbing() const {
+  return k_.max() > 0;
+}
+
+}  // namespace abbe

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "materials/index/dispersion.h"
+#include "spectral/curve.h"
+
+namespace abbe {
+
+/// What a catalogued index is relative to.
+enum class IndexMedium { air, vacuum };
+
+/// A complex refractive index n + ik over wavelength: catalogued numbers with what they are relative to and
+/// where they hold. Outside [low_nm, high_nm] n keeps its value at the nearer end. Packets agree with the
+/// double functions to 1e-5.
+class RefractiveIndex {
+ public:
+  /// A constant, non-dispersive n + ik.
+  explicit RefractiveIndex(double n, double k = 0);
+  /// A dispersion formula; `k` (extinction, 0 or more) may be given beside it. Valid on [low_nm, high_nm].
+  RefractiveIndex(const DispersionFormula& formula, std::optional<Curve> k, IndexMedium medium, double low_nm,
+                  double high_nm);
+  /// Tabulated n and k.
+  RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm);
+
+  /// The catalogued numbers at a wavelength [nm], relative to `medium()`.
+  [[nodiscard]] double catalogued_n(double wavelength_nm) const;
+  [[nodiscard]] double k(double wavelength_nm) const;
+
+  /// n relative to air, as the renderer uses it: catalogued_n, divided by the index of air for a vacuum
+  /// table.
+  [[nodiscard]] double n(double wavelength_nm) const;
+  [[nodiscard]] SampledSpectrum n(const SampledSpectrum& wavelengths_nm) const;
+  [[nodiscard]] SampledSpectrum k(const SampledSpectrum& wavelengths_nm) const;
+
+  /// Power absorption coefficient 4 pi k / lambda [1/m].
+  [[nodiscard]] double absorption_per_m(double wavelength_nm) const;
+  [[nodiscard]] SampledSpectrum absorption_per_m(const SampledSpectrum& wavelengths_nm) const;
+
+  [[nodiscard]] bool dispersive() const;
+  [[nodiscard]] bool absorbing() const;  ///< k > 0 somewhere in [300, 1100] nm.
+  [[nodiscard]] IndexMedium medium() const { return medium_; }
+  [[nodiscard]] double low_nm() const { return low_nm_; }
+  [[nodiscard]] double high_nm() const { return high_nm_; }
+
+ private:
+  struct Constant {
+    double n;
+  };
+  void bake();
+
+  std::variant<Constant, DispersionFormula, Curve> n_;
+  Curve k_;
+  std::optional<Curve> baked_n_;  // n relative to air every 1 nm, for formulas with powers and vacuum tables
+  IndexMedium medium_ = IndexMedium::air;
+  double low_nm_;
+  double high_nm_;
+};
+
+}  // namespace abbe

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "materials/interface/snell.h"
+
+namespace abbe {
+
+/// Power reflectance and transmittance of a smooth interface for the two polarisations; R + T = 1.
+template <typename T>
+struct FresnelPower {
+  T Rs, Rp;
+  T Ts, Tp;
+  T cos_t;  ///< Cosine of the refracted angle; 0 on total reflection and for a conductor.
+
+  [[nodiscard]] T R() const { return (Rs + Rp) * T(0.5); }
+  [[nodiscard]] T transmitted() const { return (Ts + Tp) * T(0.5); }
+};
+
+/// Dielectric, eta = n_t/n_i > 0, cos_i in [0, 1]. T keeps its digits however small, and so does R.
+/// [Born1999, sec. 1.5]
+template <typename T>
+[[nodiscard]] FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta);
+
+/// Conductor or absorbing medium, relative index eta + ik (k >= 0, absorbing when positive), cos_i in [0, 1];
+/// T holds the absorptance, what enters the medium. [Born1999, sec. 14.2]
+template <typename T>
+[[nodiscard]] FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k);
+
+/// Complex amplitude coefficients r_s, r_p, t_s, t_p for a relative index eta (Im eta > 0 absorbing); r_p and
+/// r_s have opposite signs at normal incidence, and fields go as exp(-i omega t).
+struct FresnelAmplitudes {
+  std::complex<double> rs, rp, ts, tp;
+};
+[[nodiscard]] inline FresnelAmplitudes fresnel_amplitudes(double cos_i, std::complex<double> eta);
+
+/// Schlick's approximation, for comparison only. [Schlick1994]
+template <typename T>
+[[nodiscard]] T schlick(const T& cos_i, const T& r0);
+
+template <typename T>
+FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
+  const T cos_t = refracted_cosine(cos_i, eta);
+  if (!(cos_t > T(0))) return {T(1), T(1), T(0), T(0), T(0)};
+  // r_s = (c - eta ct)/(c + eta ct) and r_p = (eta c - ct)/(eta c + ct), multiplied out by their denominators
+  // so that what cancels in the numerators (all of r_s at eta = 1, r_p but for Brewster's zero) cancels on
+  // paper.
+  const T eta2_1 = (eta - T(1)) * (eta + T(1));
+  const T sin2_i = (T(1) - cos_i) * (T(1) + cos_i);
+  const T s = cos_i + eta * cos_t;
+  const T p = eta * cos_i + cos_t;
+  const T rs = eta2_1 / s / s;
+  const T rp = eta2_1 / p * ((cos_i * cos_i - sin2_i / (eta * eta)) / p);
+  const T Ts = T(4) * (cos_i / s) * (eta * cos_t / s);
+  const T Tp = T(4) * (eta * cos_i / p) * (cos_t / p);
+  const auto R = [](const T& r, const T& transmitted) {
+    return transmitted < T(0.5) ? T(1) - transmitted : r * r;
+  };
+  return {R(rs, Ts), R(rp, Tp), Ts, Tp, cos_t};
+}
+
+template <typename T>
+FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
+  using std::sqrt;
+  using W = typename Wider<T>::type;
+  // a + ib = sqrt(z), z = (eta + ik)^2 - sin_i^2: the larger of a, b by a sum, the other from their product
+  // eta k.
+  const W c_w(cos_i);
+  const T re = T((W(eta) - W(k)) * (W(eta) + W(k)) - (W(1) - c_w) * (W(1) + c_w));
+  const T half_im = eta * k;
+  const T size = sqrt(re * re + T(4) * half_im * half_im);
+  const T larger = sqrt((size + (re < T(0) ? -re : re)) * T(0.5));
+  const T smaller = larger > T(0) ? half_im / larger : T(0);
+  const T a = re < T(0) ? smaller : larger;
+  const T b = re < T(0) ? larger : smaller;
+
+  const T& c = cos_i;
+  const T sin2 = (T(1) - c) * (T(1) + c);
+  const T s = (a + c) * (a + c) + b * b;
+  const T p = (a * c + sin2) * (a * c + sin2) + b * c * (b * c);
+  const T Rs = ((a - c) * (a - c) + b * b) / s;
+  const T As = T(4) * a * c / s;
+  const T ratio = ((a * c - sin2) * (a * c - sin2) + b * c * (b * c)) / p;
+  return {Rs, Rs * ratio, As, As + T(4) * Rs * a * c * sin2 / p, T(0)};
+}
+
+FresnelAmplitudes fresnel_amplitudes(double cos_i, std::complex<double> eta) {
+  const double sin_i = std::sqrt((1 - cos_i) * (1 + cos_i));
+  const std::complex<double> g =
+      std::sqrt((eta - sin_i) * (eta + sin_i));  // eta cos_t, decaying into the medium
+  const std::complex<double> p = eta * eta * cos_i;
+  return {(cos_i - g) / (cos_i + g), (p - g) / (p + g), 2 * cos_i / (cos_i + g), 2.0 * eta * cos_i / (p + g)};
+}
+
+template <typename T>
+T schlick(const T& cos_i, const T& r0) {
+  const T m = T(1) - cos_i;
+  const T m2 = m * m;
+  return r0 + (T(1) - r0) * (m2 * m2 * m);
+}
+
+}  // namespace abbe

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include <ImathVec.h>
+
+namespace abbe {
+
+/// Mirror direction of `wo` about the unit normal `n`, both pointing away from the surface.
+template <typename T>
+[[nodiscard]] Imath::Vec3<T> reflect(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n) {
+  return n * (2 * wo.dot(n)) - wo;
+}
+
+/// Cosine of the refracted angle for cos_i in [0, 1] and eta = n_t/n_i; 0 on total reflection. Exactly cos_i
+/// for eta = 1.
+template <typename T>
+[[nodiscard]] T refracted_cosine(const T& cos_i, const T& eta);
+
+/// Direction of the refracted ray, away from the surface on the other side of `n` than `wo`; eta = n_t/n_i,
+/// n.wo > 0. Nothing on total reflection. [Marschner2021, sec. 14.1]
+template <typename T>
+[[nodiscard]] std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n,
+                                                    const T& eta);
+
+/// The type to subtract nearly equal squares in: the next wider one, or T itself where there is none (dual
+/// numbers).
+template <typename T>
+struct Wider {
+  using type = T;
+};
+template <>
+struct Wider<float> {
+  using type = double;
+};
+template <>
+struct Wider<double> {
+  using type = long double;
+};
+
+/// (eta cos_t)^2 = eta^2 - sin_i^2, rounded only after its parts have cancelled: it vanishes at the critical
+/// angle, where half of its lost digits would be lost to cos_t.
+template <typename T>
+[[nodiscard]] auto refraction_radicand(const T& cos_i, const T& eta) {
+  using W = typename Wider<T>::type;
+  const W c(cos_i);
+  const W e(eta);
+  return (e - W(1)) * (e + W(1)) + c * c;
+}
+
+/// The same for doubles, whose squares do not fit a long double: cut in heads of 24 bits and tails.
+[[nodiscard]] inline long double refraction_radicand(double cos_i, double eta) {
+  const long double c = static_cast<float>(cos_i);
+  const long double e = static_cast<float>(eta);
+  const long double c_tail = cos_i - c;
+  const long double e_tail = eta - e;
+  return ((e - 1) * (e + 1) + c * c) + 2 * (e * e_tail + c * c_tail) + (e_tail * e_tail + c_tail * c_tail);
+}
+
+template <typename T>
+T refracted_cosine(const T& cos_i, const T& eta) {
+  using std::sqrt;
+  const auto d = refraction_radicand(cos_i, eta);
+  return d > decltype(d)(0) ? T(sqrt(d) / eta) : T(0);
+}
+
+template <typename T>
+std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n, const T& eta) {
+  const T cos_i = n.dot(wo);
+  const T cos_t = refracted_cosine(cos_i, eta);
+  if (!(cos_t > T(0))) return std::nullopt;
+  return n * (cos_i / eta - cos_t) - wo / eta;
+}
+
+}  // namespace abbe

@@ -1,0 +1,188 @@
+#include "materials/interface/fresnel.h"
+
+#include <ceres/jet.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/materials/reference.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+double cosine(double degrees) {
+  return degrees == 90 ? 0 : std::cos(degrees * kDegree);
+}
+
+TEST(Fresnel, ReproducesTheReferenceMetals) {
+  const Reference metals("metal_reflectance.csv");
+  ASSERT_GE(metals.rows(), 150U);
+  std::string loaded;
+  RefractiveIndex index(1.0);
+  for (std::size_t row = 0; row < metals.rows(); ++row) {
+    if (metals.text(row, "name") != loaded) index = index_of(loaded = metals.text(row, "name"));
+    const double nm = metals.number(row, "wavelength_nm");
+    EXPECT_NEAR(index.catalogued_n(nm), metals.number(row, "n"), 5e-6 * metals.number(row, "n"))
+        << loaded << " " << nm;
+    EXPECT_NEAR(index.k(nm), metals.number(row, "k"), 5e-6 * metals.number(row, "k")) << loaded << " " << nm;
+    const auto f =
+        fresnel_conductor(cosine(metals.number(row, "theta_deg")), index.catalogued_n(nm), index.k(nm));
+    EXPECT_NEAR(f.Rs, metals.number(row, "Rs"), 0.5001e-8) << loaded << " " << nm;
+    EXPECT_NEAR(f.Rp, metals.number(row, "Rp"), 0.5001e-8) << loaded << " " << nm;
+    EXPECT_NEAR(f.R(), metals.number(row, "R_unpol"), 0.5001e-8) << loaded << " " << nm;
+  }
+}
+
+TEST(Fresnel, ReproducesTheReferenceDielectrics) {
+  const Reference glasses("critical_brewster_fresnel.csv");
+  ASSERT_GE(glasses.rows(), 20U);
+  for (std::size_t row = 0; row < glasses.rows(); ++row) {
+    const double n = index_of(glasses.text(row, "id")).catalogued_n(glasses.number(row, "wavelength_nm"));
+    for (const char* angle : {"0", "30", "45", "60", "75", "85"}) {
+      const auto f = fresnel_dielectric(cosine(std::atof(angle)), n);
+      EXPECT_NEAR(f.Rs, glasses.number(row, std::string("Rs_") + angle), 0.5001e-8);
+      EXPECT_NEAR(f.Rp, glasses.number(row, std::string("Rp_") + angle), 0.5001e-8);
+    }
+    EXPECT_NEAR(fresnel_dielectric(cosine(glasses.number(row, "brewster_outside_deg")), n).Rp, 0, 1e-14);
+    EXPECT_NEAR(fresnel_dielectric(cosine(glasses.number(row, "brewster_inside_deg")), 1 / n).Rp, 0, 1e-14);
+    const double critical = glasses.number(row, "critical_deg");
+    EXPECT_EQ(fresnel_dielectric(cosine(critical + 1e-6), 1 / n).Ts, 0);
+    EXPECT_GT(fresnel_dielectric(cosine(critical - 1e-6), 1 / n).Ts, 0);
+  }
+}
+
+TEST(Fresnel, MetalsAtThreeAngles) {
+  const RefractiveIndex aluminium(1.0152, 6.6273);
+  const RefractiveIndex silver = index_of("Ag_Johnson");
+  const struct {
+    double n, k, at0, at60, at80;
+  } metals[] = {{1.0152, 6.6273, .915369, .900335, .859760},
+                {silver.catalogued_n(550), silver.k(550), .983054, .981033, .983150}};
+  for (const auto& m : metals) {
+    EXPECT_NEAR(fresnel_conductor(1.0, m.n, m.k).R(), m.at0, 1e-6);
+    EXPECT_NEAR(fresnel_conductor(cosine(60), m.n, m.k).R(), m.at60, 1e-6);
+    EXPECT_NEAR(fresnel_conductor(cosine(80), m.n, m.k).R(), m.at80, 1e-6);
+  }
+}
+
+TEST(Fresnel, GlassAtNormalIncidenceAndSchlick) {
+  const double r0 = fresnel_dielectric(1.0, 1.5).R();
+  EXPECT_NEAR(r0, 0.04, 1e-15);
+  EXPECT_NEAR(schlick(cosine(60), r0), 0.07, 1e-12);
+}
+
+TEST(Fresnel, SchlickIsNoSubstitute) {
+  const auto worst = [](double n, double k) {
+    const double r0 = fresnel_conductor(1.0, n, k).R();
+    double error = 0, angle = 0;
+    for (double degrees = 0; degrees < 90; degrees += 0.1) {
+      const double c = cosine(degrees);
+      const double e = std::abs(schlick(c, r0) - fresnel_conductor(c, n, k).R());
+      if (e > error) error = e, angle = degrees;
+    }
+    return std::pair(error, angle);
+  };
+  EXPECT_NEAR(worst(1.5, 0).first, 0.0357, 0.51e-4);
+  EXPECT_NEAR(worst(1.5, 0).second, 85.0, 0.11);
+  EXPECT_NEAR(worst(1.333, 0).first, 0.0591, 1e-4);
+  const RefractiveIndex aluminium = index_of("Al_Rakic");
+  EXPECT_NEAR(worst(aluminium.n(650), aluminium.k(650)).first, 0.1296, 0.51e-4);
+}
+
+TEST(Fresnel, PrismThroughputWithPolarisationKept) {
+  const double n = index_of("N-BK7").catalogued_n(587.5618);
+  const double incidence = std::asin(n / 2);
+  const auto in = fresnel_dielectric(std::cos(incidence), n);
+  const auto out = fresnel_dielectric(in.cos_t, 1 / n);
+  EXPECT_NEAR(in.Ts * out.Ts, .786084, 1e-6);
+  EXPECT_NEAR(in.Tp * out.Tp, .991278, 1e-6);
+  EXPECT_NEAR((in.Ts * out.Ts + in.Tp * out.Tp) / 2, .888681, 1e-6);
+  EXPECT_NEAR(in.transmitted() * out.transmitted(), .885710, 1e-6);
+}
+
+TEST(Fresnel, LosesNothing) {
+  for (const double eta : {0.3, 0.66, 0.999999, 1.000001, 1.5, 4.0, 30.0}) {
+    for (const double c : {1e-12, 1e-7, 1e-3, 0.2, 0.75, 0.9999, 1.0}) {
+      const auto f = fresnel_dielectric(c, eta);
+      EXPECT_NEAR(f.Rs + f.Ts, 1, 4e-15);
+      EXPECT_NEAR(f.Rp + f.Tp, 1, 4e-15);
+      const auto metal = fresnel_conductor(c, eta, 0.7);
+      EXPECT_NEAR(metal.Rs + metal.Ts, 1, 4e-15);
+      EXPECT_NEAR(metal.Rp + metal.Tp, 1, 4e-15);
+    }
+  }
+}
+
+TEST(Fresnel, IsTheSameFromBothSides) {
+  for (const double c : {0.05, 0.4, 0.9}) {
+    const auto in = fresnel_dielectric(c, 1.5);
+    const auto out = fresnel_dielectric(in.cos_t, 1 / 1.5);
+    EXPECT_NEAR(in.Rs, out.Rs, 1e-14);
+    EXPECT_NEAR(in.Rp, out.Rp, 1e-14);
+    EXPECT_NEAR(out.cos_t, c, 1e-14);
+  }
+}
+
+TEST(Fresnel, EqualIndicesReflectNothing) {
+  for (const float c : {1e-30F, 1e-7F, 0.1F, 0.7F, 1.0F}) {
+    const auto f = fresnel_dielectric(c, 1.0F);
+    EXPECT_EQ(f.R(), 0.0F);
+    EXPECT_EQ(f.transmitted(), 1.0F);
+    EXPECT_EQ(f.cos_t, c);
+  }
+}
+
+TEST(Fresnel, StaysWithinBoundsAroundTheCriticalAngle) {
+  const double critical = std::asin(1 / 1.5);
+  for (int i = -100; i <= 100; ++i) {
+    const auto f = fresnel_dielectric(static_cast<float>(std::cos(critical + i * 1e-9)), 1 / 1.5F);
+    for (const float r : {f.Rs, f.Rp, f.Ts, f.Tp}) EXPECT_TRUE(r >= 0 && r <= 1) << i;
+  }
+}
+
+TEST(Fresnel, ConductorWithoutAbsorptionIsADielectric) {
+  for (const double eta : {0.5, 1.0, 1.5}) {
+    for (const double c : {0.1, 0.6, std::sqrt(0.75), 1.0}) {
+      const auto dielectric = fresnel_dielectric(c, eta);
+      const auto conductor = fresnel_conductor(c, eta, 0.0);
+      EXPECT_NEAR(conductor.Rs, dielectric.Rs, 1e-7);  // sqrt of the rounding at the critical angle
+      EXPECT_NEAR(conductor.Rp, dielectric.Rp, 1e-7);
+      EXPECT_NEAR(conductor.Tp, dielectric.Tp, 1e-7);
+    }
+  }
+}
+
+TEST(Fresnel, AmplitudesGiveThePowers) {
+  for (const std::complex<double> eta :
+       {std::complex(1.5, 0.0), std::complex(0.6, 0.0), std::complex(1.0, 6.6)}) {
+    for (const double c : {0.1, 0.5, 0.95}) {
+      const FresnelAmplitudes a = fresnel_amplitudes(c, eta);
+      const auto f =
+          eta.imag() > 0 ? fresnel_conductor(c, eta.real(), eta.imag()) : fresnel_dielectric(c, eta.real());
+      EXPECT_NEAR(std::norm(a.rs), f.Rs, 1e-13);
+      EXPECT_NEAR(std::norm(a.rp), f.Rp, 1e-13);
+      EXPECT_NEAR(std::abs(1.0 + a.rs - a.ts), 0, 1e-13);  // the tangential field is continuous
+      EXPECT_NEAR(std::abs((1.0 + a.rp) - eta * a.tp), 0, 1e-13);
+    }
+  }
+  const FresnelAmplitudes total = fresnel_amplitudes(cosine(60), 1 / 1.5);
+  const double shift = 2 * std::atan(std::sqrt(0.75 - 1 / 2.25) / 0.5);
+  EXPECT_NEAR(std::arg(total.rs), -shift, 1e-13);
+}
+
+TEST(Fresnel, DifferentiatesWithDualNumbers) {
+  using Jet = ceres::Jet<double, 2>;
+  const double h = 1e-6, c = 0.4, n = 1.3, k = 0.8;
+  const auto d = fresnel_dielectric(Jet(c), Jet(n, 0));
+  EXPECT_NEAR(d.R().v[0], (fresnel_dielectric(c, n + h).R() - fresnel_dielectric(c, n - h).R()) / (2 * h),
+              1e-8);
+  const auto m = fresnel_conductor(Jet(c), Jet(n, 0), Jet(k, 1));
+  EXPECT_NEAR(m.R().v[1], (fresnel_conductor(c, n, k + h).R() - fresnel_conductor(c, n, k - h).R()) / (2 * h),
+              1e-8);
+}
+
+}  // namespace
+}  // namespace abbe
