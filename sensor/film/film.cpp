@@ -1,0 +1,123 @@
+#include "sensor/film/film.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+constexpr int kFractionBits = 80;
+constexpr int kHeadroomBits = 44;
+
+}  // namespace
+
+Int128 to_fixed(double value, int unit_exponent) {
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  const auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+  const int shift = exponent - 53 - unit_exponent;
+  if (shift >= 0) return static_cast<Int128>(mantissa) * (static_cast<Int128>(1) << shift);
+  if (shift < -62) return 0;
+  const std::int64_t half = std::int64_t{1} << (-shift - 1);
+  return mantissa >= 0 ? (mantissa + half) >> -shift : -((-mantissa + half) >> -shift);
+}
+
+double from_fixed(Int128 fixed, int unit_exponent) {
+  return std::ldexp(static_cast<double>(fixed), unit_exponent);
+}
+
+Film::Film(int width, int height, int channels, int replicates, double nominal)
+    : width_(width),
+      height_(height),
+      channels_(channels),
+      replicates_(replicates),
+      unit_exponent_((nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits),
+      samples_(static_cast<std::size_t>(replicates), 0),
+      locks_(std::make_unique<std::atomic_flag[]>(kLocks)) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  try {
+    sums_.assign(pixels * static_cast<std::size_t>(channels * replicates), 0);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::resource, "film", "not enough memory for its sums");
+  }
+}
+
+std::size_t Film::index(std::size_t pixel, int replicate) const {
+  return (pixel * static_cast<std::size_t>(replicates_) + static_cast<std::size_t>(replicate)) *
+         static_cast<std::size_t>(channels_);
+}
+
+void Film::add(std::size_t pixel, int replicate, std::span<const double> values) {
+  Int128* sum = &sums_[index(pixel, replicate)];
+  for (const double value : values) *sum++ += to_fixed(value, unit_exponent_);
+}
+
+void Film::splat(std::size_t pixel, int replicate, std::span<const double> values) {
+  std::atomic_flag& lock = locks_[pixel % kLocks];
+  while (lock.test_and_set(std::memory_order_acquire)) {
+  }
+  add(pixel, replicate, values);
+  lock.clear(std::memory_order_release);
+}
+
+bool Film::holds(double value) const {
+  return std::abs(value) < std::ldexp(1.0, unit_exponent_ + kFractionBits + kHeadroomBits);
+}
+
+void Film::set_samples(std::vector<std::uint64_t> per_replicate) {
+  samples_ = std::move(per_replicate);
+}
+
+double Film::mean(std::size_t pixel, int channel) const {
+  Int128 total = 0;
+  for (int r = 0; r < replicates_; ++r) total += sums_[index(pixel, r) + static_cast<std::size_t>(channel)];
+  const std::uint64_t count = std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0});
+  return count == 0 ? 0 : from_fixed(total, unit_exponent_) / static_cast<double>(count);
+}
+
+double Film::variance(std::size_t pixel, int channel) const {
+  const double center = mean(pixel, channel);
+  const auto count = static_cast<double>(std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}));
+  double spread = 0;
+  int filled = 0;
+  for (int r = 0; r < replicates_; ++r) {
+    const auto n = static_cast<double>(samples_[static_cast<std::size_t>(r)]);
+    if (n == 0) continue;
+    ++filled;
+    const double m =
+        from_fixed(sums_[index(pixel, r) + static_cast<std::size_t>(channel)], unit_exponent_) / n;
+    spread += n / count * (m - center) * (m - center);
+  }
+  return filled < 2 ? 0 : spread / (filled - 1);
+}
+
+double Film::relative_error() const {
+  double value = 0;
+  double error = 0;
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    for (int channel = 0; channel < channels_; ++channel) {
+      value += std::abs(mean(pixel, channel));
+      error += variance(pixel, channel);
+    }
+  const double terms = static_cast<double>(pixels) * channels_;
+  return value > 0 ? std::sqrt(error / terms) / (value / terms) : std::numeric_limits<double>::infinity();
+}
+
+Image Film::image(std::span<const std::string> names) const {
+  Image image{width_, height_, {}, {}};
+  for (const bool variances : {false, true})
+    for (int channel = 0; channel < channels_; ++channel) {
+      const std::string& name = names[static_cast<std::size_t>(channel)];
+      ImageChannel plane{variances ? "Variance." + name : name, std::vector<float>(image.pixels())};
+      for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)
+        plane.values[pixel] = static_cast<float>(variances ? variance(pixel, channel) : mean(pixel, channel));
+      image.channels.push_back(std::move(plane));
+    }
+  return image;
+}
+
+}  // namespace abbe

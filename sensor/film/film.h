@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/image.h"
+
+namespace abbe {
+
+__extension__ using Int128 = __int128;
+
+/// `value` in units of 2^`unit_exponent`, rounded to the nearest; the caller keeps |value| below
+/// 2^(unit_exponent + 126).
+[[nodiscard]] Int128 to_fixed(double value, int unit_exponent);
+[[nodiscard]] double from_fixed(Int128 fixed, int unit_exponent);
+
+/// Sums of film values per pixel, channel and replicate, in 128-bit fixed point: integer addition is
+/// associative, so the sums do not depend on the order, the threads or the partition that made them.
+/// Replicates are independent scramblings of the sample sequence; the spread of their means is the variance
+/// of the pixel.
+class Film {
+ public:
+  /// `nominal` is the order of magnitude of a film value: values from 2^-80 to 2^44 times it are kept exactly
+  /// to 2^-80 of it.
+  Film(int width, int height, int channels, int replicates, double nominal);
+
+  /// Adds one sample's values. The caller has the pixel to itself.
+  void add(std::size_t pixel, int replicate, std::span<const double> values);
+  /// Adds from any thread.
+  void splat(std::size_t pixel, int replicate, std::span<const double> values);
+  /// Whether a value is finite and within what the film can hold.
+  [[nodiscard]] bool holds(double value) const;
+
+  /// Sets how many samples per pixel each replicate has received.
+  void set_samples(std::vector<std::uint64_t> per_replicate);
+
+  /// Mean of a pixel's channel, and the variance of that mean (0 with fewer than two replicates).
+  [[nodiscard]] double mean(std::size_t pixel, int channel) const;
+  [[nodiscard]] double variance(std::size_t pixel, int channel) const;
+  /// Root of the mean variance over the image over its mean value: one figure for the noise; infinite until
+  /// known.
+  [[nodiscard]] double relative_error() const;
+
+  /// The film as an image: one channel per name, and `Variance.<name>` beside each.
+  [[nodiscard]] Image image(std::span<const std::string> names) const;
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int channels() const { return channels_; }
+  [[nodiscard]] int replicates() const { return replicates_; }
+  [[nodiscard]] std::size_t memory_bytes() const { return sums_.size() * sizeof(Int128); }
+
+ private:
+  [[nodiscard]] std::size_t index(std::size_t pixel, int replicate) const;
+
+  int width_;
+  int height_;
+  int channels_;
+  int replicates_;
+  int unit_exponent_;
+  std::vector<Int128> sums_;  // pixel-major, then replicate, then channel
+  std::vector<std::uint64_t> samples_;
+  static constexpr std::size_t kLocks = 4096;
+  std::unique_ptr<std::atomic_flag[]> locks_;  // pixels share locks by remainder
+};
+
+}  // namespace abbe

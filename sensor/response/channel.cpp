@@ -1,0 +1,58 @@
+#include "sensor/response/channel.h"
+
+#include <utility>
+
+#include "io/table.h"
+#include "spectral/library.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+// Photons per joule: lambda/(hc).
+Curve photons_per_joule() {
+  return Curve({{kMinWavelengthNm, 1 / photon_energy(kMinWavelengthNm)},
+                {kMaxWavelengthNm, 1 / photon_energy(kMaxWavelengthNm)}});
+}
+
+}  // namespace
+
+Channel energy_channel(std::string name, Curve response) {
+  return {std::move(name), ResponseKind::energy, std::move(response)};
+}
+
+Channel quantum_channel(std::string name, const Curve& response) {
+  return {std::move(name), ResponseKind::quantum, product(response, photons_per_joule())};
+}
+
+std::optional<std::vector<Channel>> load_camera(const std::string& name, const SourcePosition& where,
+                                                Diagnostics& diagnostics) {
+  const std::optional<TableColumn> found = find_table("camera", name, where, diagnostics);
+  if (!found) return std::nullopt;
+  if (!found->column.empty()) {
+    const std::optional<NamedCurve> curve = load_curve("camera", name, where, diagnostics);
+    if (!curve) return std::nullopt;
+    return std::vector{quantum_channel(found->column, curve->curve)};
+  }
+  const bool shipped = name.find(".csv") == std::string::npos;
+  const std::optional<Table> table =
+      read_table(found->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
+  if (!table) return std::nullopt;
+  std::vector<Channel> channels;
+  for (std::size_t column = 1; column < table->columns.size(); ++column) {
+    const std::string& label = table->columns[column];
+    const std::optional<NamedCurve> curve = load_curve("camera", name + ":" + label, where, diagnostics);
+    if (!curve) return std::nullopt;
+    channels.push_back(energy_channel(label, curve->curve));
+  }
+  return channels;
+}
+
+std::vector<Channel> observer_channels(Observer observer) {
+  const ColorMatching& cmf = color_matching(observer);
+  return {energy_channel("X", scaled(cmf.x, kLuminousEfficacy)),
+          energy_channel("Y", scaled(cmf.y, kLuminousEfficacy)),
+          energy_channel("Z", scaled(cmf.z, kLuminousEfficacy))};
+}
+
+}  // namespace abbe

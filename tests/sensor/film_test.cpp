@@ -1,0 +1,105 @@
+#include "sensor/film/film.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <thread>
+
+namespace abbe {
+namespace {
+
+TEST(FixedPoint, RoundTripsDoublesExactlyAboveItsUnit) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> mantissa(-2, 2);
+  for (int exponent = -20; exponent <= 40; ++exponent) {
+    const double value = std::ldexp(mantissa(random), exponent);
+    EXPECT_EQ(from_fixed(to_fixed(value, -80), -80), value) << exponent;
+  }
+  EXPECT_EQ(to_fixed(0.0, -80), 0);
+}
+
+TEST(FixedPoint, RoundsToTheNearestUnit) {
+  EXPECT_EQ(to_fixed(2.5, 0), 3);
+  EXPECT_EQ(to_fixed(-2.5, 0), -3);
+  EXPECT_EQ(to_fixed(0.49, 0), 0);
+  EXPECT_EQ(to_fixed(std::ldexp(1.0, -100), 0), 0);
+  EXPECT_EQ(to_fixed(3.0, 1), 2);
+}
+
+TEST(Film, SumsDoNotDependOnTheirOrder) {
+  std::mt19937_64 random(2);
+  std::lognormal_distribution<double> values(0, 12);
+  std::vector<double> list(10000);
+  for (double& v : list) v = values(random);
+  const auto sum = [](const std::vector<double>& terms) {
+    Film film(1, 1, 1, 1, 1.0);
+    for (const double v : terms) film.add(0, 0, {&v, 1});
+    film.set_samples({1});
+    return film.mean(0, 0);
+  };
+  const double forward = sum(list);
+  std::reverse(list.begin(), list.end());
+  EXPECT_EQ(sum(list), forward);
+}
+
+TEST(Film, AConstantStaysExactOverTenMillionSamples) {
+  Film film(1, 1, 1, 1, 1.0);
+  const double value = 0.1F;
+  for (int i = 0; i < 10'000'000; ++i) film.add(0, 0, {&value, 1});
+  film.set_samples({10'000'000});
+  EXPECT_EQ(film.mean(0, 0), value);
+}
+
+TEST(Film, SplatsFromSeveralThreadsAreNotLost) {
+  Film film(4, 1, 2, 1, 1.0);
+  const std::vector<double> values{1.0, 0x1p-60};
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 4; ++t)
+      threads.emplace_back([&] {
+        for (std::size_t i = 0; i < 40000; ++i) film.splat(i % 4, 0, values);
+      });
+  }
+  film.set_samples({1});
+  for (std::size_t pixel = 0; pixel < 4; ++pixel) {
+    EXPECT_EQ(film.mean(pixel, 0), 40000);
+    EXPECT_EQ(film.mean(pixel, 1), 40000 * 0x1p-60);
+  }
+}
+
+TEST(Film, VarianceIsThatOfTheMeanOverReplicates) {
+  Film film(1, 1, 1, 4, 1.0);
+  for (int r = 0; r < 4; ++r) {
+    const double sum = 2.0 * (r + 1);  // two samples each: means 1, 2, 3, 4
+    film.add(0, r, {&sum, 1});
+  }
+  film.set_samples({2, 2, 2, 2});
+  EXPECT_DOUBLE_EQ(film.mean(0, 0), 2.5);
+  EXPECT_DOUBLE_EQ(film.variance(0, 0), 5.0 / 3.0 / 4.0);
+  EXPECT_DOUBLE_EQ(film.relative_error(), std::sqrt(5.0 / 12.0) / 2.5);
+}
+
+TEST(Film, HoldsRefusesWhatWouldOverflow) {
+  const Film film(1, 1, 1, 1, 1.0);
+  EXPECT_TRUE(film.holds(1e12));
+  EXPECT_FALSE(film.holds(1e15));
+  EXPECT_FALSE(film.holds(std::nan("")));
+  EXPECT_FALSE(film.holds(-INFINITY));
+}
+
+TEST(Film, ImageNamesValueAndVariancePlanes) {
+  Film film(2, 1, 1, 2, 1.0);
+  const double one = 1;
+  film.add(1, 0, {&one, 1});
+  film.set_samples({1, 1});
+  const std::vector<std::string> names{"G"};
+  const Image image = film.image(names);
+  ASSERT_NE(image.find("G"), nullptr);
+  ASSERT_NE(image.find("Variance.G"), nullptr);
+  EXPECT_EQ(image.find("G")->values, (std::vector<float>{0, 0.5F}));
+  EXPECT_EQ(image.find("Variance.G")->values, (std::vector<float>{0, 0.25F}));
+}
+
+}  // namespace
+}  // namespace abbe
