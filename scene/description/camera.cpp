@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+namespace {
+
+constexpr Range kFNumber{0, 1e6, true, false};
+constexpr double kDefaultFNumber = 4;
+
+struct Placed {
+  CameraFrame frame;
+  double distance;  ///< From the camera to what it looks at [m].
+};
+
+std::optional<Placed> read_frame(ObjectReader& reader, const Reading& reading) {
+  const auto from = read_point(reader, "from", reading);
+  const auto to = read_point(reader, "to", reading);
+  const auto up = read_direction(reader, "up", reading);
+  if (!from || !to || !up) return std::nullopt;
+  const Imath::V3d sight = *to - *from;
+  if (sight.length() == 0) {
+    reading.diagnostics.error(reader.where(),
+                              "the camera looks at the point where it stands: from and to are the same");
+    return std::nullopt;
+  }
+  const Imath::V3d forward = sight.normalized();
+  const Imath::V3d right = forward.cross(*up);
+  if (right.length() < 1e-9) {
+    reading.diagnostics.error(reader.where(), "up is parallel to the direction of sight");
+    return std::nullopt;
+  }
+  const Imath::V3d unit_right = right.normalized();
+  return Placed{{*from, unit_right, unit_right.cross(forward), forward}, sight.length()};
+}
+
+std::optional<LensCamera> read_pinhole(const JsonValue& json, const Placed* placed, const Sensor& sensor,
+                                       const Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto key = reader.exactly_one({"focal_length", "fov_deg"});
+  std::optional<double> image_distance;
+  if (key == "focal_length") {
+    if (const auto length = reader.number(*key, kLength)) image_distance = *length * reading.unit_m;
+  } else if (key) {
+    const double half_film = std::min(sensor.width, sensor.height) * sensor.pixel_pitch / 2;
+    if (const auto fov = reader.number(*key, {0, 180, true, true}))
+      image_distance = half_film / std::tan(*fov * std::numbers::pi / 360);
+  }
+  const double f_number = reader.number_or("f_number", kDefaultFNumber, kFNumber);
+  reader.finish();
+  if (!placed || !image_distance) return std::nullopt;
+  return LensCamera{placed->frame, *image_distance, std::numeric_limits<double>::infinity(),
+                    *image_distance / (2 * f_number), true};
+}
+
+// The distance in focus: a length, the word "infinity", or that of what the camera looks at [m].
+std::optional<double> read_focus(ObjectReader& reader, const Placed* placed, const Reading& reading) {
+  const JsonValue* json = reader.find("focus_distance");
+  if (!json) return placed ? std::optional(placed->distance) : std::nullopt;
+  const auto* word = std::get_if<std::string>(&json->value);
+  if (word && *word == "infinity") return std::numeric_limits<double>::infinity();
+  const auto distance = read_number(*json, kLength, reading.diagnostics);
+  return distance ? std::optional(*distance * reading.unit_m) : std::nullopt;
+}
+
+std::optional<LensCamera> read_thin_lens(const JsonValue& json, const Placed* placed,
+                                         const Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto length = reader.require_number("focal_length", kLength);
+  const auto f_number = reader.require_number("f_number", kFNumber);
+  const auto focus = read_focus(reader, placed, reading);
+  reader.finish();
+  if (!placed || !length || !f_number || !focus) return std::nullopt;
+  const double f = *length * reading.unit_m;
+  if (*focus <= f) {
+    reading.diagnostics.error(
+        json.where,
+        fmt::format("the lens cannot focus within its focal length (got {} m, allowed ({}, inf) m)", *focus,
+                    f));
+    return std::nullopt;
+  }
+  // 1/v = 1/f - 1/s, in the form that holds for s = infinity.
+  return LensCamera{placed->frame, f / (1 - f / *focus), *focus, f / (2 * *f_number), false};
+}
+
+std::optional<IrradianceProbe> read_probe(const JsonValue& json, const Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto key = reader.exactly_one({"at", "quad"});
+  std::optional<IrradianceProbe> probe;
+  if (key == "at") {
+    const auto at = read_point(reader, "at", reading);
+    const auto normal = read_direction(reader, "normal", reading);
+    if (at && normal) probe = IrradianceProbe{*at, Imath::V3d(0), Imath::V3d(0), *normal};
+  } else if (key) {
+    if (const auto quad = read_quad(*reader.find("quad"), reading))
+      probe = IrradianceProbe{quad->corner, quad->edge_u, quad->edge_v,
+                              quad->edge_u.cross(quad->edge_v).normalized()};
+  }
+  reader.finish();
+  return probe;
+}
+
+}  // namespace
+
+std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto key = reader.exactly_one({"pinhole", "thin_lens", "irradiance_probe"});
+  if (!key) return std::nullopt;
+  const JsonValue& model = *reader.find(*key);
+  std::optional<decltype(Camera::kind)> kind;
+  if (*key == "irradiance_probe") {
+    kind = read_probe(model, reading);
+  } else {
+    const std::optional<Placed> placed = read_frame(reader, reading);
+    const Placed* where = placed ? &*placed : nullptr;
+    kind = *key == "pinhole" ? read_pinhole(model, where, sensor, reading)
+                             : read_thin_lens(model, where, reading);
+  }
+  reader.finish();
+  if (!kind) return std::nullopt;
+  return Camera{*kind, sensor.width, sensor.height, sensor.pixel_pitch};
+}
+
+}  // namespace abbe::description

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/description/pieces.h"
+#include "spectral/library.h"
+#include "spectral/sources.h"
+
+namespace abbe::description {
+namespace {
+
+// Wavelengths of a table's samples: wide enough for tables beyond the rendered range, too high for
+// micrometres.
+constexpr Range kTableWavelength{100, 1e5};
+constexpr Range kLineWidth{1e-3, kMaxWavelengthNm - kMinWavelengthNm};
+
+std::optional<Curve> read_any(const JsonValue& json, std::string_view folder, Reading& reading);
+
+std::optional<Outside> read_outside(ObjectReader& reader, Reading& reading) {
+  const JsonValue* json = reader.require("outside");
+  if (!json) return std::nullopt;
+  const std::optional<std::string> word = read_string(*json, reading.diagnostics);
+  if (!word) return std::nullopt;
+  if (*word == "clamp") return Outside::clamp;
+  if (*word == "zero") return Outside::zero;
+  reading.diagnostics.error(json->where, unknown_name("rule for outside the table", *word,
+                                                      std::vector<std::string>{"clamp", "zero"}));
+  return std::nullopt;
+}
+
+std::optional<Curve> read_table_curve(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto wavelengths = reader.require_numbers("wavelength_nm", 0, kTableWavelength);
+  const auto values = reader.require_numbers("values", 0, kValue);
+  const std::optional<Outside> outside = read_outside(reader, reading);
+  reader.finish();
+  if (!wavelengths || !values || !outside) return std::nullopt;
+  if (values->size() != wavelengths->size()) {
+    reading.diagnostics.error(
+        json.where, fmt::format("as many values as wavelengths are needed (got {} values, allowed {})",
+                                values->size(), wavelengths->size()));
+    return std::nullopt;
+  }
+  if (wavelengths->size() < 2) {
+    reading.diagnostics.error(json.where,
+                              fmt::format("a table needs two samples or more (got {})", wavelengths->size()));
+    return std::nullopt;
+  }
+  const auto step = std::adjacent_find(wavelengths->begin(), wavelengths->end(), std::greater_equal<>());
+  if (step != wavelengths->end()) {
+    reading.diagnostics.error(
+        json.where, fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
+    return std::nullopt;
+  }
+  return table_curve(*wavelengths, *values, *outside);
+}
+
+std::optional<Curve> read_band(const JsonValue& json, double value, Reading& reading) {
+  const auto ends = read_numbers(json, 2, kWavelength, reading.diagnostics);
+  if (!ends) return std::nullopt;
+  const double low = (*ends)[0];
+  const double high = (*ends)[1];
+  if (low < high) return band(low, high, value);
+  reading.diagnostics.error(json.where,
+                            fmt::format("an empty band (got [{}, {}] nm, allowed low < high)", low, high));
+  return std::nullopt;
+}
+
+std::optional<Curve> read_gaussian(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto center = reader.require_number("center_nm", kWavelength);
+  const auto width = reader.require_number("fwhm_nm", kLineWidth);
+  const double peak = reader.number_or("peak", 1, kValue);
+  reader.finish();
+  if (!center || !width) return std::nullopt;
+  return gaussian(*center, *width, peak);
+}
+
+std::optional<Curve> read_lines(const JsonValue& json, Reading& reading) {
+  const JsonValue::Array* list = read_array(json, "lines", 1, reading);
+  if (!list) return std::nullopt;
+  std::vector<SpectralLine> found;
+  for (const JsonValue& entry : *list) {
+    ObjectReader reader(entry, reading.diagnostics);
+    const auto center = reader.require_number("nm", kWavelength);
+    const auto width = reader.require_number("width_nm", kLineWidth);
+    const auto power = reader.require_number("power", kPower);
+    reader.finish();
+    if (center && width && power) found.push_back({*center, *width, *power});
+  }
+  if (found.size() != list->size()) return std::nullopt;
+  return lines(found);
+}
+
+// A product or a sum of one curve or more.
+template <typename Combine>
+std::optional<Curve> read_list(const JsonValue& json, std::string_view folder, Reading& reading,
+                               Combine combine) {
+  const JsonValue::Array* list = read_array(json, "curves", 1, reading);
+  if (!list) return std::nullopt;
+  std::optional<Curve> all;
+  bool complete = true;
+  for (const JsonValue& entry : *list) {
+    std::optional<Curve> one = read_any(entry, folder, reading);
+    complete = complete && one;
+    if (complete) all = all ? combine(*all, *one) : std::move(one);
+  }
+  return complete ? all : std::nullopt;
+}
+
+std::optional<Curve> read_scaled(ObjectReader& reader, std::string_view folder, Reading& reading) {
+  const std::optional<double> factor = reader.require_number("scale", kValue);
+  const std::optional<Curve> curve = read_any(*reader.find("of"), folder, reading);
+  if (!factor || !curve) return std::nullopt;
+  return scaled(*curve, *factor);
+}
+
+std::optional<Curve> read_object(const JsonValue& json, std::string_view folder, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto key = reader.exactly_one(
+      {"table", "band", "gaussian", "lines", "blackbody_K", "daylight_K", "product", "sum", "of"});
+  if (!key) return std::nullopt;
+  const JsonValue& of = *reader.find(*key);
+  std::optional<Curve> curve;
+  if (*key == "table") {
+    curve = read_table_curve(of, reading);
+  } else if (*key == "band") {
+    curve = read_band(of, reader.number_or("value", 1, kValue), reading);
+  } else if (*key == "gaussian") {
+    curve = read_gaussian(of, reading);
+  } else if (*key == "product") {
+    curve = read_list(of, folder, reading, product);
+  } else if (*key == "sum") {
+    curve = read_list(of, folder, reading, [](const Curve& a, const Curve& b) { return sum(a, b); });
+  } else if (*key == "of") {
+    curve = read_scaled(reader, folder, reading);
+  } else {
+    curve = read_source(*key, of, reading);
+  }
+  reader.finish();
+  return curve;
+}
+
+std::optional<Curve> read_named(const JsonValue& json, std::string_view folder, Reading& reading) {
+  const std::optional<std::string> name = reading.table(json);
+  if (!name) return std::nullopt;
+  std::optional<NamedCurve> named = load_curve(folder, *name, json.where, reading.diagnostics);
+  if (!named) return std::nullopt;
+  return std::move(named->curve);
+}
+
+std::optional<Curve> read_any(const JsonValue& json, std::string_view folder, Reading& reading) {
+  if (std::holds_alternative<std::string>(json.value)) return read_named(json, folder, reading);
+  if (std::holds_alternative<JsonValue::Object>(json.value)) return read_object(json, folder, reading);
+  if (std::holds_alternative<double>(json.value)) {
+    const std::optional<double> value = read_number(json, kValue, reading.diagnostics);
+    return value ? std::optional(Curve(*value)) : std::nullopt;
+  }
+  reading.diagnostics.error(
+      json.where, fmt::format("expected a curve: a number, a name or an object (got {})", json.kind()));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Curve> read_source(std::string_view key, const JsonValue& json, Reading& reading) {
+  if (key == "lines") return read_lines(json, reading);
+  const bool day = key == "daylight_K";
+  const auto temperature = read_number(json, day ? Range{4000, 25000} : Range{100, 1e6}, reading.diagnostics);
+  if (!temperature) return std::nullopt;
+  return day ? daylight(*temperature) : planck(*temperature);
+}
+
+std::optional<Curve> read_curve(const JsonValue& json, const CurveUse& use, Reading& reading) {
+  std::optional<Curve> curve = read_any(json, use.folder, reading);
+  if (!curve) return std::nullopt;
+  for (const Knot& knot : curve->knots()) {
+    if (use.allowed.contains(knot.value)) continue;
+    reading.diagnostics.error(json.where, fmt::format("curve out of range at {} nm (got {}, allowed {})",
+                                                      knot.wavelength_nm, knot.value, use.allowed.text()));
+    return std::nullopt;
+  }
+  return curve;
+}
+
+}  // namespace abbe::description

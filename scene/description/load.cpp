@@ -1,0 +1,219 @@
+#include "scene/description/load.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/text.h"
+#include "scene/description/pieces.h"
+
+namespace abbe {
+namespace description {
+namespace {
+
+constexpr double kFormatVersion = 1;
+constexpr Range kCount{1, 16777216};  // samples: as many as a float counts exactly
+
+// False for a scene of another version, whose other errors are not ours to tell.
+bool check_version(ObjectReader& reader, Reading& reading) {
+  const JsonValue* json = reader.require("abbe");
+  if (!json) return true;
+  const auto version = read_number(*json, Range::any(), reading.diagnostics);
+  if (!version || *version == kFormatVersion) return true;
+  const std::string_view what =
+      *version > kFormatVersion ? "future version of the scene format" : "no version of the scene format";
+  reading.diagnostics.error(json->where,
+                            fmt::format("{} (got {}, allowed {})", what, *version, kFormatVersion));
+  return false;
+}
+
+void read_units(ObjectReader& reader, Reading& reading) {
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  constexpr Unit kUnits[] = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}};
+  const JsonValue* json = reader.find("units");
+  if (!json) return;
+  const auto name = read_string(*json, reading.diagnostics);
+  if (!name) return;
+  std::vector<std::string> names;
+  for (const Unit& unit : kUnits) {
+    if (*name == unit.name) {
+      reading.unit_m = unit.metres;
+      return;
+    }
+    names.emplace_back(unit.name);
+  }
+  reading.diagnostics.error(json->where, unknown_name("unit of length", *name, names));
+}
+
+Integrator read_integrator(ObjectReader& reader, Reading& reading) {
+  const JsonValue* json = reader.find("integrator");
+  if (!json) return Integrator::automatic;
+  const auto name = read_string(*json, reading.diagnostics);
+  if (!name || *name == "auto") return Integrator::automatic;
+  if (*name == "path") return Integrator::path;
+  if (*name == "light") return Integrator::light;
+  reading.diagnostics.error(
+      json->where, unknown_name("integrator", *name, std::vector<std::string>{"auto", "path", "light"}));
+  return Integrator::automatic;
+}
+
+RenderSettings read_render(const JsonValue& json, Reading& reading) {
+  RenderSettings render;
+  ObjectReader reader(json, reading.diagnostics);
+  render.integrator = read_integrator(reader, reading);
+  if (const auto n = reader.integer("samples", kCount)) render.samples = static_cast<int>(*n);
+  if (const auto n = reader.integer("max_depth", {1, 10000})) render.max_depth = static_cast<int>(*n);
+  if (const auto n = reader.integer("roulette_depth", {-1, 10000}))
+    render.roulette_depth = static_cast<int>(*n);
+  if (const auto n = reader.integer("seed", {0, 9007199254740992.0}))
+    render.seed = static_cast<std::uint64_t>(*n);
+  reader.finish();
+  return render;
+}
+
+OutputSettings read_output(const JsonValue& json, Reading& reading) {
+  OutputSettings output;
+  ObjectReader reader(json, reading.diagnostics);
+  if (const auto path = reader.string("image")) output.image = *path;
+  if (const auto path = reader.string("display")) output.display = *path;
+  output.display_exposure = reader.number("exposure", {0, 1e30, true, false});
+  reader.finish();
+  return output;
+}
+
+void shift(Shape& shape, const Imath::V3d& by) {
+  if (auto* mesh = std::get_if<Mesh>(&shape))
+    for (Imath::V3d& vertex : mesh->vertices) vertex += by;
+  else if (auto* sphere = std::get_if<Sphere>(&shape))
+    sphere->center += by;
+  else if (auto* disc = std::get_if<Disc>(&shape))
+    disc->center += by;
+  else if (auto* quad = std::get_if<Quad>(&shape))
+    quad->corner += by;
+}
+
+Imath::V3d& position(Camera& camera) {
+  if (auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
+  return std::get<IrradianceProbe>(camera.kind).corner;
+}
+
+// Moves the scene so that its middle is at (0, 0, 0), where floats are finest; everything up to here is in
+// double.
+void recentre(Scene& scene, const std::vector<Imath::V3d>& light_positions) {
+  Imath::Box3d box;
+  for (const ShapeInstance& instance : scene.shapes) box.extendBy(bounds(instance.shape));
+  if (box.isEmpty()) {
+    box.extendBy(position(scene.camera));
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+      if (!scene.lights[i].is_environment()) box.extendBy(light_positions[i]);
+  }
+  scene.origin_m = box.center();
+  for (ShapeInstance& instance : scene.shapes) shift(instance.shape, -scene.origin_m);
+  position(scene.camera) -= scene.origin_m;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Imath::V3f at(light_positions[i] - scene.origin_m);
+    if (auto* point = std::get_if<PointLight>(&scene.lights[i].kind)) point->position = at;
+    if (auto* spot = std::get_if<SpotLight>(&scene.lights[i].kind)) spot->position = at;
+  }
+}
+
+std::string hash(const SourceText& source, std::span<const Override> overrides, const Reading& reading) {
+  std::string all = sha256(source.text);
+  for (const Override& o : overrides) all += sha256(o.pointer) + sha256(o.value);
+  for (const std::filesystem::path& path : reading.files) {
+    std::ifstream stream(path, std::ios::binary);
+    all += sha256(std::string(std::istreambuf_iterator<char>(stream), {}));
+  }
+  return sha256(all);
+}
+
+Scene read_scene(const JsonValue& root, Reading& reading) {
+  Scene scene{};
+  ObjectReader reader(root, reading.diagnostics);
+  if (!check_version(reader, reading)) return scene;
+  read_units(reader, reading);
+  scene.unit_m = reading.unit_m;
+  const JsonValue* camera = reader.require("camera");
+  const JsonValue* materials = reader.find("materials");
+  Sensor sensor;
+  if (const JsonValue* json = reader.require("sensor"))
+    sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), reading);
+  if (materials) read_materials(*materials, reading, scene);
+  if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, reading, scene);
+  if (const JsonValue* json = reader.find("lights")) read_lights(*json, reading, scene);
+  if (camera)
+    if (const auto found = read_camera(*camera, sensor, reading)) scene.camera = *found;
+  if (const JsonValue* json = reader.find("render")) scene.render = read_render(*json, reading);
+  if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, reading);
+  reader.finish();
+  scene.exposure_s = sensor.exposure_s;
+  scene.channels = std::move(sensor.channels);
+  if (reading.diagnostics.has_errors()) return scene;
+  if (materials) check_validity(*materials, reading, scene);
+  if (scene.lights.empty()) reading.diagnostics.warning(root.where, "no light: the image will be black");
+  return scene;
+}
+
+}  // namespace
+
+const JsonValue::Array* read_array(const JsonValue& json, std::string_view what, std::size_t least,
+                                   const Reading& reading) {
+  const auto* array = std::get_if<JsonValue::Array>(&json.value);
+  if (array && array->size() >= least) return array;
+  reading.diagnostics.error(
+      json.where, fmt::format("expected an array of {} (got {})", what,
+                              array ? fmt::format("{} of them, allowed [{}, inf)", array->size(), least)
+                                    : std::string(json.kind())));
+  return nullptr;
+}
+
+std::optional<std::filesystem::path> Reading::file(const std::string& name, const SourcePosition& where) {
+  if (name.find("://") != std::string::npos) {
+    diagnostics.error(where, fmt::format("expected a file (got the URL \"{}\")", name), ErrorCode::input);
+    return std::nullopt;
+  }
+  return files.emplace_back(folder / name);
+}
+
+std::optional<std::string> Reading::table(const JsonValue& json) {
+  constexpr std::string_view kExtension = ".csv";
+  const std::optional<std::string> name = read_string(json, diagnostics);
+  if (!name) return std::nullopt;
+  const std::size_t dot = name->find(kExtension);
+  if (dot == std::string::npos) return name;
+  const std::size_t end = dot + kExtension.size();
+  const auto path = file(name->substr(0, end), json.where);
+  if (!path) return std::nullopt;
+  return path->string() + name->substr(end);
+}
+
+}  // namespace description
+
+std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
+                                Diagnostics& diagnostics) {
+  // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
+  std::error_code error;
+  const bool there = std::filesystem::is_regular_file(path, error);
+  const auto source = read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  if (!source) return std::nullopt;
+  std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (!root) return std::nullopt;
+  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
+  description::Reading reading{diagnostics, path.parent_path()};
+  Scene scene = description::read_scene(*root, reading);
+  if (diagnostics.has_errors()) return std::nullopt;
+  description::recentre(scene, reading.light_positions);
+  scene.sha256 = description::hash(*source, overrides, reading);
+  scene.commit();
+  return scene;
+}
+
+}  // namespace abbe

@@ -1,0 +1,184 @@
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "materials/index/library.h"
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+namespace {
+
+// Every measured index lies well inside.
+constexpr Range kIndex{0, 100, true, false};
+constexpr Range kMetalIndex{0, 100};  // n = 0 is the perfect mirror
+constexpr Range kExtinction{0, 100};
+constexpr char kBlack[] = "black (lamp)";
+
+// k of an absorption coefficient alpha [1/m]: alpha lambda/(4 pi), lambda in metres.
+Curve extinction(const Curve& absorption_per_m) {
+  const auto k = [](double nm) { return nm * 1e-9 / (4 * std::numbers::pi); };
+  const Curve per_alpha(
+      std::vector<Knot>{{kMinWavelengthNm, k(kMinWavelengthNm)}, {kMaxWavelengthNm, k(kMaxWavelengthNm)}});
+  return product(absorption_per_m, per_alpha);
+}
+
+struct Ior {
+  std::string name;
+  RefractiveIndex index;
+  bool constant;
+};
+
+std::optional<Ior> constant_ior(double n, double k) {
+  return Ior{fmt::format("{}", n), RefractiveIndex(n, k), true};
+}
+
+std::optional<Ior> read_ior(const JsonValue& json, Range allowed, Reading& reading) {
+  if (std::holds_alternative<double>(json.value)) {
+    const auto n = read_number(json, allowed, reading.diagnostics);
+    return n ? constant_ior(*n, 0) : std::nullopt;
+  }
+  if (std::holds_alternative<JsonValue::Object>(json.value)) {
+    ObjectReader reader(json, reading.diagnostics);
+    const auto n = reader.require_number("n", allowed);
+    const double k = reader.number_or("k", 0, kExtinction);
+    reader.finish();
+    return n ? constant_ior(*n, k) : std::nullopt;
+  }
+  const auto name = reading.table(json);
+  if (!name) return std::nullopt;
+  auto named = load_index(*name, json.where, reading.diagnostics);
+  if (!named) return std::nullopt;
+  return Ior{std::move(named->name), std::move(named->index), false};
+}
+
+std::optional<DiffuseMaterial> read_diffuse(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const JsonValue* value = reader.require("reflectance");
+  reader.finish();
+  if (!value) return std::nullopt;
+  auto reflectance = read_curve(*value, {"reflectance", Range::unit()}, reading);
+  if (!reflectance) return std::nullopt;
+  return DiffuseMaterial{std::move(*reflectance)};
+}
+
+std::optional<DielectricMaterial> read_dielectric(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const JsonValue* value = reader.require("ior");
+  const JsonValue* absorption = reader.find("absorption_per_m");
+  reader.finish();
+  if (!value) return std::nullopt;
+  auto ior = read_ior(*value, kIndex, reading);
+  if (!ior) return std::nullopt;
+  if (!absorption) return DielectricMaterial{std::move(ior->name), std::move(ior->index)};
+  if (!ior->constant || ior->index.absorbing()) {
+    reading.diagnostics.error(absorption->where,
+                              "absorption_per_m goes with a constant real index; this one brings its own k");
+    return std::nullopt;
+  }
+  const auto alpha = read_curve(*absorption, {"filter", kPower}, reading);
+  if (!alpha) return std::nullopt;
+  return DielectricMaterial{
+      std::move(ior->name),
+      RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha), IndexMedium::air,
+                      kMinWavelengthNm, kMaxWavelengthNm)};
+}
+
+std::optional<ConductorMaterial> read_conductor(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const JsonValue* value = reader.require("ior");
+  reader.finish();
+  if (!value) return std::nullopt;
+  auto ior = read_ior(*value, kMetalIndex, reading);
+  if (!ior) return std::nullopt;
+  return ConductorMaterial{std::move(ior->name), std::move(ior->index)};
+}
+
+// A material that cannot be read stands as black, so that the shapes naming it are not reported as well.
+Material read_material(const std::string& name, const JsonValue& json, Reading& reading) {
+  Material material{name, DiffuseMaterial{Curve(0.0)}};
+  ObjectReader reader(json, reading.diagnostics);
+  const auto key = reader.exactly_one({"diffuse", "dielectric", "conductor"});
+  if (!key) return material;
+  const JsonValue& model = *reader.find(*key);
+  if (*key == "diffuse") {
+    if (auto diffuse = read_diffuse(model, reading)) material.model = std::move(*diffuse);
+  } else if (*key == "dielectric") {
+    if (auto dielectric = read_dielectric(model, reading)) material.model = std::move(*dielectric);
+  } else if (auto conductor = read_conductor(model, reading)) {
+    material.model = std::move(*conductor);
+  }
+  reader.finish();
+  return material;
+}
+
+// Where a curve differs from zero: [low, high] nm, empty when it never does.
+struct Support {
+  double low = kMaxWavelengthNm;
+  double high = kMinWavelengthNm;
+};
+void extend(Support& support, const Curve& curve) {
+  const auto knots = curve.knots();
+  if (curve.is_constant() && curve.max() != 0) support = {kMinWavelengthNm, kMaxWavelengthNm};
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    if (knots[i].value == 0 && knots[i + 1].value == 0) continue;
+    support.low = std::min(support.low, knots[i].wavelength_nm);
+    support.high = std::max(support.high, knots[i + 1].wavelength_nm);
+  }
+}
+
+}  // namespace
+
+void read_materials(const JsonValue& json, Reading& reading, Scene& scene) {
+  const auto* members = std::get_if<JsonValue::Object>(&json.value);
+  if (!members) {
+    reading.diagnostics.error(json.where,
+                              fmt::format("expected an object of materials by name (got {})", json.kind()));
+    return;
+  }
+  for (const auto& [name, value] : *members) scene.materials.push_back(read_material(name, value, reading));
+}
+
+std::optional<std::uint32_t> find_material(const JsonValue& json, Reading& reading, const Scene& scene) {
+  const std::optional<std::string> name = read_string(json, reading.diagnostics);
+  if (!name) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) {
+    if (material.name == *name) return static_cast<std::uint32_t>(names.size());
+    names.push_back(material.name);
+  }
+  reading.diagnostics.error(json.where, unknown_name("material", *name, names));
+  return std::nullopt;
+}
+
+std::uint32_t black_material(Scene& scene) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (scene.materials[i].name == kBlack) return static_cast<std::uint32_t>(i);
+  scene.materials.push_back({kBlack, DiffuseMaterial{Curve(0.0)}});
+  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene) {
+  Support sensor;
+  for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
+  for (const Material& material : scene.materials) {
+    const RefractiveIndex* index = nullptr;
+    std::string name;
+    if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
+      index = &dielectric->index;
+      name = dielectric->index_name;
+    } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
+      index = &conductor->index;
+      name = conductor->index_name;
+    }
+    if (!index || (index->low_nm() <= sensor.low && sensor.high <= index->high_nm())) continue;
+    const JsonValue* at = json.find(material.name);
+    reading.diagnostics.warning(
+        at ? at->where : json.where,
+        fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
+                    "extrapolated",
+                    name, index->low_nm(), index->high_nm(), sensor.low, sensor.high));
+  }
+}
+
+}  // namespace abbe::description

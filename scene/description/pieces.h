@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <ImathVec.h>
+
+#include "io/json.h"
+#include "io/object_reader.h"
+#include "scene/scene.h"
+
+namespace abbe::description {
+
+/// What the readers of one scene file share.
+struct Reading {
+  Diagnostics& diagnostics;
+  std::filesystem::path folder;  ///< Of the scene file: where the files it names are looked for.
+  double unit_m = 1;             ///< Metres per unit of length.
+  std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
+  std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
+
+  /// A file named by the scene, remembered for the hash; a URL is reported.
+  [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,
+                                                          const SourcePosition& where);
+  /// A table's name as the libraries take it: a user's `FILE.csv` or `FILE.csv:COLUMN` is looked for beside
+  /// the scene.
+  [[nodiscard]] std::optional<std::string> table(const JsonValue& name);
+};
+
+/// Lengths and coordinates, in scene units: beyond this the floats of the render overflow when squared and
+/// multiplied.
+inline constexpr double kMaxLength = 1e12;
+inline constexpr Range kCoordinate{-kMaxLength, kMaxLength};
+inline constexpr Range kLength{0, kMaxLength, true, false};
+/// Values of curves and powers, safely inside float.
+inline constexpr Range kValue{-1e30, 1e30};
+inline constexpr Range kPower{0, 1e30};
+inline constexpr Range kWavelength{kMinWavelengthNm, kMaxWavelengthNm};
+
+/// The `least` or more elements of an array; anything else is reported, `what` naming them.
+[[nodiscard]] const JsonValue::Array* read_array(const JsonValue& json, std::string_view what,
+                                                 std::size_t least, const Reading& reading);
+/// A position or edge [m].
+[[nodiscard]] std::optional<Imath::V3d> read_point(ObjectReader& reader, std::string_view key,
+                                                   const Reading& reading);
+/// A unit vector; the zero vector is reported.
+[[nodiscard]] std::optional<Imath::V3d> read_direction(ObjectReader& reader, std::string_view key,
+                                                       const Reading& reading);
+
+/// Where a curve is used: the data folder its names are looked for in, and the values it may take.
+struct CurveUse {
+  std::string_view folder;
+  Range allowed = kValue;
+};
+[[nodiscard]] std::optional<Curve> read_curve(const JsonValue& json, const CurveUse& use, Reading& reading);
+/// The curves an emission shares with other curves: "blackbody_K", "daylight_K" and "lines".
+[[nodiscard]] std::optional<Curve> read_source(std::string_view key, const JsonValue& json, Reading& reading);
+
+void read_materials(const JsonValue& json, Reading& reading, Scene& scene);
+/// Index of the material of that name; an unknown one is reported with the nearest.
+[[nodiscard]] std::optional<std::uint32_t> find_material(const JsonValue& name, Reading& reading,
+                                                         const Scene& scene);
+/// Index of the material of lamps that name none: diffuse, reflecting nothing.
+[[nodiscard]] std::uint32_t black_material(Scene& scene);
+/// Warns of every index used beyond the wavelengths it holds for.
+void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene);
+
+[[nodiscard]] std::optional<Sphere> read_sphere(const JsonValue& json, const Reading& reading);
+[[nodiscard]] std::optional<Disc> read_disc(const JsonValue& json, const Reading& reading);
+[[nodiscard]] std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading);
+void read_shapes(const JsonValue& json, Reading& reading, Scene& scene);
+
+void read_lights(const JsonValue& json, Reading& reading, Scene& scene);
+/// Makes `scene.shapes[shape]` emit.
+void add_area_light(const JsonValue& emission, bool two_sided, std::uint32_t shape, Reading& reading,
+                    Scene& scene);
+
+/// The film: its pixels, and what they count.
+struct Sensor {
+  int width = 1;
+  int height = 1;
+  double pixel_pitch = 4.5e-6;  ///< [m]
+  double exposure_s = 1;
+  std::vector<Channel> channels;
+};
+/// `probe`: the sensor of an irradiance probe has one pixel unless it says otherwise.
+[[nodiscard]] Sensor read_sensor(const JsonValue& json, bool probe, Reading& reading);
+
+[[nodiscard]] std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor,
+                                                Reading& reading);
+
+}  // namespace abbe::description

@@ -1,0 +1,172 @@
+#include "scene/lights/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "io/error.h"
+#include "scene/lights/spherical_rectangle.h"
+#include "scene/scene.h"
+#include "scene/shapes/basis.h"
+#include "scene/shapes/quad.h"
+#include "scene/shapes/sphere.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A direction with its density per solid angle and where it meets the light.
+struct AreaSample {
+  SurfacePoint at;
+  double pdf;
+};
+
+double density_by_area(const AreaLight& light, const Imath::V3d& point, const Imath::V3d& on_light,
+                       const Imath::V3d& normal) {
+  const Imath::V3d d = on_light - point;
+  const double cosine = std::abs(d.dot(normal)) / d.length();
+  return cosine > 0 ? d.length2() / (cosine * light.area) : 0;
+}
+
+// 1 - cos of the half angle a sphere is seen under from outside. A point on the sphere itself, up to
+// rounding, is not outside: the whole sphere may lie before it.
+std::optional<double> cone_height(const Sphere& sphere, const Imath::V3d& point) {
+  const double distance = (point - sphere.center).length();
+  const double rounding = 16 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                          std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  if (distance <= sphere.radius + rounding) return std::nullopt;
+  const double sine = sphere.radius / distance;
+  const double cosine = std::sqrt((distance - sphere.radius) * (distance + sphere.radius)) / distance;
+  return sine * sine / (1 + cosine);
+}
+
+AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& point, Imath::V2f u) {
+  const double descent = static_cast<double>(u.x) * height;  // 1 - cos theta
+  const double sine = std::sqrt(descent * (2 - descent));
+  const double phi = 2 * kPi * static_cast<double>(u.y);
+  const Basis<double> axes((sphere.center - point).normalized());
+  const Imath::V3d direction = axes.to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - descent});
+  const auto hit = intersect(sphere, BasicRay<double>{point, direction}, 0.0);
+  // A tangent may miss by rounding; the point nearest to it on the rim is as good.
+  const Imath::V3d normal =
+      hit ? hit->normal
+          : (point + direction * (sphere.center - point).dot(direction) - sphere.center).normalized();
+  return {{Imath::V3f(sphere.center + normal * sphere.radius), Imath::V3f(normal)}, 1 / (2 * kPi * height)};
+}
+
+// How a point sees a light whose shape allows better than sampling by area.
+std::optional<SphericalRectangle> wide_rectangle(const Shape& shape, const Imath::V3d& point) {
+  const auto* quad = std::get_if<Quad>(&shape);
+  if (quad == nullptr) return std::nullopt;
+  return SphericalRectangle::seen_from(*quad, point);
+}
+std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
+  const auto* sphere = std::get_if<Sphere>(&shape);
+  if (sphere == nullptr) return std::nullopt;
+  return cone_height(*sphere, point);
+}
+
+AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const Imath::V3d& point,
+                             Imath::V2f u) {
+  if (const auto height = wide_cone(shape, point))
+    return sample_cone(std::get<Sphere>(shape), *height, point, u);
+  if (const auto rectangle = wide_rectangle(shape, point)) {
+    const auto& quad = std::get<Quad>(shape);
+    const Imath::V2d uv = rectangle->sample(u);
+    return {{Imath::V3f(point_at(quad, uv.x, uv.y)), Imath::V3f(normal_of(quad))},
+            1 / rectangle->solid_angle()};
+  }
+  const SurfacePoint at = sample_area(shape, light.triangle_cdf, u);
+  return {at, density_by_area(light, point, Imath::V3d(at.point), Imath::V3d(at.normal))};
+}
+
+std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emitter,
+                                       const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
+                                       Imath::V2f u) {
+  const auto [at, pdf] = sample_area_light(emitter, shapes[emitter.shape].shape, Imath::V3d(point), u);
+  const Imath::V3d d = Imath::V3d(at.point) - Imath::V3d(point);
+  const Imath::V3f wi(d.normalized());
+  if (!(pdf > 0) || !emits_towards(light, at.normal, -wi)) return std::nullopt;
+  return LightSample{wi, static_cast<float>(d.length()), 1, static_cast<float>(pdf),
+                     offset_point(at.point, at.normal, -wi)};
+}
+
+// Intensity falls off with the square of the distance, worked out in double: a lamp may be very near.
+std::optional<LightSample> from_point(const Imath::V3f& position, const Imath::V3f& point) {
+  const Imath::V3d d = Imath::V3d(position) - Imath::V3d(point);
+  const double distance2 = d.length2();
+  if (!(distance2 > 0)) return std::nullopt;
+  return LightSample{Imath::V3f(d.normalized()), static_cast<float>(std::sqrt(distance2)),
+                     static_cast<float>(1 / distance2), 1, position};
+}
+
+std::optional<LightSample> sample_kind(const Light&, const PointLight& lamp,
+                                       const std::vector<ShapeInstance>&, const Imath::V3f& point,
+                                       Imath::V2f) {
+  return from_point(lamp.position, point);
+}
+
+std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, const std::vector<ShapeInstance>&,
+                                       const Imath::V3f& point, Imath::V2f) {
+  std::optional<LightSample> sample = from_point(lamp.position, point);
+  if (!sample || -sample->wi.dot(lamp.axis) < lamp.cos_half_angle) return std::nullopt;
+  return sample;
+}
+
+std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight&,
+                                       const std::vector<ShapeInstance>&, const Imath::V3f& point,
+                                       Imath::V2f u) {
+  const Imath::V3f wi = sample_area(Sphere{{0, 0, 0}, 1}, u).normal;
+  return LightSample{wi, std::numeric_limits<float>::infinity(), 1, static_cast<float>(1 / (4 * kPi)), point};
+}
+
+}  // namespace
+
+std::optional<LightSample> sample_light(const Light& light, const std::vector<ShapeInstance>& shapes,
+                                        const Imath::V3f& point, Imath::V2f u) {
+  return std::visit([&](const auto& kind) { return sample_kind(light, kind, shapes, point, u); }, light.kind);
+}
+
+float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
+                const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal) {
+  if (light.is_environment()) return static_cast<float>(1 / (4 * kPi));
+  if (light.is_delta() || !emits_towards(light, hit_normal, -wi)) return 0;
+  const auto& emitter = std::get<AreaLight>(light.kind);
+  const Shape& shape = shapes[emitter.shape].shape;
+  const Imath::V3d from(point);
+  if (const auto height = wide_cone(shape, from)) return static_cast<float>(1 / (2 * kPi * *height));
+  if (const auto rectangle = wide_rectangle(shape, from))
+    return static_cast<float>(1 / rectangle->solid_angle());
+  return static_cast<float>(density_by_area(emitter, from, Imath::V3d(hit_point), Imath::V3d(hit_normal)));
+}
+
+bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo) {
+  const auto* emitter = std::get_if<AreaLight>(&light.kind);
+  return emitter == nullptr || emitter->two_sided || normal.dot(wo) > 0;
+}
+
+EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeInstance>& shapes,
+                                    Imath::V2f u) {
+  if (const auto* lamp = std::get_if<PointLight>(&light.kind)) return {lamp->position, Imath::V3f(0), 1};
+  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return {lamp->position, Imath::V3f(0), 1};
+  const auto* emitter = std::get_if<AreaLight>(&light.kind);
+  if (emitter == nullptr)
+    throw Error(ErrorCode::internal, "light \"" + light.name + "\"",
+                "an environment has no point to emit from");
+  const SurfacePoint at = sample_area(shapes[emitter->shape].shape, emitter->triangle_cdf, u);
+  return {at.point, at.normal, static_cast<float>(1 / emitter->area)};
+}
+
+Curve power(const Light& light, double scene_radius_m) {
+  double factor = 4 * kPi * kPi * scene_radius_m * scene_radius_m;  // pi r^2 from each of 4 pi directions
+  if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
+    factor = kPi * emitter->area * (emitter->two_sided ? 2 : 1);
+  if (std::holds_alternative<PointLight>(light.kind)) factor = 4 * kPi;
+  if (const auto* lamp = std::get_if<SpotLight>(&light.kind))
+    factor = 2 * kPi * (1 - static_cast<double>(lamp->cos_half_angle));
+  return scaled(light.emission, factor);
+}
+
+}  // namespace abbe

@@ -1,0 +1,175 @@
+#include "scene/needs/needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "scene/scene.h"
+
+namespace abbe {
+namespace {
+
+// Solid angle [sr] below which a light is left to the light tracer: path tracing then finds it by chance in
+// less than one in 250 directions.
+constexpr double kSmallLight_sr = 0.05;
+
+const Material& material_of(const Scene& scene, const ShapeInstance& instance) {
+  return scene.materials[instance.material];
+}
+
+bool emits(const Light& light) {
+  return light.emission.max() > 0;
+}
+
+double solid_angle_of_ball(const Imath::Box3d& box, const Imath::V3d& from) {
+  const double radius = box.size().length() / 2;
+  const double distance = (box.center() - from).length();
+  if (distance <= radius) return 4 * std::numbers::pi;
+  return 2 * std::numbers::pi * (1 - std::sqrt((distance - radius) * (distance + radius)) / distance);
+}
+
+// Whether the light looks small from every specular shape; delta lights do from anywhere.
+bool looks_small(const Scene& scene, const Light& light) {
+  const auto* emitter = std::get_if<AreaLight>(&light.kind);
+  if (emitter == nullptr) return light.is_delta();
+  const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
+  return std::none_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeInstance& instance) {
+    return is_specular(material_of(scene, instance)) && &instance != &scene.shapes[emitter->shape] &&
+           solid_angle_of_ball(box, bounds(instance.shape).center()) >= kSmallLight_sr;
+  });
+}
+
+// Two specular shapes may throw light at each other; so may the faces of one mesh, and the two interfaces of
+// a glass ball.
+bool chains_interfaces(const Scene& scene) {
+  int specular = 0;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const Material& material = material_of(scene, instance);
+    if (!is_specular(material)) continue;
+    ++specular;
+    const bool refracts = interior(material) != nullptr;
+    if (std::holds_alternative<Mesh>(instance.shape) ||
+        (refracts && std::holds_alternative<Sphere>(instance.shape)))
+      return true;
+  }
+  return specular >= 2;
+}
+
+void analyse_matter(const Scene& scene, Needs& needs) {
+  bool specular = false;
+  bool scattering = false;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const Material& material = material_of(scene, instance);
+    const RefractiveIndex* inside = interior(material);
+    needs.dispersion |= is_dispersive(material);
+    needs.media |= inside != nullptr && inside->absorbing();
+    (is_specular(material) ? specular : scattering) = true;
+  }
+  const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
+                               [](const Light& light) { return !light.is_environment() && emits(light); });
+  needs.caustics = specular && scattering && lit;
+  needs.polarisation_matters = chains_interfaces(scene);
+}
+
+void analyse_lights(const Scene& scene, Needs& needs) {
+  const bool connectable = !scene.camera.is_probe();
+  for (const Light& light : scene.lights) {
+    needs.environment |= light.is_environment();
+    needs.delta_lights |= light.is_delta();
+    needs.narrow_bands |= has_narrow_feature(light.emission);
+    needs.light_is_traced.push_back(needs.caustics && connectable && !light.is_environment() &&
+                                    emits(light) && looks_small(scene, light));
+    needs.light_tracing |= needs.light_is_traced.back();
+  }
+}
+
+// Distance from the peak at knot `i` to where the curve first falls to `level`, walking by `step`; infinite
+// if that is beyond `reach`.
+double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t step, double level,
+                     double reach) {
+  const auto count = static_cast<std::ptrdiff_t>(knots.size());
+  for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < count; j += step) {
+    const Knot& knot = knots[static_cast<std::size_t>(j)];
+    const Knot& before = knots[static_cast<std::size_t>(j - step)];
+    const double value = std::abs(knot.value);
+    if (std::abs(before.wavelength_nm - knots[i].wavelength_nm) > reach) break;
+    if (value >= level) continue;
+    const double share = (std::abs(before.value) - level) / (std::abs(before.value) - value);
+    return std::abs(before.wavelength_nm + share * (knot.wavelength_nm - before.wavelength_nm) -
+                    knots[i].wavelength_nm);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+// The lights of the scene that `select` holds for, by name.
+template <typename Select>
+std::string names_of(const Scene& scene, Select select) {
+  std::string names;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (select(i)) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.lights[i].name);
+  return names;
+}
+
+}  // namespace
+
+bool has_narrow_feature(const Curve& curve, double width_nm) {
+  const std::span<const Knot> knots = curve.knots();
+  const double significant = 0.1 * std::max(std::abs(curve.max()), std::abs(curve.min()));
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const double peak = std::abs(knots[i].value);
+    if (!(peak > 0 && peak >= significant)) continue;
+    if (fall_distance(knots, i, -1, peak / 2, width_nm) + fall_distance(knots, i, 1, peak / 2, width_nm) <
+        width_nm)
+      return true;
+  }
+  return false;
+}
+
+Needs analyse(const Scene& scene) {
+  Needs needs;
+  analyse_matter(scene, needs);
+  analyse_lights(scene, needs);
+  for (const Channel& channel : scene.channels) needs.narrow_bands |= has_narrow_feature(channel.weight);
+  const auto* lens = std::get_if<LensCamera>(&scene.camera.kind);
+  needs.depth_of_field = lens != nullptr && !lens->pinhole;
+  return needs;
+}
+
+// Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
+// vertex next to the light scatters. Light tracing reaches every one whose vertex next to the eye scatters.
+std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool light_tracing_active) {
+  const bool specular =
+      std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                  [&](const ShapeInstance& instance) { return is_specular(material_of(scene, instance)); });
+  std::vector<PathClass> classes;
+  const auto add = [&classes](const std::string& lights, std::string_view expression,
+                              std::string_view words) {
+    if (!lights.empty()) classes.push_back(fmt::format("{}: {} ({})", expression, words, lights));
+  };
+  const auto& lights = scene.lights;
+  if (scene.render.integrator == Integrator::light) {
+    add(names_of(scene, [&](std::size_t i) { return lights[i].is_environment(); }), "E (S|D)* L",
+        "all light of an environment");
+    add(names_of(scene, [&](std::size_t i) { return lights[i].kind.index() == 0; }), "E L",
+        "lights seen directly");
+    if (specular)
+      add(names_of(scene, [&](std::size_t i) { return !lights[i].is_environment(); }), "E S (S|D)* L",
+          "everything seen in mirrors or through glass");
+    return classes;
+  }
+  if (!specular) return classes;
+  const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
+  const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
+  add(names_of(scene, delta), "E S+ L", "a point or spot light seen in mirrors or through glass");
+  if (!needs.caustics) return classes;
+  add(names_of(scene, [&](std::size_t i) { return delta(i) && traced(i); }), "E S (S|D)* D (S|D)* S L",
+      "caustics of a point or spot light, seen in mirrors or through glass");
+  add(names_of(scene, [&](std::size_t i) { return delta(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
+      "caustics of a point or spot light");
+  return classes;
+}
+
+}  // namespace abbe

@@ -1,0 +1,91 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/geometry.h"
+
+namespace abbe {
+namespace {
+
+// A point on a surface is off it by rounding, at most half a float step along each axis; so is the point
+// moved. Four steps of the largest coordinate clear both, and intersection decides the rest in double. Near
+// the origin steps vanish, and the floor takes over: the size of an atom.
+constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
+constexpr float kLeastOffset_m = 1e-10F;
+
+}  // namespace
+
+std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
+  return geometry_->intersect(ray);
+}
+
+bool Scene::occluded(const Imath::V3f& from, const Imath::V3f& to) const {
+  const Imath::V3d start(from);
+  return geometry_->occluded({start, Imath::V3d(to) - start, 1.0});
+}
+
+bool Scene::occluded(const Ray& ray) const {
+  return geometry_->occluded(
+      {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)});
+}
+
+void Scene::replay(std::span<const LoggedRay> rays) const {
+  geometry_->replay(rays);
+}
+
+void Scene::commit() {
+  bounds.makeEmpty();
+  for (const ShapeInstance& instance : shapes) bounds.extendBy(abbe::bounds(instance.shape));
+  environment_ = -1;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].is_environment()) environment_ = static_cast<std::int32_t>(i);
+    auto* emitter = std::get_if<AreaLight>(&lights[i].kind);
+    if (emitter == nullptr) continue;
+    ShapeInstance& instance = shapes[emitter->shape];
+    instance.light = static_cast<std::int32_t>(i);
+    emitter->area = area(instance.shape);
+    emitter->triangle_cdf = triangle_cdf(instance.shape);
+  }
+  geometry_ = std::make_shared<const Geometry>(shapes);
+  needs = analyse(*this);
+}
+
+std::size_t Scene::triangle_count() const {
+  return geometry_->triangle_count();
+}
+
+std::size_t Scene::memory_bytes() const {
+  std::size_t bytes =
+      geometry_->memory_bytes() + shapes.size() * sizeof(ShapeInstance) + lights.size() * sizeof(Light);
+  for (const ShapeInstance& instance : shapes)
+    if (const auto* mesh = std::get_if<Mesh>(&instance.shape))
+      bytes += mesh->vertices.size() * sizeof(mesh->vertices[0]) +
+               mesh->triangles.size() * sizeof(mesh->triangles[0]);
+  return bytes;
+}
+
+Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction) {
+  const float largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  const float distance = std::max(kOffsetSteps * largest, kLeastOffset_m);
+  return point + normal * std::copysign(distance, normal.dot(direction));
+}
+
+Ray spawn(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction) {
+  return {offset_point(point, normal, direction), direction};
+}
+
+std::optional<ExactHit> intersect_exact(const Scene& scene, const BasicRay<double>& ray, double t_min) {
+  BasicRay<double> rest = ray;
+  std::optional<ExactHit> nearest;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    const std::optional<ShapeHit<double>> hit = intersect(scene.shapes[i].shape, rest, t_min);
+    if (!hit) continue;
+    rest.t_max = hit->t;
+    nearest = ExactHit{*hit, static_cast<std::uint32_t>(i)};
+  }
+  return nearest;
+}
+
+}  // namespace abbe

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <ImathBox.h>
+#include <ImathVec.h>
+
+#include "materials/material.h"
+#include "scene/camera/camera.h"
+#include "scene/lights/light.h"
+#include "scene/needs/needs.h"
+#include "scene/ray.h"
+#include "scene/shapes/shape.h"
+#include "sensor/response/channel.h"
+
+namespace abbe {
+
+/// A shape made of a material, perhaps emitting.
+struct ShapeInstance {
+  std::string name;
+  Shape shape;
+  std::uint32_t material;
+  std::int32_t light = -1;  ///< Index into `Scene::lights`, or -1.
+};
+
+/// Which techniques render the scene.
+enum class Integrator { automatic, path, light };
+
+/// How to render, as the scene file asks.
+struct RenderSettings {
+  Integrator integrator = Integrator::automatic;
+  int samples = 64;        ///< Per pixel.
+  int max_depth = 64;      ///< Surface events per path.
+  int roulette_depth = 4;  ///< Events before Russian roulette; a negative value never plays it.
+  std::uint64_t seed = 0;
+};
+
+/// Where to write, as the scene file asks; empty when it does not.
+struct OutputSettings {
+  std::filesystem::path image;
+  std::filesystem::path display;
+  std::optional<double>
+      display_exposure;  ///< Film value shown as diffuse white; chosen from the image when absent.
+};
+
+/// Embree's view of the shapes.
+class Geometry;
+
+/// Where a ray meets the scene, in the float coordinates of the render.
+struct SurfaceHit {
+  Imath::V3f point;
+  Imath::V3f normal;  ///< Geometric, unit, outward.
+  float t;
+  std::uint32_t shape;
+};
+
+/// Everything a render needs, in metres, recentred so that coordinates are small: `origin_m` is the
+/// scene-file point at (0,0,0).
+class Scene {
+ public:
+  std::vector<ShapeInstance> shapes;
+  std::vector<Material> materials;
+  std::vector<Light> lights;
+  Camera camera;
+  std::vector<Channel> channels;
+  double exposure_s = 1;
+  RenderSettings render;
+  OutputSettings output;
+  Needs needs;
+  Imath::V3d origin_m{0, 0, 0};
+  double unit_m = 1;    ///< Metres per scene-file unit.
+  Imath::Box3d bounds;  ///< Of the shapes.
+  std::string sha256;   ///< Of the scene file after overrides, and of every file it names.
+
+  /// Nearest hit at t in (0, ray.t_max). Rays start where `spawn` put them, so no epsilon is needed.
+  [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
+  /// Whether anything stands between two points that `offset_point` put beside their surfaces. Exact at both
+  /// ends, at any angle and distance.
+  [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) const;
+  [[nodiscard]] bool occluded(const Ray& ray) const;
+
+  /// Asks Embree alone for all of the rays again and drops the answers: what a render would cost if it did
+  /// nothing else.
+  void replay(std::span<const LoggedRay> rays) const;
+
+  /// The one environment light, or -1.
+  [[nodiscard]] std::int32_t environment() const { return environment_; }
+
+  /// Builds the acceleration structure, `bounds`, the lights' areas and `needs`; call once, after filling the
+  /// lists. Throws Error{resource} when there is no memory.
+  void commit();
+
+  [[nodiscard]] std::size_t triangle_count() const;  ///< As rendered: a quad is two.
+  [[nodiscard]] std::size_t memory_bytes() const;    ///< Of geometry, as Embree and the lists report it.
+
+ private:
+  std::shared_ptr<const Geometry> geometry_;
+  std::int32_t environment_ = -1;
+};
+
+/// A ray leaving `point` with outward surface normal `normal` into `direction`, its origin moved by a few
+/// representable floats to the side it leaves on, so that it cannot meet the surface it starts from, whatever
+/// the scale of the scene. After [Wachter2019], but with steps of the largest coordinate and no fixed length,
+/// since Scene::intersect is exact about sides.
+[[nodiscard]] Ray spawn(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction);
+[[nodiscard]] Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal,
+                                      const Imath::V3f& direction);
+
+/// Nearest hit at t in (t_min, ray.t_max) in double precision by each shape's own code, without Embree: for
+/// `abbe trace`.
+struct ExactHit {
+  ShapeHit<double> hit;
+  std::uint32_t shape;
+};
+[[nodiscard]] std::optional<ExactHit> intersect_exact(const Scene& scene, const BasicRay<double>& ray,
+                                                      double t_min);
+
+}  // namespace abbe

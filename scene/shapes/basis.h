@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cmath>
+
+#include <ImathVec.h>
+
+namespace abbe {
+
+/// Orthonormal axes with z along a unit vector. [Duff2017]
+template <typename T>
+struct Basis {
+  Imath::Vec3<T> x, y, z;
+
+  explicit Basis(const Imath::Vec3<T>& n) : z(n) {
+    const T sign = std::copysign(T(1), n.z);
+    const T a = T(-1) / (sign + n.z);
+    const T b = n.x * n.y * a;
+    x = {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x};
+    y = {b, sign + n.y * n.y * a, -n.y};
+  }
+  [[nodiscard]] Imath::Vec3<T> to_local(const Imath::Vec3<T>& v) const {
+    return {v.dot(x), v.dot(y), v.dot(z)};
+  }
+  [[nodiscard]] Imath::Vec3<T> to_world(const Imath::Vec3<T>& v) const { return x * v.x + y * v.y + z * v.z; }
+};
+
+}  // namespace abbe

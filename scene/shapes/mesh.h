@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "scene/shapes/shape.h"
+
+namespace abbe {
+
+/// By trying every triangle, edges included: exact but slow, for single rays. Triangles without area are
+/// never hit.
+template <typename T>
+[[nodiscard]] std::optional<ShapeHit<T>> intersect(const Mesh& mesh, const BasicRay<T>& ray, T t_min);
+
+/// Half the cross product of two edges: the normal times the area.
+[[nodiscard]] Imath::V3d area_vector(const Mesh& mesh, std::size_t triangle);
+
+[[nodiscard]] double area(const Mesh& mesh);
+[[nodiscard]] Imath::Box3d bounds(const Mesh& mesh);
+[[nodiscard]] SurfacePoint sample_area(const Mesh& mesh, const std::vector<float>& triangle_cdf,
+                                       Imath::V2f u);
+
+}  // namespace abbe

@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+using testing::Random;
+
+constexpr double kPi = std::numbers::pi;
+
+// Looking along -y from (1, 2, 3), up is z, so right is -x.
+CameraFrame frame() {
+  return {{1, 2, 3}, {-1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+}
+
+Camera pinhole() {
+  return {LensCamera{frame(), 0.05, INFINITY, 0.00625, true}, 6, 4, 0.005};
+}
+// Focal length 50 mm in focus at 0.5 m, f/2.
+Camera lens() {
+  return {LensCamera{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125, false}, 6, 4, 0.005};
+}
+
+TEST(Camera, ImageIsUpright) {
+  const CameraRay center = sample_ray(pinhole(), {3, 2}, {0, 0});
+  EXPECT_EQ(center.ray.origin, V3f(1, 2, 3));
+  EXPECT_EQ(center.ray.direction, V3f(0, -1, 0));
+  EXPECT_EQ(center.cos_film, 1);
+  const V3f right_edge = sample_ray(pinhole(), {6, 2}, {0, 0}).ray.direction;
+  EXPECT_NEAR(right_edge.x / right_edge.y, 0.015 / 0.05, 1e-6) << "3 pixels of 5 mm at 50 mm, to the right";
+  const V3f top_edge = sample_ray(pinhole(), {3, 0}, {0, 0}).ray.direction;
+  EXPECT_NEAR(top_edge.z / -top_edge.y, 0.010 / 0.05, 1e-6) << "upwards";
+}
+
+TEST(Camera, ExposureIsThatOfTheLensFormula) {
+  // In focus at infinity: E = pi L cos^4 / (4 N^2).
+  const double n = 4;
+  const Camera camera{LensCamera{frame(), 0.05, INFINITY, 0.05 / (2 * n), false}, 6, 4, 0.005};
+  EXPECT_NEAR(static_cast<double>(sample_ray(camera, {3, 2}, {0.3F, 0.9F}).weight), kPi / (4 * n * n), 1e-8);
+  const double cosine = 1 / std::hypot(1, 0.015 / 0.05);
+  const CameraRay edge = sample_ray(camera, {6, 2}, {0.5F, 0.5F});
+  EXPECT_NEAR(static_cast<double>(edge.weight), kPi / (4 * n * n) * std::pow(cosine, 4), 1e-8);
+  EXPECT_NEAR(static_cast<double>(edge.cos_film), cosine, 1e-6);
+  EXPECT_NEAR(static_cast<double>(sample_ray(pinhole(), {6, 2}, {0, 0}).weight),
+              kPi / 64 * std::pow(cosine, 4), 1e-7)
+      << "a pinhole exposes as its nominal aperture would";
+}
+
+TEST(Camera, RaysOfAFilmPointMeetInThePlaneInFocus) {
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const V2f film(6 * random.uniform(), 4 * random.uniform());
+    const auto at_focus = [&](V2f u) {
+      const Ray ray = sample_ray(lens(), film, u).ray;
+      return V3d(ray.origin) + V3d(ray.direction) * ((1.5 - static_cast<double>(ray.origin.y)) /
+                                                     static_cast<double>(ray.direction.y));
+    };
+    const V3d a = at_focus(random.pair());
+    const V3d b = at_focus(random.pair());
+    EXPECT_LT((a - b).length(), 1e-6);
+  }
+}
+
+TEST(Camera, FilmCosineIsThatOfTheRayInsideTheCamera) {
+  // The right edge of the picture is on the left of the film, which lies behind the lens.
+  const V3d film_point =
+      V3d(1, 2, 3) + V3d(1, 0, 0) * 0.015 + V3d(0, 1, 0) * std::get<LensCamera>(lens().kind).image_distance;
+  Random random(6);
+  for (int i = 0; i < 100; ++i) {
+    const CameraRay start = sample_ray(lens(), {6, 2}, random.pair());
+    const V3d inside = (V3d(start.ray.origin) - film_point).normalized();
+    EXPECT_NEAR(static_cast<double>(start.cos_film), -inside.y, 1e-6);
+  }
+}
+
+TEST(Camera, LensPointsFillTheAperture) {
+  Random random(2);
+  double mean_square = 0;
+  constexpr int kCount = 20000;
+  for (int i = 0; i < kCount; ++i) {
+    const double r = (V3d(sample_ray(lens(), {3, 2}, random.pair()).ray.origin) - V3d(1, 2, 3)).length();
+    EXPECT_LE(r, 0.0125 * 1.0001);
+    mean_square += r * r / kCount;
+  }
+  EXPECT_NEAR(mean_square / (0.0125 * 0.0125), 0.5, 0.01);
+}
+
+TEST(Camera, ConnectionsAreTheReverseOfRays) {
+  Random random(3);
+  for (const Camera& camera : {pinhole(), lens()})
+    for (int i = 0; i < 10000; ++i) {
+      const V2f film(6 * random.uniform(), 4 * random.uniform());
+      const V2f u = random.pair();
+      const CameraRay start = sample_ray(camera, film, u);
+      const auto d = static_cast<float>(random.between(0.1, 5));
+      const auto back = sample_towards(camera, start.ray.origin + start.ray.direction * d, u);
+      if (!back) {
+        EXPECT_LT(std::min({film.x, film.y, 6 - film.x, 4 - film.y}), 1e-3F);
+        continue;
+      }
+      EXPECT_LT((back->film - film).length(), 1e-3F);
+      EXPECT_LT((back->lens_point - start.ray.origin).length(), 1e-6F);
+      EXPECT_NEAR(back->cos_film, start.cos_film, 1e-5);
+      // Both weights are of the same lens element and the same pixel: one per film area, one per solid angle.
+      const auto& lens_camera = std::get<LensCamera>(camera.kind);
+      const double cosine = -static_cast<double>(start.ray.direction.y);
+      const double film_per_sr = std::pow(lens_camera.image_distance, 2) / std::pow(cosine, 3);
+      EXPECT_NEAR(static_cast<double>(back->weight) * d * d * camera.pixel_pitch * camera.pixel_pitch /
+                      (static_cast<double>(start.weight) * film_per_sr),
+                  1, 1e-4);
+    }
+}
+
+TEST(Camera, NothingBehindOrBesideIsImaged) {
+  EXPECT_FALSE(sample_towards(pinhole(), {1, 3, 3}, {0, 0})) << "behind";
+  EXPECT_FALSE(sample_towards(pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
+  EXPECT_FALSE(sample_towards(pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
+  EXPECT_TRUE(sample_towards(pinhole(), {0.75F, 1, 3}, {0, 0}));
+  const Camera probe{IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 1, 1};
+  EXPECT_FALSE(sample_towards(probe, {0, 0, 1}, {0, 0}));
+}
+
+// Irradiance of each pixel by a Lambertian patch of radiance 1, from the film and from the patch.
+using Film = std::array<double, 24>;
+struct Estimate {
+  Film mean{};
+  Film square{};
+  void add(std::size_t pixel, double value) {
+    mean[pixel] += value;
+    square[pixel] += value * value;
+  }
+};
+
+TEST(Camera, BothWaysCollectTheSameEnergy) {
+  const Disc patch{{1.04, 0.6, 2.98}, V3d(0.3, 1, 0.2).normalized(), 0.2};
+  constexpr int kCount = 400000;
+  for (const Camera& camera : {pinhole(), lens()}) {
+    Random random(4);
+    Estimate film_to_patch;
+    Estimate patch_to_film;
+    for (int i = 0; i < kCount; ++i) {
+      const V2f film(6 * random.uniform(), 4 * random.uniform());
+      const CameraRay start = sample_ray(camera, film, random.pair());
+      const std::size_t pixel = static_cast<std::size_t>(film.y) * 6 + static_cast<std::size_t>(film.x);
+      if (intersect<float>(patch, start.ray, 0))
+        film_to_patch.add(pixel, 24 * static_cast<double>(start.weight));
+
+      const SurfacePoint at = sample_area(patch, {}, random.pair());
+      const auto back = sample_towards(camera, at.point, random.pair());
+      if (!back) continue;
+      const double cosine =
+          std::max(0.0, static_cast<double>(at.normal.dot((back->lens_point - at.point).normalized())));
+      patch_to_film.add(static_cast<std::size_t>(back->film.y) * 6 + static_cast<std::size_t>(back->film.x),
+                        static_cast<double>(back->weight) * cosine * area(patch));
+    }
+    int lit = 0;
+    for (std::size_t p = 0; p < 24; ++p) {
+      const double a = film_to_patch.mean[p] / kCount;
+      const double b = patch_to_film.mean[p] / kCount;
+      const double variance = (film_to_patch.square[p] + patch_to_film.square[p]) / kCount / kCount;
+      EXPECT_NEAR(a, b, 5 * std::sqrt(variance) + 1e-12) << "pixel " << p;
+      lit += b > 1e-3;
+    }
+    EXPECT_GE(lit, 4);
+  }
+}
+
+TEST(IrradianceProbe, MeasuresTheHemisphere) {
+  const Camera probe{IrradianceProbe{{1, 1, 1}, {2, 0, 0}, {0, 4, 0}, {0, 0, -1}}, 2, 4, 1};
+  Random random(5);
+  double mean_cosine = 0;
+  constexpr int kCount = 20000;
+  for (int i = 0; i < kCount; ++i) {
+    const CameraRay start = sample_ray(probe, {1.5F, 3.5F}, random.pair());
+    EXPECT_FLOAT_EQ(start.weight, static_cast<float>(kPi));
+    EXPECT_NEAR(start.ray.origin.x, 2.5, 1e-6);
+    EXPECT_NEAR(start.ray.origin.y, 4.5, 1e-6);
+    EXPECT_LT(start.ray.origin.z, 1) << "on the side it looks to";
+    EXPECT_NEAR(start.ray.direction.z, -start.cos_film, 1e-6);
+    mean_cosine += static_cast<double>(start.cos_film) / kCount;
+  }
+  EXPECT_NEAR(mean_cosine, 2.0 / 3, 0.01);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "io/json.h"
+#include "scene/description/load.h"
+
+namespace abbe::testing {
+
+namespace fs = std::filesystem;
+
+inline std::string file_text(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+inline std::string ply(int vertices, int faces, const std::string& body) {
+  return fmt::format(
+             "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
+             "z\n"
+             "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+             vertices, faces) +
+         body;
+}
+
+inline const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+struct Loaded {
+  std::optional<Scene> scene;
+  Diagnostics diagnostics;
+
+  [[nodiscard]] std::string text() const { return diagnostics.text(); }
+  const Scene* operator->() const { return &scene.value(); }
+};
+
+class DescriptionTest : public ::testing::Test {
+ protected:
+  DescriptionTest() : folder_(fs::temp_directory_path() / fmt::format("abbe_description_{}", ::getpid())) {
+    fs::create_directories(folder_);
+    write(folder_ / "bench.ply", ply(4, 1, kSquare + "4 0 1 2 3\n"));
+    write(folder_ / "lamp.csv", "# unit: W/(m2 sr nm)\n# outside: zero\nwavelength_nm,L\n400,1\n700,3\n");
+    write(folder_ / "filter.csv",
+          "# unit: transmittance\n# outside: zero\nwavelength_nm,T\n500,0.2\n600,0.4\n");
+  }
+  ~DescriptionTest() override { fs::remove_all(folder_); }
+
+  // A scene exactly as written.
+  Loaded load_text(const std::string& text, const std::vector<Override>& overrides = {}) {
+    Loaded loaded;
+    write(folder_ / "scene.json", text);
+    loaded.scene = load_scene(folder_ / "scene.json", overrides, loaded.diagnostics);
+    return loaded;
+  }
+
+  // The members of `fragment`, completed by the keys a scene needs.
+  Loaded load(const std::string& fragment, const std::vector<Override>& overrides = {}) {
+    return load_text(completed(fragment), overrides);
+  }
+
+  static std::string completed(const std::string& fragment) {
+    Diagnostics ignored;
+    const auto source = std::make_shared<const SourceText>(SourceText{"fragment", fragment});
+    const std::optional<JsonValue> parsed = parse_json(source, ignored);
+    if (!parsed) return fragment;
+    std::string text = "{";
+    for (const auto& [key, value] :
+         {std::pair{"abbe", "1"},
+          std::pair{"camera",
+                    R"({"pinhole": {"fov_deg": 40}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]})"},
+          std::pair{"sensor", R"({"resolution": [4, 3], "channels": {"all": 1}})"}})
+      if (!parsed->find(key)) text += fmt::format("\"{}\": {},\n", key, value);
+    return text + fragment.substr(fragment.find('{') + 1);
+  }
+
+  // The curve a reflectance describes.
+  Curve curve(const std::string& json) {
+    const Loaded loaded =
+        load(fmt::format(R"({{"materials": {{"m": {{"diffuse": {{"reflectance": {}}}}}}}}})", json));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.scene ? std::get<DiffuseMaterial>(loaded->materials.at(0).model).reflectance : Curve(-1.0);
+  }
+
+  // The emission of a lamp: `kind` is one of the lights' geometries.
+  Curve emission(const std::string& kind, const std::string& json) {
+    const Loaded loaded = load(fmt::format(R"({{"lights": [{{{}, "emission": {}}}]}})", kind, json));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.scene ? loaded->lights.at(0).emission : Curve(-1.0);
+  }
+
+  Shape shape(const std::string& members) {
+    const Loaded loaded = load(fmt::format(
+        R"({{"materials": {{"m": {{"diffuse": {{"reflectance": 0}}}}}}, "shapes": [{{{}, "material": "m"}},
+            {{"sphere": {{"center": [0, 0, 0], "radius": 100}}, "material": "m"}}]}})",
+        members));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.scene ? loaded->shapes.at(0).shape : Shape(Sphere{{0, 0, 0}, 0});
+  }
+
+  fs::path folder_;
+};
+
+struct Fault {
+  const char* what;
+  std::string fragment;
+  ErrorCode code;
+  const char* message;
+};
+
+inline std::string painted(const std::string& reflectance) {
+  return fmt::format(R"({{"materials": {{"m": {{"diffuse": {{"reflectance": {}}}}}}}}})", reflectance);
+}
+inline std::string shaped(const std::string& members) {
+  return fmt::format(
+      R"({{"materials": {{"m": {{"diffuse": {{"reflectance": 0}}}}}}, "shapes": [{{{}, "material": "m"}}]}})",
+      members);
+}
+inline std::string sensed(const std::string& members) {
+  return fmt::format(R"({{"sensor": {{{}}}}})", members);
+}
+inline std::string lit(const std::string& emission) {
+  return fmt::format(R"({{"lights": [{{"point": {{"at": [0, 0, 1]}}, "emission": {}}}]}})", emission);
+}
+
+}  // namespace abbe::testing

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using DescriptionFaultsTest = testing::DescriptionTest;
+using testing::Fault;
+using testing::lit;
+using testing::Loaded;
+using testing::painted;
+using testing::sensed;
+using testing::shaped;
+
+TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
+  const std::string unit = R"("sphere": {"center": [0, 0, 0], "radius": 1})";
+  const std::string at = R"("from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]})";
+  const std::vector<Fault> faults{
+      {"1 truncated", R"({"abbe": 1, "camera": {)", ErrorCode::scene, "got the end of the text"},
+      {"2 empty", "", ErrorCode::scene, "expected a value (got an empty text)"},
+      {"3 trailing bytes", R"({"abbe": 1} x)", ErrorCode::scene, "expected the end of the text (got x)"},
+      {"3 NUL", std::string("{\"abbe\": 1}\0", 12), ErrorCode::scene, "NUL byte"},
+      {"4 duplicate key", R"({"abbe": 1, "abbe": 1})", ErrorCode::scene, "duplicate key \"abbe\""},
+      {"5 unknown key", R"({"render": {"smaples": 4}})", ErrorCode::scene,
+       "/render/smaples: error: unknown key \"smaples\"; did you mean \"samples\"?"},
+      {"6 wrong type", R"({"render": {"samples": "many"}})", ErrorCode::scene,
+       "/render/samples: error: expected an integer (got \"many\", allowed [1, 16777216])"},
+      {"6 wrong type", R"({"shapes": {}})", ErrorCode::scene, "expected an array of shapes (got an object)"},
+      {"7 NaN", R"({"render": {"samples": NaN}})", ErrorCode::scene, "(got NaN, allowed finite numbers)"},
+      {"7 infinity", R"({"render": {"samples": -Infinity}})", ErrorCode::scene,
+       "(got -Infinity, allowed finite numbers)"},
+      {"7 beyond double", R"({"render": {"samples": 1e400}})", ErrorCode::scene,
+       "number out of range (got 1e400"},
+      {"8 beyond float", shaped(R"("sphere": {"center": [0, 0, 0], "radius": 1e300})"), ErrorCode::scene,
+       "/shapes/0/sphere/radius: error: expected a number (got 1e+300, allowed (0, 1000000000000])"},
+      {"9 negative count", R"({"render": {"samples": -1}})", ErrorCode::scene,
+       "(got -1, allowed [1, 16777216])"},
+      {"9 fractional count", R"({"render": {"samples": 1.5}})", ErrorCode::scene,
+       "expected an integer (got 1.5"},
+      {"10 deep nesting", std::string(1000000, '['), ErrorCode::scene,
+       "nesting too deep (allowed 256 levels)"},
+      {"11 bad UTF-8", "{\"abbe\": \"\xff\"}", ErrorCode::scene, "invalid UTF-8 (got byte 0xFF)"},
+      {"12 dangling name",
+       R"({"materials": {"glass": {"diffuse": {"reflectance": 0}}}, "shapes": [{)" + unit +
+           R"(, "material": "galss"}]})",
+       ErrorCode::scene, "/shapes/0/material: error: unknown material \"galss\"; did you mean \"glass\"?"},
+      {"13 no includes, so no cycles", R"({"include": "scene.json"})", ErrorCode::scene,
+       "unknown key \"include\""},
+      {"16 no pixels", sensed(R"("resolution": [0, 4], "observer": "1931")"), ErrorCode::scene,
+       "/sensor/resolution/0: error: expected an integer (got 0, allowed [1, inf))"},
+      {"16 negative", sensed(R"("resolution": [4, -5], "observer": "1931")"), ErrorCode::scene,
+       "(got -5, allowed"},
+      {"16 too many pixels", sensed(R"("resolution": [1e6, 1e6], "observer": "1931")"), ErrorCode::resource,
+       "too many pixels (got 1000000 x 1000000, allowed edges up to 65536 and 268435456 pixels in all)"},
+      {"16 too many pixels", sensed(R"("resolution": [65536, 65536], "observer": "1931")"),
+       ErrorCode::resource, "too many pixels"},
+      {"17 no samples", R"({"render": {"samples": 0}})", ErrorCode::scene, "(got 0, allowed [1, 16777216])"},
+      {"18 no view", R"({"camera": {"pinhole": {"fov_deg": 0}, )" + at + "}", ErrorCode::scene,
+       "/camera/pinhole/fov_deg: error: expected a number (got 0, allowed (0, 180))"},
+      {"18 half space", R"({"camera": {"pinhole": {"fov_deg": 180}, )" + at + "}", ErrorCode::scene,
+       "(got 180, allowed (0, 180))"},
+      {"19 singular", shaped(unit + R"(, "transform": {"scale": 0})"), ErrorCode::scene,
+       "/shapes/0/transform/scale: error: expected a number (got 0, allowed (0, 1000000000])"},
+      {"19 no axis", shaped(unit + R"(, "transform": {"rotate": {"axis": [0, 0, 0], "deg": 3}})"),
+       ErrorCode::scene, "a direction must not be zero"},
+      {"20 future", R"({"abbe": 2, "what": 3})", ErrorCode::scene,
+       "/abbe: error: future version of the scene format (got 2, allowed 1)"},
+      {"21 index 0", R"({"materials": {"m": {"dielectric": {"ior": 0}}}})", ErrorCode::scene,
+       "(got 0, allowed (0, 100])"},
+      {"21 index -1", R"({"materials": {"m": {"dielectric": {"ior": {"n": -1}}}}})", ErrorCode::scene,
+       "(got -1, allowed (0, 100])"},
+      {"23 reflectance", painted("1.2"), ErrorCode::scene,
+       "/materials/m/diffuse/reflectance: error: curve out of range at 300 nm (got 1.2, allowed [0, 1])"},
+      {"23 reflectance", painted("-0.1"), ErrorCode::scene, "(got -0.1, allowed [0, 1])"},
+      {"24 unsorted",
+       painted(R"({"table": {"wavelength_nm": [500, 400], "values": [0, 1], "outside": "zero"}})"),
+       ErrorCode::scene, "wavelengths must ascend (got 400 nm after 500 nm)"},
+      {"24 duplicate",
+       painted(R"({"table": {"wavelength_nm": [400, 400], "values": [0, 1], "outside": "zero"}})"),
+       ErrorCode::scene, "wavelengths must ascend (got 400 nm after 400 nm)"},
+      {"24 one sample", painted(R"({"table": {"wavelength_nm": [400], "values": [1], "outside": "zero"}})"),
+       ErrorCode::scene, "a table needs two samples or more (got 1)"},
+      {"24 micrometres",
+       painted(R"({"table": {"wavelength_nm": [0.4, 500], "values": [0, 1], "outside": "zero"}})"),
+       ErrorCode::scene, "(got 0.4, allowed [100, 100000])"},
+      {"24 lengths", painted(R"({"table": {"wavelength_nm": [400, 500], "values": [1], "outside": "zero"}})"),
+       ErrorCode::scene, "(got 1 values, allowed 2)"},
+      {"25 emission", lit(R"({"spectrum": -1})"), ErrorCode::scene, "(got -1, allowed [0, 1e+30])"},
+      {"26 absorption", R"({"materials": {"m": {"dielectric": {"ior": 1.5, "absorption_per_m": -1}}}})",
+       ErrorCode::scene, "(got -1, allowed [0, 1e+30])"},
+      {"27 empty band", sensed(R"("resolution": [1, 1], "channels": {"R": {"band": [600, 600]}})"),
+       ErrorCode::scene,
+       "/sensor/channels/R/band: error: an empty band (got [600, 600] nm, allowed low < high)"},
+      {"27 zero response", sensed(R"("resolution": [1, 1], "channels": {"R": 0})"), ErrorCode::scene,
+       "channel \"R\" responds to no wavelength in [300, 1100] nm"},
+      {"27 nothing in common", sensed(R"("resolution": [1, 1], "quantum_efficiency": {"band": [400, 500]},
+                                         "channels": {"R": {"band": [600, 700]}})"),
+       ErrorCode::scene, "responds to no wavelength"},
+      {"30 index",
+       shaped(R"("mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 3]]})"),
+       ErrorCode::input, "triangle 0 names a vertex that does not exist (got 3, allowed [0, 2])"},
+      {"30 fractional index",
+       shaped(R"("mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 0.5]]})"),
+       ErrorCode::scene, "expected an integer (got 0.5)"},
+      {"33 zero area",
+       R"({"lights": [{"quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [2, 0, 0]},
+                          "emission": {"spectrum": 1}}]})",
+       ErrorCode::input, "a quad of zero area (got 0, allowed (0, inf))"},
+      {"39 a folder as mesh", shaped(R"("mesh": ".")"), ErrorCode::input, "not a regular file"},
+      {"missing mesh", shaped(R"("mesh": "none.ply")"), ErrorCode::input, "no such file"},
+      {"38 URL", shaped(R"("mesh": "http://example.org/a.ply")"), ErrorCode::input,
+       "expected a file (got the URL"},
+      {"two cameras", R"({"camera": {"pinhole": {"fov_deg": 9}, "thin_lens": {}, )" + at + "}",
+       ErrorCode::scene,
+       "expected exactly one key (got pinhole, thin_lens, allowed pinhole, thin_lens, irradiance_probe)"},
+      {"up along the sight",
+       R"({"camera": {"pinhole": {"fov_deg": 9}, "from": [0, 0, 1], "to": [0, 0, 0], "up": [0, 0, 1]}})",
+       ErrorCode::scene, "up is parallel"},
+      {"too near",
+       R"({"camera": {"thin_lens": {"focal_length": 2, "f_number": 4, "focus_distance": 2}, )" + at + "}",
+       ErrorCode::scene, "the lens cannot focus within its focal length (got 2 m, allowed (2, inf) m)"},
+      {"relative spectrum", lit(R"({"illuminant": "A"})"), ErrorCode::scene,
+       "illuminant is a relative spectrum and needs a scale, one of radiant_flux_W, luminous_flux_lm, "
+       "intensity, luminous_intensity"},
+      {"two scales", lit(R"({"illuminant": "A", "intensity": 1, "radiant_flux_W": 1})"), ErrorCode::scene,
+       "an emission has one scale (got radiant_flux_W and intensity)"},
+      {"a scale of other lamps", lit(R"({"spectrum": 1, "radiance": 1})"), ErrorCode::scene,
+       "unknown key \"radiance\""},
+      {"invisible", lit(R"({"spectrum": {"band": [900, 1000]}, "luminous_intensity": 1})"), ErrorCode::scene,
+       "luminous_intensity cannot scale this spectrum"},
+      {"two skies",
+       R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}, {"environment": {}, "emission": {"spectrum": 1}}]})",
+       ErrorCode::scene, "a scene has one environment"},
+      {"glass brings its own",
+       R"({"materials": {"m": {"dielectric": {"ior": "N-BK7", "absorption_per_m": 1}}}})", ErrorCode::scene,
+       "absorption_per_m goes with a constant real index"},
+      {"unknown glass", R"({"materials": {"m": {"dielectric": {"ior": "N-BK77"}}}})", ErrorCode::scene,
+       "did you mean \"N-BK7\"?"},
+      {"energy times efficiency",
+       sensed(R"("resolution": [1, 1], "response": "energy", "quantum_efficiency": 1, "channels": {"R": 1})"),
+       ErrorCode::scene, "a quantum_efficiency makes the response quantum"},
+      {"observer has its own", sensed(R"("resolution": [1, 1], "observer": "1931", "quantum_efficiency": 1)"),
+       ErrorCode::scene, "quantum_efficiency goes with channels"},
+      {"a name EXR cannot hold", sensed(R"("resolution": [1, 1], "channels": {"a.b": 1})"), ErrorCode::scene,
+       "letters, digits, - and _ only (got \"a.b\")"},
+      {"unknown unit", R"({"units": "ft"})", ErrorCode::scene, "unknown unit of length \"ft\""},
+  };
+  for (const Fault& fault : faults) {
+    SCOPED_TRACE(fault.what);
+    const Loaded loaded = load(fault.fragment);
+    EXPECT_FALSE(loaded.scene);
+    ASSERT_TRUE(loaded.diagnostics.has_errors());
+    EXPECT_EQ(loaded.diagnostics.code(), fault.code) << loaded.text();
+    EXPECT_NE(loaded.text().find(fault.message), std::string::npos)
+        << loaded.text() << "lacks " << fault.message;
+    EXPECT_EQ(
+        std::ranges::count_if(loaded.diagnostics.all(),
+                              [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; }),
+        1)
+        << loaded.text();
+  }
+}
+
+TEST_F(DescriptionFaultsTest, NamesThePlaceAndTheKeysThatAreMissing) {
+  const Loaded loaded = load_text(
+      "{\n  \"abbe\": 1,\n  \"sensor\": {\"resolution\": [4, 3], \"observer\": 1931},\n"
+      "  \"render\": {\"samples\": 0}\n}");
+  EXPECT_EQ(
+      loaded.text(),
+      fmt::format("{0}:1:1: error: missing key \"camera\"\n{{\n^\n"
+                  "{0}:4:25: /render/samples: error: expected an integer (got 0, allowed [1, 16777216])\n"
+                  "  \"render\": {{\"samples\": 0}}\n                        ^\n",
+                  (folder_ / "scene.json").string()));
+  Diagnostics missing;
+  EXPECT_FALSE(load_scene(folder_ / "none.json", {}, missing));
+  EXPECT_EQ(missing.code(), ErrorCode::input);
+}
+
+TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
+  const Loaded dark = load("{}");
+  EXPECT_TRUE(dark.scene);
+  EXPECT_NE(dark.text().find("warning: no light: the image will be black"), std::string::npos);
+
+  const std::string lamp = R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}],)";
+  const Loaded beyond = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}}})");
+  EXPECT_NE(beyond.text().find(
+                "/materials/m: warning: N-SF11 holds on [370, 2500] nm, the sensor sees [300, 1100] nm"),
+            std::string::npos)
+      << beyond.text();
+  const Loaded within = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}},
+    "sensor": {"resolution": [1, 1], "channels": {"a": {"band": [400, 500]}, "b": {"band": [600, 700]}}}})");
+  EXPECT_EQ(within.text(), "");
+}
+
+}  // namespace
+}  // namespace abbe

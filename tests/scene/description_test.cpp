@@ -1,0 +1,307 @@
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "description.h"
+#include "spectral/colorimetry.h"
+#include "spectral/library.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3d;
+using testing::DescriptionTest;
+using testing::kSquare;
+using testing::Loaded;
+using testing::ply;
+using testing::shaped;
+using testing::write;
+
+constexpr double kPi = std::numbers::pi;
+
+void expect_near(const V3d& a, const V3d& b, double tolerance = 1e-12) {
+  EXPECT_LE((a - b).length(), tolerance) << a << " and " << b;
+}
+
+TEST_F(DescriptionTest, ConvertsToMetresAndRecentres) {
+  const Loaded loaded = load(R"({"units": "mm",
+    "camera": {"pinhole": {"focal_length": 50, "f_number": 8}, "from": [1000, 0, 0], "to": [2000, 0, 0], "up": [0, 0, 2]},
+    "materials": {"m": {"diffuse": {"reflectance": 0}}},
+    "shapes": [{"sphere": {"center": [2000, 0, 0], "radius": 10}, "material": "m"}],
+    "lights": [{"point": {"at": [2000, 0, 100]}, "emission": {"spectrum": 1}}]})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  EXPECT_EQ(loaded->unit_m, 1e-3);
+  expect_near(loaded->origin_m, {2, 0, 0});
+  const auto& sphere = std::get<Sphere>(loaded->shapes[0].shape);
+  expect_near(sphere.center, {0, 0, 0});
+  EXPECT_DOUBLE_EQ(sphere.radius, 0.01);
+  expect_near(V3d(std::get<PointLight>(loaded->lights[0].kind).position), {0, 0, 0.1}, 1e-8);
+  const auto& lens = std::get<LensCamera>(loaded->camera.kind);
+  expect_near(lens.frame.position, {-1, 0, 0});
+  EXPECT_DOUBLE_EQ(lens.image_distance, 0.05);
+  EXPECT_DOUBLE_EQ(lens.aperture_radius, 0.05 / 16);
+
+  const Loaded inches = load(shaped(R"("sphere": {"center": [0, 0, 0], "radius": 2})"), {{"/units", "in"}});
+  EXPECT_DOUBLE_EQ(std::get<Sphere>(inches->shapes.at(0).shape).radius, 0.0508);
+  const Loaded bench = load(shaped(R"("mesh": "bench.ply")"), {{"/units", "cm"}});
+  EXPECT_NEAR(area(bench->shapes.at(0).shape), 1e-4, 1e-10);
+}
+
+TEST_F(DescriptionTest, PlacesCameras) {
+  const auto lens = [&](const std::string& camera) {
+    const Loaded loaded = load(fmt::format(
+        R"({{"camera": {{{}, "from": [0, -3, 0], "to": [0, 0, 4], "up": [0, 0, 1]}}, "sensor": {{"resolution": [300, 200],
+             "pixel_pitch_um": 10, "observer": "1931"}}}})",
+        camera));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.scene ? std::get<LensCamera>(loaded->camera.kind) : LensCamera{};
+  };
+  const LensCamera pinhole = lens(R"("pinhole": {"fov_deg": 90})");
+  EXPECT_DOUBLE_EQ(pinhole.image_distance, 1e-3) << "half of 200 pixels of 10 um, at 45 degrees";
+  EXPECT_DOUBLE_EQ(pinhole.aperture_radius, 1e-3 / 8);
+  EXPECT_TRUE(pinhole.pinhole);
+  expect_near(pinhole.frame.forward, V3d(0, 0.6, 0.8));
+  expect_near(pinhole.frame.right, V3d(1, 0, 0));
+  expect_near(pinhole.frame.up, V3d(0, -0.8, 0.6));
+
+  const LensCamera near = lens(R"("thin_lens": {"focal_length": 0.5, "f_number": 2, "focus_distance": 1})");
+  EXPECT_DOUBLE_EQ(near.image_distance, 1);
+  EXPECT_DOUBLE_EQ(near.aperture_radius, 0.125);
+  EXPECT_FALSE(near.pinhole);
+  const LensCamera aimed = lens(R"("thin_lens": {"focal_length": 0.5, "f_number": 2})");
+  EXPECT_DOUBLE_EQ(aimed.focus_distance, 5);
+  EXPECT_DOUBLE_EQ(1 / aimed.image_distance, 1 / 0.5 - 1 / 5.0);
+  const LensCamera far =
+      lens(R"("thin_lens": {"focal_length": 0.5, "f_number": 2, "focus_distance": "infinity"})");
+  EXPECT_EQ(far.image_distance, 0.5);
+  EXPECT_EQ(far.focus_distance, std::numeric_limits<double>::infinity());
+}
+
+TEST_F(DescriptionTest, PlacesProbes) {
+  const Loaded loaded = load(
+      R"({"camera": {"irradiance_probe": {"quad": {"corner": [1, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 3, 0]}}},
+    "sensor": {"observer": "1964"}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  ASSERT_TRUE(loaded->camera.is_probe());
+  EXPECT_EQ(loaded->camera.width * loaded->camera.height, 1);
+  const auto& probe = std::get<IrradianceProbe>(loaded->camera.kind);
+  expect_near(probe.corner + loaded->origin_m, {1, 0, 0});
+  expect_near(probe.edge_u, {2, 0, 0});
+  expect_near(probe.normal, {0, 0, 1});
+  const Loaded point = load(R"({"camera": {"irradiance_probe": {"at": [1, 0, 0], "normal": [0, 0, -2]}}})");
+  ASSERT_TRUE(point.scene) << point.text();
+  expect_near(std::get<IrradianceProbe>(point->camera.kind).normal, {0, 0, -1});
+  EXPECT_EQ(std::get<IrradianceProbe>(point->camera.kind).edge_u.length(), 0);
+}
+
+TEST_F(DescriptionTest, ReadsCurves) {
+  EXPECT_EQ(curve("0.3")(777), 0.3);
+  const Curve table =
+      curve(R"({"table": {"wavelength_nm": [400, 500], "values": [0.2, 0.4], "outside": "clamp"}})");
+  EXPECT_NEAR(table(425), 0.25, 1e-12);
+  EXPECT_NEAR(table(900), 0.4, 1e-12);
+  EXPECT_EQ(
+      curve(R"({"table": {"wavelength_nm": [400, 500], "values": [0.2, 0.4], "outside": "zero"}})")(900), 0);
+  const Curve band = curve(R"({"band": [500, 600], "value": 0.5})");
+  EXPECT_EQ(band(500), 0.5);
+  EXPECT_EQ(band(600), 0);
+  EXPECT_NEAR(curve(R"({"gaussian": {"center_nm": 550, "fwhm_nm": 20, "peak": 0.8}})")(560), 0.4, 1e-3);
+  EXPECT_NEAR(curve(R"({"lines": [{"nm": 546.1, "width_nm": 2, "power": 0.5}]})")(546.5), 0.25, 1e-12);
+  EXPECT_NEAR(curve(R"({"product": [0.5, {"band": [500, 600]}]})")(550), 0.5, 1e-12);
+  EXPECT_NEAR(curve(R"({"sum": [0.25, {"band": [500, 600], "value": 0.5}]})")(550), 0.75, 1e-12);
+  EXPECT_NEAR(curve(R"({"scale": 0.5, "of": 0.5})")(550), 0.25, 1e-12);
+  EXPECT_NEAR(curve(R"({"scale": 1e-3, "of": {"daylight_K": 6504}})")(560), 0.1, 1e-9);
+  EXPECT_NEAR(curve(R"({"scale": 1e-8, "of": {"blackbody_K": 3000}})")(600),
+              1e-8 * planck_radiance(3000, 600), 1e-15);
+  EXPECT_NEAR(curve(R"("filter.csv:T")")(550), 0.3, 1e-12) << "a file beside the scene";
+  EXPECT_GT(curve(R"("cornell_box_walls:red")")(650), 0.6);
+}
+
+TEST_F(DescriptionTest, NormalisesEmission) {
+  const std::string quad = R"("quad": {"corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 3, 0]})";
+  const std::string point = R"("point": {"at": [0, 0, 0]})";
+  const std::string spot = R"("spot": {"at": [0, 0, 0], "direction": [0, 0, 1], "half_angle_deg": 60})";
+  EXPECT_NEAR(emission(quad, R"({"illuminant": "A", "radiant_flux_W": 5})").integral() * kPi * 6, 5, 1e-9);
+  EXPECT_NEAR(
+      emission(quad + R"(, "two_sided": true)", R"({"illuminant": "A", "radiant_flux_W": 5})").integral() *
+          kPi * 12,
+      5, 1e-9);
+  EXPECT_NEAR(photometric(emission(quad, R"({"illuminant": "FL11", "luminous_flux_lm": 800})")) * kPi * 6,
+              800, 1e-7);
+  EXPECT_NEAR(emission(quad, R"({"daylight_K": 6504, "radiance": 7})").integral(), 7, 1e-9);
+  EXPECT_NEAR(photometric(emission(quad, R"({"blackbody_K": 2856, "luminance": 900})")), 900, 1e-7);
+  EXPECT_NEAR(photometric(emission(point, R"({"spectrum": 1, "luminous_flux_lm": 10})")) * 4 * kPi, 10, 1e-9);
+  EXPECT_NEAR(emission(point, R"({"spectrum": 1, "intensity": 3})").integral(), 3, 1e-9);
+  EXPECT_NEAR(emission(spot, R"({"spectrum": 1, "radiant_flux_W": 3})").integral() * kPi, 3, 1e-6)
+      << "2 pi (1 - cos 60)";
+  EXPECT_NEAR(photometric(emission(
+                  spot, R"({"lines": [{"nm": 555, "width_nm": 1, "power": 4}], "luminous_intensity": 8})")),
+              8, 1e-9);
+  EXPECT_NEAR(emission(R"("environment": {})", R"({"illuminant": "D65", "radiance": 2})").integral(), 2,
+              1e-9);
+  EXPECT_NEAR(emission(quad, R"({"blackbody_K": 3000})")(500), planck_radiance(3000, 500),
+              1e-9 * planck_radiance(3000, 500));
+  EXPECT_NEAR(emission(point, R"({"lines": [{"nm": 500, "width_nm": 2, "power": 3}]})").integral(), 3, 1e-9);
+}
+
+TEST_F(DescriptionTest, LampsAreShapes) {
+  const Loaded loaded = load(
+      R"({"lights": [{"disc": {"center": [0, 0, 1], "normal": [0, 0, -1], "radius": 2}, "two_sided": true,
+      "emission": {"spectrum": 1}}, {"name": "bulb", "sphere": {"center": [0, 0, 0], "radius": 0.1}, "emission": {"spectrum": 2}, "material": "m"}],
+    "materials": {"m": {"diffuse": {"reflectance": 0.5}}},
+    "shapes": [{"mesh": "bench.ply", "material": "m", "emission": {"spectrum": 3}}]})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  ASSERT_EQ(loaded->shapes.size(), 3U);
+  ASSERT_EQ(loaded->lights.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& area = std::get<AreaLight>(loaded->lights[i].kind);
+    EXPECT_EQ(loaded->shapes[area.shape].light, static_cast<std::int32_t>(i));
+    EXPECT_EQ(area.two_sided, i == 1);
+  }
+  EXPECT_EQ(loaded->lights[2].name, "bulb");
+  EXPECT_EQ(loaded->materials[loaded->shapes[2].material].name, "m");
+  EXPECT_EQ(std::get<DiffuseMaterial>(loaded->materials[loaded->shapes[1].material].model).reflectance.max(),
+            0)
+      << "a lamp without a material is black";
+}
+
+TEST_F(DescriptionTest, ReadsSensors) {
+  const Loaded ccd = load(
+      R"({"sensor": {"resolution": [4, 3], "pixel_pitch_um": 9, "exposure_s": 0.5, "quantum_efficiency": "kodak_kaf-3200me",
+      "channels": {"R": {"band": [600, 700], "value": 0.5}}}})");
+  ASSERT_TRUE(ccd.scene) << ccd.text();
+  EXPECT_EQ(ccd->camera.width, 4);
+  EXPECT_EQ(ccd->camera.height, 3);
+  EXPECT_DOUBLE_EQ(ccd->camera.pixel_pitch, 9e-6);
+  EXPECT_EQ(ccd->exposure_s, 0.5);
+  Diagnostics diagnostics;
+  const auto efficiency = load_curve("camera", "kodak_kaf-3200me", {}, diagnostics);
+  ASSERT_TRUE(efficiency);
+  ASSERT_EQ(ccd->channels.size(), 1U);
+  EXPECT_EQ(ccd->channels[0].kind, ResponseKind::quantum);
+  EXPECT_NEAR(ccd->channels[0].weight(650), 0.5 * efficiency->curve(650) / photon_energy(650),
+              1e-6 / photon_energy(650));
+  EXPECT_EQ(ccd->channels[0].weight(550), 0);
+
+  const Loaded energy =
+      load(R"({"sensor": {"resolution": [1, 1], "channels": {"a": {"band": [400, 500]}, "b": -0.5}}})");
+  ASSERT_TRUE(energy.scene) << energy.text();
+  EXPECT_EQ(energy->channels[0].kind, ResponseKind::energy);
+  EXPECT_EQ(energy->channels[0].weight(450), 1);
+  EXPECT_EQ(energy->channels[1].weight(450), -0.5) << "signed responses are kept";
+  const Loaded quantum =
+      load(R"({"sensor": {"resolution": [1, 1], "response": "quantum", "channels": {"a": 1}}})");
+  EXPECT_NEAR(quantum->channels.at(0).weight(500) * photon_energy(500), 1, 1e-6);
+
+  const Loaded observer = load(R"({"sensor": {"resolution": [1, 1], "observer": "1931"}})");
+  ASSERT_EQ(observer->channels.size(), 3U);
+  EXPECT_EQ(observer->channels[1].name, "Y");
+  const Loaded camera = load(R"({"sensor": {"resolution": [1, 1], "camera": "Canon_EOS_5D_Mark_II"}})");
+  ASSERT_EQ(camera->channels.size(), 3U);
+  EXPECT_EQ(camera->channels[0].name, "R");
+}
+
+TEST_F(DescriptionTest, ReadsMaterials) {
+  const Loaded loaded = load(R"({"materials": {
+    "tinted": {"dielectric": {"ior": 1.5, "absorption_per_m": {"table": {"wavelength_nm": [400, 700], "values": [100, 400], "outside": "clamp"}}}},
+    "glass": {"dielectric": {"ior": "N-BK7"}}, "absorbing": {"dielectric": {"ior": {"n": 1.4, "k": 1e-6}}},
+    "silver": {"conductor": {"ior": "Ag_Johnson"}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto& tinted = std::get<DielectricMaterial>(loaded->materials[0].model).index;
+  EXPECT_NEAR(tinted.absorption_per_m(500), 200, 1e-3);
+  EXPECT_NEAR(tinted.absorption_per_m(900), 400, 1e-3);
+  EXPECT_EQ(tinted.n(500), 1.5);
+  EXPECT_FALSE(tinted.dispersive());
+  EXPECT_TRUE(tinted.absorbing());
+  EXPECT_NEAR(std::get<DielectricMaterial>(loaded->materials[1].model).index.n(587.5618), 1.516800, 1e-6);
+  EXPECT_NEAR(std::get<DielectricMaterial>(loaded->materials[2].model).index.k(500), 1e-6, 1e-12);
+  EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
+}
+
+TEST_F(DescriptionTest, TransformsShapes) {
+  const auto sphere = std::get<Sphere>(shape(R"("sphere": {"center": [1, 0, 0], "radius": 1}, "transform":
+      {"translate": [0, 0, 5], "rotate": {"axis": [0, 0, 3], "deg": 90}, "scale": 2})"));
+  expect_near(sphere.center, {0, 2, 5});
+  EXPECT_DOUBLE_EQ(sphere.radius, 2);
+  const auto steps = std::get<Sphere>(shape(R"("sphere": {"center": [1, 0, 0], "radius": 1}, "transform":
+      [{"translate": [0, 0, 5]}, {"rotate": {"axis": [1, 0, 0], "deg": 90}}, {"scale": 2}])"));
+  expect_near(steps.center, {2, -10, 0});
+  const auto quad = std::get<Quad>(
+      shape(R"("quad": {"corner": [1, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]}, "transform":
+      {"rotate": {"axis": [0, 0, 1], "deg": 90}, "translate": [1, 1, 1]})"));
+  expect_near(quad.corner, {1, 2, 1});
+  expect_near(quad.edge_u, {0, 1, 0});
+  expect_near(quad.edge_v, {-1, 0, 0});
+  const auto disc =
+      std::get<Disc>(shape(R"("disc": {"center": [1, 0, 0], "normal": [5, 0, 0], "radius": 1}, "transform":
+      {"rotate": {"axis": [0, 1, 0], "deg": 90}, "scale": 3})"));
+  expect_near(disc.center, {0, 0, -3});
+  expect_near(disc.normal, {0, 0, -1});
+  EXPECT_DOUBLE_EQ(disc.radius, 3);
+  const auto mesh =
+      std::get<Mesh>(shape(R"("mesh": "bench.ply", "transform": {"scale": 2, "translate": [0, 0, 1]})"));
+  expect_near(mesh.vertices.at(2), {2, 2, 1});
+}
+
+TEST_F(DescriptionTest, MakesPrisms) {
+  const Mesh prism = make_prism(40, 3, 5);
+  double volume = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& t : prism.triangles) {
+    const V3d &a = prism.vertices[t[0]], &b = prism.vertices[t[1]], &c = prism.vertices[t[2]];
+    volume += a.dot(b.cross(c)) / 6;
+    EXPECT_GT((b - a).cross(c - a).dot(a), 0) << "outward, the origin being inside";
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+  }
+  for (const auto& [edge, count] : edges)
+    EXPECT_EQ(count, edges.count({edge.second, edge.first})) << "closed";
+  EXPECT_NEAR(volume, 0.5 * 9 * std::sin(40 * kPi / 180) * 5, 1e-12);
+  V3d mean(0, 0, 0);
+  for (const V3d& v : prism.vertices) mean += v / 6;
+  expect_near(mean, {0, 0, 0});
+  const V3d apex = *std::ranges::max_element(prism.vertices, {}, [](const V3d& v) { return v.z; });
+  expect_near(apex, {0, apex.y, 2 * std::cos(20 * kPi / 180)});
+  EXPECT_DOUBLE_EQ(std::abs(apex.y), 2.5);
+}
+
+TEST_F(DescriptionTest, OverridesAndHashes) {
+  const std::string text = R"({"materials": {"m": {"diffuse": {"reflectance": "filter.csv:T"}}},
+    "shapes": [{"mesh": "bench.ply", "material": "m"}], "render": {"integrator": "path", "samples": 16, "max_depth": 12,
+    "roulette_depth": -1, "seed": 7}, "output": {"image": "a.exr", "display": "a.png", "exposure": 0.5}})";
+  const Loaded first = load(text);
+  ASSERT_TRUE(first.scene) << first.text();
+  EXPECT_EQ(first->render.integrator, Integrator::path);
+  EXPECT_EQ(first->render.samples, 16);
+  EXPECT_EQ(first->render.max_depth, 12);
+  EXPECT_EQ(first->render.roulette_depth, -1);
+  EXPECT_EQ(first->render.seed, 7U);
+  EXPECT_EQ(first->output.image, "a.exr");
+  EXPECT_EQ(first->output.display, "a.png");
+  EXPECT_EQ(first->output.display_exposure, 0.5);
+  EXPECT_EQ(first->sha256, load(text)->sha256);
+
+  const Loaded changed =
+      load(text, {{"/render/samples", "4"}, {"/sensor", R"({"resolution": [1, 1], "observer": 1964})"}});
+  ASSERT_TRUE(changed.scene) << changed.text();
+  EXPECT_EQ(changed->render.samples, 4);
+  EXPECT_EQ(changed->channels.size(), 3U);
+  EXPECT_NE(first->sha256, changed->sha256);
+  std::set<std::string> hashes{first->sha256};
+  write(folder_ / "bench.ply", ply(4, 1, kSquare + "3 0 1 2\n"));
+  hashes.insert(load(text)->sha256);
+  write(folder_ / "filter.csv",
+        "# unit: transmittance\n# outside: zero\nwavelength_nm,T\n500,0.2\n600,0.5\n");
+  hashes.insert(load(text)->sha256);
+  EXPECT_EQ(hashes.size(), 3U) << "the files a scene names are part of it";
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,303 @@
+#include <gtest/gtest.h>
+
+#include "scene/lights/spherical_rectangle.h"
+#include "scenes.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3d;
+using Imath::V3f;
+using testing::lit_by;
+using testing::Random;
+
+constexpr double kPi = std::numbers::pi;
+
+// Irradiance [W/m^2] of a surface element over pi, by light sampling on a grid of strata: its configuration
+// factor, as radiance is 1.
+double configuration_factor(const Scene& scene, const V3f& point, const V3f& normal, int side = 256,
+                            std::uint32_t seed = 1) {
+  Random random(seed);
+  double sum = 0;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const Imath::V2f u((static_cast<float>(i) + random.uniform()) / static_cast<float>(side),
+                         (static_cast<float>(j) + random.uniform()) / static_cast<float>(side));
+      const auto sample = sample_light(scene.lights[0], scene.shapes, point, u);
+      if (!sample) continue;
+      EXPECT_NEAR(sample->wi.length(), 1, 1e-6);
+      sum += std::max(0.0, static_cast<double>(sample->wi.dot(normal))) *
+             static_cast<double>(sample->factor / sample->pdf);
+    }
+  return sum / (side * side) / kPi;
+}
+
+// Solid angle of a triangle. [VanOosterom1983]
+double solid_angle(const V3d& a, const V3d& b, const V3d& c) {
+  const double la = a.length();
+  const double lb = b.length();
+  const double lc = c.length();
+  return 2 * std::atan2(std::abs(a.dot(b.cross(c))),
+                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+double solid_angle(const Quad& q, const V3d& from) {
+  const V3d a = q.corner - from;
+  return solid_angle(a, a + q.edge_u, a + q.edge_v) +
+         solid_angle(a + q.edge_u + q.edge_v, a + q.edge_v, a + q.edge_u);
+}
+
+// The unit square at z = 1, facing down, as a quad, as a mesh, and as a parallelogram's worth of the same
+// rectangle.
+Shape square_mesh() {
+  return Mesh{{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, {{0, 3, 2}, {0, 2, 1}}};
+}
+Shape square_quad() {
+  return Quad{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+}
+
+TEST(AreaLights, RectangleOverItsCornerAndCentre) {
+  for (const Shape& square : {square_quad(), square_mesh()}) {
+    const Scene scene = lit_by(square);
+    EXPECT_NEAR(configuration_factor(scene, {0, 0, 0}, {0, 0, 1}), 0.13853161, 1e-3 * 0.1385);
+    EXPECT_NEAR(configuration_factor(scene, {0.5F, 0.5F, 0}, {0, 0, 1}), 0.23945647, 1e-3 * 0.2394);
+  }
+}
+
+TEST(AreaLights, PerpendicularRectangle) {
+  const Scene scene = lit_by(Quad{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}});
+  EXPECT_NEAR(configuration_factor(scene, {0, 0, 0}, {0, 0, 1}), 0.05573420, 1e-3 * 0.0557);
+}
+
+TEST(AreaLights, ParallelogramByArea) {
+  // Two skew halves of the unit square's neighbourhood: one parallelogram and the mesh of the same triangles
+  // must agree.
+  const Quad skew{{0, 0, 1}, {0.5, 1, 0}, {1, 0, 0}};
+  const Scene quad = lit_by(skew);
+  const Scene mesh = lit_by(Mesh{{{0, 0, 1}, {0.5, 1, 1}, {1, 0, 1}, {1.5, 1, 1}}, {{0, 1, 2}, {3, 2, 1}}});
+  EXPECT_NEAR(configuration_factor(quad, {0.3F, 0, 0}, {0, 0, 1}),
+              configuration_factor(mesh, {0.3F, 0, 0}, {0, 0, 1}), 2e-4);
+}
+
+TEST(AreaLights, DiscOnAndOffItsAxis) {
+  const Scene wide = lit_by(Disc{{0, 0, 1}, {0, 0, -1}, 1});
+  EXPECT_NEAR(configuration_factor(wide, {0, 0, 0}, {0, 0, 1}), 0.5, 5e-4);
+  const Scene aside = lit_by(Disc{{1, 0, 1}, {0, 0, -1}, 0.5});
+  EXPECT_NEAR(configuration_factor(aside, {0, 0, 0}, {0, 0, 1}), 0.06587843, 6.5e-5);
+}
+
+TEST(AreaLights, FormFactorsBetweenSurfaces) {
+  // Mean configuration factor over a receiver: opposite and adjacent faces of a cube, coaxial discs.
+  const auto mean = [](const Scene& scene, const V3f& normal, auto&& receiver) {
+    double sum = 0;
+    std::uint32_t seed = 0;
+    constexpr int kSide = 48;
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j)
+        sum += configuration_factor(
+            scene, receiver((static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide),
+            normal, 16, ++seed);
+    return sum / (kSide * kSide);
+  };
+  const Scene lid = lit_by(square_quad());
+  EXPECT_NEAR(mean(lid, {0, 0, 1}, [](float x, float y) { return V3f(x, y, 0); }), 0.19982490, 2e-4);
+  EXPECT_NEAR(mean(lid, {1, 0, 0}, [](float y, float z) { return V3f(0, y, z); }), 0.20004378, 4e-4);
+  const Scene disc = lit_by(Disc{{0, 0, 1}, {0, 0, -1}, 1});
+  const auto on_disc = [](float x, float y) {
+    return sample_area(Disc{{0, 0, 0}, {0, 0, 1}, 1}, {}, {x, y}).point;
+  };
+  EXPECT_NEAR(mean(disc, {0, 0, 1}, on_disc), 0.38196601, 4e-4);
+}
+
+TEST(AreaLights, SpheresOfAnySizeAndDistance) {
+  for (const double radius : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (const double ratio : {1.001, 1.5, 10.0, 1e3}) {
+      const double distance = radius * ratio;
+      const Scene scene = lit_by(Sphere{{0, 0, distance}, radius});
+      EXPECT_NEAR(configuration_factor(scene, {0, 0, 0}, {0, 0, 1}, 64) * ratio * ratio, 1, 1e-3)
+          << radius << " at " << distance;
+    }
+}
+
+TEST(AreaLights, SphereFromInside) {
+  const V3f inside(0.2F, 0.3F, -0.4F);
+  EXPECT_EQ(configuration_factor(lit_by(Sphere{{0, 0, 0}, 1}), inside, {0, 0, 1}), 0);
+  EXPECT_NEAR(configuration_factor(lit_by(Sphere{{0, 0, 0}, 1}, true), inside, {0, 0, 1}), 1, 2e-3);
+  // On the sphere itself, rounded to either side of it.
+  const Scene sphere = lit_by(Sphere{{0, 0, 0}, 1}, true);
+  Random random(2);
+  for (int i = 0; i < 100; ++i) {
+    const V3f wall(random.direction());
+    EXPECT_NEAR(configuration_factor(sphere, wall, -wall, 32), 1, 1e-2);
+  }
+}
+
+TEST(AreaLights, OneSidedOnesAreDarkFromBehind) {
+  for (const Shape& shape : {square_quad(), square_mesh(), Shape(Disc{{0.5, 0.5, 1}, {0, 0, -1}, 0.5})}) {
+    const V3f above(0.5F, 0.4F, 1.5F);
+    EXPECT_EQ(configuration_factor(lit_by(shape), above, {0, 0, -1}, 16), 0);
+    EXPECT_GT(configuration_factor(lit_by(shape, true), above, {0, 0, -1}, 16), 0.2);
+    const Scene scene = lit_by(shape);
+    const V3f wi(0, 0, -1);
+    EXPECT_EQ(light_pdf(scene.lights[0], scene.shapes, above, wi, above + wi * 0.5F, wi), 0);
+    EXPECT_FALSE(emits_towards(scene.lights[0], {0, 0, -1}, {0, 0, 1}));
+    EXPECT_TRUE(emits_towards(scene.lights[0], {0, 0, -1}, {0, 0, -1}));
+  }
+}
+
+// Lights and points around them, near and far.
+struct View {
+  Shape shape;
+  V3f point;
+};
+std::vector<View> views() {
+  return {{Sphere{{0, 0, 3}, 1}, {0, 0, 0}},
+          {Sphere{{0, 0, 3}, 1}, {0.2F, 0, 1.9F}},
+          {Sphere{{0, 0, 3}, 1}, {0.5F, 0, 3.2F}},
+          {square_quad(), {0.1F, 0.2F, 0.4F}},
+          {square_quad(), {1.5F, 0.2F, 0.9F}},
+          {square_quad(), {0.1F, 0.2F, -20}},
+          {Quad{{0, 0, 1}, {0.5, 1, 0}, {1, 0, 0}}, {0.1F, 0.2F, 0.5F}},
+          {square_mesh(), {0.1F, 0.7F, 0.5F}},
+          {Disc{{0, 0, 1}, V3d(0.3, 0, -1).normalized(), 0.8}, {0.1F, 0.7F, 0.3F}}};
+}
+
+TEST(AreaLights, DensityIsThatOfTheSamples) {
+  Random random(3);
+  for (const auto& [shape, point] : views()) {
+    const Scene scene = lit_by(shape, true);
+    for (int i = 0; i < 5000; ++i) {
+      const auto sample = sample_light(scene.lights[0], scene.shapes, point, random.pair());
+      ASSERT_TRUE(sample);
+      const auto hit = scene.intersect({point, sample->wi});
+      if (!hit || std::abs(hit->t - sample->distance) > 1e-3F * sample->distance)
+        continue;  // a rim, or seen through the light
+      const float grazing = std::abs(hit->normal.dot(sample->wi));
+      if (grazing < 1e-3F) continue;
+      EXPECT_NEAR(
+          light_pdf(scene.lights[0], scene.shapes, point, sample->wi, hit->point, hit->normal) / sample->pdf,
+          1, 1e-5 / grazing);
+      EXPECT_FALSE(scene.occluded(point, sample->end));
+    }
+  }
+}
+
+TEST(AreaLights, DensityIntegratesToOne) {
+  for (const auto& [shape, point] : views()) {
+    const Scene scene = lit_by(shape, true);
+    Random random(4);
+    double sum = 0;
+    int hits = 0;
+    constexpr int kSide = 700;
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j) {
+        // Directions on a grid in the cosine of the angle with z and the azimuth.
+        const double z = 2 * (i + static_cast<double>(random.uniform())) / kSide - 1;
+        const double phi = 2 * kPi * (j + static_cast<double>(random.uniform())) / kSide;
+        const double ring = std::sqrt((1 - z) * (1 + z));
+        const V3f wi(V3d(ring * std::cos(phi), ring * std::sin(phi), z));
+        const auto hit = scene.intersect({point, wi});
+        if (!hit) continue;
+        ++hits;
+        sum +=
+            static_cast<double>(light_pdf(scene.lights[0], scene.shapes, point, wi, hit->point, hit->normal));
+      }
+    EXPECT_NEAR(sum / (kSide * kSide) * 4 * kPi, 1, hits < 1000 ? 4 / std::sqrt(hits) : 5e-3)
+        << shape.index() << " from " << point;
+  }
+}
+
+TEST(SphericalRectangle, IsUniformInSolidAngle) {
+  const Quad quad{{-1, -0.5, 0.3}, {3, 0, 0}, {0, 2, 0}};
+  const V3d from(0.4, 0.1, 0);
+  const auto rectangle = SphericalRectangle::seen_from(quad, from);
+  ASSERT_TRUE(rectangle);
+  EXPECT_NEAR(rectangle->solid_angle(), solid_angle(quad, from), 1e-12);
+  const Quad part{quad.corner, quad.edge_u * 0.3, quad.edge_v * 0.6};
+  int inside = 0;
+  constexpr int kSide = 1000;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      const Imath::V2d uv =
+          rectangle->sample({(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide});
+      inside += uv.x < 0.3 && uv.y < 0.6;
+    }
+  EXPECT_NEAR(inside / double(kSide * kSide), solid_angle(part, from) / solid_angle(quad, from), 3e-4);
+}
+
+TEST(SphericalRectangle, LeavesTheRestToArea) {
+  const Quad quad{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_TRUE(SphericalRectangle::seen_from(quad, {0, 0, 0}));
+  EXPECT_FALSE(SphericalRectangle::seen_from(quad, {0, 0, -30})) << "small";
+  EXPECT_FALSE(SphericalRectangle::seen_from(quad, {0.5, 0.5, 1})) << "inside its plane";
+  EXPECT_FALSE(SphericalRectangle::seen_from({{0, 0, 1}, {1, 0.1, 0}, {0, 1, 0}}, {0, 0, 0}))
+      << "no rectangle";
+}
+
+TEST(DeltaLights, FallOffWithTheSquareOfDistance) {
+  const Light bulb{"bulb", PointLight{{0, 0, 2}}, Curve(1.0)};
+  const auto sample = sample_light(bulb, {}, {0, 0, 0}, {0, 0});
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->wi, V3f(0, 0, 1));
+  EXPECT_FLOAT_EQ(sample->distance, 2);
+  EXPECT_FLOAT_EQ(sample->factor, 0.25F);
+  EXPECT_EQ(sample->pdf, 1);
+  EXPECT_EQ(sample->end, V3f(0, 0, 2));
+  EXPECT_FLOAT_EQ(sample_light(bulb, {}, {0, 0, 1.99999F}, {0, 0})->factor, 1 / std::pow(2 - 1.99999F, 2.0F))
+      << "very near";
+  EXPECT_EQ(light_pdf(bulb, {}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, -1}), 0);
+  EXPECT_FALSE(sample_light(bulb, {}, {0, 0, 2}, {0, 0}));
+
+  const Light spot{"spot", SpotLight{{0, 0, 2}, {0, 0, -1}, std::cos(0.5F)}, Curve(1.0)};
+  const auto at_angle = [&](float angle) {
+    return sample_light(spot, {}, {2 * std::tan(angle), 0, 0}, {0, 0});
+  };
+  EXPECT_TRUE(at_angle(0.49F));
+  EXPECT_FALSE(at_angle(0.51F));
+  EXPECT_FLOAT_EQ(at_angle(0.0F)->factor, 0.25F);
+}
+
+TEST(EnvironmentLights, ComeFromEverywhere) {
+  const Light sky{"sky", EnvironmentLight{}, Curve(1.0)};
+  Random random(5);
+  V3d mean(0);
+  double irradiance = 0;
+  constexpr int kCount = 100000;
+  for (int i = 0; i < kCount; ++i) {
+    const auto sample = sample_light(sky, {}, {1, 2, 3}, random.pair());
+    ASSERT_TRUE(sample);
+    EXPECT_TRUE(std::isinf(sample->distance));
+    mean += V3d(sample->wi);
+    irradiance += std::max(0.0, static_cast<double>(sample->wi.y)) / static_cast<double>(sample->pdf);
+    EXPECT_EQ(sample->pdf, light_pdf(sky, {}, {1, 2, 3}, sample->wi, V3f(0), V3f(0)));
+  }
+  EXPECT_LT(mean.length() / kCount, 0.01);
+  EXPECT_NEAR(irradiance / kCount, kPi, 0.03);
+}
+
+TEST(Lights, EmitTheirPower) {
+  const auto watts = [](const Light& light) { return power(light, 3)(555); };
+  EXPECT_NEAR(watts(lit_by(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}).lights[0]), 6 * kPi, 1e-12);
+  EXPECT_NEAR(watts(lit_by(Sphere{{0, 0, 0}, 2}, true).lights[0]), 32 * kPi * kPi, 1e-10);
+  EXPECT_NEAR(watts({"", PointLight{{0, 0, 0}}, Curve(2.0)}), 8 * kPi, 1e-12);
+  EXPECT_NEAR(watts({"", SpotLight{{0, 0, 0}, {0, 0, 1}, 0.5F}, Curve(2.0)}), 2 * kPi, 1e-12);
+  EXPECT_NEAR(watts({"", EnvironmentLight{}, Curve(1.0)}), 36 * kPi * kPi, 1e-10);
+}
+
+TEST(Lights, EmitFromWhereTheyAre) {
+  Random random(6);
+  const Scene scene = lit_by(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}, true);
+  for (int i = 0; i < 100; ++i) {
+    const EmissionPoint from = sample_emission_point(scene.lights[0], scene.shapes, random.pair());
+    EXPECT_FLOAT_EQ(from.pdf_area, 1.0F / 6);
+    EXPECT_EQ(from.normal, V3f(0, 0, 1));
+    EXPECT_TRUE(from.point.x >= 0 && from.point.x <= 2 && from.point.y >= 0 && from.point.y <= 3 &&
+                from.point.z == 0);
+  }
+  const EmissionPoint bulb = sample_emission_point({"", PointLight{{1, 2, 3}}, Curve(1.0)}, {}, {0, 0});
+  EXPECT_EQ(bulb.point, V3f(1, 2, 3));
+  EXPECT_EQ(bulb.normal, V3f(0, 0, 0));
+  EXPECT_EQ(bulb.pdf_area, 1);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3d;
+
+constexpr std::uint32_t kDiffuse = 0;
+constexpr std::uint32_t kMirror = 1;
+constexpr std::uint32_t kGlass = 2;
+
+// A diffuse floor, looked at by a pinhole; the tests add to it.
+Scene floor_scene() {
+  Scene scene{};
+  scene.camera = testing::pinhole();
+  scene.materials = {testing::diffuse(), testing::mirror(), testing::glass()};
+  scene.shapes.push_back({"floor", Quad{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, kDiffuse});
+  scene.channels.push_back(energy_channel("Y", Curve(1.0)));
+  return scene;
+}
+void add_bulb(Scene& scene) {
+  scene.lights.push_back({"bulb", PointLight{{0, 0, 3}}, Curve(1.0)});
+}
+void add_lamp(Scene& scene, double size) {
+  scene.lights.push_back(
+      {"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size()), false}, Curve(1.0)});
+  scene.shapes.push_back({"lamp", Quad{{0, 0, 3}, {0, size, 0}, {size, 0, 0}}, kDiffuse});
+}
+void add_sky(Scene& scene) {
+  scene.lights.push_back({"sky", EnvironmentLight{}, Curve(1.0)});
+}
+void add_ball(Scene& scene, std::uint32_t material) {
+  scene.shapes.push_back({"ball", Sphere{{0, 0, 1}, 0.5}, material});
+}
+
+std::vector<std::string> unreached_expressions(const Scene& scene, bool light_tracing) {
+  std::vector<std::string> expressions;
+  for (const PathClass& path : unreached(scene, scene.needs, light_tracing))
+    expressions.push_back(path.substr(0, path.find(':')));
+  return expressions;
+}
+using Expressions = std::vector<std::string>;
+
+TEST(Needs, OfAPlainScene) {
+  Scene scene = floor_scene();
+  add_bulb(scene);
+  scene.commit();
+  const Needs& needs = scene.needs;
+  EXPECT_TRUE(needs.delta_lights);
+  EXPECT_FALSE(needs.dispersion || needs.media || needs.caustics || needs.light_tracing ||
+               needs.environment || needs.narrow_bands || needs.polarisation_matters || needs.depth_of_field);
+  EXPECT_EQ(needs.light_is_traced, std::vector<bool>{false});
+  EXPECT_TRUE(unreached(scene, needs, false).empty());
+}
+
+TEST(Needs, OfMatter) {
+  Scene scene = floor_scene();
+  add_ball(scene, kMirror);
+  scene.commit();
+  EXPECT_FALSE(scene.needs.polarisation_matters) << "one mirror ball reflects once";
+  EXPECT_FALSE(scene.needs.caustics) << "no light";
+
+  scene.shapes.back().material = kGlass;
+  scene.commit();
+  EXPECT_TRUE(scene.needs.polarisation_matters) << "in and out";
+  EXPECT_FALSE(scene.needs.dispersion || scene.needs.media);
+
+  scene.materials[kGlass].model = DielectricMaterial{"ink", RefractiveIndex(1.5, 1e-6)};
+  scene.commit();
+  EXPECT_TRUE(scene.needs.media);
+  EXPECT_FALSE(scene.needs.dispersion);
+
+  const Curve n({{300, 1.6}, {1100, 1.5}});
+  scene.materials[kGlass].model =
+      DielectricMaterial{"flint", RefractiveIndex(n, Curve(0.0), IndexMedium::air, 300, 1100)};
+  scene.commit();
+  EXPECT_TRUE(scene.needs.dispersion);
+  EXPECT_FALSE(scene.needs.media);
+
+  scene.shapes.pop_back();
+  scene.commit();
+  EXPECT_FALSE(scene.needs.dispersion) << "a material no shape is made of";
+}
+
+TEST(Needs, PolarisationMattersBetweenInterfaces) {
+  const Quad pane{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}};
+  Scene scene = floor_scene();
+  scene.shapes.push_back({"pane", pane, kMirror});
+  scene.commit();
+  EXPECT_FALSE(scene.needs.polarisation_matters);
+  scene.shapes.push_back({"pane 2", pane, kMirror});
+  scene.commit();
+  EXPECT_TRUE(scene.needs.polarisation_matters);
+  Scene prism = floor_scene();
+  prism.shapes.push_back({"prism", make_prism(60, 1, 1), kGlass});
+  prism.commit();
+  EXPECT_TRUE(prism.needs.polarisation_matters);
+}
+
+TEST(Needs, SmallLightsAreTraced) {
+  Scene scene = floor_scene();
+  add_bulb(scene);
+  add_lamp(scene, 0.1);
+  add_lamp(scene, 2);
+  add_sky(scene);
+  add_ball(scene, kGlass);
+  scene.commit();
+  EXPECT_TRUE(scene.needs.caustics && scene.needs.light_tracing && scene.needs.environment);
+  EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>{true, true, false, false}));
+
+  scene.lights[0].emission = Curve();
+  scene.commit();
+  EXPECT_FALSE(scene.needs.light_is_traced[0]) << "a lamp that is off";
+
+  scene.camera.kind = IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  scene.commit();
+  EXPECT_TRUE(scene.needs.caustics);
+  EXPECT_FALSE(scene.needs.light_tracing) << "no lens to connect to";
+  EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>(4, false)));
+}
+
+TEST(Needs, LargeAndInfiniteLightsStayWithPathTracing) {
+  Scene scene = floor_scene();
+  add_lamp(scene, 2);
+  add_sky(scene);
+  add_ball(scene, kGlass);
+  scene.commit();
+  EXPECT_TRUE(scene.needs.caustics);
+  EXPECT_FALSE(scene.needs.light_tracing);
+  EXPECT_TRUE(unreached(scene, scene.needs, false).empty());
+
+  Scene sky = floor_scene();
+  add_sky(sky);
+  add_ball(sky, kGlass);
+  sky.commit();
+  EXPECT_FALSE(sky.needs.caustics);
+}
+
+TEST(Needs, CausticsFallOnSomething) {
+  Scene scene = floor_scene();
+  scene.shapes.clear();
+  add_bulb(scene);
+  add_ball(scene, kMirror);
+  scene.commit();
+  EXPECT_FALSE(scene.needs.caustics);
+  EXPECT_EQ(unreached_expressions(scene, false), Expressions{"E S+ L"});
+}
+
+TEST(Needs, DepthOfField) {
+  Scene scene = floor_scene();
+  std::get<LensCamera>(scene.camera.kind).pinhole = false;
+  scene.commit();
+  EXPECT_TRUE(scene.needs.depth_of_field);
+}
+
+TEST(Needs, NarrowFeatures) {
+  EXPECT_FALSE(has_narrow_feature(Curve(1.0)));
+  EXPECT_FALSE(has_narrow_feature(Curve()));
+  EXPECT_FALSE(has_narrow_feature(planck(2856)));
+  EXPECT_FALSE(has_narrow_feature(daylight(6500)));
+  EXPECT_TRUE(has_narrow_feature(band(500, 509)));
+  EXPECT_FALSE(has_narrow_feature(band(500, 511)));
+  EXPECT_TRUE(has_narrow_feature(gaussian(500, 8)));
+  EXPECT_FALSE(has_narrow_feature(gaussian(500, 12)));
+  const SpectralLine line{546.1, 0.1, 1};
+  EXPECT_TRUE(has_narrow_feature(lines({&line, 1})));
+  EXPECT_TRUE(has_narrow_feature(sum(lines({&line, 1}), Curve(0.01)))) << "on a background";
+  EXPECT_FALSE(has_narrow_feature(sum(lines({&line, 1}), Curve(1000)))) << "a ripple";
+  EXPECT_TRUE(has_narrow_feature(scaled(band(500, 505), -1))) << "a signed response";
+
+  Scene scene = floor_scene();
+  scene.commit();
+  EXPECT_FALSE(scene.needs.narrow_bands);
+  scene.channels.push_back(energy_channel("H-alpha", band(653, 660)));
+  scene.commit();
+  EXPECT_TRUE(scene.needs.narrow_bands);
+  scene.channels.pop_back();
+  scene.lights.push_back({"sodium", EnvironmentLight{}, lines({&line, 1})});
+  scene.commit();
+  EXPECT_TRUE(scene.needs.narrow_bands);
+}
+
+TEST(Unreached, ClassesOfADeltaLight) {
+  Scene scene = floor_scene();
+  add_bulb(scene);
+  add_lamp(scene, 0.1);
+  add_sky(scene);
+  add_ball(scene, kGlass);
+  scene.commit();
+  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", "E S (S|D)* D (S|D)* S L"}));
+  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E (S|D)* D (S|D)* S L"}));
+  const auto classes = unreached(scene, scene.needs, false);
+  EXPECT_EQ(classes[0], "E S+ L: a point or spot light seen in mirrors or through glass (\"bulb\")");
+}
+
+TEST(Unreached, ClassesOfTheLightTracerAlone) {
+  Scene scene = floor_scene();
+  scene.render.integrator = Integrator::light;
+  add_bulb(scene);
+  scene.commit();
+  EXPECT_TRUE(unreached(scene, scene.needs, true).empty());
+  add_lamp(scene, 0.1);
+  add_sky(scene);
+  add_ball(scene, kGlass);
+  scene.commit();
+  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E (S|D)* L", "E L", "E S (S|D)* L"}));
+}
+
+}  // namespace
+}  // namespace abbe

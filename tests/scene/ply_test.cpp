@@ -1,0 +1,80 @@
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using PlyTest = testing::DescriptionTest;
+using testing::Fault;
+using testing::kSquare;
+using testing::Loaded;
+using testing::ply;
+using testing::shaped;
+using testing::write;
+
+TEST_F(PlyTest, ReadsPly) {
+  const auto square = std::get<Mesh>(shape(R"("mesh": "bench.ply")"));
+  EXPECT_EQ(square.vertices.size(), 4U);
+  const std::vector<std::array<std::uint32_t, 3>> fan{{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(square.triangles, fan) << "a polygon is cut into triangles";
+  EXPECT_DOUBLE_EQ(area(square), 1);
+
+  std::string binary =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list ushort int vertex_indices\nend_header\n";
+  const float positions[9] = {0, 0, 0, 2, 0, 0, 0, 2, 0};
+  const std::int32_t indices[3] = {0, 1, 2};
+  binary.append(reinterpret_cast<const char*>(positions), sizeof positions).append(1, '\3').append(1, '\0');
+  binary.append(reinterpret_cast<const char*>(indices), sizeof indices);
+  write(folder_ / "binary.ply", binary);
+  EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "binary.ply")")), 2);
+  write(folder_ / "binary.ply", binary.substr(0, binary.size() - 1));
+  EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("promises more"), std::string::npos);
+}
+
+TEST_F(PlyTest, RefusesBadPly) {
+  const std::vector<Fault> faults{
+      {"29 NaN", ply(4, 1, "0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ErrorCode::input,
+       "vertex 2 is not finite"},
+      {"30 index", ply(4, 1, kSquare + "3 0 1 4\n"), ErrorCode::input,
+       "triangle 0 names a vertex that does not exist (got 4, allowed [0, 3])"},
+      {"30 index of a polygon", ply(4, 1, kSquare + "4 0 1 2 99\n"), ErrorCode::input,
+       "triangle 1 names a vertex that does not exist (got 99, allowed [0, 3])"},
+      {"31 nothing left", ply(4, 1, kSquare + "3 0 1 1\n"), ErrorCode::input,
+       "without a triangle of any area"},
+      {"34 promises", ply(2147483647, 1, kSquare + "3 0 1 2\n"), ErrorCode::input,
+       "the header promises more than the file holds"},
+      {"34 a long list", ply(4, 1, kSquare + "4000000000 0 1 2\n"), ErrorCode::input, "promises more"},
+      {"truncated", ply(4, 2, kSquare + "3 0 1 2\n"), ErrorCode::input, "promises more"},
+      {"no faces", ply(4, 0, kSquare), ErrorCode::input, "no faces"},
+      {"no PLY", "solid\n", ErrorCode::input, "malformed PLY header"},
+      {"empty", "", ErrorCode::input, "malformed PLY header"},
+      {"no end", "ply\nformat ascii 1.0\nelement vertex 3\n", ErrorCode::input, "malformed PLY header"},
+      {"no properties", "ply\nformat ascii 1.0\nelement vertex 9e300\nend_header\n", ErrorCode::input,
+       "malformed PLY header"},
+  };
+  for (const Fault& fault : faults) {
+    SCOPED_TRACE(fault.what);
+    write(folder_ / "bad.ply", fault.fragment);
+    const Loaded loaded = load(shaped(R"("mesh": "bad.ply")"));
+    EXPECT_FALSE(loaded.scene);
+    EXPECT_EQ(loaded.diagnostics.code(), fault.code);
+    EXPECT_NE(loaded.text().find(fault.message), std::string::npos) << loaded.text();
+  }
+  write(folder_ / "bad.ply", ply(4, 2, kSquare + "3 0 1 1\n3 0 1 2\n"));
+  const Loaded kept = load(shaped(R"("mesh": "bad.ply")"));
+  ASSERT_TRUE(kept.scene);
+  EXPECT_EQ(std::get<Mesh>(kept->shapes[0].shape).triangles.size(), 1U);
+  EXPECT_NE(kept.text().find("warning: triangles of zero area dropped: 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "description.h"
+#include "io/data_directory.h"
+#include "spectral/colorimetry.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+using SchemaTest = testing::DescriptionTest;
+using testing::file_text;
+using testing::Loaded;
+
+// Every key of every object below `json` that is described by the format: not the names users choose.
+void collect_keys(const JsonValue& json, std::set<std::string>& keys) {
+  if (const auto* array = std::get_if<JsonValue::Array>(&json.value))
+    for (const JsonValue& element : *array) collect_keys(element, keys);
+  if (const auto* object = std::get_if<JsonValue::Object>(&json.value))
+    for (const auto& [key, value] : *object) {
+      const std::string parent = json.where.pointer;
+      if (parent != "/materials" && parent != "/sensor/channels") keys.insert(key);
+      collect_keys(value, keys);
+    }
+}
+
+void collect_properties(const JsonValue& schema, std::set<std::string>& names) {
+  if (const auto* array = std::get_if<JsonValue::Array>(&schema.value))
+    for (const JsonValue& element : *array) collect_properties(element, names);
+  if (const auto* object = std::get_if<JsonValue::Object>(&schema.value))
+    for (const auto& [key, value] : *object) {
+      if (const auto* members = std::get_if<JsonValue::Object>(&value.value); members && key == "properties")
+        for (const auto& [name, property] : *members) names.insert(name);
+      collect_properties(value, names);
+    }
+}
+
+// What only one of two sets holds.
+std::string different(const std::set<std::string>& a, const std::set<std::string>& b) {
+  std::vector<std::string> names;
+  std::ranges::set_symmetric_difference(a, b, std::back_inserter(names));
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+JsonValue parsed(const std::string& text) {
+  Diagnostics diagnostics;
+  auto json = parse_json(std::make_shared<const SourceText>(SourceText{"text", text}), diagnostics);
+  EXPECT_TRUE(json) << diagnostics.text();
+  return json.value_or(JsonValue{});
+}
+
+std::vector<fs::path> shipped_scenes() {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(data_directory() / "scenes"))
+    if (entry.path().extension() == ".json") paths.push_back(entry.path());
+  return paths;
+}
+
+std::vector<std::string> guide_examples() {
+  const std::string guide = file_text(data_directory().parent_path() / "docs" / "scene.md");
+  const std::regex fence("```jsonc\n([^`]*)```");
+  std::vector<std::string> examples;
+  for (std::sregex_iterator i(guide.begin(), guide.end(), fence), end; i != end; ++i)
+    examples.push_back((*i)[1]);
+  return examples;
+}
+
+TEST_F(SchemaTest, ShippedScenesLoad) {
+  ASSERT_GE(shipped_scenes().size(), 5U);
+  for (const fs::path& path : shipped_scenes()) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(load_scene(path, {}, diagnostics)) << diagnostics.text();
+  }
+}
+
+TEST_F(SchemaTest, CornellBoxIsSeenAsMeasured) {
+  Diagnostics diagnostics;
+  const auto scene = load_scene(data_directory() / "scenes" / "cornell.json", {}, diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.text();
+  const auto& lens = std::get<LensCamera>(scene->camera.kind);
+  const double half = scene->camera.width * scene->camera.pixel_pitch / 2;
+  EXPECT_NEAR(2 * std::atan(half / lens.image_distance) * 180 / std::numbers::pi, 39.3077, 1e-4);
+  EXPECT_NEAR(photometric(scene->lights.at(0).emission), kLuminousEfficacy * 20, 1e-6);
+  EXPECT_EQ(scene->triangle_count(), 32U);
+}
+
+// The schema, the guide, the shipped scenes and the loader know the same keys.
+TEST_F(SchemaTest, SchemaKnowsEveryKey) {
+  std::set<std::string> used;
+  ASSERT_GE(guide_examples().size(), 10U);
+  for (const std::string& example : guide_examples()) {
+    const Loaded loaded = load(example);
+    EXPECT_TRUE(loaded.scene) << example << loaded.text();
+    collect_keys(parsed(example), used);
+  }
+  for (const fs::path& path : shipped_scenes()) collect_keys(parsed(file_text(path)), used);
+  std::set<std::string> described;
+  collect_properties(parsed(file_text(data_directory().parent_path() / "docs" / "scene.schema.json")),
+                     described);
+  EXPECT_EQ(different(used, described), "") << "used by examples that load, and described by the schema";
+
+  // What the loader asks for, read from its own text.
+  std::set<std::string> asked;
+  const std::regex getter(
+      R"re((?:find|require|number|integer|string|boolean_or|numbers|number_or|require_\w+|read_point|read_direction|read_rows)(?:<[^>]*>)?\(\s*(?:\w+,\s*)?"([\w]+)")re");
+  const std::regex choice(R"re((?:exactly_one\(\s*|Scales)\{([^}]*)\})re");
+  const std::regex word(R"re("(\w+)")re");
+  const auto scan = [](const std::string& text, const std::regex& pattern, auto&& take) {
+    for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) take((*i)[1].str());
+  };
+  for (const auto& entry : fs::directory_iterator(data_directory().parent_path() / "scene" / "description")) {
+    const std::string source = file_text(entry.path());
+    const auto take = [&](const std::string& key) { asked.insert(key); };
+    scan(source, getter, take);
+    scan(source, choice, [&](const std::string& list) { scan(list, word, take); });
+  }
+  asked.insert("$schema");
+  EXPECT_EQ(different(asked, described), "") << "asked for by the loader, and described by the schema";
+}
+
+}  // namespace
+}  // namespace abbe
