@@ -1,0 +1,70 @@
+#include "transport/light/aim.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "transport/sampling/sampler.h"
+
+namespace abbe {
+namespace {
+
+const Light kPoint{"point", PointLight{{0, 0, 0}}, Curve(1.0)};
+const EmissionPoint kOrigin{{0, 0, 0}, {0, 0, 0}, 1};
+
+// Estimates the integral over directions of g by the aim's own samples and densities.
+template <typename G>
+double integral(const Aim& aim, G g) {
+  constexpr std::uint32_t kCount = 1 << 17;
+  double sum = 0;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
+    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]});
+    sum += g(d.wi) / static_cast<double>(d.pdf);
+  }
+  return sum / kCount;
+}
+
+double one(const Imath::V3f&) {
+  return 1;
+}
+double towards_target(const Imath::V3f& w) {
+  return w.x > 0.99F ? 1 : 0;
+}
+
+TEST(Aim, DensitiesCoverTheWholeSphereOnce) {
+  EXPECT_NEAR(integral(Aim(), one), 4 * std::numbers::pi, 0.02);
+  EXPECT_NEAR(integral(Aim({0, 0, 0}, {5, 0, 0}, 1), one), 4 * std::numbers::pi, 0.3);
+}
+
+TEST(Aim, TheTargetIsIntegratedPrecisely) {
+  const double cap = 2 * std::numbers::pi * 0.01;
+  EXPECT_NEAR(integral(Aim({0, 0, 0}, {5, 0, 0}, 1), towards_target), cap, cap * 0.01);
+}
+
+TEST(Aim, LearningMovesDensityAndKeepsTheIntegral) {
+  Aim aim({0, 0, 0}, {5, 0, 0}, 1);
+  std::vector<double> importance(Aim::kGrid, 0.0);
+  const int hot = 128 * Aim::kCells + 40;
+  importance[hot] = 1;
+  aim.learn(importance, 1);
+  int in_hot_cell = 0;
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
+    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]});
+    in_hot_cell += d.cell == hot ? 1 : 0;
+  }
+  EXPECT_GT(in_hot_cell, 4096 * 0.95 * 0.9 / 9 * 0.8);
+  const double cap = 2 * std::numbers::pi * 0.01;
+  EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
+}
+
+TEST(Aim, ALightInsideItsTargetIsNotAimed) {
+  EXPECT_FALSE(Aim({0, 0, 0}, {0.5F, 0, 0}, 1).guided());
+  EXPECT_TRUE(Aim({0, 0, 0}, {5, 0, 0}, 1).guided());
+}
+
+}  // namespace
+}  // namespace abbe

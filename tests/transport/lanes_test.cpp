@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/interface/fresnel.h"
+#include "spectral/sources.h"
+#include "spectral/wavelength_distribution.h"
+#include "transport/path/exposure.h"
+#include "transport/path/packet.h"
+#include "transport/path/vertex.h"
+
+namespace abbe {
+namespace {
+
+// A strongly uneven distribution of wavelengths: a line over a weak continuum.
+WavelengthDistribution uneven() {
+  const std::vector<SpectralLine> line{{546, 2, 30}};
+  const std::vector<Curve> emission{sum(lines(line), band(400, 700, 1))};
+  const std::vector<Curve> response{band(400, 700)};
+  return {emission, response};
+}
+
+constexpr int kSamples = 1 << 16;
+
+// Mean of an estimator over evenly spread wavelength rotations and lobe choices.
+template <typename F>
+double mean_over(const WavelengthDistribution& distribution, F estimate) {
+  double total = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const float u = (static_cast<float>(i) + 0.5F) / kSamples;
+    const float lobe =
+        static_cast<float>(static_cast<unsigned>(i) * 2654435769U >> 8) * 0x1p-24F;  // golden-ratio sequence
+    total += estimate(distribution.sample(u), lobe);
+  }
+  return total / kSamples;
+}
+
+struct Found {
+  double reflected = 0;
+  double transmitted = 0;
+};
+
+// What one event at a glass surface (index 1.4 to 1.9 over the visible) gives for unit spectral radiance,
+// integrated over 400 to 700 nm.
+Found glass_event(const SampledWavelengths& wavelengths, float lobe) {
+  const SampledSpectrum n =
+      SampledSpectrum::map(wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
+  const Bsdf glass = DielectricBsdf{n, true};
+  const std::optional<BsdfSample> event =
+      sample(glass, Imath::V3f(0.8F, 0, 0.6F), {lobe, {0.5F, 0.5F}}, kHero, TransportMode::power);
+  PathPacket packet{wavelengths, event->weight, event->lane_pdf};
+  const std::vector<Channel> channels{energy_channel("flat", band(400, 700))};
+  PathExposure exposure(channels);
+  exposure.begin(wavelengths, 1);
+  exposure.deposit(packet.throughput * (1 / packet.lane_pdf.sum()));
+  const double value = exposure.values()[0];
+  return event->transmitted ? Found{0, value} : Found{value, 0};
+}
+
+TEST(Lanes, ReflectionAndRefractionTogetherKeepAllLightOfAllWavelengths) {
+  const double total = mean_over(uneven(), [](const SampledWavelengths& w, float lobe) {
+    const Found found = glass_event(w, lobe);
+    return found.reflected + found.transmitted;
+  });
+  EXPECT_NEAR(total, 300, 0.3);
+}
+
+TEST(Lanes, ReflectedShareIsTheIntegralOfFresnel) {
+  double expected = 0;
+  for (double l = 400.5; l < 700; ++l) expected += fresnel_dielectric(0.6, 1.4 + (700 - l) / 600).R();
+  const double reflected = mean_over(
+      uneven(), [](const SampledWavelengths& w, float lobe) { return glass_event(w, lobe).reflected; });
+  EXPECT_NEAR(reflected, expected, expected * 3e-3);
+}
+
+TEST(Lanes, ADenominatorWithWavelengthDensitiesWouldBeBiased) {
+  // sum_j f_j / sum_k p(lambda_k) P_k: why the density of wavelengths belongs in the numerator alone.
+  const double biased = mean_over(uneven(), [](const SampledWavelengths& w, float lobe) {
+    const SampledSpectrum n =
+        SampledSpectrum::map(w.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
+    const auto event = sample(Bsdf(DielectricBsdf{n, true}), Imath::V3f(0.8F, 0, 0.6F), {lobe, {0.5F, 0.5F}},
+                              kHero, TransportMode::power);
+    return static_cast<double>(event->weight.sum() / (w.pdf * event->lane_pdf).sum());
+  });
+  EXPECT_GT(std::abs(biased - 300), 10);
+}
+
+TEST(Lanes, SurvivalIsTheSameWhicheverLaneIsTheHero) {
+  // Seen from another hero, throughputs and lane densities are divided by a common factor.
+  PathPacket packet;
+  packet.throughput = SampledSpectrum(0.3F);
+  packet.throughput[2] = 0.5F;
+  packet.lane_pdf = SampledSpectrum(0.8F);
+  const float q = survival(packet, 1);
+  packet.throughput *= 1.7F;
+  packet.lane_pdf *= 1.7F;
+  EXPECT_FLOAT_EQ(survival(packet, 1), q);
+  EXPECT_FLOAT_EQ(q, 0.5F / 0.8F);
+}
+
+}  // namespace
+}  // namespace abbe

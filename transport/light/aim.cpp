@@ -1,0 +1,152 @@
+#include "transport/light/aim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "scene/shapes/basis.h"
+
+namespace abbe {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kEmissionShare = 0.05F;
+constexpr float kBelowOne = 0x1.fffffep-1F;
+
+Imath::V3f direction_about(const Imath::V3f& axis, float cos_theta, float phi) {
+  const float sin_theta = std::sqrt(std::max(0.0F, (1 - cos_theta) * (1 + cos_theta)));
+  return Basis<float>(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
+}
+
+// A direction by the light's own emission: cosine-distributed on the emitting side or sides, uniform for
+// point and spot lights.
+Imath::V3f emission_direction(const Light& light, const EmissionPoint& from, Imath::V2f u) {
+  const float phi = 2 * kPi * u.y;
+  if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
+    const bool flip = area->two_sided && u.x >= 0.5F;
+    const float v = area->two_sided ? std::min(2 * (u.x - (flip ? 0.5F : 0.0F)), kBelowOne) : u.x;
+    return direction_about(flip ? -from.normal : from.normal, std::sqrt(1 - v), phi);
+  }
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
+    return direction_about(spot->axis, 1 - u.x * (1 - spot->cos_half_angle), phi);
+  return direction_about({0, 0, 1}, 1 - 2 * u.x, phi);
+}
+
+float emission_pdf(const Light& light, const EmissionPoint& from, const Imath::V3f& wi) {
+  if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
+    const float cos_theta = from.normal.dot(wi);
+    return area->two_sided ? std::abs(cos_theta) / (2 * kPi) : std::max(0.0F, cos_theta) / kPi;
+  }
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
+    return spot->axis.dot(wi) >= spot->cos_half_angle ? 1 / (2 * kPi * (1 - spot->cos_half_angle)) : 0.0F;
+  return 1 / (4 * kPi);
+}
+
+// Index of the first cumulative value above u, and how far u lies between the ends of that step.
+struct Step {
+  int index;
+  float within;
+};
+Step find_step(const float* cdf, int count, float u) {
+  const int index = std::min(static_cast<int>(std::upper_bound(cdf, cdf + count, u) - cdf), count - 1);
+  const float low = index > 0 ? cdf[index - 1] : 0.0F;
+  return {index, std::clamp((u - low) / (cdf[index] - low), 0.0F, kBelowOne)};
+}
+
+}  // namespace
+
+Aim::Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius) {
+  const Imath::V3f to_target = target_center - light_center;
+  const float distance = to_target.length();
+  if (!(distance > 1.2F * target_radius) || !(target_radius > 0)) return;
+  guided_ = true;
+  center_ = target_center;
+  axis_ = to_target / distance;
+  const Basis<float> frame(axis_);
+  side_ = frame.x;
+  top_ = frame.y;
+  // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
+  half_size_ = target_radius * distance / std::sqrt((distance - target_radius) * (distance + target_radius));
+  build(std::vector<double>(kGrid, 1.0));
+}
+
+void Aim::learn(const std::vector<double>& importance, int reach) {
+  const double total = std::accumulate(importance.begin(), importance.end(), 0.0);
+  if (!guided_ || !(total > 0)) return;
+  std::vector<double> spread(kGrid, 0.1 * total / kGrid);
+  const double share = 0.9 / ((2 * reach + 1) * (2 * reach + 1));
+  for (int row = 0; row < kCells; ++row)
+    for (int column = 0; column < kCells; ++column) {
+      const double amount = share * importance[static_cast<std::size_t>(row * kCells + column)];
+      if (amount == 0) continue;
+      for (int dr = -reach; dr <= reach; ++dr)
+        for (int dc = -reach; dc <= reach; ++dc) {
+          const int r = std::clamp(row + dr, 0, kCells - 1);
+          const int c = std::clamp(column + dc, 0, kCells - 1);
+          spread[static_cast<std::size_t>(r * kCells + c)] += amount;
+        }
+    }
+  build(spread);
+}
+
+void Aim::build(const std::vector<double>& weights) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  density_.resize(kGrid);
+  row_cdf_.resize(kCells);
+  column_cdf_.resize(kGrid);
+  double rows = 0;
+  for (std::size_t row = 0; row < kCells; ++row) {
+    const double* cells = &weights[row * kCells];
+    const double row_total = std::accumulate(cells, cells + kCells, 0.0);
+    double columns = 0;
+    for (std::size_t column = 0; column < kCells; ++column) {
+      density_[row * kCells + column] = static_cast<float>(cells[column] / total * kGrid);
+      columns += cells[column];
+      column_cdf_[row * kCells + column] = static_cast<float>(columns / row_total);
+    }
+    rows += row_total;
+    row_cdf_[row] = static_cast<float>(rows / total);
+  }
+}
+
+int Aim::cell_of(float a, float b) const {
+  const int column = std::min(static_cast<int>(a * kCells), kCells - 1);
+  const int row = std::min(static_cast<int>(b * kCells), kCells - 1);
+  return row * kCells + column;
+}
+
+float Aim::target_pdf(const Imath::V3f& from, const Imath::V3f& direction) const {
+  const float cos_theta = direction.dot(axis_);
+  const float height = (center_ - from).dot(axis_);
+  if (cos_theta <= 0 || height <= 0) return 0;
+  const float t = height / cos_theta;
+  const Imath::V3f offset = from + direction * t - center_;
+  const float a = 0.5F + offset.dot(side_) / (2 * half_size_);
+  const float b = 0.5F + offset.dot(top_) / (2 * half_size_);
+  if (a < 0 || a >= 1 || b < 0 || b >= 1) return 0;
+  const float per_area = density_[static_cast<std::size_t>(cell_of(a, b))] / (4 * half_size_ * half_size_);
+  return per_area * t * t / cos_theta;
+}
+
+AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u) const {
+  AimedDirection aimed;
+  if (!guided_ || choice < kEmissionShare) {
+    aimed.wi = emission_direction(light, from, u);
+  } else {
+    const Step row = find_step(row_cdf_.data(), kCells, u.y);
+    const Step column = find_step(&column_cdf_[static_cast<std::size_t>(row.index * kCells)], kCells, u.x);
+    const float a = (static_cast<float>(column.index) + column.within) / kCells;
+    const float b = (static_cast<float>(row.index) + row.within) / kCells;
+    const Imath::V3f point = center_ + side_ * ((2 * a - 1) * half_size_) + top_ * ((2 * b - 1) * half_size_);
+    aimed.wi = (point - from.point).normalized();
+    aimed.cell = row.index * kCells + column.index;
+  }
+  const float by_emission = emission_pdf(light, from, aimed.wi);
+  aimed.pdf = guided_ ? kEmissionShare * by_emission + (1 - kEmissionShare) * target_pdf(from.point, aimed.wi)
+                      : by_emission;
+  return aimed;
+}
+
+}  // namespace abbe

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include <ImathVec.h>
+
+#include "scene/lights/light.h"
+
+namespace abbe {
+
+/// Where a light sends its photons: a direction and its density [1/sr].
+struct AimedDirection {
+  Imath::V3f wi;
+  float pdf;
+  int cell = -1;  ///< Cell of the target it was aimed at, or -1.
+};
+
+/// Aims photons of one light at the sphere that bounds the specular shapes: directions are drawn through a
+/// disc-shaped target facing the light, by a grid of importances over it, except for a share drawn from the
+/// light's own emission. The share keeps every direction possible, so aiming changes the noise and not the
+/// image.
+class Aim {
+ public:
+  static constexpr int kCells = 256;  ///< Along each side of the square around the target.
+  static constexpr int kGrid = kCells * kCells;
+
+  /// Emission alone, where there is no target or the light is too close to it.
+  Aim() = default;
+  /// At the bounding sphere of `targets`, seen from `light_center`; all parts of it alike.
+  Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius);
+
+  /// Replaces the importances, one per cell, by measured ones, spread over the cells within `reach` of each
+  /// and mixed with a tenth of the uniform ones.
+  void learn(const std::vector<double>& importance, int reach);
+
+  [[nodiscard]] bool guided() const { return guided_; }
+
+  /// Draws a direction for a photon leaving `from`; `u` aims, `choice` picks between target and emission. A
+  /// direction in which the light does not emit has no power, not no density.
+  [[nodiscard]] AimedDirection sample(const Light& light, const EmissionPoint& from, float choice,
+                                      Imath::V2f u) const;
+
+ private:
+  [[nodiscard]] float target_pdf(const Imath::V3f& from, const Imath::V3f& direction) const;
+  [[nodiscard]] int cell_of(float a, float b) const;
+  void build(const std::vector<double>& weights);
+
+  bool guided_ = false;
+  Imath::V3f center_{0, 0, 0};
+  Imath::V3f axis_{0, 0, 1};  // from the light to the target
+  Imath::V3f side_{1, 0, 0};
+  Imath::V3f top_{0, 1, 0};
+  float half_size_ = 0;
+  std::vector<float> density_;     // per cell, over the unit square
+  std::vector<float> row_cdf_;     // kCells
+  std::vector<float> column_cdf_;  // kCells per row
+};
+
+}  // namespace abbe

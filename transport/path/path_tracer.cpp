@@ -1,0 +1,186 @@
+#include "transport/path/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/path/packet.h"
+#include "transport/path/vertex.h"
+
+namespace abbe {
+namespace {
+
+// Groups of random numbers: the film position shares its group with the wavelength, since a spectrum on the
+// film is a function of both.
+constexpr std::uint32_t kFilmGroup = 0;
+constexpr std::uint32_t kLensGroup = 1;
+constexpr int kMeterDepth = -1;  // a meter scatters before the first surface does
+constexpr std::uint32_t scatter_group(int depth) {
+  return 2 + 2 * static_cast<std::uint32_t>(depth - kMeterDepth);
+}
+constexpr std::uint32_t light_group(int depth) {
+  return 1 + scatter_group(depth);
+}
+
+class CameraPath {
+ public:
+  CameraPath(const Plan& plan, RayCaster& caster, const Sampler& sampler,
+             const SampledWavelengths& wavelengths, const CameraRay& start, PathExposure& exposure)
+      : plan_(plan),
+        scene_(plan.scene),
+        caster_(caster),
+        sampler_(sampler),
+        exposure_(exposure),
+        ray_(start.ray) {
+    packet_.wavelengths = wavelengths;
+    exposure_.begin(wavelengths, start.weight * static_cast<float>(scene_.exposure_s));
+  }
+
+  /// From a meter: what lights it directly, then what a cosine-distributed ray finds.
+  void trace_from_meter(const Imath::V3f& point, const Imath::V3f& normal) {
+    if (scatter(Vertex::meter(point, normal), kMeterDepth)) trace();
+  }
+
+  void trace() {
+    for (int depth = 0;; ++depth) {
+      const std::optional<SurfaceHit> hit = caster_.intersect(ray_);
+      if (!hit) {
+        add_environment();
+        return;
+      }
+      medium_.attenuate(packet_.throughput, hit->t);
+      add_emission(*hit, depth);
+      if (depth >= scene_.render.max_depth) return;
+      const Vertex vertex(scene_, *hit, ray_.direction, lambda());
+      if (depth == 0) first_specular_ = is_delta(vertex.bsdf);
+      if (!scatter(vertex, depth)) return;
+    }
+  }
+
+ private:
+  [[nodiscard]] const SampledSpectrum& lambda() const { return packet_.wavelengths.lambda_nm; }
+
+  // Sum over lanes and techniques of the densities that could have made the path now ending on a light,
+  // relative to the hero's by scattering. `light_pdf` is that of light sampling from the previous vertex.
+  [[nodiscard]] float balance(float light_pdf) const {
+    return packet_.lane_pdf.sum() + light_pdf * light_sampling_lanes_;
+  }
+
+  void add_environment() {
+    const std::int32_t index = scene_.environment();
+    if (index < 0) return;
+    const Light& light = scene_.lights[static_cast<std::size_t>(index)];
+    const float pdf =
+        !light_sampled_before_
+            ? 0.0F
+            : plan_.path_lights.probability(static_cast<std::uint32_t>(index)) *
+                  light_pdf(light, scene_.shapes, ray_.origin, ray_.direction, Imath::V3f(0), Imath::V3f(0));
+    exposure_.deposit(packet_.throughput * light.emission(lambda()) * (1 / balance(pdf)));
+  }
+
+  void add_emission(const SurfaceHit& hit, int depth) {
+    const std::int32_t index = scene_.shapes[hit.shape].light;
+    if (index < 0) return;
+    const auto light_index = static_cast<std::uint32_t>(index);
+    const Light& light = scene_.lights[light_index];
+    if (!emits_towards(light, hit.normal, -ray_.direction)) return;
+    if (depth > 0 && !light_sampled_before_ && !first_specular_ && plan_.traced[light_index]) return;
+    const float pdf = !light_sampled_before_ ? 0.0F
+                                             : plan_.path_lights.probability(light_index) *
+                                                   light_pdf(light, scene_.shapes, ray_.origin,
+                                                             ray_.direction, hit.point, hit.normal);
+    exposure_.deposit(packet_.throughput * light.emission(lambda()) * (1 / balance(pdf)));
+  }
+
+  bool scatter(const Vertex& vertex, int depth) {
+    if (!is_delta(vertex.bsdf)) add_direct(vertex, depth);
+    const std::array<float, 4> u = sampler_.group(scatter_group(depth));
+    const std::optional<BsdfSample> sampled =
+        sample(vertex.bsdf, vertex.wo, {u[2], {u[0], u[1]}}, kHero, TransportMode::radiance);
+    if (!sampled) return false;
+    follow(vertex, *sampled);
+    return survives(depth, u[3]);
+  }
+
+  void follow(const Vertex& vertex, const BsdfSample& event) {
+    light_sampling_lanes_ = event.delta ? 0.0F : packet_.lane_pdf.sum() / event.pdf;
+    light_sampled_before_ = !event.delta;
+    packet_.throughput *= event.weight;
+    packet_.lane_pdf *= event.lane_pdf;
+    const Imath::V3f direction = vertex.frame.to_world(event.wi);
+    if (event.transmitted) {
+      const bool entering = vertex.wo.z > 0;
+      medium_ = crossed_into(scene_, vertex.hit.shape, entering, lambda());
+      const float n = std::get<DielectricBsdf>(vertex.bsdf).n[kHero];
+      eta_scale_ *= entering ? n * n : 1 / (n * n);
+    }
+    ray_ = spawn(vertex.hit.point, vertex.hit.normal, direction);
+  }
+
+  bool survives(int depth, float u) {
+    if (packet_.throughput.is_zero()) return false;
+    if (scene_.render.roulette_depth < 0 || depth + 1 < scene_.render.roulette_depth) return true;
+    const float q = survival(packet_, eta_scale_);
+    if (u >= q) return false;
+    packet_.throughput *= 1 / q;
+    return true;
+  }
+
+  void add_direct(const Vertex& vertex, int depth) {
+    if (plan_.path_lights.empty()) return;
+    const std::array<float, 4> u = sampler_.group(light_group(depth));
+    const LightPicker::Pick pick = plan_.path_lights.pick(u[0]);
+    const Light& light = scene_.lights[pick.light];
+    const std::optional<LightSample> towards =
+        sample_light(light, scene_.shapes, vertex.hit.point, {u[1], u[2]});
+    if (!towards) return;
+    const Imath::V3f wi = vertex.frame.to_local(towards->wi);
+    SampledSpectrum contribution = eval(vertex.bsdf, vertex.wo, wi, TransportMode::radiance);
+    if (contribution.is_zero() || wi.z * vertex.wo.z <= 0) return;
+    contribution *= packet_.throughput * light.emission(lambda()) * (std::abs(wi.z) * towards->factor);
+    const float light_density = pick.probability * towards->pdf;
+    const SampledSpectrum scatter_density =
+        light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
+    const float balance = (packet_.lane_pdf * (SampledSpectrum(light_density) + scatter_density)).sum();
+    if (!(balance > 0) || blocked(vertex, *towards)) return;
+    medium_.attenuate(contribution, towards->distance);
+    exposure_.deposit(contribution * (1 / balance));
+  }
+
+  [[nodiscard]] bool blocked(const Vertex& vertex, const LightSample& towards) {
+    const Ray ray = spawn(vertex.hit.point, vertex.hit.normal, towards.wi);
+    return std::isfinite(towards.distance) ? caster_.occluded(ray.origin, towards.end)
+                                           : caster_.occluded(ray);
+  }
+
+  const Plan& plan_;
+  const Scene& scene_;
+  RayCaster& caster_;
+  const Sampler& sampler_;
+  PathExposure& exposure_;
+  Ray ray_;
+  PathPacket packet_;
+  Medium medium_;
+  float eta_scale_ = 1;
+  // Sum of lane densities before the last scattering over the hero's density of it: what a unit of
+  // light-sampling density weighs.
+  float light_sampling_lanes_ = 0;
+  bool light_sampled_before_ = false;
+  bool first_specular_ = false;
+};
+
+}  // namespace
+
+void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampler, int x, int y,
+                       PathExposure& exposure) {
+  const std::array<float, 4> film = sampler.group(kFilmGroup);
+  const std::array<float, 4> lens = sampler.group(kLensGroup);
+  const Imath::V2f position(static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]);
+  const CameraRay start = sample_ray(plan.scene.camera, position, {lens[0], lens[1]});
+  CameraPath path(plan, caster, sampler, plan.wavelengths.sample(film[2]), start, exposure);
+  if (const auto* meter = std::get_if<IrradianceProbe>(&plan.scene.camera.kind))
+    path.trace_from_meter(start.ray.origin, Imath::V3f(meter->normal));
+  else
+    path.trace();
+}
+
+}  // namespace abbe

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "transport/path/exposure.h"
+#include "transport/render/plan.h"
+#include "transport/render/tally.h"
+#include "transport/sampling/sampler.h"
+
+namespace abbe {
+
+/// One camera path through pixel (x, y): path tracing with light sampling at every vertex that is not
+/// specular, balanced over techniques and lanes, and Russian roulette. Adds to `values`, one per channel, the
+/// exposure the path found: what it owns by `plan`.
+///
+/// Owned: every path that ends on an area or environment light or by light sampling, except those whose
+/// vertex next to the camera is not specular while the one next to a traced light is.
+void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampler, int x, int y,
+                       PathExposure& exposure);
+
+}  // namespace abbe

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <ImathVec.h>
+
+#include "materials/material.h"
+#include "scene/scene.h"
+#include "scene/shapes/basis.h"
+#include "transport/path/packet.h"
+
+namespace abbe {
+
+/// A path's arrival at a surface, ready to scatter.
+struct Vertex {
+  SurfaceHit hit;
+  Basis<float> frame;
+  Imath::V3f wo;  ///< Local.
+  Bsdf bsdf;
+
+  /// Where a meter stands: white, diffuse, and seen along its normal, so that the radiance leaving it is the
+  /// irradiance over pi.
+  static Vertex meter(const Imath::V3f& point, const Imath::V3f& normal) {
+    return {{point, normal, 0, 0}, Basis<float>(normal), {0, 0, 1}, DiffuseBsdf{SampledSpectrum(1.0F)}};
+  }
+
+  Vertex(const SurfaceHit& surface, const Basis<float>& axes, const Imath::V3f& outgoing, Bsdf scattering)
+      : hit(surface), frame(axes), wo(outgoing), bsdf(std::move(scattering)) {}
+  Vertex(const Scene& scene, const SurfaceHit& surface, const Imath::V3f& incoming,
+         const SampledSpectrum& wavelengths_nm)
+      : hit(surface),
+        frame(surface.normal),
+        wo(frame.to_local(-incoming)),
+        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], wavelengths_nm)) {}
+};
+
+/// The matter a path segment runs through.
+struct Medium {
+  bool absorbing = false;
+  SampledSpectrum absorption_per_m;
+
+  /// Attenuates the lanes over a distance [m] by Beer's law.
+  void attenuate(SampledSpectrum& throughput, float distance) const {
+    if (!absorbing) return;
+    throughput *=
+        SampledSpectrum::map(absorption_per_m, [distance](float a) { return std::exp(-a * distance); });
+  }
+};
+
+/// The matter behind a surface just crossed: the shape's own inside when `entering`, else air. Shapes do not
+/// nest.
+[[nodiscard]] inline Medium crossed_into(const Scene& scene, std::uint32_t shape, bool entering,
+                                         const SampledSpectrum& wavelengths_nm) {
+  const RefractiveIndex* index = entering ? interior(scene.materials[scene.shapes[shape].material]) : nullptr;
+  if (index == nullptr || !index->absorbing()) return {};
+  return {true, index->absorption_per_m(wavelengths_nm)};
+}
+
+/// Survival probability of Russian roulette, the same whichever lane is the hero: min(1, max(0.1, largest
+/// throughput)), where the throughput counts what refraction into glass takes off radiance as still there.
+/// [Marschner2021, sec. 14.4]
+[[nodiscard]] inline float survival(const PathPacket& packet, float eta_scale) {
+  const float throughput = packet.throughput.max() / packet.lane_pdf.max() * eta_scale;
+  return std::min(1.0F, std::max(0.1F, throughput));
+}
+
+}  // namespace abbe

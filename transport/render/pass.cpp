@@ -1,0 +1,126 @@
+#include "transport/render/pass.h"
+
+#include <pmmintrin.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace abbe {
+namespace {
+
+constexpr std::uint32_t kTile = 16;
+constexpr std::uint32_t kPhotonBatch = 4096;
+
+constexpr std::uint32_t pieces(std::uint32_t whole, std::uint32_t piece) {
+  return (whole + piece - 1) / piece;
+}
+
+}  // namespace
+
+Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, std::uint64_t first, std::uint64_t last)
+    : plan_(plan),
+      scene_(plan.scene),
+      film_(film),
+      crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
+      first_(first),
+      last_(last) {
+  const auto width = static_cast<std::uint32_t>(film.width());
+  const auto height = static_cast<std::uint32_t>(film.height());
+  tiles_x_ = pieces(width, kTile);
+  tiles_ = plan.path_active ? tiles_x_ * pieces(height, kTile) : 0;
+  pixels_ = width * height;
+  batches_ = plan.light_active ? pieces(pixels_, kPhotonBatch) : 0;
+}
+
+PassCounts Pass::run(int threads) {
+  PassCounts total;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto task = [&] {
+    try {
+      const PassCounts counts = work();
+      const std::scoped_lock lock(mutex);
+      total.paths += counts.paths;
+      total.rays += counts.rays;
+      total.nonfinite += counts.nonfinite;
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      failure = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int t = 0; t < threads; ++t) workers.emplace_back(task);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return total;
+}
+
+PassCounts Pass::work() {
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  Worker worker(scene_);
+  const std::uint32_t items = tiles_ + batches_;
+  for (std::uint32_t item = next_++; item < items; item = next_++) {
+    if (item < tiles_)
+      render_tile(item, worker);
+    else
+      trace_batch(item - tiles_, worker);
+  }
+  worker.counts.rays = worker.caster.rays();
+  return worker.counts;
+}
+
+std::uint32_t Pass::replicate(std::uint64_t sample) const {
+  return static_cast<std::uint32_t>(sample % static_cast<std::uint64_t>(film_.replicates()));
+}
+
+bool Pass::keeps(std::span<const double> values, Worker& worker) const {
+  const bool good = std::all_of(values.begin(), values.end(), [this](double v) { return film_.holds(v); });
+  if (!good) ++worker.counts.nonfinite;
+  return good;
+}
+
+void Pass::render_tile(std::uint32_t tile, Worker& worker) {
+  const auto x0 = static_cast<int>(tile % tiles_x_ * kTile);
+  const auto y0 = static_cast<int>(tile / tiles_x_ * kTile);
+  constexpr int kEdge = kTile;
+  for (int y = std::max(y0, crop_.y0); y < std::min(y0 + kEdge, crop_.y1); ++y)
+    for (int x = std::max(x0, crop_.x0); x < std::min(x0 + kEdge, crop_.x1); ++x) sample_pixel(x, y, worker);
+}
+
+void Pass::sample_pixel(int x, int y, Worker& worker) {
+  const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
+  for (std::uint64_t s = first_; s < last_; ++s) {
+    const auto index = static_cast<std::uint32_t>(s / static_cast<std::uint64_t>(film_.replicates()));
+    const Sampler sampler(scene_.render.seed, Purpose::camera, replicate(s), pixel, index);
+    trace_camera_path(plan_, worker.caster, sampler, x, y, worker.exposure);
+    ++worker.counts.paths;
+    if (keeps(worker.exposure.values(), worker))
+      film_.add(pixel, static_cast<int>(replicate(s)), worker.exposure.values());
+  }
+}
+
+void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
+  const std::uint32_t end = std::min((batch + 1) * kPhotonBatch, pixels_);
+  for (std::uint64_t s = first_; s < last_; ++s) {
+    const Splat splat = [&](int x, int y, std::span<const double> values) {
+      if (x < crop_.x0 || x >= crop_.x1 || y < crop_.y0 || y >= crop_.y1 || !keeps(values, worker)) return;
+      film_.splat(
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width()) + static_cast<std::size_t>(x),
+          static_cast<int>(replicate(s)), values);
+    };
+    for (std::uint32_t photon = batch * kPhotonBatch; photon < end; ++photon) {
+      const std::uint64_t index = s / static_cast<std::uint64_t>(film_.replicates()) * pixels_ + photon;
+      const Sampler sampler(scene_.render.seed, Purpose::light, replicate(s),
+                            static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(index));
+      trace_photon(plan_, worker.caster, sampler, 1.0 / pixels_, worker.exposure, splat);
+      ++worker.counts.paths;
+    }
+  }
+}
+
+}  // namespace abbe

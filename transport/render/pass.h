@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+
+#include "sensor/film/film.h"
+#include "transport/light/light_tracer.h"
+#include "transport/path/path_tracer.h"
+#include "transport/render/render.h"
+
+namespace abbe {
+
+/// What a pass counted.
+struct PassCounts {
+  std::uint64_t paths = 0;
+  std::uint64_t rays = 0;
+  std::uint64_t nonfinite = 0;
+};
+
+/// Samples [first, last) of every pixel, and as many photons as that makes. Sample s belongs to replicate s
+/// mod R and is number s / R of that replicate's sequence. Work items are tiles, then batches of photons,
+/// taken by threads from one counter.
+class Pass {
+ public:
+  Pass(const Plan& plan, Film& film, std::optional<Crop> crop, std::uint64_t first, std::uint64_t last);
+
+  /// Runs on that many threads; exceptions of workers are rethrown here.
+  PassCounts run(int threads);
+
+ private:
+  // What one thread keeps between items.
+  struct Worker {
+    explicit Worker(const Scene& scene) : caster(scene), exposure(scene.channels) {}
+    RayCaster caster;
+    PathExposure exposure;
+    PassCounts counts;
+  };
+
+  PassCounts work();
+  void render_tile(std::uint32_t tile, Worker& worker);
+  void sample_pixel(int x, int y, Worker& worker);
+  void trace_batch(std::uint32_t batch, Worker& worker);
+  [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
+  [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
+
+  const Plan& plan_;
+  const Scene& scene_;
+  Film& film_;
+  Crop crop_;
+  std::uint64_t first_;
+  std::uint64_t last_;
+  std::uint32_t tiles_x_;
+  std::uint32_t tiles_;
+  std::uint32_t batches_;
+  std::uint32_t pixels_;
+  std::atomic<std::uint32_t> next_{0};
+};
+
+}  // namespace abbe

@@ -1,0 +1,122 @@
+#include "transport/render/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "transport/light/light_tracer.h"
+
+namespace abbe {
+namespace {
+
+double scene_radius(const Scene& scene) {
+  return scene.bounds.isEmpty() ? 1.0 : std::max(scene.bounds.size().length() / 2, 1e-12);
+}
+
+WavelengthDistribution make_wavelengths(const Scene& scene) {
+  std::vector<Curve> emissions;
+  for (const Light& light : scene.lights) emissions.push_back(light.emission);
+  std::vector<Curve> responses;
+  for (const Channel& channel : scene.channels) responses.push_back(channel.weight);
+  return {emissions, responses};
+}
+
+// The sphere around all specular shapes, as what photons are aimed at.
+Imath::Box3d specular_bounds(const Scene& scene) {
+  Imath::Box3d box;
+  for (const ShapeInstance& shape : scene.shapes)
+    if (is_specular(scene.materials[shape.material])) box.extendBy(bounds(shape.shape));
+  return box;
+}
+
+Imath::V3f center_of(const Light& light, const Scene& scene) {
+  if (const auto* point = std::get_if<PointLight>(&light.kind)) return point->position;
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->position;
+  const auto& area = std::get<AreaLight>(light.kind);
+  return Imath::V3f(bounds(scene.shapes[area.shape].shape).center());
+}
+
+std::vector<Aim> make_aims(const Scene& scene, bool light_only) {
+  const Imath::Box3d box = specular_bounds(scene);
+  std::vector<Aim> aims(scene.lights.size());
+  if (light_only || box.isEmpty()) return aims;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (!scene.lights[i].is_environment())
+      aims[i] = Aim(center_of(scene.lights[i], scene), Imath::V3f(box.center()),
+                    static_cast<float>(box.size().length() / 2));
+  return aims;
+}
+
+// A bright pixel's value to within a few orders of magnitude: the strongest light filling the view, or
+// shining from a scene's size away.
+double nominal_value(const Scene& scene) {
+  const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
+                          static_cast<float>(scene.camera.height) / 2);
+  const double weight =
+      static_cast<double>(sample_ray(scene.camera, center, {0.5F, 0.5F}).weight) * scene.exposure_s;
+  const double radius = scene_radius(scene);
+  double nominal = 0;
+  for (const Light& light : scene.lights)
+    for (const Channel& channel : scene.channels)
+      nominal = std::max(nominal, product(light.emission, channel.weight).integral() /
+                                      (light.is_delta() ? radius * radius : 1));
+  return nominal * weight;
+}
+
+}  // namespace
+
+LightPicker::LightPicker(const std::vector<double>& weights) : probability_(weights.size(), 0.0F) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!(total > 0)) return;
+  const auto positive =
+      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double p = weights[i] > 0 ? 0.9 * weights[i] / total + 0.1 / positive : 0;
+    probability_[i] = static_cast<float>(p);
+    sum += p;
+    cdf_.push_back(static_cast<float>(sum));
+  }
+}
+
+LightPicker::Pick LightPicker::pick(float u) const {
+  auto i = static_cast<std::uint32_t>(std::upper_bound(cdf_.begin(), cdf_.end(), u) - cdf_.begin());
+  i = std::min(i, static_cast<std::uint32_t>(cdf_.size()) - 1);
+  while (probability_[i] == 0.0F) --i;  // u beyond a sum rounded below 1
+  return {i, probability_[i]};
+}
+
+std::vector<double> sensor_weighted_powers(const Scene& scene) {
+  std::vector<double> powers;
+  for (const Light& light : scene.lights) {
+    const Curve spectral = power(light, scene_radius(scene));
+    double largest = 0;
+    for (const Channel& channel : scene.channels)
+      largest = std::max(largest, std::abs(product(spectral, channel.weight).integral()));
+    powers.push_back(largest);
+  }
+  return powers;
+}
+
+Plan make_plan(const Scene& scene) {
+  const bool light_only = scene.render.integrator == Integrator::light;
+  const bool light_active =
+      light_only || (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
+  std::vector<double> powers = sensor_weighted_powers(scene);
+  std::vector<bool> traced(scene.lights.size(), false);
+  std::vector<double> traced_powers(scene.lights.size(), 0.0);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    traced[i] =
+        light_active && !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
+    if (traced[i]) traced_powers[i] = powers[i];
+  }
+  Plan plan{scene,      make_wavelengths(scene),      LightPicker(powers), LightPicker(traced_powers),
+            traced,     make_aims(scene, light_only), !light_only,         light_active,
+            light_only, nominal_value(scene)};
+  plan.light_active = light_active && !plan.traced_lights.empty();
+  if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
+  if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed);
+  return plan;
+}
+
+}  // namespace abbe

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+#include "spectral/wavelength_distribution.h"
+#include "transport/light/aim.h"
+
+namespace abbe {
+
+/// A discrete distribution over the lights of a scene.
+class LightPicker {
+ public:
+  /// Proportional to `weights`, nine parts in ten, and uniform over the lights of positive weight for the
+  /// rest.
+  explicit LightPicker(const std::vector<double>& weights);
+
+  struct Pick {
+    std::uint32_t light;
+    float probability;
+  };
+  [[nodiscard]] Pick pick(float u) const;
+  [[nodiscard]] float probability(std::uint32_t light) const { return probability_[light]; }
+  [[nodiscard]] bool empty() const { return cdf_.empty(); }
+
+ private:
+  std::vector<float> cdf_;  // empty when no light has weight
+  std::vector<float> probability_;
+};
+
+/// What a render works out once from the scene: which technique owns which light's caustics, where
+/// wavelengths and lights are drawn from, and where photons are aimed.
+struct Plan {
+  const Scene& scene;
+  WavelengthDistribution wavelengths;
+  LightPicker path_lights;    ///< For light sampling at path vertices.
+  LightPicker traced_lights;  ///< For starting photons.
+  std::vector<bool> traced;   ///< Per light: the light tracer owns its caustics.
+  std::vector<Aim> aims;      ///< Per light.
+  bool path_active;
+  bool light_active;
+  bool light_owns_all;   ///< The light tracer alone renders the scene.
+  double nominal_value;  ///< Order of magnitude of a film value.
+};
+
+[[nodiscard]] Plan make_plan(const Scene& scene);
+
+/// The sensor-weighted power of each light: its largest channel's share of the spectral power.
+/// Order-of-magnitude weights for sampling.
+[[nodiscard]] std::vector<double> sensor_weighted_powers(const Scene& scene);
+
+}  // namespace abbe

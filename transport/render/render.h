@@ -1,0 +1,65 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "scene/scene.h"
+#include "sensor/film/film.h"
+
+namespace abbe {
+
+/// A part of the film in pixels, x0 <= x < x1.
+struct Crop {
+  int x0, y0, x1, y1;
+};
+
+/// How far a render has come.
+struct Progress {
+  double share;           ///< Of the work, in [0, 1]; an estimate where time or error decides.
+  std::uint64_t samples;  ///< Finished, per pixel.
+  double elapsed_s;
+  double relative_error;  ///< Of the film so far; infinite until known.
+};
+
+/// When to stop, and with what.
+struct RenderOptions {
+  int threads = 0;                          ///< 0: one per processor.
+  std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends later.
+  std::optional<double> target_error = {};  ///< Stops after the first pass whose relative error is no larger.
+  std::optional<Crop> crop = {};
+  bool measure_replay =
+      false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
+  const std::atomic<bool>* stop = nullptr;  ///< Checked after each pass; what is finished stays valid.
+  std::function<void(const Progress&)> progress = {};
+};
+
+/// What a render did.
+struct RenderStats {
+  double wall_s = 0;
+  double cpu_s = 0;
+  int threads = 1;
+  std::uint64_t samples_per_pixel = 0;
+  std::uint64_t paths = 0;
+  std::uint64_t rays = 0;
+  std::uint64_t nonfinite_samples = 0;  ///< Dropped.
+  double relative_error = 0;
+  double embree_replay_share =
+      0;  ///< Time of the logged rays through Embree alone over the time to trace their paths.
+  bool interrupted = false;
+};
+
+struct RenderResult {
+  Film film;
+  RenderStats stats;
+};
+
+/// Renders the scene. For a fixed sample count the film is a pure function of scene, data, version and seed:
+/// threads and their timing change nothing. Throws Error{resource} when the film does not fit in memory.
+[[nodiscard]] RenderResult render(const Scene& scene, const RenderOptions& options);
+
+/// Replicates used for `samples` per pixel: enough for a variance, few enough to leave the sequences long.
+[[nodiscard]] int replicate_count(int samples);
+
+}  // namespace abbe

@@ -1,0 +1,67 @@
+#include "transport/render/replay.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "transport/light/light_tracer.h"
+#include "transport/path/path_tracer.h"
+
+namespace abbe {
+namespace {
+
+double cpu_seconds(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Paths spread evenly over the film, and as many photons.
+void trace_some(const Plan& plan, RayCaster& caster) {
+  constexpr std::uint32_t kPaths = 1U << 15;
+  const Scene& scene = plan.scene;
+  const auto width = static_cast<std::uint32_t>(scene.camera.width);
+  const std::uint32_t pixels = width * static_cast<std::uint32_t>(scene.camera.height);
+  PathExposure exposure(scene.channels);
+  const Splat dropped = [](int, int, std::span<const double>) {};
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    const auto pixel = static_cast<std::uint32_t>(std::uint64_t{i} * pixels / kPaths);
+    if (plan.path_active)
+      trace_camera_path(plan, caster, Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels),
+                        static_cast<int>(pixel % width), static_cast<int>(pixel / width), exposure);
+    if (plan.light_active)
+      trace_photon(plan, caster, Sampler(scene.render.seed, Purpose::light, 0, 0, i), 1, exposure, dropped);
+  }
+}
+
+}  // namespace
+
+double thread_cpu_seconds() {
+  return cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
+}
+double process_cpu_seconds() {
+  return cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double measure_replay_share(const Plan& plan) {
+  std::vector<LoggedRay> log;
+  RayCaster logging(plan.scene, &log);
+  trace_some(plan, logging);
+  double tracing = std::numeric_limits<double>::infinity();
+  double replaying = tracing;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    RayCaster plain(plan.scene);
+    const double t0 = thread_cpu_seconds();
+    trace_some(plan, plain);
+    const double t1 = thread_cpu_seconds();
+    plan.scene.replay(log);
+    const double t2 = thread_cpu_seconds();
+    tracing = std::min(tracing, t1 - t0);
+    replaying = std::min(replaying, t2 - t1);
+  }
+  return replaying / tracing;
+}
+
+}  // namespace abbe

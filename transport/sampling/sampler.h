@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace abbe {
+
+/// What a sequence of random numbers is for; sequences of different purposes are independent.
+enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3 };
+
+/// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, replicate,
+/// stream (a pixel, say), sample index and group: nothing is consumed, so no path depends on what another
+/// asked for. Within one group the points of a stream are a (0, 2)-like low-discrepancy sequence; groups are
+/// padded by independent shuffles. [Burley2020]
+class Sampler {
+ public:
+  Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t replicate, std::uint32_t stream,
+          std::uint32_t index);
+
+  /// Four numbers in [0, 1).
+  [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
+
+ private:
+  std::uint32_t key_;
+  std::uint32_t index_;
+};
+
+}  // namespace abbe
