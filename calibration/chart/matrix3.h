@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include <Imath/ImathMatrix.h>
+
+namespace abbe {
+
+/// A 3x3 colour matrix acting on column vectors: y_i = sum_j m[i][j] x_j. Products and inverses are Imath's.
+using Matrix3 = Imath::M33d;
+
+/// The product of a colour matrix and a column vector.
+[[nodiscard]] inline std::array<double, 3> multiply(const Matrix3& m, const std::array<double, 3>& x) {
+  std::array<double, 3> y{};
+  for (int i = 0; i < 3; ++i)
+    y[static_cast<std::size_t>(i)] = m[i][0] * x[0] + m[i][1] * x[1] + m[i][2] * x[2];
+  return y;
+}
+
+/// The matrix with `d` on its diagonal.
+[[nodiscard]] inline Matrix3 diagonal(const std::array<double, 3>& d) {
+  return {d[0], 0, 0, 0, d[1], 0, 0, 0, d[2]};
+}
+
+}  // namespace abbe

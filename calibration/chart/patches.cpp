@@ -1,0 +1,99 @@
+#include "calibration/chart/patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "io/table.h"
+#include "spectral/library.h"
+
+namespace abbe {
+namespace {
+
+void require_visible(const Channel& channel, double diffuser) {
+  if (std::isfinite(diffuser) && diffuser > 0) return;
+  throw Error(
+      ErrorCode::input, "channel " + channel.name,
+      fmt::format(
+          "the light gives it nothing between 380 and 780 nm (sum {}), so no colour can be calibrated",
+          diffuser));
+}
+
+// The channel whose diffuser value is the unit of raw values.
+const Channel& reference_channel(std::span<const Channel> channels) {
+  for (const char* name : {"G", "Y"}) {
+    const auto found =
+        std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+    if (found != channels.end()) return *found;
+  }
+  return channels.front();
+}
+
+XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance) {
+  XYZ xyz = tristimulus(illuminant, reflectance, Observer::cie1931);
+  for (double& v : xyz) v /= 100;
+  return xyz;
+}
+
+}  // namespace
+
+std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
+                                Diagnostics& diagnostics) {
+  const std::optional<TableColumn> found = find_table("reflectance", name, where, diagnostics);
+  if (!found) return std::nullopt;
+  const TableOrigin origin = name.ends_with(".csv") ? TableOrigin::user : TableOrigin::shipped;
+  const std::optional<Table> table = read_table(found->path, origin, diagnostics);
+  if (!table) return std::nullopt;
+  Chart chart{name, {}};
+  for (const std::string& column : table->columns) {
+    if (column.starts_with("wavelength")) continue;
+    const std::optional<NamedCurve> curve =
+        load_curve("reflectance", name + ":" + column, where, diagnostics);
+    if (!curve) return std::nullopt;
+    chart.patches.push_back({column, curve->curve});
+  }
+  return chart;
+}
+
+std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& illuminant,
+                               const Curve& reflectance) {
+  if (channels.empty()) return {};
+  const Channel& reference = reference_channel(channels);
+  const double unit = sum_product(illuminant, reference.weight);
+  require_visible(reference, unit);
+  std::vector<double> raw;
+  for (const Channel& channel : channels)
+    raw.push_back(sum_product(illuminant, channel.weight, reflectance) / unit);
+  return raw;
+}
+
+std::vector<double> diffuser_values(std::span<const Channel> channels, const Curve& illuminant) {
+  std::vector<double> values;
+  for (const Channel& channel : channels) {
+    values.push_back(sum_product(illuminant, channel.weight));
+    require_visible(channel, values.back());
+  }
+  return values;
+}
+
+PatchColors integrate(const Chart& chart, std::span<const Channel> channels, const Curve& illuminant) {
+  if (channels.size() != 3)
+    throw Error(ErrorCode::usage, "camera",
+                fmt::format("calibration needs three channels (got {})", channels.size()));
+  const std::vector<double> white = diffuser_values(channels, illuminant);
+  PatchColors colors;
+  colors.white = unit_tristimulus(illuminant, Curve(1.0));
+  for (const Patch& patch : chart.patches) {
+    Raw raw{};
+    for (std::size_t k = 0; k < raw.size(); ++k)
+      raw[k] = sum_product(illuminant, channels[k].weight, patch.reflectance) / white[k];
+    colors.names.push_back(patch.name);
+    colors.raw.push_back(raw);
+    colors.xyz.push_back(unit_tristimulus(illuminant, patch.reflectance));
+  }
+  return colors;
+}
+
+}  // namespace abbe

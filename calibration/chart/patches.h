@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/diagnostics.h"
+#include "sensor/response/channel.h"
+#include "spectral/colorimetry.h"
+#include "spectral/curve.h"
+
+namespace abbe {
+
+/// One patch of a colour chart.
+struct Patch {
+  std::string name;
+  Curve reflectance;
+};
+
+/// A chart: named patches in the order of its table.
+struct Chart {
+  std::string name;
+  std::vector<Patch> patches;
+};
+
+/// The chart of one table of `data/reflectance` (or of a user's file), one patch per column, e.g.
+/// "colorchecker24_babelcolor_average".
+[[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
+                                              Diagnostics& diagnostics);
+
+/// Raw values of a reflectance under an illuminant in channel order: 1 nm sums over 380-780 nm, divided by
+/// the value of the perfect diffuser in the channel named G, else Y, else the first. Throws Error{input} when
+/// that channel does not see the illuminant.
+[[nodiscard]] std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& illuminant,
+                                             const Curve& reflectance);
+
+/// The 1 nm sums over 380-780 nm of illuminant and channel, in channel order: what the film holds of the
+/// perfect diffuser. Throws Error{input} naming a channel that does not see the illuminant.
+[[nodiscard]] std::vector<double> diffuser_values(std::span<const Channel> channels, const Curve& illuminant);
+
+using Raw = std::array<double, 3>;
+
+/// What a three-channel camera and the CIE 1931 observer make of the patches of a chart under one illuminant.
+struct PatchColors {
+  std::vector<std::string> names;
+  std::vector<Raw> raw;  ///< White balanced: the perfect diffuser is (1, 1, 1).
+  std::vector<XYZ> xyz;  ///< Y = 1 for the perfect diffuser.
+  XYZ white;             ///< The perfect diffuser.
+};
+
+/// Integrates a chart. Throws Error{usage} unless there are three channels, Error{input} when one of them
+/// does not see the illuminant.
+[[nodiscard]] PatchColors integrate(const Chart& chart, std::span<const Channel> channels,
+                                    const Curve& illuminant);
+
+}  // namespace abbe

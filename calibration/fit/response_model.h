@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace abbe {
+
+/// A monotone sensor response as ln(linear exposure) of the code value z in (0, 1], templated on its scalar
+/// so that the solver differentiates the function that renders.
+///
+/// In the coordinate u(z) = ln z - ln(1 + kShoulder - z) a power-law toe and a logistic shoulder are both
+/// straight lines. ln exposure is a sum of cumulative uniform B-splines in u (I-splines [Ramsay1988]) with
+/// coefficients exp(theta) > 0, hence strictly rising, and is zero at kMidCode: the gauge, since an unknown
+/// exposure scale is not observable.
+template <typename T>
+class ResponseModel {
+ public:
+  static constexpr std::size_t kCoefficients = 32;
+  static constexpr double kMidCode = 0.5;
+
+  explicit ResponseModel(const T* theta) : theta_(theta) {}
+
+  /// ln of the linear exposure relative to that of kMidCode.
+  [[nodiscard]] T operator()(double code) const {
+    using std::exp;
+    const double x = position(code);
+    const double x_mid = position(kMidCode);
+    T sum(0.0);
+    for (std::size_t k = 0; k < kCoefficients; ++k)
+      sum += exp(theta_[k]) * (cumulative(x - knot(k)) - cumulative(x_mid - knot(k)));
+    return sum;
+  }
+
+  /// d code / d u: by how much a rise in u shows in the code, largest in mid-scale and falling to the toe and
+  /// the shoulder.
+  [[nodiscard]] static double sensitivity(double code) {
+    return code * (1 + kShoulder - code) / (1 + kShoulder);
+  }
+
+ private:
+  static constexpr double kShoulder = 0.2;
+  static constexpr double kLowestCode = 1.0 / 65536;
+
+  static double coordinate(double code) { return std::log(code) - std::log(1 + kShoulder - code); }
+
+  // u in units of the knot spacing, from the lowest code.
+  static double position(double code) {
+    static const double low = coordinate(kLowestCode);
+    static const double spacing = (coordinate(1) - low) / static_cast<double>(kCoefficients - 2);
+    return (coordinate(std::clamp(code, kLowestCode, 1.0)) - low) / spacing;
+  }
+  static double knot(std::size_t k) { return static_cast<double>(k) - 2; }
+
+  // Integral of the quadratic uniform B-spline on [0, 3]: rises from 0 to 1.
+  static double cumulative(double x) {
+    if (x <= 0) return 0;
+    if (x >= 3) return 1;
+    if (x < 1) return x * x * x / 6;
+    if (x > 2) return 1 - (3 - x) * (3 - x) * (3 - x) / 6;
+    return 0.5 + (x - 1.5) * (0.75 - (x - 1.5) * (x - 1.5) / 3);
+  }
+
+  const T* theta_;
+};
+
+}  // namespace abbe

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "calibration/chart/matrix3.h"
+#include "calibration/chart/patches.h"
+#include "io/error.h"
+#include "spectral/library.h"
+#include "tests/reference/reference_table.h"
+
+namespace abbe::test {
+
+inline Curve illuminant(const std::string& name) {
+  Diagnostics diagnostics;
+  const auto curve = load_illuminant(name, {}, diagnostics);
+  EXPECT_TRUE(curve.has_value()) << diagnostics.text();
+  return curve ? curve->curve : Curve();
+}
+
+inline Chart chart(const std::string& name = "colorchecker24_babelcolor_average") {
+  Diagnostics diagnostics;
+  auto loaded = load_chart(name, {}, diagnostics);
+  EXPECT_TRUE(loaded.has_value()) << diagnostics.text();
+  return loaded.value_or(Chart{});
+}
+
+inline std::vector<Channel> camera(const std::string& name = "Nikon_D5100") {
+  Diagnostics diagnostics;
+  auto loaded = load_camera(name, {}, diagnostics);
+  EXPECT_TRUE(loaded.has_value()) << diagnostics.text();
+  return loaded.value_or(std::vector<Channel>{});
+}
+
+/// The nine entries m11 ... m33 of a row of known answers.
+inline void expect_matrix(const Matrix3& m, const ReferenceTable& table, std::size_t row, double margin) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      EXPECT_NEAR(m[i][j], table.number(row, fmt::format("m{}{}", i + 1, j + 1)), margin) << "row " << row;
+}
+
+/// The Error that `f` throws must have this code and contain this text.
+template <typename F>
+void expect_error(const F& f, ErrorCode code, const std::string& text) {
+  try {
+    f();
+    ADD_FAILURE() << "nothing thrown; expected: " << text;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code, code);
+    EXPECT_NE(std::string(e.what()).find(text), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace abbe::test
