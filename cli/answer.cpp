@@ -1,0 +1,92 @@
+#include "cli/answer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace abbe::cli {
+namespace {
+
+std::string cell(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
+  if (value.is_null()) return "-";
+  if (!value.is_structured()) return value.dump();
+  std::string cells;
+  for (const auto& [key, inner] : value.items())
+    cells += (cells.empty() ? "" : "  ") + (value.is_object() ? key + " " : "") + cell(inner);
+  return cells;
+}
+
+// Lists of one length side by side, under their names.
+std::string table(const std::vector<std::pair<std::string, Json>>& columns) {
+  std::string all;
+  std::vector<std::vector<std::string>> cells;
+  std::vector<std::size_t> widths;
+  for (const auto& [name, values] : columns) {
+    std::vector<std::string>& column = cells.emplace_back(1, name);
+    for (const Json& value : values) column.push_back(cell(value));
+    widths.push_back(std::max_element(column.begin(), column.end(), [](const auto& a, const auto& b) {
+                       return a.size() < b.size();
+                     })->size());
+  }
+  for (std::size_t row = 0; !cells.empty() && row < cells.front().size(); ++row) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      all += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", cells[i][row], widths[i]);
+    all += '\n';
+  }
+  return all;
+}
+
+std::string readable(const Json& answer) {
+  std::string lines;
+  std::vector<std::pair<std::string, Json>> columns;
+  for (const auto& [key, value] : answer.items()) {
+    const bool is_column =
+        columns.empty() ? key == "wavelength_nm" : value.size() == columns.front().second.size();
+    if (is_column && value.is_array())
+      columns.emplace_back(key, value);
+    else
+      lines += fmt::format("{}  {}\n", key, cell(value));
+  }
+  return lines + table(columns);
+}
+
+}  // namespace
+
+std::string text(const Json& answer, bool as_json) {
+  return as_json ? answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" : readable(answer);
+}
+
+void print(const Json& answer, bool as_json) {
+  fmt::print("{}", text(answer, as_json));
+}
+
+Json one_or_all(Json list) {
+  return list.size() == 1 ? list.front() : list;
+}
+
+void say(const std::string& message) {
+  fmt::print(stderr, "abbe: {}\n", message);
+}
+
+void check(const Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) {
+    fmt::print(stderr, "{}", diagnostics.text());
+    return;
+  }
+  std::string all = diagnostics.text();
+  if (all.ends_with('\n')) all.pop_back();
+  const auto first =
+      std::find_if(diagnostics.all().begin(), diagnostics.all().end(),
+                   [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+  const bool placed = first->where.source != nullptr;
+  const ErrorCode code =
+      !placed && diagnostics.code() == ErrorCode::scene ? ErrorCode::input : diagnostics.code();
+  // Complaints with a place each begin their own line, as editors look for them.
+  throw Error(code, "", placed ? "invalid input\n" + all : all);
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,78 @@
+#include "cli/arguments.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "io/image.h"
+#include "io/text.h"
+
+namespace abbe::cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& got, const std::string& allowed) {
+  throw Error(ErrorCode::usage, option, fmt::format("got {}, allowed {}", got, allowed));
+}
+
+}  // namespace
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, double low,
+                                  double high) {
+  std::vector<double> numbers;
+  for (const std::string& piece : split(text, ',')) {
+    const std::optional<double> number = parse_number(piece);
+    if (!number) refuse(option, "\"" + text + "\"", "numbers separated by commas");
+    if (!(*number >= low && *number <= high)) refuse(option, piece, fmt::format("[{:g}, {:g}]", low, high));
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+std::array<double, 3> parse_triple(const std::string& option, const std::string& text) {
+  constexpr double kAny = std::numeric_limits<double>::max();
+  const std::vector<double> numbers = parse_numbers(option, text, -kAny, kAny);
+  if (numbers.size() != 3) refuse(option, "\"" + text + "\"", "three numbers separated by commas");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+double parse_seconds(const std::string& option, const std::string& text) {
+  const char unit = text.empty() ? ' ' : text.back();
+  const double factor = unit == 'm' ? 60 : unit == 'h' ? 3600 : 1;
+  const bool has_unit = unit == 's' || unit == 'm' || unit == 'h';
+  const std::optional<double> number = parse_number(text.substr(0, text.size() - (has_unit ? 1 : 0)));
+  if (!number || *number <= 0) refuse(option, "\"" + text + "\"", "a time above 0 such as 60s, 2m or 1h");
+  return *number * factor;
+}
+
+double parse_share(const std::string& option, const std::string& text) {
+  const bool percent = text.ends_with('%');
+  const std::optional<double> number = parse_number(text.substr(0, text.size() - (percent ? 1 : 0)));
+  const double share = number.value_or(0) / (percent ? 100 : 1);
+  if (!(share > 0 && share < 1))
+    refuse(option, "\"" + text + "\"", "a share in (0, 1) such as 0.5% or 0.005");
+  return share;
+}
+
+Crop parse_crop(const std::string& option, const std::string& text) {
+  const std::vector<double> edges = parse_numbers(option, text, 0, kMaxImageEdge);
+  Crop crop{};
+  int* const places[] = {&crop.x0, &crop.y0, &crop.x1, &crop.y1};
+  bool good = edges.size() == std::size(places);
+  for (std::size_t i = 0; good && i < std::size(places); ++i) {
+    *places[i] = static_cast<int>(edges[i]);
+    good = *places[i] == edges[i];
+  }
+  if (!good || crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
+    refuse(option, "\"" + text + "\"", "whole pixels x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+  return crop;
+}
+
+Override parse_override(const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || !text.starts_with('/'))
+    refuse(option, "\"" + text + "\"", "/pointer=value, such as /render/samples=64");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "scene/description/load.h"
+#include "transport/render/render.h"
+
+namespace abbe::cli {
+
+/// Values of options, from their text. All throw Error{usage} naming the option, what it got and what is
+/// allowed.
+
+/// One or more numbers separated by commas, each in [low, high].
+[[nodiscard]] std::vector<double> parse_numbers(const std::string& option, const std::string& text,
+                                                double low, double high);
+/// Three numbers separated by commas.
+[[nodiscard]] std::array<double, 3> parse_triple(const std::string& option, const std::string& text);
+/// A time above 0: "60s", "2m", "1h" or a number of seconds [s].
+[[nodiscard]] double parse_seconds(const std::string& option, const std::string& text);
+/// A share in (0, 1): "0.5%" or "0.005".
+[[nodiscard]] double parse_share(const std::string& option, const std::string& text);
+/// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.
+[[nodiscard]] Crop parse_crop(const std::string& option, const std::string& text);
+/// "/pointer=value".
+[[nodiscard]] Override parse_override(const std::string& option, const std::string& text);
+
+}  // namespace abbe::cli

@@ -1,0 +1,104 @@
+#include "cli/info.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "scene/description/load.h"
+#include "sensor/film/film.h"
+#include "transport/render/plan.h"
+#include "transport/render/render.h"
+
+namespace abbe::cli {
+namespace {
+
+// What the needs are called in answers, and what each is about.
+struct Need {
+  const char* key;
+  bool Needs::*member;
+  const char* meaning;
+};
+constexpr std::array<Need, 9> kNeeds{{
+    {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
+    {"media", &Needs::media, "matter absorbs along the path"},
+    {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
+    {"light_tracing", &Needs::light_tracing,
+     "caustics of a light too small to be hit by chance, seen by a camera"},
+    {"environment", &Needs::environment, "light from infinity all around"},
+    {"delta_lights", &Needs::delta_lights, "point or spot lights"},
+    {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
+    {"polarisation_matters", &Needs::polarisation_matters,
+     "interfaces may follow each other at oblique angles"},
+    {"depth_of_field", &Needs::depth_of_field, "a lens of finite aperture"},
+}};
+
+std::size_t film_bytes(const Scene& scene) {
+  return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
+         scene.channels.size() * static_cast<std::size_t>(replicate_count(scene.render.samples)) *
+         sizeof(Int128);
+}
+
+Json answer_for(const Scene& scene) {
+  const Plan plan = make_plan(scene);
+  Json answer;
+  answer["shapes"] = scene.shapes.size();
+  answer["triangles"] = scene.triangle_count();
+  answer["lights"] = scene.lights.size();
+  answer["materials"] = scene.materials.size();
+  for (const Need& need : kNeeds) answer["needs"][need.key] = scene.needs.*need.member;
+  answer["techniques"] = Json::array();
+  if (plan.path_active) answer["techniques"].push_back("path");
+  if (plan.light_active) answer["techniques"].push_back("light");
+  answer["unreached"] = unreached(scene, scene.needs, plan.light_active);
+  answer["wavelength_range_nm"] = {plan.wavelengths.low_nm(), plan.wavelengths.high_nm()};
+  answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene);
+  return answer;
+}
+
+std::string joined(const Json& words) {
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words.get<std::vector<std::string>>(), ", "));
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene) {
+  const Json answer = answer_for(scene);
+  std::string lines = fmt::format(
+      "{} shapes ({} triangles), {} lights, {} materials; {} x {} pixels, channels ",
+      answer["shapes"].get<int>(), answer["triangles"].get<std::size_t>(), answer["lights"].get<int>(),
+      answer["materials"].get<int>(), scene.camera.width, scene.camera.height);
+  for (const Channel& channel : scene.channels) lines += channel.name + " ";
+  lines += fmt::format("\nneeds\n");
+  for (const Need& need : kNeeds)
+    if (scene.needs.*need.member) lines += fmt::format("  {:<21} {}\n", need.key, need.meaning);
+  lines += "skips\n";
+  for (const Need& need : kNeeds)
+    if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
+  lines += fmt::format("techniques   {}\n", joined(answer["techniques"]));
+  lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
+  lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),
+                       answer["wavelength_range_nm"][1].get<double>());
+  return lines + fmt::format("memory       {:.1f} MB\n", answer["memory_bytes"].get<double>() / 1e6);
+}
+
+void warn_about_polarisation(const Needs& needs) {
+  if (!needs.polarisation_matters) return;
+  say("warning: polarisation is not carried: light is taken as unpolarised at every interface. Where oblique "
+      "interfaces follow each other the result is off: by -0.3 % through a 60 degree prism of N-BK7 and -3 % "
+      "through one of N-SF11, both at minimum deviation, and without bound between two mirrors or windows "
+      "whose planes of incidence cross");
+}
+
+int info(const InfoOptions& options) {
+  Diagnostics diagnostics;
+  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics), diagnostics);
+  if (options.json)
+    print(answer_for(scene), true);
+  else
+    fmt::print("{}", describe(scene));
+  warn_about_polarisation(scene.needs);
+  return 0;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace abbe::cli {
+
+/// What `abbe info` was asked for.
+struct InfoOptions {
+  std::filesystem::path scene;
+  bool json = false;
+};
+
+/// Prints what a scene contains, needs and skips. Returns the exit code.
+int info(const InfoOptions& options);
+
+/// The same for reading, in lines.
+[[nodiscard]] std::string describe(const Scene& scene);
+
+/// Says on stderr what leaving polarisation out costs, when the scene has paths where it costs something.
+void warn_about_polarisation(const Needs& needs);
+
+}  // namespace abbe::cli

@@ -1,0 +1,320 @@
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <new>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "cli/answer.h"
+#include "cli/arguments.h"
+#include "cli/calibrate.h"
+#include "cli/compare.h"
+#include "cli/info.h"
+#include "cli/query.h"
+#include "cli/render.h"
+#include "cli/trace.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+constexpr int kMaxSamples = 1 << 24;
+constexpr double kMaxSeed = 9007199254740992;  // 2^53, as in scene files
+constexpr double kAnyNumber = std::numeric_limits<double>::max();
+
+// What the parsed command line asks to be run.
+using Command = std::function<int()>;
+
+// A subcommand with its own options, which outlive the parsing.
+template <typename Options>
+struct Sub {
+  CLI::App* app;
+  std::shared_ptr<Options> options = std::make_shared<Options>();
+
+  Sub(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
+      int (*run)(const Options&))
+      : app(parent.add_subcommand(name, help)) {
+    app->callback([&command, run, kept = options] { command = [run, kept] { return run(*kept); }; });
+  }
+  Options* operator->() const { return options.get(); }
+};
+
+// An option whose text `parse` turns into a value.
+template <typename T, typename Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
+                        const std::string& help, const std::string& type) {
+  return app
+      .add_option_function<std::string>(
+          flag, [&value, parse, flag](const std::string& text) { value = parse(flag, text); }, help)
+      ->type_name(type);
+}
+
+auto numbers_in(double low, double high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    return parse_numbers(option, text, low, high);
+  };
+}
+
+auto number_in(double low, double high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    const std::vector<double> numbers = parse_numbers(option, text, low, high);
+    if (numbers.size() != 1)
+      throw Error(ErrorCode::usage, option, "got \"" + text + "\", allowed one number");
+    return numbers.front();
+  };
+}
+
+Imath::V3d parse_vector(const std::string& option, const std::string& text) {
+  const std::array<double, 3> v = parse_triple(option, text);
+  return {v[0], v[1], v[2]};
+}
+
+void add_json(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "Print one JSON object");
+}
+
+void add_at(CLI::App& app, std::vector<double>& at_nm) {
+  add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air", "NM[,NM...]")
+      ->required();
+}
+
+void add_render(CLI::App& app, Command& command) {
+  const Sub<RenderOptions> sub(app, "render", "Render a scene", command, render);
+  CLI::App& render = *sub.app;
+  render.add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
+  render.add_option("-o,--output", sub->output, "Image to write (default: the scene's, else SCENE.exr)")
+      ->type_name("FILE.exr");
+  CLI::Option* spp =
+      render.add_option("--spp", sub->samples, "Samples per pixel")->check(CLI::Range(1, kMaxSamples));
+  CLI::Option* error = add_parsed(render, "--error", sub->target_error, parse_share,
+                                  "Stop when the relative error is this small, as 0.5% or 0.005", "SHARE");
+  CLI::Option* time = add_parsed(render, "--time", sub->time_limit_s, parse_seconds,
+                                 "Stop after this time, as 60s, 2m or 1h", "TIME");
+  spp->excludes(error)->excludes(time);
+  error->excludes(time);
+  const std::map<std::string, Integrator> integrators{
+      {"auto", Integrator::automatic}, {"path", Integrator::path}, {"light", Integrator::light}};
+  render.add_option("--integrator", sub->integrator, "Technique")
+      ->transform(CLI::CheckedTransformer(integrators).description(""))
+      ->type_name("auto|path|light");
+  render.add_option("--seed", sub->seed, "Seed of the random numbers")->check(CLI::Range(0.0, kMaxSeed));
+  render.add_option("--threads", sub->threads, "Threads, 0 for one per processor")
+      ->check(CLI::Range(0, kMaxThreads));
+  add_parsed(render, "--crop", sub->crop, parse_crop, "Part of the film to render, in pixels", "X0,Y0,X1,Y1");
+  render
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [options = sub.options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options->overrides.push_back(parse_override("--set", text));
+          },
+          "Replace a value of the scene file; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("/POINTER=VALUE");
+  render.add_option("--display", sub->display, "Also write a picture for sRGB displays")
+      ->type_name("FILE.png");
+  render.add_option("--stats", sub->stats, "Write what the render did as JSON")->type_name("FILE.json");
+  render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
+  render.add_flag("--strict", sub->strict, "Exit with 70 if any sample was not finite");
+  render.add_flag("--quiet", sub->quiet, "Show no progress");
+}
+
+void add_scene_commands(CLI::App& app, Command& command) {
+  const Sub<InfoOptions> info_sub(app, "info", "Say what a scene contains, needs and skips", command, info);
+  info_sub.app->add_option("scene", info_sub->scene, "Scene file")->required()->type_name("SCENE");
+  add_json(*info_sub.app, info_sub->json);
+
+  const Sub<TraceOptions> sub(app, "trace", "Follow one ray through a scene in double precision", command,
+                              trace);
+  sub.app->add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
+  add_parsed(*sub.app, "--lambda", sub->wavelength_nm, number_in(kMinWavelengthNm, kMaxWavelengthNm),
+             "Wavelength in standard air", "NM")
+      ->required();
+  add_parsed(*sub.app, "--origin", sub->origin, parse_vector, "Where the ray starts, in scene units", "X,Y,Z")
+      ->required();
+  add_parsed(*sub.app, "--dir", sub->direction, parse_vector, "Its direction, of any length", "X,Y,Z")
+      ->required();
+  sub.app->add_option("--max-events", sub->max_events, "Events to follow at most")
+      ->check(CLI::Range(1, 1000000));
+  add_json(*sub.app, sub->json);
+}
+
+void add_index_query(CLI::App& query, const std::string& name, const std::string& help, Command& command,
+                     int (*run)(const IndexOptions&)) {
+  const Sub<IndexOptions> sub(query, name, help, command, run);
+  sub.app->add_option("name", sub->name, "Material or FILE.csv")->required()->type_name("NAME");
+  add_at(*sub.app, sub->at_nm);
+  add_json(*sub.app, sub->json);
+}
+
+void add_matter_queries(CLI::App& query, Command& command) {
+  add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
+  add_index_query(query, "critical", "Critical angle from inside", command, query_critical);
+  add_index_query(query, "brewster", "Brewster's angle from outside", command, query_brewster);
+
+  const Sub<ReflectanceOptions> reflectance(query, "reflectance", "Reflectance of a polished surface in air",
+                                            command, query_reflectance);
+  reflectance.app->add_option("name", reflectance->name, "Material or FILE.csv")
+      ->required()
+      ->type_name("NAME");
+  add_at(*reflectance.app, reflectance->at_nm);
+  add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
+             "Angles of incidence (default 0)", "DEG[,DEG...]");
+  add_json(*reflectance.app, reflectance->json);
+
+  const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
+                                query_prism);
+  prism.app->add_option("name", prism->name, "Material or FILE.csv")->required()->type_name("NAME");
+  add_at(*prism.app, prism->at_nm);
+  add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
+      ->required();
+  add_parsed(*prism.app, "--incidence", prism->incidence_deg, number_in(-90 + 1e-6, 90 - 1e-6),
+             "Incidence at the first face (default: least deviation)", "DEG");
+  add_json(*prism.app, prism->json);
+}
+
+void add_color_queries(CLI::App& query, Command& command) {
+  const Sub<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
+                                query_color);
+  color.app->add_option("--illuminant", color->illuminant, "Illuminant, blackbody:K or daylight:K")
+      ->required();
+  const std::map<std::string, Observer> observers{{"1931", Observer::cie1931}, {"1964", Observer::cie1964}};
+  color.app->add_option("--observer", color->observer, "Standard observer (default 1931)")
+      ->transform(CLI::CheckedTransformer(observers).description(""))
+      ->type_name("1931|1964");
+  color.app->add_option("--reflectance", color->reflectance,
+                        "NAME or FILE.csv:COLUMN (default: perfect diffuser)");
+  add_json(*color.app, color->json);
+
+  const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
+  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_triple, "First colour", "L,a,b")->required();
+  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_triple, "Second colour", "L,a,b")->required();
+  add_json(*delta_e.app, delta_e->json);
+
+  const Sub<CameraOptions> camera(query, "camera", "Raw values of a camera, green of the perfect diffuser 1",
+                                  command, query_camera);
+  camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("NAME");
+  camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
+      ->required();
+  camera.app->add_option("--reflectance", camera->reflectance,
+                         "NAME or FILE.csv:COLUMN (default: perfect diffuser)");
+  add_json(*camera.app, camera->json);
+}
+
+void add_query(CLI::App& app, Command& command) {
+  CLI::App* query = app.add_subcommand("query", "Ask the data and the closed forms");
+  auto options = std::make_shared<ListOptions>();
+  CLI::Option* list =
+      query->add_option("--list", options->kind, "List the names of all kinds of data, or of one")
+          ->expected(0, 1)
+          ->type_name("[KIND]");
+  add_json(*query, options->json);
+  add_matter_queries(*query, command);
+  add_color_queries(*query, command);
+  query->callback([query, list, options, &command] {
+    if (!query->get_subcommands().empty()) return;
+    if (list->count() == 0) throw CLI::RequiredError("query: a question or --list");
+    command = [options] { return query_list(*options); };
+  });
+}
+
+void add_compare_and_calibrate(CLI::App& app, Command& command) {
+  const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
+  sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
+  sub.app->add_option("reference", sub->reference, "Reference")->required()->type_name("FILE.exr");
+  add_json(*sub.app, sub->json);
+
+  const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
+                                          calibrate);
+  CLI::App& options = *calibration.app;
+  options
+      .add_option("--camera", calibration->camera,
+                  "Camera or FILE.csv, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
+      ->required();
+  options.add_option("--illuminant", calibration->illuminant, "Light on the chart")->capture_default_str();
+  options.add_option("--chart", calibration->chart, "Table of patch reflectances")->capture_default_str();
+  options
+      .add_option("--response", calibration->planted_response, "linear, gamma:G or s-curve, to be recovered")
+      ->capture_default_str();
+  options.add_option("--bits", calibration->bits, "Of the code values, 0 for no rounding")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 16));
+  options
+      .add_option("-o,--output", calibration->output,
+                  "Folder for the OpenColorIO configuration and the report")
+      ->type_name("FOLDER");
+  add_json(options, calibration->json);
+}
+
+// Not `app.help()`, which would show the help of the subcommand that was given.
+int show(const CLI::App& app, const std::string& name) {
+  fmt::print("{}", app.get_formatter()->make_help(&app, name, CLI::AppFormatMode::Normal));
+  return 0;
+}
+
+// `abbe help [COMMAND]`.
+void add_help(CLI::App& app, Command& command) {
+  CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, or one command");
+  auto name = std::make_shared<std::string>();
+  help->add_option("command", *name, "Command")->type_name("COMMAND");
+  help->callback([&app, &command, name] {
+    command = [&app, name] {
+      std::vector<std::string> commands;
+      for (CLI::App* about : app.get_subcommands([](const CLI::App*) { return true; })) {
+        commands.push_back(about->get_name());
+        if (about->get_name() == *name) return show(*about, "abbe " + *name);
+      }
+      if (!name->empty()) throw Error(ErrorCode::usage, "help", unknown_name("command", *name, commands));
+      return show(app, "abbe");
+    };
+  });
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Abbe, a spectral renderer validated against measured colour science", "abbe"};
+  Command command;
+  app.set_version_flag("--version", "abbe " ABBE_VERSION);
+  app.require_subcommand(1);
+  add_render(app, command);
+  add_scene_commands(app, command);
+  add_query(app, command);
+  add_compare_and_calibrate(app, command);
+  add_help(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e);
+    throw Error(ErrorCode::usage, "", std::string(e.what()) + "\nRun abbe help for what is allowed.");
+  }
+  return command();
+}
+
+int guarded(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const Error& e) {
+    say(e.what());
+    return static_cast<int>(e.code);
+  } catch (const std::bad_alloc&) {
+    say("out of memory");
+    return static_cast<int>(ErrorCode::resource);
+  } catch (const std::exception& e) {
+    say(fmt::format("internal error: {}", e.what()));
+    return static_cast<int>(ErrorCode::internal);
+  }
+}
+
+}  // namespace
+}  // namespace abbe::cli
+
+int main(int argc, char** argv) {
+  const int code = abbe::cli::guarded(argc, argv);
+  // An answer that did not reach its reader is no answer.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush()) {
+    abbe::cli::say("cannot write to standard output");
+    return static_cast<int>(abbe::ErrorCode::output);
+  }
+  return code;
+}

@@ -1,0 +1,67 @@
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace abbe::cli {
+namespace {
+
+constexpr int kBarWidth = 30;
+constexpr std::chrono::milliseconds kRedraw{200};
+
+std::string duration(double seconds) {
+  if (!(seconds < 360000)) return "a long time";
+  const auto s = static_cast<int>(std::ceil(seconds));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+}
+
+}  // namespace
+
+std::string progress_line(const Progress& progress, bool with_bar) {
+  const double share = std::clamp(progress.share, 0.0, 1.0);
+  std::string line;
+  if (with_bar) {
+    const auto filled = static_cast<std::size_t>(share * kBarWidth);
+    line = fmt::format("[{}{}] ", std::string(filled, '='), std::string(kBarWidth - filled, ' '));
+  }
+  line += fmt::format("{:3.0f} %  {} samples/pixel", std::floor(100 * share), progress.samples);
+  if (progress.elapsed_s > 0)
+    line += fmt::format("  {:.3g}/s", static_cast<double>(progress.samples) / progress.elapsed_s);
+  if (std::isfinite(progress.relative_error) && progress.relative_error > 0)
+    line += fmt::format("  error {:.3g} %", 100 * progress.relative_error);
+  if (share > 0 && share < 1)
+    line += fmt::format("  {} left", duration(progress.elapsed_s * (1 - share) / share));
+  return line;
+}
+
+ProgressDisplay::ProgressDisplay() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+void ProgressDisplay::operator()(const Progress& progress) {
+  const auto now = std::chrono::steady_clock::now();
+  const auto tenths = static_cast<int>(10 * progress.share);
+  if (terminal_) {
+    if (now - shown_ < kRedraw && tenths < 10) return;
+    fmt::print(stderr, "\r{}\x1b[K", progress_line(progress, true));
+    std::fflush(stderr);
+    open_line_ = true;
+  } else {
+    if (tenths <= tenths_) return;
+    fmt::print(stderr, "abbe: {}\n", progress_line(progress, false));
+  }
+  tenths_ = tenths;
+  shown_ = now;
+}
+
+void ProgressDisplay::finish() {
+  if (open_line_) fmt::print(stderr, "\n");
+  open_line_ = false;
+}
+
+}  // namespace abbe::cli

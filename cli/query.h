@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spectral/colorimetry.h"
+
+namespace abbe::cli {
+
+/// Questions about data and closed forms. Indices are the numbers as catalogued, at wavelengths the table
+/// covers; a name that is not found throws Error{input} with the nearest one, a wavelength outside the table
+/// Error{usage}. Each prints its answer and returns the exit code.
+
+/// `query ior`, `query critical`, `query brewster`.
+struct IndexOptions {
+  std::string name;
+  std::vector<double> at_nm;
+  bool json = false;
+};
+int query_ior(const IndexOptions& options);
+/// Angle of total reflection against an index of 1 outside; null where n <= 1.
+int query_critical(const IndexOptions& options);
+/// Polarising angle of light from outside, atan(n).
+int query_brewster(const IndexOptions& options);
+
+/// `query reflectance`: of a polished surface, for light from air.
+struct ReflectanceOptions {
+  std::string name;
+  std::vector<double> at_nm;
+  std::vector<double> angles_deg{0};
+  bool json = false;
+};
+int query_reflectance(const ReflectanceOptions& options);
+
+/// `query prism`: minimum deviation, or the deviation at one incidence.
+struct PrismOptions {
+  std::string name;
+  double apex_deg = 60;
+  std::vector<double> at_nm;
+  std::optional<double> incidence_deg;
+  bool json = false;
+};
+int query_prism(const PrismOptions& options);
+
+/// `query color`: of a reflectance, or of the perfect diffuser when none is named.
+struct ColorOptions {
+  std::string illuminant;
+  Observer observer = Observer::cie1931;
+  std::string reflectance;
+  bool json = false;
+};
+int query_color(const ColorOptions& options);
+
+/// `query delta-e`: between two L*, a*, b*; the first is the standard.
+struct DeltaEOptions {
+  std::array<double, 3> lab1{};
+  std::array<double, 3> lab2{};
+  bool json = false;
+};
+int query_delta_e(const DeltaEOptions& options);
+
+/// `query camera`: raw values of a reflectance, or of the perfect diffuser when none is named.
+struct CameraOptions {
+  std::string name;
+  std::string illuminant;
+  std::string reflectance;
+  bool json = false;
+};
+int query_camera(const CameraOptions& options);
+
+/// `query --list [KIND]`: the names of every kind, or of one.
+struct ListOptions {
+  std::string kind;
+  bool json = false;
+};
+int query_list(const ListOptions& options);
+
+}  // namespace abbe::cli

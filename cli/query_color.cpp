@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/delta_e.h"
+#include "calibration/chart/patches.h"
+#include "cli/answer.h"
+#include "cli/query.h"
+#include "io/table.h"
+#include "materials/index/library.h"
+#include "sensor/response/channel.h"
+#include "spectral/library.h"
+
+namespace abbe::cli {
+namespace {
+
+struct LitSurface {
+  Curve illuminant;
+  Curve reflectance;
+};
+
+LitSurface load(const std::string& illuminant, const std::string& reflectance, Diagnostics& diagnostics) {
+  const auto light = load_illuminant(illuminant, {}, diagnostics);
+  std::optional<NamedCurve> surface;
+  if (!reflectance.empty()) surface = load_curve("reflectance", reflectance, {}, diagnostics);
+  check(diagnostics);
+  return {light->curve, surface ? surface->curve : Curve(1.0)};
+}
+
+struct Kind {
+  const char* name;
+  std::vector<std::string> (*names)();
+};
+
+template <const char* folder>
+std::vector<std::string> names_in() {
+  return table_names(folder);
+}
+constexpr char kIlluminant[] = "illuminant";
+constexpr char kReflectance[] = "reflectance";
+constexpr char kCamera[] = "camera";
+constexpr char kFilter[] = "filter";
+constexpr char kObserver[] = "observer";
+constexpr std::array<Kind, 6> kKinds{{{"material", index_names},
+                                      {kIlluminant, names_in<kIlluminant>},
+                                      {kReflectance, names_in<kReflectance>},
+                                      {kCamera, names_in<kCamera>},
+                                      {kFilter, names_in<kFilter>},
+                                      {kObserver, names_in<kObserver>}}};
+
+}  // namespace
+
+int query_color(const ColorOptions& options) {
+  Diagnostics diagnostics;
+  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
+  const XYZ xyz = tristimulus(lit.illuminant, lit.reflectance, options.observer);
+  const XYZ white = tristimulus(lit.illuminant, Curve(1.0), options.observer);
+  if (!std::isfinite(white[1]))
+    throw Error(ErrorCode::input, options.illuminant, "has no light that an observer sees, hence no colour");
+  Json answer;
+  answer["XYZ"] = xyz;
+  answer["xy"] = chromaticity(xyz);
+  answer["Lab"] = xyz_to_lab(xyz, white);
+  print(answer, options.json);
+  return 0;
+}
+
+int query_delta_e(const DeltaEOptions& options) {
+  Json answer;
+  answer["dE00"] = delta_e_2000(options.lab1, options.lab2);
+  answer["dE76"] = delta_e_76(options.lab1, options.lab2);
+  answer["dE94"] = delta_e_94(options.lab1, options.lab2);
+  print(answer, options.json);
+  return 0;
+}
+
+int query_camera(const CameraOptions& options) {
+  Diagnostics diagnostics;
+  const auto channels = load_camera(options.name, {}, diagnostics);
+  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
+  const std::vector<double> raw = camera_raw(*channels, lit.illuminant, lit.reflectance);
+  Json answer;
+  for (std::size_t i = 0; i < raw.size(); ++i) answer["raw"][(*channels)[i].name] = raw[i];
+  print(answer, options.json);
+  return 0;
+}
+
+int query_list(const ListOptions& options) {
+  Json answer = Json::object();
+  std::vector<std::string> kinds;
+  for (const Kind& kind : kKinds) {
+    kinds.emplace_back(kind.name);
+    if (options.kind.empty() || options.kind == kind.name) answer[kind.name] = kind.names();
+  }
+  if (answer.empty()) throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, kinds));
+  if (options.json) {
+    print(answer, true);
+    return 0;
+  }
+  for (const auto& [kind, names] : answer.items()) {
+    if (answer.size() > 1) fmt::print("{}\n", kind);
+    for (const auto& name : names)
+      fmt::print("{}{}\n", answer.size() > 1 ? "  " : "", name.get_ref<const std::string&>());
+  }
+  return 0;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "cli/prism.h"
+#include "cli/query.h"
+#include "materials/index/library.h"
+#include "materials/interface/fresnel.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The material of that name, which must hold at all wavelengths asked for.
+NamedIndex find(const std::string& name, const std::vector<double>& at_nm) {
+  Diagnostics diagnostics;
+  NamedIndex found = accepted(load_index(name, {}, diagnostics), diagnostics);
+  const double low = std::max<double>(found.index.low_nm(), kMinWavelengthNm);
+  const double high = std::min<double>(found.index.high_nm(), kMaxWavelengthNm);
+  for (const double nm : at_nm)
+    if (!(nm >= low && nm <= high))
+      throw Error(ErrorCode::usage, "--at",
+                  fmt::format("{} has no data there (got {} nm, allowed [{:g}, {:g}] nm)", found.name, nm,
+                              low, high));
+  return found;
+}
+
+// One value per wavelength.
+template <typename F>
+Json each(const std::vector<double>& at_nm, F value) {
+  Json list = Json::array();
+  for (const double nm : at_nm) list.push_back(value(nm));
+  return one_or_all(std::move(list));
+}
+
+template <typename F>
+int answer_angle(const IndexOptions& options, F angle) {
+  const NamedIndex matter = find(options.name, options.at_nm);
+  Json answer;
+  answer["name"] = matter.name;
+  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["angle_deg"] = each(options.at_nm, [&](double nm) { return angle(matter.index.catalogued_n(nm)); });
+  print(answer, options.json);
+  return 0;
+}
+
+FresnelPower<double> reflect_from_air(const RefractiveIndex& index, double nm, double angle_deg) {
+  const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);
+  const double k = index.k(nm);
+  return k > 0 ? fresnel_conductor(cos_i, index.catalogued_n(nm), k)
+               : fresnel_dielectric(cos_i, index.catalogued_n(nm));
+}
+
+}  // namespace
+
+int query_ior(const IndexOptions& options) {
+  const NamedIndex matter = find(options.name, options.at_nm);
+  Json answer;
+  answer["name"] = matter.name;
+  answer["source"] = matter.source;
+  answer["medium"] = matter.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
+  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
+  answer["k"] = each(options.at_nm, [&](double nm) { return matter.index.k(nm); });
+  print(answer, options.json);
+  return 0;
+}
+
+int query_critical(const IndexOptions& options) {
+  return answer_angle(options, [](double n) { return n > 1 ? Json(std::asin(1 / n) / kDegree) : Json(); });
+}
+
+int query_brewster(const IndexOptions& options) {
+  return answer_angle(options, [](double n) { return std::atan(n) / kDegree; });
+}
+
+int query_reflectance(const ReflectanceOptions& options) {
+  const NamedIndex matter = find(options.name, options.at_nm);
+  const auto rows = [&](auto quantity) {
+    return each(options.at_nm, [&](double nm) {
+      Json row = Json::array();
+      for (const double angle : options.angles_deg)
+        row.push_back(quantity(reflect_from_air(matter.index, nm, angle)));
+      return one_or_all(std::move(row));
+    });
+  };
+  Json answer;
+  answer["name"] = matter.name;
+  answer["angle_deg"] = one_or_all(options.angles_deg);
+  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["Rs"] = rows([](const auto& f) { return f.Rs; });
+  answer["Rp"] = rows([](const auto& f) { return f.Rp; });
+  answer["R"] = rows([](const auto& f) { return f.R(); });
+  print(answer, options.json);
+  return 0;
+}
+
+int query_prism(const PrismOptions& options) {
+  const NamedIndex matter = find(options.name, options.at_nm);
+  const auto column = [&](auto quantity) {
+    return each(options.at_nm, [&](double nm) {
+      const double n = matter.index.catalogued_n(nm);
+      const auto passage = options.incidence_deg ? prism_passage(n, options.apex_deg, *options.incidence_deg)
+                                                 : prism_minimum(n, options.apex_deg);
+      return passage ? Json(quantity(*passage)) : Json();
+    });
+  };
+  Json answer;
+  answer["name"] = matter.name;
+  answer["apex_deg"] = options.apex_deg;
+  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
+  answer["deviation_deg"] = column([](const PrismPassage& p) { return p.deviation_deg; });
+  answer["incidence_deg"] = column([](const PrismPassage& p) { return p.incidence_deg; });
+  answer["Ts"] = column([](const PrismPassage& p) { return p.Ts; });
+  answer["Tp"] = column([](const PrismPassage& p) { return p.Tp; });
+  print(answer, options.json);
+  return 0;
+}
+
+}  // namespace abbe::cli

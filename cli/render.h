@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/description/load.h"
+#include "transport/render/render.h"
+
+namespace abbe::cli {
+
+/// What `abbe render` was asked for; what is absent is as the scene says.
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::filesystem::path display;
+  std::filesystem::path stats;
+  std::optional<int> samples;
+  std::optional<double> target_error;
+  std::optional<double> time_limit_s;
+  std::optional<Integrator> integrator;
+  std::optional<std::uint64_t> seed;
+  std::optional<Crop> crop;
+  int threads = 0;
+  std::vector<Override> overrides;
+  bool explain = false;
+  bool strict = false;  ///< A sample that is not finite makes the exit code 70.
+  bool quiet = false;
+};
+
+/// Scene file to pictures. Returns the exit code: 0, or 128 plus the signal that stopped the render early,
+/// its image written and valid.
+int render(const RenderOptions& options);
+
+}  // namespace abbe::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include <ImathVec.h>
+
+namespace abbe::cli {
+
+/// What `abbe trace` was asked for, in the units of length of the scene file.
+struct TraceOptions {
+  std::filesystem::path scene;
+  double wavelength_nm = 0;
+  Imath::V3d origin{0, 0, 0};
+  Imath::V3d direction{0, 0, 0};
+  int max_events = 64;
+  bool json = false;
+};
+
+/// Follows one ray through a scene and prints what happens to it. Returns the exit code.
+int trace(const TraceOptions& options);
+
+}  // namespace abbe::cli

@@ -1,0 +1,56 @@
+#include "cli/answer.h"
+
+#include <gtest/gtest.h>
+
+namespace abbe::cli {
+namespace {
+
+TEST(Answer, JsonKeepsOrderAndEveryDigit) {
+  const double third = 1.0 / 3;
+  const std::string line = text({{"z", third}, {"a", nullptr}}, true);
+  EXPECT_EQ(line, "{\"z\":0.3333333333333333,\"a\":null}\n");
+  EXPECT_EQ(Json::parse(line)["z"].get<double>(), third);
+}
+
+TEST(Answer, ReadableAnswersPutWavelengthsInColumns) {
+  const Json answer{{"name", "N-BK7"}, {"wavelength_nm", {400.0, 550.5}}, {"n", {1.53, nullptr}}};
+  EXPECT_EQ(text(answer, false),
+            "name  N-BK7\nwavelength_nm     n\n          400  1.53\n        550.5     -\n");
+}
+
+TEST(Answer, ReadableListsStayInTheirLine) {
+  const Json answer{{"XYZ", {1.0, 2.5, 3.0}}, {"raw", {{"R", 0.5}, {"G", 1.0}}}};
+  EXPECT_EQ(text(answer, false), "XYZ  1  2.5  3\nraw  R 0.5  G 1\n");
+}
+
+TEST(Answer, OneValueIsNoList) {
+  EXPECT_EQ(one_or_all({1.5}).dump(), "1.5");
+  EXPECT_EQ(one_or_all({1.5, 2.0}).dump(), "[1.5,2.0]");
+}
+
+TEST(Answer, UnknownNamesOfTheCommandLineAreMissingInputs) {
+  Diagnostics diagnostics;
+  diagnostics.error({}, "unknown material \"x\"");
+  try {
+    check(diagnostics);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code, ErrorCode::input);
+    EXPECT_NE(std::string(e.what()).find("unknown material \"x\""), std::string::npos);
+  }
+}
+
+TEST(Answer, PlacedComplaintsKeepTheirCodeAndBeginTheirLine) {
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<SourceText>(SourceText{"a.json", "{}"}), 0, "/camera"}, "no camera");
+  try {
+    check(diagnostics);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code, ErrorCode::scene);
+    EXPECT_NE(std::string(e.what()).find("\na.json:1:1: /camera: "), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace abbe::cli

@@ -1,0 +1,69 @@
+#include "cli/arguments.h"
+
+#include <gtest/gtest.h>
+
+namespace abbe::cli {
+namespace {
+
+template <typename F>
+std::string refusal(F parse) {
+  try {
+    parse();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code, ErrorCode::usage);
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Arguments, NumbersAreSeparatedByCommasAndChecked) {
+  EXPECT_EQ(parse_numbers("--at", "400, 550.5", 300, 1100), (std::vector<double>{400, 550.5}));
+  EXPECT_EQ(refusal([] { return parse_numbers("--at", "400,x", 300, 1100); }),
+            "--at: got \"400,x\", allowed numbers separated by commas");
+  EXPECT_EQ(refusal([] { return parse_numbers("--at", "400,1200", 300, 1100); }),
+            "--at: got 1200, allowed [300, 1100]");
+  EXPECT_NE(refusal([] { return parse_numbers("--at", "nan", 300, 1100); }), "accepted");
+  EXPECT_NE(refusal([] { return parse_numbers("--at", "", 300, 1100); }), "accepted");
+}
+
+TEST(Arguments, TriplesHaveThreeNumbers) {
+  EXPECT_EQ(parse_triple("--dir", "-1,0.5,2e3"), (std::array<double, 3>{-1, 0.5, 2000}));
+  EXPECT_NE(refusal([] { return parse_triple("--dir", "1,2"); }), "accepted");
+}
+
+TEST(Arguments, TimesHaveUnits) {
+  EXPECT_EQ(parse_seconds("--time", "60s"), 60);
+  EXPECT_EQ(parse_seconds("--time", "2m"), 120);
+  EXPECT_EQ(parse_seconds("--time", "1.5h"), 5400);
+  EXPECT_EQ(parse_seconds("--time", "7"), 7);
+  for (const char* text : {"", "s", "0s", "-1s", "5d", "1 s x"})
+    EXPECT_NE(refusal([&] { return parse_seconds("--time", text); }), "accepted") << text;
+}
+
+TEST(Arguments, SharesArePercentOrPlain) {
+  EXPECT_DOUBLE_EQ(parse_share("--error", "0.5%"), 0.005);
+  EXPECT_DOUBLE_EQ(parse_share("--error", "0.005"), 0.005);
+  for (const char* text : {"", "%", "0", "1", "100%", "-1%"})
+    EXPECT_NE(refusal([&] { return parse_share("--error", text); }), "accepted") << text;
+}
+
+TEST(Arguments, CropsAreWholeAndNotEmpty) {
+  const Crop crop = parse_crop("--crop", "1,2,30,40");
+  EXPECT_EQ(crop.x0, 1);
+  EXPECT_EQ(crop.y0, 2);
+  EXPECT_EQ(crop.x1, 30);
+  EXPECT_EQ(crop.y1, 40);
+  for (const char* text : {"1,2,3", "1,2,1,3", "1,3,2,3", "0.5,0,1,1", "-1,0,1,1", "0,0,1e9,1"})
+    EXPECT_NE(refusal([&] { return parse_crop("--crop", text); }), "accepted") << text;
+}
+
+TEST(Arguments, OverridesArePointerAndValue) {
+  const Override set = parse_override("--set", "/lights/0/name=a=b");
+  EXPECT_EQ(set.pointer, "/lights/0/name");
+  EXPECT_EQ(set.value, "a=b");
+  EXPECT_NE(refusal([] { return parse_override("--set", "samples=3"); }), "accepted");
+  EXPECT_NE(refusal([] { return parse_override("--set", "/samples"); }), "accepted");
+}
+
+}  // namespace
+}  // namespace abbe::cli

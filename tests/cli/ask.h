@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/error.h"
+
+namespace abbe::test {
+
+using nlohmann::json;
+
+/// What a command prints as JSON.
+template <typename Options>
+json ask(int (*command)(const Options&), Options options) {
+  options.json = true;
+  testing::internal::CaptureStdout();
+  EXPECT_NO_THROW(EXPECT_EQ(command(options), 0));
+  const std::string answer = testing::internal::GetCapturedStdout();
+  return answer.empty() ? json() : json::parse(answer);
+}
+
+/// The code of the error a command ends with; its message must hold `words`.
+inline ErrorCode fault(const std::function<void()>& command, const std::string& words) {
+  try {
+    command();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    return e.code;
+  }
+  ADD_FAILURE() << "accepted";
+  return ErrorCode::internal;
+}
+
+}  // namespace abbe::test

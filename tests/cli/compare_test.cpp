@@ -1,0 +1,61 @@
+#include "cli/compare.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace abbe::cli {
+namespace {
+
+Image image(std::vector<std::pair<std::string, std::vector<float>>> channels) {
+  Image result{static_cast<int>(channels.front().second.size()), 1, {}, {}};
+  for (auto& [name, values] : channels) result.channels.push_back({name, values});
+  return result;
+}
+
+TEST(Compare, FiguresFollowTheirFormulas) {
+  const Comparison c = compare_images(image({{"QE", {3, 1}}}), image({{"QE", {2, 2}}, {"other", {9, 9}}}));
+  EXPECT_DOUBLE_EQ(c.rel_mse, 1 / (4 + 0.01 * 4));
+  EXPECT_DOUBLE_EQ(c.rmse, 1);
+  EXPECT_DOUBLE_EQ(c.mean_ratio, 1);
+  EXPECT_FALSE(c.color);
+}
+
+TEST(Compare, VarianceChannelsDoNotCount) {
+  const Comparison c = compare_images(image({{"QE", {2, 4}}, {"Variance.QE", {7, 7}}}),
+                                      image({{"QE", {2, 4}}, {"Variance.QE", {1, 1}}}));
+  EXPECT_EQ(c.rel_mse, 0);
+  EXPECT_EQ(c.rmse, 0);
+}
+
+TEST(Compare, EqualImagesHaveNoColourDifferenceAndBrightnessMatters) {
+  const Image a = image({{"X", {0.9F, 0.5F}}, {"Y", {1, 0.5F}}, {"Z", {1.1F, 0.2F}}});
+  EXPECT_EQ(compare_images(a, a).color->max, 0);
+  const Image b = image({{"X", {0.9F, 0.6F}}, {"Y", {1, 0.6F}}, {"Z", {1.1F, 0.24F}}});
+  const Comparison c = compare_images(b, a);
+  ASSERT_TRUE(c.color);
+  EXPECT_GT(c.color->max, 3);
+  EXPECT_DOUBLE_EQ(c.color->mean, c.color->max / 2);
+}
+
+TEST(Compare, GreyOfLinearSrgbDiffersInLightnessAlone) {
+  // Against a white of 1: L* of Y = 0.25 and 0.5, and CIEDE2000 of that step on the neutral axis.
+  const std::vector<float> reference{1, 0.25F};
+  const std::vector<float> changed{1, 0.5F};
+  const Comparison c = compare_images(image({{"R", changed}, {"G", changed}, {"B", changed}}),
+                                      image({{"R", reference}, {"G", reference}, {"B", reference}}));
+  const double l1 = 116 * std::cbrt(0.25) - 16;
+  const double l2 = 116 * std::cbrt(0.5) - 16;
+  const double m = std::pow((l1 + l2) / 2 - 50, 2);
+  ASSERT_TRUE(c.color);
+  EXPECT_NEAR(c.color->max, (l2 - l1) / (1 + 0.015 * m / std::sqrt(20 + m)), 1e-6);
+}
+
+TEST(Compare, RefusesWhatCannotBeCompared) {
+  EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"Y", {1, 2}}}))), Error);
+  EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"R", {1}}}))), Error);
+  EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {NAN}}}), image({{"Y", {1}}}))), Error);
+}
+
+}  // namespace
+}  // namespace abbe::cli

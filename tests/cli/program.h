@@ -1,0 +1,67 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace abbe::test {
+
+/// What a run of the program gave.
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A folder of this process's own, emptied and removed at the end.
+class Scratch {
+ public:
+  Scratch() : path_(std::filesystem::temp_directory_path() / ("abbe_cli_test_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Scratch() { std::filesystem::remove_all(path_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const Scratch& scratch() {
+  static const Scratch folder;
+  return folder;
+}
+
+/// Runs the program through a shell; `arguments` as one would type them.
+inline Outcome abbe(const std::string& arguments) {
+  const std::filesystem::path err = scratch() / "stderr";
+  Outcome run{};
+  FILE* pipe = popen(("exec " ABBE_BINARY " " + arguments + " 2>" + err.string()).c_str(), "r");
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.out += static_cast<char>(c);
+  const int status = pclose(pipe);
+  run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  run.err = read_file(err);
+  return run;
+}
+
+}  // namespace abbe::test

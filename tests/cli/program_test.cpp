@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+namespace abbe::test {
+namespace {
+
+TEST(Program, HelpAndVersionGoToStdout) {
+  EXPECT_EQ(abbe("--version").out, "abbe " ABBE_VERSION "\n");
+  for (const char* text : {"--help", "help", "help render", "query prism --help"}) {
+    const Outcome run = abbe(text);
+    EXPECT_EQ(run.code, 0) << text;
+    EXPECT_NE(run.out.find("Usage"), std::string::npos) << text;
+    EXPECT_TRUE(run.err.empty()) << text;
+  }
+  for (const char* command : {"render", "info", "trace", "query", "compare", "calibrate"})
+    EXPECT_NE(abbe("help").out.find(command), std::string::npos) << command;
+}
+
+TEST(Program, UsageErrorsExitWith2) {
+  for (const char* text :
+       {"", "rendr", "render", "--frobnicate", "help rendr", "info", "compare one.exr",
+        "render x.json --spp 0", "render x.json --spp 1.5", "render x.json --spp 4 --time 3s",
+        "render x.json --integrator photon", "render x.json --seed -1", "render x.json --threads 5000",
+        "render x.json --set samples=3", "render x.json --crop 3,3,2,2", "render x.json --error 0"}) {
+    const Outcome run = abbe(text);
+    EXPECT_EQ(run.code, 2) << text << '\n' << run.err;
+    EXPECT_TRUE(run.err.starts_with("abbe: ")) << text << '\n' << run.err;
+    EXPECT_TRUE(run.out.empty()) << text;
+  }
+}
+
+TEST(Program, SceneErrorsExitWith3AndSayWhere) {
+  const auto path = scratch().write("bad.json", "{\n  \"abbe\": 1,\n  \"camra\": {}\n}\n");
+  for (const std::string command : {"info ", "render "}) {
+    const Outcome run = abbe(command + path.string());
+    EXPECT_EQ(run.code, 3) << run.err;
+    EXPECT_NE(run.err.find(fmt::format("\n{}:3:3: ", path.string())), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("camera"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Program, MissingInputsExitWith4) {
+  EXPECT_EQ(abbe("render /nowhere/scene.json").code, 4);
+  EXPECT_EQ(abbe("info /nowhere/scene.json").code, 4);
+  EXPECT_EQ(abbe("compare /nowhere/a.exr /nowhere/b.exr").code, 4);
+}
+
+TEST(Program, OutputsAreCheckedBeforeRendering) {
+  const auto path = scratch().write("ball.json", ball_scene()).string();
+  // At this many samples a render that started would not end within the test.
+  const std::string render = "render " + path + " --spp 10000000 --quiet ";
+  EXPECT_EQ(abbe(render + "-o /nowhere/out.exr").code, 5);
+  EXPECT_EQ(abbe(render + "-o " + (scratch() / "a.exr").string() + " --display /nowhere/a.png").code, 5);
+  EXPECT_EQ(abbe(render + "-o " + (scratch() / "a.exr").string() + " --stats /nowhere/a.json").code, 5);
+  EXPECT_EQ(abbe(render + "-o " + (scratch() / "a.tiff").string()).code, 2);
+  EXPECT_EQ(abbe(render + "-o " + (scratch() / "a.exr").string() + " --crop 0,0,25,16").code, 2);
+}
+
+TEST(Program, TooLargeAFilmExitsWith6) {
+  const auto path = scratch().write("ball.json", ball_scene()).string();
+  EXPECT_EQ(abbe("render " + path + " --set /sensor/resolution=[1000000,1000000]").code, 6);
+}
+
+TEST(Program, AnswersThatCannotBeWrittenExitWith5) {
+  EXPECT_EQ(abbe("query ior N-BK7 --at 550 >/dev/full").code, 5);
+}
+
+TEST(Query, EveryQuestionFromTheCommandLine) {
+  const auto grey =
+      scratch()
+          .write("grey.csv",
+                 "# unit: reflectance factor\n# outside: clamp\nwavelength_nm,g\n400,0.5\n700,0.5\n")
+          .string();
+  const auto json = [](const std::string& question) {
+    const Outcome run = abbe("query " + question + " --json");
+    EXPECT_EQ(run.code, 0) << question << '\n' << run.err;
+    return run.code == 0 ? run.json() : nlohmann::json();
+  };
+  EXPECT_EQ(json("ior N-BK7 --at 486.1327,587.5618")["n"].size(), 2U);
+  EXPECT_EQ(json("reflectance Au_Johnson --at 550 --angle 0,60")["R"].size(), 2U);
+  EXPECT_NEAR(json("prism N-BK7 --apex 60 --at 587.5618")["deviation_deg"].get<double>(), 38.64670, 1e-5);
+  EXPECT_NEAR(json("prism N-BK7 --apex 60 --at 587.5618 --incidence 50")["deviation_deg"].get<double>(),
+              38.65364, 1e-5);
+  EXPECT_NEAR(json("critical N-BK7 --at 587.5618")["angle_deg"].get<double>(), 41.245189, 1e-6);
+  EXPECT_NEAR(json("brewster N-BK7 --at 587.5618")["angle_deg"].get<double>(), 56.603827, 1e-6);
+  EXPECT_NEAR(json("color --illuminant D65 --observer 1964")["xy"][0].get<double>(), 0.31381, 1e-4);
+  EXPECT_NEAR(json("color --illuminant D50 --reflectance " + grey + ":g")["XYZ"][1].get<double>(), 50, 1e-12);
+  EXPECT_NEAR(json("delta-e 50,2.6772,-79.7751 50,0,-82.7485")["dE00"].get<double>(), 2.0425, 5e-5);
+  EXPECT_NEAR(json("camera Nikon_D5100 --illuminant A")["raw"]["R"].get<double>(), 1.0604997, 1e-7);
+  EXPECT_TRUE(json("--list").contains("material"));
+  EXPECT_NE(abbe("query --list illuminant").out.find("FL7\n"), std::string::npos);
+}
+
+TEST(Query, FaultyQuestions) {
+  for (const char* text : {"", "ior N-BK7", "ior N-BK7 --at abc", "ior N-BK7 --at 250",
+                           "reflectance N-BK7 --at 550 --angle 91", "prism N-BK7 --at 550 --apex 180",
+                           "delta-e 1,2 1,2,3", "color --illuminant D65 --observer 2", "--list iluminant"})
+    EXPECT_EQ(abbe(std::string("query ") + text).code, 2) << text;
+  const Outcome glass = abbe("query ior N-BK8 --at 550");
+  EXPECT_EQ(glass.code, 4);
+  EXPECT_NE(glass.err.find("N-BK7"), std::string::npos) << glass.err;
+  EXPECT_TRUE(glass.out.empty());
+}
+
+TEST(Trace, FromTheCommandLine) {
+  const std::string trace =
+      "trace " + scratch().write("prism.json", prism_scene()).string() + " --origin -100,0,-20 ";
+  const Outcome run = abbe(trace + "--dir 1,0,.25 --lambda 550 --json");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.json()["events"][0]["kind"], "refract");
+  EXPECT_NE(abbe(trace + "--dir 1,0,.25 --lambda 550").out.find("refract"), std::string::npos);
+  EXPECT_EQ(abbe(trace + "--dir 1,0,.25 --lambda 200").code, 2);
+  EXPECT_EQ(abbe(trace + "--dir -1,0 --lambda 550").code, 2);
+  EXPECT_EQ(abbe(trace + "--lambda 550").code, 2);
+}
+
+TEST(Info, KeysOfTheContract) {
+  const auto path = scratch().write("prism.json", prism_scene()).string();
+  const Outcome run = abbe("info " + path + " --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json found = run.json();
+  EXPECT_EQ(found["shapes"], 1);
+  EXPECT_EQ(found["triangles"], 8);
+  EXPECT_EQ(found["lights"], 1);
+  EXPECT_EQ(found["materials"], 1);
+  EXPECT_EQ(found["needs"]["dispersion"], true);
+  EXPECT_EQ(found["needs"]["delta_lights"], false);
+  EXPECT_EQ(found["needs"].size(), 9U);
+  EXPECT_EQ(found["techniques"][0], "path");
+  EXPECT_TRUE(found["unreached"].is_array());
+  EXPECT_GE(found["wavelength_range_nm"][0], 300);
+  EXPECT_LE(found["wavelength_range_nm"][1], 1100);
+  EXPECT_GT(found["memory_bytes"], 24 * 16 * 3 * 16);
+  EXPECT_NE(run.err.find("polarisation is not carried"), std::string::npos) << run.err;
+  const Outcome readable = abbe("info " + path);
+  EXPECT_NE(readable.out.find("dispersion"), std::string::npos);
+  EXPECT_EQ(abbe("info " + scratch().write("ball.json", ball_scene()).string()).err, "");
+}
+
+}  // namespace
+}  // namespace abbe::test

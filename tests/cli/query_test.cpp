@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "cli/query.h"
+
+#include "tests/cli/ask.h"
+#include "tests/reference/reference_table.h"
+
+namespace abbe::test {
+namespace {
+
+// Rows of a table by the value of one column, in their order.
+std::map<std::string, std::vector<std::size_t>> rows_by(const ReferenceTable& table,
+                                                        const std::string& column) {
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t row = 0; row < table.rows(); ++row) groups[table.text(row, column)].push_back(row);
+  return groups;
+}
+
+// The distinct values of a column in some rows.
+std::vector<double> values(const ReferenceTable& table, const std::vector<std::size_t>& rows,
+                           const std::string& column) {
+  std::vector<double> all;
+  for (const std::size_t row : rows) {
+    const double value = table.number(row, column);
+    if (all.empty() || all.back() != value) all.push_back(value);
+  }
+  return all;
+}
+
+// The name of a patch of a ColorChecker 24 by its number in chart order, which is that of the table's
+// columns; none for 0.
+std::string patch(const std::string& chart, double number) {
+  static constexpr std::array kPatches{"dark skin",
+                                       "light skin",
+                                       "blue sky",
+                                       "foliage",
+                                       "blue flower",
+                                       "bluish green",
+                                       "orange",
+                                       "purplish blue",
+                                       "moderate red",
+                                       "purple",
+                                       "yellow green",
+                                       "orange yellow",
+                                       "blue",
+                                       "green",
+                                       "red",
+                                       "yellow",
+                                       "magenta",
+                                       "cyan",
+                                       "white 9.5 (.05 D)",
+                                       "neutral 8 (.23 D)",
+                                       "neutral 6.5 (.44 D)",
+                                       "neutral 5 (.70 D)",
+                                       "neutral 3.5 (1.05 D)",
+                                       "black 2 (1.5 D)"};
+  return number == 0 ? "" : chart + ":" + kPatches.at(static_cast<std::size_t>(number) - 1);
+}
+
+TEST(QueryIor, EveryLineOfEveryMaterial) {
+  const std::array<std::pair<const char*, double>, 10> lines{{{"n_h", 404.6561},
+                                                              {"n_g", 435.8343},
+                                                              {"n_Fprime", 479.9914},
+                                                              {"n_F", 486.1327},
+                                                              {"n_e", 546.0740},
+                                                              {"n_d", 587.5618},
+                                                              {"n_D", 589.2938},
+                                                              {"n_Cprime", 643.8469},
+                                                              {"n_C", 656.2725},
+                                                              {"n_r", 706.5188}}};
+  const ReferenceTable table("refractive_index_lines");
+  ASSERT_GT(table.rows(), 20U);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    cli::IndexOptions options{table.text(row, "id"), {}};
+    std::vector<double> expected;  // a formula that begins later has no value for the first lines
+    for (const auto& [column, nm] : lines) {
+      if (table.text(row, column).empty()) continue;
+      options.at_nm.push_back(nm);
+      expected.push_back(table.number(row, column));
+    }
+    ASSERT_GT(expected.size(), 7U);
+    const json found = ask(cli::query_ior, options);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found["n"][i].get<double>(), expected[i], 5.1e-8)
+          << options.name << ' ' << options.at_nm[i];
+  }
+}
+
+TEST(QueryIor, KeysOfTheContractAndPlainNumbersForOneWavelength) {
+  const json found = ask(cli::query_ior, {"Cr_Johnson", {550}});
+  EXPECT_EQ(found["name"], "Cr_Johnson");
+  EXPECT_FALSE(found["source"].get<std::string>().empty());
+  EXPECT_EQ(found["medium"], "air");
+  EXPECT_EQ(found["wavelength_nm"], 550);
+  EXPECT_TRUE(found["n"].is_number());
+  EXPECT_GT(found["k"], 3);
+  EXPECT_EQ(ask(cli::query_ior, {"water_20.0C", {550}})["medium"], "vacuum");
+}
+
+TEST(QueryPrism, EveryMinimumDeviation) {
+  const ReferenceTable table("prism_minimum_deviation");
+  for (const auto& [id, rows] : rows_by(table, "id")) {
+    const json found = ask(cli::query_prism, {id, 60, values(table, rows, "wavelength_nm"), {}});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_EQ(table.number(rows[i], "apex_deg"), 60);
+      EXPECT_NEAR(found["n"][i].get<double>(), table.number(rows[i], "n"), 5.1e-8);
+      EXPECT_NEAR(found["incidence_deg"][i].get<double>(), table.number(rows[i], "incidence_deg"), 5.1e-7);
+      EXPECT_NEAR(found["deviation_deg"][i].get<double>(), table.number(rows[i], "min_deviation_deg"),
+                  5.1e-7);
+    }
+  }
+}
+
+TEST(QueryPrism, FixedIncidence) {
+  const json found = ask(cli::query_prism, {"N-BK7", 60, {656.2725, 587.5618, 486.1327, 404.6561}, 50});
+  const std::array expected{38.43841, 38.65364, 39.14097, 39.83544};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(found["deviation_deg"][i].get<double>(), expected[i], 1e-5);
+}
+
+TEST(QueryPrism, SmallestIncidenceThatIsTransmitted) {
+  const std::array<std::pair<double, double>, 3> edges{
+      {{656.2725, 29.00097}, {587.5618, 29.18821}, {486.1327, 29.61000}}};
+  for (const auto& [nm, edge] : edges) {
+    const auto at = [nm = nm](double incidence) {
+      return ask(cli::query_prism, {"N-BK7", 60, {nm}, incidence})["deviation_deg"];
+    };
+    EXPECT_TRUE(at(edge - 1e-5).is_null()) << nm;
+    EXPECT_TRUE(at(edge + 1e-5).is_number()) << nm;
+  }
+}
+
+TEST(QueryPrism, ThroughputOfBothPolarisations) {
+  const json found = ask(cli::query_prism, {"N-BK7", 60, {587.5618}, {}});
+  EXPECT_NEAR(found["Ts"].get<double>(), 0.786084, 1e-6);
+  EXPECT_NEAR(found["Tp"].get<double>(), 0.991278, 1e-6);
+}
+
+TEST(QueryAngles, EveryCriticalAngleBrewsterAngleAndReflectance) {
+  const ReferenceTable table("critical_brewster_fresnel");
+  const std::vector<double> angles{0, 30, 45, 60, 75, 85};
+  for (const auto& [id, rows] : rows_by(table, "id")) {
+    const std::vector<double> at = values(table, rows, "wavelength_nm");
+    const json critical = ask(cli::query_critical, {id, at});
+    const json brewster = ask(cli::query_brewster, {id, at});
+    const json reflectance = ask(cli::query_reflectance, {id, at, angles});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_NEAR(critical["angle_deg"][i].get<double>(), table.number(rows[i], "critical_deg"), 5.1e-7);
+      EXPECT_NEAR(brewster["angle_deg"][i].get<double>(), table.number(rows[i], "brewster_outside_deg"),
+                  5.1e-7);
+      for (std::size_t a = 0; a < angles.size(); ++a)
+        for (const std::string kind : {"Rs", "Rp"})
+          EXPECT_NEAR(reflectance[kind][i][a].get<double>(),
+                      table.number(rows[i], fmt::format("{}_{}", kind, angles[a])), 5.1e-9)
+              << id << ' ' << kind << ' ' << angles[a];
+    }
+  }
+}
+
+TEST(QueryAngles, NoCriticalAngleBelowAnIndexOfOne) {
+  EXPECT_TRUE(ask(cli::query_critical, {"Ag_Johnson", {550}})["angle_deg"].is_null());
+}
+
+TEST(QueryReflectance, EveryMetal) {
+  const ReferenceTable table("metal_reflectance");
+  for (const auto& [name, rows] : rows_by(table, "name")) {
+    const json found = ask(cli::query_reflectance, {name, values(table, rows, "wavelength_nm"), {0, 45, 75}});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_EQ(found["wavelength_nm"][i / 3], table.number(rows[i], "wavelength_nm"));
+      ASSERT_EQ(found["angle_deg"][i % 3], table.number(rows[i], "theta_deg"));
+      EXPECT_NEAR(found["Rs"][i / 3][i % 3].get<double>(), table.number(rows[i], "Rs"), 5.1e-9);
+      EXPECT_NEAR(found["Rp"][i / 3][i % 3].get<double>(), table.number(rows[i], "Rp"), 5.1e-9);
+      EXPECT_NEAR(found["R"][i / 3][i % 3].get<double>(), table.number(rows[i], "R_unpol"), 5.1e-9);
+    }
+  }
+}
+
+TEST(QueryReflectance, ShapeFollowsTheQuestion) {
+  EXPECT_TRUE(ask(cli::query_reflectance, {"Al_Rakic", {550}, {60}})["R"].is_number());
+  EXPECT_EQ(ask(cli::query_reflectance, {"Al_Rakic", {550}, {0, 60, 80}})["R"].size(), 3U);
+  EXPECT_EQ(ask(cli::query_reflectance, {"Al_Rakic", {500, 550}, {60}})["R"].size(), 2U);
+  const json full = ask(cli::query_reflectance, {"Al_Rakic", {500, 550}, {0, 60, 90}})["R"];
+  EXPECT_EQ(full.size(), 2U);
+  EXPECT_EQ(full[0].size(), 3U);
+  EXPECT_EQ(full[1][2], 1);
+}
+
+TEST(QueryColor, EveryWhitePointOfBothObservers) {
+  const ReferenceTable table("white_points");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const Observer observer = table.text(row, "observer") == "2" ? Observer::cie1931 : Observer::cie1964;
+    const json found = ask(cli::query_color, {table.text(row, "illuminant"), observer, ""});
+    EXPECT_NEAR(found["xy"][0].get<double>(), table.number(row, "x_1nm"), 5.1e-7)
+        << table.text(row, "illuminant");
+    EXPECT_NEAR(found["xy"][1].get<double>(), table.number(row, "y_1nm"), 5.1e-7)
+        << table.text(row, "illuminant");
+    EXPECT_NEAR(found["XYZ"][1].get<double>(), 100, 1e-12);
+    EXPECT_NEAR(found["Lab"][0].get<double>(), 100, 1e-12);
+  }
+}
+
+TEST(QueryColor, EveryPatchOfTheChart) {
+  const ReferenceTable table("colorchecker_babelcolor_2deg");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const json found =
+        ask(cli::query_color, {table.text(row, "illuminant"), Observer::cie1931,
+                               patch("colorchecker24_babelcolor_average", table.number(row, "index"))});
+    const std::array columns{"X", "Y", "Z", "L", "a", "b"};
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(found[i < 3 ? "XYZ" : "Lab"][i % 3].get<double>(), table.number(row, columns[i]), 1e-5)
+          << table.text(row, "patch") << ' ' << columns[i];
+  }
+}
+
+TEST(QueryDeltaE, PublishedPair) {
+  const json found = ask(cli::query_delta_e, {{50, 2.6772, -79.7751}, {50, 0, -82.7485}});
+  EXPECT_NEAR(found["dE00"].get<double>(), 2.0425, 5e-5);
+  EXPECT_NEAR(found["dE76"].get<double>(), std::hypot(2.6772, 2.9734), 1e-12);
+  EXPECT_TRUE(found.contains("dE94"));
+}
+
+TEST(QueryCamera, EveryPatchOfEveryChart) {
+  const ReferenceTable table("camera_raw_colorchecker");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const json raw =
+        ask(cli::query_camera, {table.text(row, "camera"), table.text(row, "illuminant"),
+                                patch(table.text(row, "spectra"), table.number(row, "index"))})["raw"];
+    for (const std::string channel : {"R", "G", "B"})
+      EXPECT_NEAR(raw[channel].get<double>(), table.number(row, "raw_" + channel), 5.1e-8)
+          << table.text(row, "patch") << ' ' << channel;
+  }
+}
+
+TEST(QueryList, NamesEveryKind) {
+  const json all = ask(cli::query_list, cli::ListOptions{});
+  EXPECT_EQ(all.size(), 6U);
+  const auto names = all["material"].get<std::vector<std::string>>();
+  EXPECT_NE(std::find(names.begin(), names.end(), "N-BK7"), names.end());
+  EXPECT_EQ(ask(cli::query_list, {"camera"}).size(), 1U);
+}
+
+TEST(QueryFaults, UnknownNamesAreMissingInputsAndSuggestTheNearest) {
+  EXPECT_EQ(fault([] { cli::query_ior({"N-BK8", {550}}); }, "N-BK7"), ErrorCode::input);
+  EXPECT_EQ(fault([] { cli::query_color({"ID6", Observer::cie1931, ""}); }, "ID65"), ErrorCode::input);
+  EXPECT_EQ(fault([] { cli::query_camera({"Nikon_D5101", "D65", ""}); }, "Nikon_D5100"), ErrorCode::input);
+  EXPECT_EQ(fault(
+                [] {
+                  cli::query_color({"D65", Observer::cie1931, "missing.csv:a"});
+                },
+                "missing.csv"),
+            ErrorCode::input);
+  EXPECT_EQ(fault([] { cli::query_list({"illuminent"}); }, "illuminant"), ErrorCode::usage);
+}
+
+TEST(QueryFaults, WavelengthsWithoutDataAreUsageErrorsThatSayTheRange) {
+  EXPECT_EQ(fault(
+                [] {
+                  cli::query_ior({"Au_Johnson", {550, 250}});
+                },
+                "got 250 nm, allowed [300, 1100] nm"),
+            ErrorCode::usage);
+  EXPECT_EQ(fault(
+                [] {
+                  cli::query_brewster({"PMMA", {404.6561}});
+                },
+                "got 404.6561 nm, allowed [436.8, 1052] nm"),
+            ErrorCode::usage);
+}
+
+}  // namespace
+}  // namespace abbe::test

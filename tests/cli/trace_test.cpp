@@ -1,0 +1,154 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "cli/query.h"
+#include "cli/trace.h"
+#include "tests/cli/ask.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+namespace abbe::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kC = 656.2725;
+constexpr double kD = 587.5618;
+constexpr double kF = 486.1327;
+
+json trace(const std::string& scene, double nm, const Imath::V3d& origin, const Imath::V3d& direction,
+           int max_events = 64) {
+  return ask(cli::trace,
+             cli::TraceOptions{scratch().write("scene.json", scene), nm, origin, direction, max_events});
+}
+
+// A ray onto the middle of the left face of the prism at an angle of incidence from below its normal.
+json through_prism(double nm, double incidence_deg) {
+  const double elevation = (incidence_deg - 30) * kDegree;
+  const Imath::V3d dir(std::cos(elevation), 0, std::sin(elevation));
+  return trace(prism_scene(), nm, Imath::V3d(-7.5, 1.25, 4.330127018922193) - 100.0 * dir, dir);
+}
+
+TEST(TracePrism, MinimumDeviationOfTheSpectralLines) {
+  const std::array<std::pair<double, double>, 5> lines{
+      {{kC, 38.42914}, {kD, 38.64670}, {kF, 39.13811}, {435.8343, 39.51948}, {404.6561, 39.83534}}};
+  for (const auto& [nm, deviation] : lines) {
+    const json found = through_prism(nm, (60 + deviation) / 2);
+    ASSERT_EQ(found["events"].size(), 3U);
+    EXPECT_EQ(found["events"][0]["kind"], "refract");
+    EXPECT_EQ(found["events"][1]["kind"], "refract");
+    EXPECT_EQ(found["events"][2]["kind"], "escape");
+    EXPECT_NEAR(found["deviation_deg"].get<double>(), deviation, 1e-5) << nm;
+  }
+}
+
+TEST(TracePrism, FixedIncidence) {
+  const std::array<std::pair<double, double>, 4> lines{
+      {{kC, 38.43841}, {kD, 38.65364}, {kF, 39.14097}, {404.6561, 39.83544}}};
+  for (const auto& [nm, deviation] : lines)
+    EXPECT_NEAR(through_prism(nm, 50)["deviation_deg"].get<double>(), deviation, 1e-5) << nm;
+}
+
+TEST(TracePrism, EdgeOfTotalReflection) {
+  const std::array<std::pair<double, double>, 3> lines{{{kC, 29.00097}, {kD, 29.18821}, {kF, 29.61000}}};
+  for (const auto& [nm, edge] : lines) {
+    EXPECT_EQ(through_prism(nm, edge - 1e-5)["events"][1]["kind"], "total_reflection") << nm;
+    EXPECT_EQ(through_prism(nm, edge + 1e-5)["events"][1]["kind"], "refract") << nm;
+  }
+}
+
+TEST(TracePrism, ThroughputFromTheReflectances) {
+  const json events = through_prism(kD, (60 + 38.64670) / 2)["events"];
+  const auto through = [&](const char* kind) {
+    return (1 - events[0][kind].get<double>()) * (1 - events[1][kind].get<double>());
+  };
+  EXPECT_NEAR(through("Rs"), 0.786084, 1e-6);
+  EXPECT_NEAR(through("Rp"), 0.991278, 1e-6);
+}
+
+TEST(TracePrism, EventsCarryTheContractsKeys) {
+  const json first = through_prism(kD, 50)["events"][0];
+  EXPECT_EQ(first["shape"], "prism");
+  EXPECT_NEAR(first["point"][0].get<double>(), -7.5, 1e-9);
+  EXPECT_NEAR(first["point"][1].get<double>(), 1.25, 1e-9);
+  EXPECT_NEAR(first["point"][2].get<double>(), 4.330127018922193, 1e-9);
+  EXPECT_NEAR(first["normal"][0].get<double>(), -std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(first["normal"][2].get<double>(), 0.5, 1e-12);
+  EXPECT_EQ(first["n_from"], 1);
+  EXPECT_NEAR(first["n_to"].get<double>(), 1.5168, 5e-7);
+  EXPECT_NEAR(first["angle_in_deg"].get<double>(), 50, 1e-9);
+  EXPECT_NEAR(first["angle_out_deg"].get<double>(),
+              std::asin(std::sin(50 * kDegree) / first["n_to"].get<double>()) / kDegree, 1e-9);
+}
+
+// A plate 10 mm thick, far from the origin of its file, met at 45 degrees.
+std::string plate_scene() {
+  return scene_text(R"("glass": {"dielectric": {"ior": "N-BK7"}})",
+                    R"({"name": "plate", "material": "glass", "mesh": {
+    "vertices": [[1000,-50,-50],[1010,-50,-50],[1010,50,-50],[1000,50,-50],[1000,-50,50],[1010,-50,50],[1010,50,50],[1000,50,50]],
+    "triangles": [[0,2,1],[0,3,2],[4,5,6],[4,6,7],[0,1,5],[0,5,4],[3,6,2],[3,7,6],[0,4,7],[0,7,3],[1,2,6],[1,6,5]]}})");
+}
+
+TEST(TracePlate, LateralShift) {
+  // Computed shifts of a 10 mm plate at 45 degrees, t (sin i - cos i tan r), from n to 1e-12.
+  for (const auto& [nm, printed] :
+       std::array<std::pair<double, double>, 3>{{{kC, 3.337199}, {kD, 3.344994}, {kF, 3.362405}}}) {
+    const double c = std::sqrt(0.5);
+    const json found = trace(plate_scene(), nm, {990, 3, -10}, {1, 0, 1});
+    const json out = found["final_origin"];
+    const double x = out[0].get<double>() - 990;
+    const double z = out[2].get<double>() + 10;
+    const double n = found["events"][0]["n_to"];
+    const double exact = 10 * (c - c * std::tan(std::asin(c / n)));
+    EXPECT_NEAR((x - z) * c, exact, 1e-9 * exact);
+    EXPECT_NEAR((x - z) * c, printed, 5.1e-7);
+    EXPECT_NEAR(found["deviation_deg"].get<double>(), 0, 1e-6);
+  }
+}
+
+TEST(TraceMirror, ReflectsAndNamesTheMetal) {
+  const json found = trace(
+      scene_text(
+          R"("gold": {"conductor": {"ior": "Au_Johnson"}})",
+          R"({"name": "mirror", "quad": {"corner": [-5,-5,0], "edge_u": [10,0,0], "edge_v": [0,10,0]}, "material": "gold"})"),
+      550, {-1, 0, 1}, {1, 0, -1});
+  const json event = found["events"][0];
+  EXPECT_EQ(event["kind"], "reflect");
+  EXPECT_NEAR(event["angle_in_deg"].get<double>(), 45, 1e-9);
+  EXPECT_NEAR(event["angle_out_deg"].get<double>(), 45, 1e-9);
+  EXPECT_NEAR(found["deviation_deg"].get<double>(), 90, 1e-9);
+  const json asked = ask(cli::query_reflectance, {"Au_Johnson", {550}, {45}});
+  EXPECT_NEAR(event["Rs"].get<double>(), asked["Rs"].get<double>(), 1e-12);
+  EXPECT_NEAR(event["Rp"].get<double>(), asked["Rp"].get<double>(), 1e-12);
+  EXPECT_NEAR(found["final_dir"][2].get<double>(), std::sqrt(0.5), 1e-12);
+}
+
+TEST(TraceDiffuse, EndsWithAHit) {
+  const json found = trace(ball_scene(), 550, {0, -300, 0}, {0, 2, 0});
+  ASSERT_EQ(found["events"].size(), 1U);
+  EXPECT_EQ(found["events"][0]["kind"], "hit");
+  EXPECT_NEAR(found["final_origin"][1].get<double>(), -50, 1e-9);
+  EXPECT_EQ(found["deviation_deg"], 0);
+}
+
+TEST(TraceFaults, RaysNeedADirectionAndAScene) {
+  const auto ball = scratch().write("scene.json", ball_scene());
+  EXPECT_EQ(fault([&] { cli::trace({ball, 550, {0, 0, 0}, {0, 0, 0}}); }, "--dir"), ErrorCode::usage);
+  EXPECT_EQ(fault(
+                [] {
+                  cli::trace({"/nowhere/scene.json", 550, {0, 0, 0}, {0, 0, 1}});
+                },
+                "/nowhere"),
+            ErrorCode::input);
+}
+
+TEST(TraceFaults, EndlessRaysStopWithAWarning) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(trace(prism_scene(), 550, {-100, 0, 0}, {1, 0, 0}, 1)["events"].size(), 1U);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("stopped after 1 events"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,72 @@
+#include <cstring>
+
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+bool same_film(const Film& a, const Film& b) {
+  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(a.width() * a.height()); ++pixel)
+    for (int channel = 0; channel < a.channels(); ++channel)
+      if (a.mean(pixel, channel) != b.mean(pixel, channel) ||
+          a.variance(pixel, channel) != b.variance(pixel, channel))
+        return false;
+  return true;
+}
+
+class SameBits : public testing::TestWithParam<const char*> {};
+
+TEST_P(SameBits, WhateverTheNumberOfThreads) {
+  const Scene scene = test::load(GetParam(), {{"/sensor/resolution", "[80, 45]"}, {"/render/samples", "20"}});
+  const RenderResult one = render(scene, {.threads = 1});
+  ASSERT_GT(one.film.relative_error(), 0);
+  EXPECT_TRUE(same_film(one.film, render(scene, {.threads = 2}).film));
+  EXPECT_TRUE(same_film(one.film, render(scene, {.threads = 5}).film));
+}
+
+TEST_P(SameBits, AnotherSeedIsAnotherFilm) {
+  const std::vector<Override> small{{"/sensor/resolution", "[80, 45]"}, {"/render/samples", "4"}};
+  std::vector<Override> reseeded = small;
+  reseeded.push_back({"/render/seed", "1"});
+  EXPECT_FALSE(same_film(render(test::load(GetParam(), small), {}).film,
+                         render(test::load(GetParam(), reseeded), {}).film));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, testing::Values("prism.json", "cornell.json", "glass_sphere.json"),
+                         [](const auto& info) {
+                           return std::string(info.param, std::strchr(info.param, '.'));
+                         });
+
+TEST(Crop, PixelsInsideAreThoseOfTheWholeFilm) {
+  const Scene scene =
+      test::load("cornell.json", {{"/sensor/resolution", "[64, 64]"}, {"/render/samples", "4"}});
+  const RenderResult whole = render(scene, {});
+  const RenderResult part = render(scene, {.crop = Crop{10, 20, 30, 40}});
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const auto pixel = static_cast<std::size_t>(y * 64 + x);
+      const bool inside = x >= 10 && x < 30 && y >= 20 && y < 40;
+      EXPECT_EQ(part.film.mean(pixel, 0), inside ? whole.film.mean(pixel, 0) : 0) << x << ", " << y;
+    }
+}
+
+TEST(Stop, ARequestEndsAfterAPassWithAValidFilm) {
+  const Scene scene =
+      test::load("cornell.json", {{"/sensor/resolution", "[32, 32]"}, {"/render/samples", "4096"}});
+  std::atomic<bool> stop{false};
+  const RenderResult stopped =
+      render(scene, {.stop = &stop, .progress = [&stop](const Progress&) { stop = true; }});
+  EXPECT_TRUE(stopped.stats.interrupted);
+  EXPECT_GT(stopped.stats.samples_per_pixel, 0U);
+  EXPECT_LT(stopped.stats.samples_per_pixel, 4096U);
+  EXPECT_GT(stopped.film.mean(16 * 32 + 16, 1), 0);
+}
+
+TEST(Stop, AnErrorTargetIsReached) {
+  const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[32, 32]"}});
+  const RenderResult result = render(scene, {.target_error = 0.1});
+  EXPECT_LE(result.stats.relative_error, 0.1);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/data_directory.h"
+#include "scene/description/load.h"
+#include "transport/render/render.h"
+
+namespace abbe::test {
+
+/// A scene of `data/scenes` with some settings replaced.
+inline Scene load(const std::string& name, const std::vector<Override>& settings = {}) {
+  Diagnostics diagnostics;
+  std::optional<Scene> scene = load_scene(data_directory() / "scenes" / name, settings, diagnostics);
+  if (!scene) throw Error(ErrorCode::internal, name, diagnostics.text());
+  return std::move(*scene);
+}
+
+/// Mean of a channel over pixels [x0, x1) x [y0, y1), and the variance of that mean.
+struct Region {
+  double mean = 0;
+  double variance = 0;
+};
+inline Region region(const Film& film, int channel, int x0, int y0, int x1, int y1) {
+  Region sum;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const auto pixel = static_cast<std::size_t>(y * film.width() + x);
+      sum.mean += film.mean(pixel, channel);
+      sum.variance += film.variance(pixel, channel);
+    }
+  const double n = static_cast<double>(x1 - x0) * (y1 - y0);
+  return {sum.mean / n, sum.variance / (n * n)};
+}
+
+/// Statistic of the difference of two independent films over a grid of regions: the largest |z|, and the mean
+/// ratio b/a.
+struct Comparison {
+  double largest_z = 0;
+  double ratio = 0;
+};
+inline Comparison compare_regions(const Film& a, const Film& b, int grid) {
+  Comparison result;
+  double total_a = 0;
+  double total_b = 0;
+  for (int channel = 0; channel < a.channels(); ++channel)
+    for (int j = 0; j < grid; ++j)
+      for (int i = 0; i < grid; ++i) {
+        const int x0 = i * a.width() / grid;
+        const int x1 = (i + 1) * a.width() / grid;
+        const int y0 = j * a.height() / grid;
+        const int y1 = (j + 1) * a.height() / grid;
+        const Region ra = region(a, channel, x0, y0, x1, y1);
+        const Region rb = region(b, channel, x0, y0, x1, y1);
+        total_a += ra.mean;
+        total_b += rb.mean;
+        const double deviation = std::sqrt(ra.variance + rb.variance);
+        if (deviation > 0)
+          result.largest_z = std::max(result.largest_z, std::abs(ra.mean - rb.mean) / deviation);
+      }
+  result.ratio = total_b / total_a;
+  return result;
+}
+
+}  // namespace abbe::test

@@ -1,0 +1,61 @@
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+// Family significance 1e-6 over 3 channels x 16 regions: z = 5.6 by Sidak's correction.
+constexpr double kLargestZ = 5.6;
+
+// A lamp so big over a glass ball that path tracing makes its caustic with little noise too: each technique
+// can be held against the other.
+const std::vector<Override> kBigLamp{{"/sensor/resolution", "[64, 64]"}, {"/lights/0/sphere/radius", "1.2"}};
+
+RenderResult render_with(const char* integrator, int samples, std::vector<Override> settings,
+                         bool force_light_tracing = false) {
+  settings.push_back({"/render/integrator", integrator});
+  settings.push_back({"/render/samples", std::to_string(samples)});
+  Scene scene = test::load("glass_sphere.json", settings);
+  if (force_light_tracing) {
+    scene.needs.light_tracing = true;
+    scene.needs.light_is_traced[0] = true;
+  }
+  return render(scene, {});
+}
+
+TEST(Techniques, SharingPathsLosesAndDoublesNothing) {
+  const RenderResult alone = render_with("path", 1024, kBigLamp);
+  const RenderResult shared = render_with("auto", 256, kBigLamp, true);
+  EXPECT_GT(shared.stats.paths, 256U * 64 * 64) << "no photon was traced";
+  const test::Comparison c = test::compare_regions(alone.film, shared.film, 4);
+  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_NEAR(c.ratio, 1, 0.003);
+}
+
+TEST(Techniques, RouletteChangesNoiseOnly) {
+  std::vector<Override> without = kBigLamp;
+  without.push_back({"/render/roulette_depth", "-1"});
+  const RenderResult a = render_with("path", 256, kBigLamp);
+  const RenderResult b = render_with("path", 256, without);
+  EXPECT_LT(test::compare_regions(a.film, b.film, 4).largest_z, kLargestZ);
+}
+
+TEST(Techniques, LightTracingAloneMakesADiffuseSceneToo) {
+  const std::vector<Override> small{{"/sensor/resolution", "[48, 48]"}, {"/render/samples", "512"}};
+  std::vector<Override> light = small;
+  light.push_back({"/render/integrator", "light"});
+  const RenderResult a = render(test::load("cornell.json", small), {});
+  const RenderResult b = render(test::load("cornell.json", light), {});
+  // All but the directly visible lamp, which no photon that scatters can show: the lower three quarters of
+  // the picture.
+  for (int channel = 0; channel < 3; ++channel)
+    for (int i = 0; i < 4; ++i) {
+      const test::Region ra = test::region(a.film, channel, 12 * i, 12, 12 * i + 12, 48);
+      const test::Region rb = test::region(b.film, channel, 12 * i, 12, 12 * i + 12, 48);
+      EXPECT_LT(std::abs(ra.mean - rb.mean), kLargestZ * std::sqrt(ra.variance + rb.variance))
+          << channel << ' ' << i;
+      EXPECT_NEAR(rb.mean / ra.mean, 1, 0.03);
+    }
+}
+
+}  // namespace
+}  // namespace abbe
