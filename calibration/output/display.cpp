@@ -147,7 +147,8 @@ DisplayTransform make_display(const std::vector<Channel>& channels, const Curve&
   const std::vector<double> white = diffuser_values(channels, illuminant);
   MatrixFit fit = fit_matrix(integrate(*chart, channels, illuminant));
   const Matrix3 balance = diagonal({white[1] / white[0], 1, white[1] / white[2]});
-  return {std::move(names), adaptation(illuminant) * fit.raw_to_xyz * balance, std::move(fit)};
+  const Matrix3 to_xyz_d65 = adaptation(illuminant) * fit.raw_to_xyz * balance;
+  return {std::move(names), to_xyz_d65, std::move(fit)};
 }
 
 }  // namespace abbe

@@ -70,7 +70,7 @@ void add_camera_space(OCIO::Config& config, const CameraProfile& profile) {
 
 // The encoding of IEC 61966-2-1, its linear part continued below zero.
 OCIO::ExponentWithLinearTransformRcPtr srgb_encoding() {
-  const OCIO::ExponentWithLinearTransformRcPtr encoding = OCIO::ExponentWithLinearTransform::Create();
+  OCIO::ExponentWithLinearTransformRcPtr encoding = OCIO::ExponentWithLinearTransform::Create();
   encoding->setGamma({2.4, 2.4, 2.4, 1});
   encoding->setOffset({0.055, 0.055, 0.055, 0});
   encoding->setNegativeStyle(OCIO::NEGATIVE_LINEAR);
@@ -109,7 +109,7 @@ void add_roles(OCIO::Config& config) {
 }
 
 OCIO::ConfigRcPtr build_config(const CameraProfile& profile) {
-  const OCIO::ConfigRcPtr config = OCIO::Config::Create();
+  OCIO::ConfigRcPtr config = OCIO::Config::Create();
   config->setVersion(2, 0);
   config->setDescription(profile.description.c_str());
   config->setSearchPath(".");

@@ -185,7 +185,7 @@ std::optional<std::filesystem::path> Reading::file(const std::string& name, cons
 
 std::optional<std::string> Reading::table(const JsonValue& json) {
   constexpr std::string_view kExtension = ".csv";
-  const std::optional<std::string> name = read_string(json, diagnostics);
+  std::optional<std::string> name = read_string(json, diagnostics);
   if (!name) return std::nullopt;
   const std::size_t dot = name->find(kExtension);
   if (dot == std::string::npos) return name;

@@ -51,15 +51,11 @@ std::size_t Film::index(std::size_t pixel, int replicate) const {
 }
 
 void Film::add(std::size_t pixel, int replicate, std::span<const double> values) {
-  Int128* sum = &sums_[index(pixel, replicate)];
-  for (const double value : values) *sum++ += to_fixed(value, unit_exponent_);
-}
-
-void Film::splat(std::size_t pixel, int replicate, std::span<const double> values) {
   std::atomic_flag& lock = locks_[pixel % kLocks];
   while (lock.test_and_set(std::memory_order_acquire)) {
   }
-  add(pixel, replicate, values);
+  Int128* sum = &sums_[index(pixel, replicate)];
+  for (const double value : values) *sum++ += to_fixed(value, unit_exponent_);
   lock.clear(std::memory_order_release);
 }
 

@@ -29,10 +29,8 @@ class Film {
   /// to 2^-80 of it.
   Film(int width, int height, int channels, int replicates, double nominal);
 
-  /// Adds one sample's values. The caller has the pixel to itself.
+  /// Adds one sample's or splat's values; any thread may, at any time.
   void add(std::size_t pixel, int replicate, std::span<const double> values);
-  /// Adds from any thread.
-  void splat(std::size_t pixel, int replicate, std::span<const double> values);
   /// Whether a value is finite and within what the film can hold.
   [[nodiscard]] bool holds(double value) const;
 
