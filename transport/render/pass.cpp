@@ -109,7 +109,7 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     const Splat splat = [&](int x, int y, std::span<const double> values) {
       if (x < crop_.x0 || x >= crop_.x1 || y < crop_.y0 || y >= crop_.y1 || !keeps(values, worker)) return;
-      film_.splat(
+      film_.add(
           static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width()) + static_cast<std::size_t>(x),
           static_cast<int>(replicate(s)), values);
     };
