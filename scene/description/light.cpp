@@ -99,9 +99,9 @@ std::optional<Placed> read_spot(const JsonValue& json, const Reading& reading) {
   const auto half_angle = reader.require_number("half_angle_deg", kHalfAngle);
   reader.finish();
   if (!at || !axis || !half_angle) return std::nullopt;
-  const auto cos_half = static_cast<float>(std::cos(*half_angle * std::numbers::pi / 180));
-  const SpotLight spot{Imath::V3f(0), Imath::V3f(*axis), cos_half};
-  const double solid_angle = 2 * std::numbers::pi * (1 - static_cast<double>(cos_half));
+  const double sine = std::sin(*half_angle * std::numbers::pi / 360);
+  const SpotLight spot{Imath::V3f(0), Imath::V3f(*axis), static_cast<float>(2 * sine * sine)};
+  const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
   return Placed{spot, *at, {kPointScales, solid_angle}};
 }
 

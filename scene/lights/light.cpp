@@ -111,7 +111,7 @@ std::optional<LightSample> sample_kind(const Light&, const PointLight& lamp,
 std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, const std::vector<ShapeInstance>&,
                                        const Imath::V3f& point, Imath::V2f) {
   std::optional<LightSample> sample = from_point(lamp.position, point);
-  if (!sample || -sample->wi.dot(lamp.axis) < lamp.cos_half_angle) return std::nullopt;
+  if (!sample || !lamp.lights(-sample->wi)) return std::nullopt;
   return sample;
 }
 
@@ -165,7 +165,7 @@ Curve power(const Light& light, double scene_radius_m) {
     factor = kPi * emitter->area * (emitter->two_sided ? 2 : 1);
   if (std::holds_alternative<PointLight>(light.kind)) factor = 4 * kPi;
   if (const auto* lamp = std::get_if<SpotLight>(&light.kind))
-    factor = 2 * kPi * (1 - static_cast<double>(lamp->cos_half_angle));
+    factor = 2 * kPi * static_cast<double>(lamp->cap);
   return scaled(light.emission, factor);
 }
 

@@ -29,7 +29,10 @@ struct PointLight {
 struct SpotLight {
   Imath::V3f position{0, 0, 0};
   Imath::V3f axis{0, 0, 1};
-  float cos_half_angle = -1;
+  float cap = 2;  ///< 1 - cos of the half angle, which keeps its digits however narrow the cone.
+
+  /// Whether the unit direction `wi` from the lamp is within the cone: |wi - axis|^2 = 2 (1 - cos).
+  [[nodiscard]] bool lights(const Imath::V3f& wi) const { return (wi - axis).length2() <= 2 * cap; }
 };
 /// The same radiance from all directions at infinity.
 struct EnvironmentLight {};

@@ -247,7 +247,7 @@ TEST(DeltaLights, FallOffWithTheSquareOfDistance) {
   EXPECT_EQ(light_pdf(bulb, {}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, -1}), 0);
   EXPECT_FALSE(sample_light(bulb, {}, {0, 0, 2}, {0, 0}));
 
-  const Light spot{"spot", SpotLight{{0, 0, 2}, {0, 0, -1}, std::cos(0.5F)}, Curve(1.0)};
+  const Light spot{"spot", SpotLight{{0, 0, 2}, {0, 0, -1}, 1 - std::cos(0.5F)}, Curve(1.0)};
   const auto at_angle = [&](float angle) {
     return sample_light(spot, {}, {2 * std::tan(angle), 0, 0}, {0, 0});
   };

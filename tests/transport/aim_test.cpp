@@ -61,6 +61,35 @@ TEST(Aim, LearningMovesDensityAndKeepsTheIntegral) {
   EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
 }
 
+// Directions are rounded to float: seen from afar that is a part of a cell, and cells differ by any factor.
+TEST(Aim, AFarTargetIsIntegratedPrecisely) {
+  constexpr float kDistance = 3000;
+  const Imath::V3f axis(0.48F, 0.6F, 0.64F);
+  Aim aim({0, 0, 0}, axis * kDistance, 1);
+  std::vector<double> importance(Aim::kGrid, 0.0);
+  importance[128 * Aim::kCells + 40] = 1;
+  aim.learn(importance, 0);
+  const auto within = [&axis](const Imath::V3f& w) {
+    return w.cross(axis).length() < 0.9F / kDistance ? 1.0 : 0.0;
+  };
+  const double circle = std::numbers::pi * 0.81 / (kDistance * kDistance);
+  EXPECT_NEAR(integral(aim, within), circle, circle * 0.01);
+}
+
+TEST(Aim, AnEmitterReachingBeyondItsTargetIsStillDrawnByTheStatedDensity) {
+  const Aim aim({0, 0, 0}, {5, 0, 0}, 1);
+  const EmissionPoint beyond{{7, 0.5F, 0}, {0, 0, 0}, 1};
+  double sum = 0;
+  constexpr std::uint32_t kCount = 1 << 16;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
+    const AimedDirection d = aim.sample(kPoint, beyond, u[2], {u[0], u[1]});
+    sum += d.wi.x < -0.99F ? 1 / static_cast<double>(d.pdf) : 0;
+  }
+  const double cap = 2 * std::numbers::pi * 0.01;
+  EXPECT_NEAR(sum / kCount, cap, cap * 0.02);
+}
+
 TEST(Aim, ALightInsideItsTargetIsNotAimed) {
   EXPECT_FALSE(Aim({0, 0, 0}, {0.5F, 0, 0}, 1).guided());
   EXPECT_TRUE(Aim({0, 0, 0}, {5, 0, 0}, 1).guided());

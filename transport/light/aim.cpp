@@ -15,9 +15,10 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kEmissionShare = 0.05F;
 constexpr float kBelowOne = 0x1.fffffep-1F;
 
-Imath::V3f direction_about(const Imath::V3f& axis, float cos_theta, float phi) {
-  const float sin_theta = std::sqrt(std::max(0.0F, (1 - cos_theta) * (1 + cos_theta)));
-  return Basis<float>(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
+// `cap` is 1 - cos of the angle to the axis.
+Imath::V3f direction_about(const Imath::V3f& axis, float cap, float phi) {
+  const float sin_theta = std::sqrt(cap * (2 - cap));
+  return Basis<float>(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - cap});
 }
 
 // A direction by the light's own emission: cosine-distributed on the emitting side or sides, uniform for
@@ -27,11 +28,11 @@ Imath::V3f emission_direction(const Light& light, const EmissionPoint& from, Ima
   if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
     const bool flip = area->two_sided && u.x >= 0.5F;
     const float v = area->two_sided ? std::min(2 * (u.x - (flip ? 0.5F : 0.0F)), kBelowOne) : u.x;
-    return direction_about(flip ? -from.normal : from.normal, std::sqrt(1 - v), phi);
+    return direction_about(flip ? -from.normal : from.normal, 1 - std::sqrt(1 - v), phi);
   }
   if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return direction_about(spot->axis, 1 - u.x * (1 - spot->cos_half_angle), phi);
-  return direction_about({0, 0, 1}, 1 - 2 * u.x, phi);
+    return direction_about(spot->axis, u.x * spot->cap, phi);
+  return direction_about({0, 0, 1}, 2 * u.x, phi);
 }
 
 float emission_pdf(const Light& light, const EmissionPoint& from, const Imath::V3f& wi) {
@@ -40,7 +41,7 @@ float emission_pdf(const Light& light, const EmissionPoint& from, const Imath::V
     return area->two_sided ? std::abs(cos_theta) / (2 * kPi) : std::max(0.0F, cos_theta) / kPi;
   }
   if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return spot->axis.dot(wi) >= spot->cos_half_angle ? 1 / (2 * kPi * (1 - spot->cos_half_angle)) : 0.0F;
+    return spot->lights(wi) ? 1 / (2 * kPi * spot->cap) : 0.0F;
   return 1 / (4 * kPi);
 }
 
@@ -117,17 +118,21 @@ int Aim::cell_of(float a, float b) const {
   return row * kCells + column;
 }
 
-float Aim::target_pdf(const Imath::V3f& from, const Imath::V3f& direction) const {
-  const float cos_theta = direction.dot(axis_);
-  const float height = (center_ - from).dot(axis_);
-  if (cos_theta <= 0 || height <= 0) return 0;
-  const float t = height / cos_theta;
+int Aim::cell_met(const Imath::V3f& from, const Imath::V3f& direction) const {
+  const float t = (center_ - from).dot(axis_) / direction.dot(axis_);
+  if (!(t > 0)) return -1;
   const Imath::V3f offset = from + direction * t - center_;
   const float a = 0.5F + offset.dot(side_) / (2 * half_size_);
   const float b = 0.5F + offset.dot(top_) / (2 * half_size_);
-  if (a < 0 || a >= 1 || b < 0 || b >= 1) return 0;
-  const float per_area = density_[static_cast<std::size_t>(cell_of(a, b))] / (4 * half_size_ * half_size_);
-  return per_area * t * t / cos_theta;
+  return a >= 0 && a < 1 && b >= 0 && b < 1 ? cell_of(a, b) : -1;
+}
+
+float Aim::target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const {
+  if (cell < 0) return 0;
+  const float cos_theta = direction.dot(axis_);
+  const float t = (center_ - from).dot(axis_) / cos_theta;
+  return density_[static_cast<std::size_t>(cell)] / (4 * half_size_ * half_size_) * t * t /
+         std::abs(cos_theta);
 }
 
 AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u) const {
@@ -144,8 +149,11 @@ AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float 
     aimed.cell = row.index * kCells + column.index;
   }
   const float by_emission = emission_pdf(light, from, aimed.wi);
-  aimed.pdf = guided_ ? kEmissionShare * by_emission + (1 - kEmissionShare) * target_pdf(from.point, aimed.wi)
-                      : by_emission;
+  // A direction drawn through a cell counts as through that cell: rounded, it may meet the next one.
+  const int cell = aimed.cell >= 0 ? aimed.cell : cell_met(from.point, aimed.wi);
+  aimed.pdf =
+      guided_ ? kEmissionShare * by_emission + (1 - kEmissionShare) * target_pdf(from.point, aimed.wi, cell)
+              : by_emission;
   return aimed;
 }
 

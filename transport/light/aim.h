@@ -41,7 +41,8 @@ class Aim {
                                       Imath::V2f u) const;
 
  private:
-  [[nodiscard]] float target_pdf(const Imath::V3f& from, const Imath::V3f& direction) const;
+  [[nodiscard]] int cell_met(const Imath::V3f& from, const Imath::V3f& direction) const;  // or -1
+  [[nodiscard]] float target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const;
   [[nodiscard]] int cell_of(float a, float b) const;
   void build(const std::vector<double>& weights);
 

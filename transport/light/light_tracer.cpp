@@ -115,9 +115,7 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
   PhotonStart start{pick.light, aimed.cell};
   const bool area = std::holds_alternative<AreaLight>(light.kind);
   if (area && !emits_towards(light, from.normal, aimed.wi)) return start;
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind);
-      spot && spot->axis.dot(aimed.wi) < spot->cos_half_angle)
-    return start;
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind); spot && !spot->lights(aimed.wi)) return start;
   const SampledWavelengths wavelengths = plan.wavelengths.sample(a[2]);
   const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
   const float factor = cosine / (pick.probability * from.pdf_area * aimed.pdf);
