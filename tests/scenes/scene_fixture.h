@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,12 +17,26 @@
 
 namespace abbe::test {
 
+inline Scene load_file(const std::filesystem::path& path, const std::vector<Override>& settings) {
+  Diagnostics diagnostics;
+  std::optional<Scene> scene = load_scene(path, settings, diagnostics);
+  if (!scene) throw Error(ErrorCode::internal, path.string(), diagnostics.text());
+  return std::move(*scene);
+}
+
 /// A scene of `data/scenes` with some settings replaced.
 inline Scene load(const std::string& name, const std::vector<Override>& settings = {}) {
-  Diagnostics diagnostics;
-  std::optional<Scene> scene = load_scene(data_directory() / "scenes" / name, settings, diagnostics);
-  if (!scene) throw Error(ErrorCode::internal, name, diagnostics.text());
-  return std::move(*scene);
+  return load_file(data_directory() / "scenes" / name, settings);
+}
+
+/// A scene as written, with some settings replaced.
+inline Scene load_text(const std::string& text, const std::vector<Override>& settings = {}) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("abbe_scene_" + std::to_string(::getpid()) + ".json");
+  std::ofstream(path) << text;
+  Scene scene = load_file(path, settings);
+  std::filesystem::remove(path);
+  return scene;
 }
 
 /// Mean of a channel over pixels [x0, x1) x [y0, y1), and the variance of that mean.

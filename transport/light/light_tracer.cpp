@@ -39,8 +39,10 @@ class PhotonPath {
     for (int depth = 0; depth < scene_.render.max_depth; ++depth) {
       const std::optional<SurfaceHit> hit = caster_.intersect(ray_);
       if (!hit) return;
-      medium_.attenuate(packet_.throughput, hit->t);
       const Vertex vertex(scene_, *hit, ray_.direction, lambda());
+      // Lights may stand inside glass: a first surface met from behind tells what the photon started in.
+      if (depth == 0) medium_ = crossed_into(scene_, hit->shape, vertex.wo.z < 0, lambda());
+      medium_.attenuate(packet_.throughput, hit->t);
       const bool specular = is_delta(vertex.bsdf);
       if (depth == 0 && !specular && !plan_.light_owns_all) return;
       if (!specular) connect(vertex, depth);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "transport/path/packet.h"
 #include "transport/path/vertex.h"
@@ -69,6 +70,7 @@ class CameraPath {
     const std::int32_t index = scene_.environment();
     if (index < 0) return;
     const Light& light = scene_.lights[static_cast<std::size_t>(index)];
+    medium_.attenuate(packet_.throughput, std::numeric_limits<float>::infinity());
     const float pdf =
         !light_sampled_before_
             ? 0.0F

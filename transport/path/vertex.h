@@ -41,11 +41,11 @@ struct Medium {
   bool absorbing = false;
   SampledSpectrum absorption_per_m;
 
-  /// Attenuates the lanes over a distance [m] by Beer's law.
+  /// Attenuates the lanes over a distance [m], perhaps an infinite one, by Beer's law.
   void attenuate(SampledSpectrum& throughput, float distance) const {
     if (!absorbing) return;
-    throughput *=
-        SampledSpectrum::map(absorption_per_m, [distance](float a) { return std::exp(-a * distance); });
+    throughput *= SampledSpectrum::map(absorption_per_m,
+                                       [distance](float a) { return a > 0 ? std::exp(-a * distance) : 1; });
   }
 };
 
