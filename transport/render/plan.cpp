@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "transport/light/light_tracer.h"
 
@@ -47,6 +48,14 @@ std::vector<Aim> make_aims(const Scene& scene, bool light_only) {
   return aims;
 }
 
+// Integral of |emission x response|: a response may be negative.
+double weighed(const Curve& emission, const Curve& response) {
+  const Curve both = product(emission, response);
+  std::vector<Knot> knots(both.knots().begin(), both.knots().end());
+  for (Knot& knot : knots) knot.value = std::abs(knot.value);
+  return Curve(std::move(knots)).integral();
+}
+
 // A bright pixel's value to within a few orders of magnitude: the strongest light filling the view, or
 // shining from a scene's size away.
 double nominal_value(const Scene& scene) {
@@ -58,8 +67,8 @@ double nominal_value(const Scene& scene) {
   double nominal = 0;
   for (const Light& light : scene.lights)
     for (const Channel& channel : scene.channels)
-      nominal = std::max(nominal, product(light.emission, channel.weight).integral() /
-                                      (light.is_delta() ? radius * radius : 1));
+      nominal = std::max(nominal,
+                         weighed(light.emission, channel.weight) / (light.is_delta() ? radius * radius : 1));
   return nominal * weight;
 }
 
@@ -92,7 +101,7 @@ std::vector<double> sensor_weighted_powers(const Scene& scene) {
     const Curve spectral = power(light, scene_radius(scene));
     double largest = 0;
     for (const Channel& channel : scene.channels)
-      largest = std::max(largest, std::abs(product(spectral, channel.weight).integral()));
+      largest = std::max(largest, weighed(spectral, channel.weight));
     powers.push_back(largest);
   }
   return powers;

@@ -1,0 +1,173 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "spectral/sources.h"
+#include "tests/scenes/scene_fixture.h"
+
+// What a film holds where something is very small, very large, or nothing at all.
+
+namespace abbe {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double mean(const RenderResult& result, int channel = 0) {
+  return test::region(result.film, channel, 0, 0, result.film.width(), result.film.height()).mean;
+}
+
+/// The largest difference between two films over the largest value, when `b` is divided by `factor`.
+double difference(const Film& a, const Film& b, double factor = 1) {
+  double largest = 0;
+  double apart = 0;
+  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(a.width() * a.height()); ++pixel)
+    for (int channel = 0; channel < a.channels(); ++channel) {
+      largest = std::max(largest, std::abs(a.mean(pixel, channel)));
+      apart = std::max(apart, std::abs(a.mean(pixel, channel) - b.mean(pixel, channel) / factor));
+    }
+  return apart / largest;
+}
+
+// One camera, one dome.
+Scene dome(const std::string& camera, const std::string& sensor, const std::string& emission) {
+  return test::load_text(fmt::format(R"({{"abbe": 1,
+    "camera": {{{}, "from": [0, 0, 0], "to": [0, 0, 2], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [9, 9], {}}},
+    "lights": [{{"environment": {{}}, "emission": {}}}], "render": {{"samples": 2048}}}})",
+                                     camera, sensor, emission));
+}
+
+TEST(FilmUnits, AQuantumChannelCountsTheElectronsOfAPixel) {
+  const Scene scene =
+      dome(R"("thin_lens": {"focal_length": 0.05, "f_number": 4, "focus_distance": "infinity"})",
+           R"("pixel_pitch_um": 4.5, "exposure_s": 0.01, "quantum_efficiency": 0.6, "channels": {"all": 1})",
+           R"({"lines": [{"nm": 555, "width_nm": 0.01, "power": 1}], "radiance": 0.146})");
+  // pi 0.146/(4 4^2) W/m^2 for 10 ms on a square of 4.5 um, 60 % of the photons of 555 nm.
+  const double pixel_m2 = 4.5e-6 * 4.5e-6;
+  EXPECT_NEAR(mean(render(scene, {})) * pixel_m2, 2433, 1);
+}
+
+TEST(FilmUnits, ALensDimsWithTheFourthPowerOfTheCosineAndWithMagnification) {
+  const double f = 0.05;
+  const double distance = 2;
+  const Scene scene = dome(R"("thin_lens": {"focal_length": 0.05, "f_number": 16})",
+                           R"("pixel_pitch_um": 8000, "channels": {"all": 1})",
+                           R"({"spectrum": {"band": [500, 600]}, "radiance": 3})");
+  const double v = f * distance / (distance - f);
+  const double magnification = v / distance;
+  const double n = 16;
+  const double on_axis = kPi * 3 / (4 * n * n * (1 + magnification) * (1 + magnification));
+  EXPECT_NEAR(v, f * (1 + magnification), 1e-12);
+  const Film film = render(scene, {}).film;
+  const auto at = [&film](int x, int y) { return film.mean(static_cast<std::size_t>(y * 9 + x), 0); };
+  // Mean of cos^4 over a pixel.
+  const auto expected = [&](int x, int y) {
+    double sum = 0;
+    for (int i = 0; i < 64; ++i)
+      for (int j = 0; j < 64; ++j) {
+        const double px = (x - 4.5 + (i + 0.5) / 64) * 8e-3 / v;
+        const double py = (y - 4.5 + (j + 0.5) / 64) * 8e-3 / v;
+        sum += std::pow(1 + px * px + py * py, -2);
+      }
+    return on_axis * sum / (64 * 64);
+  };
+  EXPECT_NEAR(at(4, 4) / expected(4, 4), 1, 2e-3);
+  EXPECT_NEAR(at(0, 0) / expected(0, 0), 1, 2e-3);
+  EXPECT_NEAR(at(8, 4) / expected(8, 4), 1, 2e-3);
+}
+
+constexpr const char* kCornell = "cornell.json";
+const std::vector<Override> kSmall{{"/sensor/resolution", "[16, 16]"}, {"/render/samples", "4"}};
+
+RenderResult small(const char* scene, std::vector<Override> settings) {
+  settings.insert(settings.end(), kSmall.begin(), kSmall.end());
+  return render(test::load(scene, settings), {});
+}
+
+TEST(Limits, AFilmIsProportionalToRadianceFromTheFaintestToTheBrightest) {
+  const auto lit = [](double radiance) {
+    return small("glass_sphere.json", {{"/lights/0/emission", fmt::format(R"({{"spectrum": {}}})", radiance)},
+                                       {"/lights/1/emission", R"({"spectrum": 0})"}});
+  };
+  const RenderResult one = lit(1);
+  for (const int exponent : {-80, -40, 40, 60}) {
+    const RenderResult other = lit(std::ldexp(1.0, exponent));
+    EXPECT_EQ(difference(one.film, other.film, std::ldexp(1.0, exponent)), 0) << exponent;
+  }
+  for (const double extreme : {1e-40, 1e30}) {
+    const RenderResult other = lit(extreme);
+    EXPECT_EQ(other.stats.nonfinite_samples, 0U) << extreme;
+    EXPECT_TRUE(std::isfinite(mean(other)));
+  }
+}
+
+TEST(Limits, ALightWithoutPowerChangesNothing) {
+  const RenderResult plain = small("glass_sphere.json", {});
+  const RenderResult with = small("glass_sphere.json", {{"/lights", R"([
+      {"sphere": {"center": [-3, 5, -2], "radius": 0.15}, "emission": {"spectrum": 1, "luminance": 136600.4}},
+      {"environment": {}, "emission": {"spectrum": 1, "luminance": 34.1501}},
+      {"point": {"at": [0, 3, 0]}, "emission": {"spectrum": 0}},
+      {"spot": {"at": [0, 3, 0], "direction": [0, -1, 0], "half_angle_deg": 20}, "emission": {"spectrum": {"band": [900, 1000]}, "intensity": 5}}])"}});
+  EXPECT_EQ(difference(plain.film, with.film), 0);
+}
+
+TEST(Limits, LightTheSensorDoesNotRespondToIsExactlyBlack) {
+  const RenderResult result =
+      small("glass_sphere.json", {{"/lights/0/emission", R"({"spectrum": {"band": [900, 1000]}})"},
+                                  {"/lights/1/emission", R"({"spectrum": {"band": [1000, 1100]}})"}});
+  EXPECT_EQ(mean(result), 0);
+  EXPECT_EQ(result.stats.nonfinite_samples, 0U);
+}
+
+TEST(Limits, AnImageDoesNotDependOnTheUnitOfLength) {
+  const auto in = [](const char* unit) {
+    return small("glass_sphere.json", {{"/units", unit}, {"/materials/glass/dielectric/ior", "1.7"}});
+  };
+  const RenderResult metres = in("m");
+  for (const char* unit : {"cm", "mm", "in"}) EXPECT_LT(difference(metres.film, in(unit).film), 1e-5) << unit;
+}
+
+TEST(Limits, MatterOfIndexOneIsNotSeen) {
+  const auto sphere = [](const char* ior) {
+    return render(test::load("validation/dome.json",
+                             {{"/materials/glass/dielectric/ior", ior}, {"/render/samples", "4"}}),
+                  {});
+  };
+  const RenderResult air = sphere("1");
+  const RenderResult none =
+      render(test::load("validation/dome.json", {{"/shapes", "[]"}, {"/render/samples", "4"}}), {});
+  EXPECT_LT(difference(none.film, air.film), 1e-6);
+}
+
+TEST(Limits, ANarrowSpotSendsOutItsFlux) {
+  for (const double half_angle_deg : {0.1, 0.13, 1.0, 5.0}) {
+    // A meter that holds the whole spot, 10 m away.
+    const double side = 2.4 * 10 * std::tan(half_angle_deg * kPi / 180);
+    const Scene scene = test::load_text(fmt::format(
+        R"({{"abbe": 1,
+             "camera": {{"irradiance_probe": {{"quad": {{"corner": [{0}, {1}, {2}], "edge_u": [{3}, 0, {4}], "edge_v": [0, {5}, 0]}}}}}},
+             "sensor": {{"resolution": [64, 64], "observer": "1931"}},
+             "lights": [{{"spot": {{"at": [6, 0, 8], "direction": [-0.6, 0, -0.8], "half_angle_deg": {6}}},
+                          "emission": {{"illuminant": "E", "luminous_flux_lm": 1}}}}],
+             "render": {{"samples": 64}}}})",
+        -0.4 * side, -0.5 * side, 0.3 * side, 0.8 * side, -0.6 * side, side, half_angle_deg));
+    EXPECT_NEAR(mean(render(scene, {}), 1) * side * side, 1, 2e-3) << half_angle_deg;
+  }
+}
+
+TEST(Limits, NegativeResponsesAreKept) {
+  const auto with = [](const char* channels) {
+    return small(
+        kCornell,
+        {{"/sensor",
+          fmt::format(R"({{"resolution": [16, 16], "response": "quantum", "channels": {}}})", channels)}});
+  };
+  const RenderResult plus = with(R"({"a": 1})");
+  const RenderResult minus = with(R"({"a": -1})");
+  EXPECT_EQ(minus.stats.nonfinite_samples, 0U);
+  EXPECT_EQ(difference(plus.film, minus.film, -1), 0);
+}
+
+}  // namespace
+}  // namespace abbe
