@@ -107,8 +107,10 @@ CameraCalibration calibrate_camera(const CalibrationSetup& setup) {
   }
   result.matrix = fit_matrix(colors);
   result.profile.description = fmt::format("{} under {}", setup.camera, setup.illuminant);
-  result.profile.to_xyz_d65 =
-      bradford(colors.white, unit_xyz(kD65)) * result.matrix.raw_to_xyz * diagonal(balance);
+  const std::optional<Matrix3> adaptation = bradford(colors.white, unit_xyz(kD65));
+  if (!adaptation)
+    throw Error(ErrorCode::input, setup.illuminant, "the light has no white that a display could show");
+  result.profile.to_xyz_d65 = *adaptation * result.matrix.raw_to_xyz * diagonal(balance);
   return result;
 }
 

@@ -1,7 +1,5 @@
 #include "calibration/output/color_spaces.h"
 
-#include "io/error.h"
-
 namespace abbe {
 
 XYZ unit_xyz(const Chromaticity& xy) {
@@ -16,15 +14,13 @@ Matrix3 rgb_to_xyz(const RgbSpace& space) {
   return primaries * diagonal(multiply(primaries.inverse(true), unit_xyz(white)));
 }
 
-Matrix3 bradford(const XYZ& from_white, const XYZ& to_white) {
+std::optional<Matrix3> bradford(const XYZ& from_white, const XYZ& to_white) {
   const Matrix3 cones(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296);
   const std::array<double, 3> from = multiply(cones, from_white);
   const std::array<double, 3> to = multiply(cones, to_white);
   std::array<double, 3> gain{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!(from[i] > 0 && to[i] > 0))
-      throw Error(ErrorCode::input, "chromatic adaptation",
-                  "the light has no white that a display could show");
+    if (!(from[i] > 0 && to[i] > 0)) return std::nullopt;
     gain[i] = to[i] / from[i];
   }
   return cones.inverse(true) * diagonal(gain) * cones;

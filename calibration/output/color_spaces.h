@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "calibration/chart/matrix3.h"
 #include "spectral/colorimetry.h"
@@ -31,7 +32,7 @@ inline constexpr RgbSpace kAces2065{
 [[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
 /// Chromatic adaptation of XYZ from one white to another in the sharpened Bradford cone space, linear
-/// [Lam1985]. Throws Error{input} for a white without a positive cone response.
-[[nodiscard]] Matrix3 bradford(const XYZ& from_white, const XYZ& to_white);
+/// [Lam1985]. Nothing for a white without a positive response of every cone, such as a spectral line.
+[[nodiscard]] std::optional<Matrix3> bradford(const XYZ& from_white, const XYZ& to_white);
 
 }  // namespace abbe

@@ -59,11 +59,12 @@ Image split_planes(const std::vector<float>& packed, const Image& film, bool gre
   return image;
 }
 
-// Adaptation of the light's white, as the standard observer sees it, to the display's.
+// Adaptation of the light's white, as the standard observer sees it, to the display's; a lamp of spectral
+// lines, to whose colour no eye adapts, is shown as it looks beside daylight.
 Matrix3 adaptation(const Curve& illuminant) {
   XYZ white = tristimulus(illuminant, Curve(1.0), Observer::cie1931);
   for (double& v : white) v /= 100;
-  return bradford(white, unit_xyz(kD65));
+  return bradford(white, unit_xyz(kD65)).value_or(Matrix3());
 }
 
 DisplayTransform grey_display(const Channel& channel) {

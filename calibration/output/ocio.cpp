@@ -116,7 +116,8 @@ OCIO::ConfigRcPtr build_config(const CameraProfile& profile) {
   add_scene_space(*config, kReferenceSpace, "CIE XYZ, linear, scene white adapted to D65.", nullptr);
   add_scene_space(*config, kRec709Space, "Rec.709 primaries, linear, white D65.",
                   matrix_transform(rgb_to_xyz(kRec709)));
-  const Matrix3 aces_to_d65 = bradford(unit_xyz(kAces2065.white), unit_xyz(kD65)) * rgb_to_xyz(kAces2065);
+  const Matrix3 aces_to_d65 =
+      bradford(unit_xyz(kAces2065.white), unit_xyz(kD65)).value() * rgb_to_xyz(kAces2065);
   add_scene_space(*config, kAcesSpace, "ACES2065-1: AP0 primaries, linear.", matrix_transform(aces_to_d65));
   add_camera_space(*config, profile);
   const OCIO::ColorSpaceRcPtr raw = color_space(kRawSpace, "No transform.", OCIO::REFERENCE_SPACE_SCENE);

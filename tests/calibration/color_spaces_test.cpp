@@ -27,17 +27,13 @@ TEST(ColorSpaces, BradfordAdaptation) {
   const XYZ a = unit_xyz({0.44758, 0.40745});
   const XYZ d50 = unit_xyz({0.3457, 0.3585});
   const XYZ d65 = unit_xyz(kD65);
-  expect_reference(bradford(a, d65), "Bradford adaptation A to D65");
-  expect_reference(bradford(d50, d65), "Bradford adaptation D50 to D65");
-  expect_reference(bradford(d65, d50), "Bradford adaptation D65 to D50");
+  expect_reference(bradford(a, d65).value(), "Bradford adaptation A to D65");
+  expect_reference(bradford(d50, d65).value(), "Bradford adaptation D50 to D65");
+  expect_reference(bradford(d65, d50).value(), "Bradford adaptation D65 to D50");
 }
 
-TEST(ColorSpaces, RefusesAWhiteWithoutConeResponse) {
-  test::expect_error(
-      [] {
-        static_cast<void>(bradford({0, 0, 0}, unit_xyz(kD65)));
-      },
-      ErrorCode::input, "has no white");
+TEST(ColorSpaces, NothingAdaptsToAWhiteWithoutConeResponse) {
+  EXPECT_FALSE(bradford({0, 0, 0}, unit_xyz(kD65)));
 }
 
 }  // namespace

@@ -92,6 +92,14 @@ TEST(Display, ObserverIsNotFitted) {
   EXPECT_LT(camera.fit()->errors.mean, 1);
 }
 
+TEST(Display, ALampWithoutAWhiteIsShownAsItLooks) {
+  for (const double nm : {589.0, 900.0}) {
+    const DisplayTransform display =
+        make_display(observer_channels(Observer::cie1931), lines(std::vector<SpectralLine>{{nm, 1, 1}}));
+    EXPECT_EQ(display.to_xyz_d65(), Matrix3()) << nm;
+  }
+}
+
 TEST(Display, ShowsTheChartAsWellAsTheFitSays) {
   const Curve light = test::illuminant("D65");
   const std::vector<Channel> camera = test::camera();
