@@ -155,11 +155,19 @@ std::optional<std::string> ObjectReader::exactly_one(std::initializer_list<std::
   for (const std::string_view key : keys)
     if (find(key)) present.emplace_back(key);
   if (present.size() == 1) return present.front();
-  if (std::holds_alternative<JsonValue::Object>(value_.value))
-    diagnostics_.error(value_.where,
-                       fmt::format("expected exactly one key (got {}, allowed {})",
-                                   present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
-                                   fmt::join(keys, ", ")));
+  const auto* object = std::get_if<JsonValue::Object>(&value_.value);
+  if (!object) return std::nullopt;
+  const std::vector<std::string> names(keys.begin(), keys.end());
+  if (present.empty())  // a misspelt one tells more than that none is there
+    for (const auto& [key, member] : *object)
+      if (nearest_name(key, names)) {
+        diagnostics_.error(member.key_position(), unknown_name("key", key, names));
+        return std::nullopt;
+      }
+  diagnostics_.error(value_.where,
+                     fmt::format("expected exactly one key (got {}, allowed {})",
+                                 present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
+                                 fmt::join(names, ", ")));
   return std::nullopt;
 }
 

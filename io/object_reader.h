@@ -64,7 +64,7 @@ class ObjectReader {
   [[nodiscard]] std::optional<std::vector<double>> require_numbers(std::string_view key, std::size_t count,
                                                                    Range allowed = Range::any());
 
-  /// The one present among `keys`; none, or more than one, is reported.
+  /// The one present among `keys`; none (or a misspelt one), or more than one, is reported.
   [[nodiscard]] std::optional<std::string> exactly_one(std::initializer_list<std::string_view> keys);
 
   /// Reports the unknown keys. Call once, after the last getter.

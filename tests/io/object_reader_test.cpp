@@ -121,6 +121,13 @@ TEST(ObjectReader, MissingAndExclusiveKeys) {
             "a.json:1:1: error: expected exactly one key (got none, allowed sphere, mesh)\n");
 }
 
+TEST(ObjectReader, TheKeyThatWasMeantInsteadOfNone) {
+  Reading r(R"({"material": "m", "shpere": {}})");
+  EXPECT_EQ(r.reader.exactly_one({"sphere", "mesh"}), std::nullopt);
+  EXPECT_EQ(r.complaints(),
+            "a.json:1:19: /shpere: error: unknown key \"shpere\"; did you mean \"sphere\"?\n");
+}
+
 TEST(ObjectReader, NoObjectIsReportedOnce) {
   Reading r("[1]");
   EXPECT_EQ(r.reader.require("a"), nullptr);
