@@ -176,7 +176,7 @@ void check_validity(const JsonValue& json, const Reading& reading, const Scene& 
     reading.diagnostics.warning(
         at ? at->where : json.where,
         fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
-                    "extrapolated",
+                    "held from the nearer end",
                     name, index->low_nm(), index->high_nm(), sensor.low, sensor.high));
   }
 }

@@ -191,7 +191,8 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
   const std::string lamp = R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}],)";
   const Loaded beyond = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}}})");
   EXPECT_NE(beyond.text().find(
-                "/materials/m: warning: N-SF11 holds on [370, 2500] nm, the sensor sees [300, 1100] nm"),
+                "/materials/m: warning: N-SF11 holds on [370, 2500] nm, the sensor sees [300, 1100] nm: "
+                "outside, the index is held from the nearer end"),
             std::string::npos)
       << beyond.text();
   const Loaded within = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}},
