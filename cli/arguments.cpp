@@ -1,5 +1,6 @@
 #include "cli/arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,22 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   return numbers;
 }
 
+std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
+                           std::int64_t high) {
+  const std::optional<double> number = parse_number(text);
+  const bool good = number && *number == std::floor(*number) && *number >= static_cast<double>(low) &&
+                    *number <= static_cast<double>(high);
+  if (!good) refuse(option, "\"" + text + "\"", fmt::format("whole numbers in [{}, {}]", low, high));
+  return static_cast<std::int64_t>(*number);
+}
+
+std::size_t parse_choice(const std::string& option, const std::string& text,
+                         const std::vector<std::string>& names) {
+  const auto chosen = std::find(names.begin(), names.end(), text);
+  if (chosen == names.end()) refuse(option, "\"" + text + "\"", fmt::format("{}", fmt::join(names, ", ")));
+  return static_cast<std::size_t>(chosen - names.begin());
+}
+
 std::array<double, 3> parse_triple(const std::string& option, const std::string& text) {
   constexpr double kAny = std::numeric_limits<double>::max();
   const std::vector<double> numbers = parse_numbers(option, text, -kAny, kAny);
@@ -55,17 +72,12 @@ double parse_share(const std::string& option, const std::string& text) {
 }
 
 Crop parse_crop(const std::string& option, const std::string& text) {
-  const std::vector<double> edges = parse_numbers(option, text, 0, kMaxImageEdge);
-  Crop crop{};
-  int* const places[] = {&crop.x0, &crop.y0, &crop.x1, &crop.y1};
-  bool good = edges.size() == std::size(places);
-  for (std::size_t i = 0; good && i < std::size(places); ++i) {
-    *places[i] = static_cast<int>(edges[i]);
-    good = *places[i] == edges[i];
-  }
-  if (!good || crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
+  std::vector<int> edges;
+  for (const std::string& piece : split(text, ','))
+    edges.push_back(static_cast<int>(parse_integer(option, piece, 0, kMaxImageEdge)));
+  if (edges.size() != 4 || edges[0] >= edges[2] || edges[1] >= edges[3])
     refuse(option, "\"" + text + "\"", "whole pixels x0,y0,x1,y1 with x0 < x1 and y0 < y1");
-  return crop;
+  return {edges[0], edges[1], edges[2], edges[3]};
 }
 
 Override parse_override(const std::string& option, const std::string& text) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,12 @@ namespace abbe::cli {
 /// One or more numbers separated by commas, each in [low, high].
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& option, const std::string& text,
                                                 double low, double high);
+/// A whole number in [low, high], which a double holds exactly.
+[[nodiscard]] std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
+                                         std::int64_t high);
+/// The number of `text` among `names`.
+[[nodiscard]] std::size_t parse_choice(const std::string& option, const std::string& text,
+                                       const std::vector<std::string>& names);
 /// Three numbers separated by commas.
 [[nodiscard]] std::array<double, 3> parse_triple(const std::string& option, const std::string& text);
 /// A time above 0: "60s", "2m", "1h" or a number of seconds [s].

@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include "calibration/camera_calibration.h"
+#include "cli/answer.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
-namespace abbe {
+namespace abbe::cli {
 namespace {
 
 // "400-500": the two wavelengths of an ideal filter.
@@ -46,11 +47,7 @@ CalibrationSetup load_setup(const CalibrateOptions& options) {
   const std::optional<std::vector<Channel>> channels = camera_channels(options.camera, diagnostics);
   const std::optional<NamedCurve> light = load_illuminant(options.illuminant, {}, diagnostics);
   const std::optional<Chart> chart = load_chart(options.chart, {}, diagnostics);
-  if (!channels || !light || !chart) {
-    // A name that no table has is a scene's fault in a scene, the user's on the command line.
-    const bool unknown_name = diagnostics.code() == ErrorCode::scene;
-    throw Error(unknown_name ? ErrorCode::usage : diagnostics.code(), "calibrate", diagnostics.text());
-  }
+  check(diagnostics);
   return {options.camera, options.illuminant, options.planted_response, options.bits, *channels, light->curve,
           *chart};
 }
@@ -84,4 +81,4 @@ int calibrate(const CalibrateOptions& options) {
   return 0;
 }
 
-}  // namespace abbe
+}  // namespace abbe::cli

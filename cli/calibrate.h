@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace abbe {
+namespace abbe::cli {
 
 /// What `abbe calibrate` was asked for.
 struct CalibrateOptions {
@@ -22,4 +22,4 @@ struct CalibrateOptions {
 /// code.
 int calibrate(const CalibrateOptions& options);
 
-}  // namespace abbe
+}  // namespace abbe::cli

@@ -112,7 +112,8 @@ Comparison compare_images(const Image& image, const Image& reference) {
 }
 
 int compare(const CompareOptions& options) {
-  const Comparison c = compare_images(read_exr(options.image), read_exr(options.reference));
+  const Image image = read_exr(options.image);
+  const Comparison c = compare_images(image, read_exr(options.reference));
   Json answer;
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <iostream>
@@ -20,9 +22,9 @@
 namespace abbe::cli {
 namespace {
 
-constexpr int kMaxThreads = 1024;
-constexpr int kMaxSamples = 1 << 24;
-constexpr double kMaxSeed = 9007199254740992;  // 2^53, as in scene files
+constexpr std::int64_t kMaxThreads = 1024;
+constexpr std::int64_t kMaxSamples = 1 << 24;
+constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  // as in scene files
 constexpr double kAnyNumber = std::numeric_limits<double>::max();
 
 // What the parsed command line asks to be run.
@@ -67,6 +69,21 @@ auto number_in(double low, double high) {
   };
 }
 
+template <typename T>
+auto integer_in(std::int64_t low, std::int64_t high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    return static_cast<T>(parse_integer(option, text, low, high));
+  };
+}
+
+// One of some names, whose values count from 0 in their order.
+template <typename T>
+auto one_of(std::vector<std::string> names) {
+  return [names = std::move(names)](const std::string& option, const std::string& text) {
+    return static_cast<T>(parse_choice(option, text, names));
+  };
+}
+
 Imath::V3d parse_vector(const std::string& option, const std::string& text) {
   const std::array<double, 3> v = parse_triple(option, text);
   return {v[0], v[1], v[2]};
@@ -88,21 +105,19 @@ void add_render(CLI::App& app, Command& command) {
   render.add_option("-o,--output", sub->output, "Image to write (default: the scene's, else SCENE.exr)")
       ->type_name("FILE.exr");
   CLI::Option* spp =
-      render.add_option("--spp", sub->samples, "Samples per pixel")->check(CLI::Range(1, kMaxSamples));
+      add_parsed(render, "--spp", sub->samples, integer_in<int>(1, kMaxSamples), "Samples per pixel", "N");
   CLI::Option* error = add_parsed(render, "--error", sub->target_error, parse_share,
                                   "Stop when the relative error is this small, as 0.5% or 0.005", "SHARE");
   CLI::Option* time = add_parsed(render, "--time", sub->time_limit_s, parse_seconds,
                                  "Stop after this time, as 60s, 2m or 1h", "TIME");
   spp->excludes(error)->excludes(time);
   error->excludes(time);
-  const std::map<std::string, Integrator> integrators{
-      {"auto", Integrator::automatic}, {"path", Integrator::path}, {"light", Integrator::light}};
-  render.add_option("--integrator", sub->integrator, "Technique")
-      ->transform(CLI::CheckedTransformer(integrators).description(""))
-      ->type_name("auto|path|light");
-  render.add_option("--seed", sub->seed, "Seed of the random numbers")->check(CLI::Range(0.0, kMaxSeed));
-  render.add_option("--threads", sub->threads, "Threads, 0 for one per processor")
-      ->check(CLI::Range(0, kMaxThreads));
+  add_parsed(render, "--integrator", sub->integrator, one_of<Integrator>({"auto", "path", "light"}),
+             "Technique", "auto|path|light");
+  add_parsed(render, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
+             "Seed of the random numbers", "N");
+  add_parsed(render, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
+             "Threads, 0 for one per processor", "N");
   add_parsed(render, "--crop", sub->crop, parse_crop, "Part of the film to render, in pixels", "X0,Y0,X1,Y1");
   render
       .add_option_function<std::vector<std::string>>(
@@ -136,8 +151,8 @@ void add_scene_commands(CLI::App& app, Command& command) {
       ->required();
   add_parsed(*sub.app, "--dir", sub->direction, parse_vector, "Its direction, of any length", "X,Y,Z")
       ->required();
-  sub.app->add_option("--max-events", sub->max_events, "Events to follow at most")
-      ->check(CLI::Range(1, 1000000));
+  add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
+             "Events to follow at most (default 64)", "N");
   add_json(*sub.app, sub->json);
 }
 
@@ -180,10 +195,8 @@ void add_color_queries(CLI::App& query, Command& command) {
                                 query_color);
   color.app->add_option("--illuminant", color->illuminant, "Illuminant, blackbody:K or daylight:K")
       ->required();
-  const std::map<std::string, Observer> observers{{"1931", Observer::cie1931}, {"1964", Observer::cie1964}};
-  color.app->add_option("--observer", color->observer, "Standard observer (default 1931)")
-      ->transform(CLI::CheckedTransformer(observers).description(""))
-      ->type_name("1931|1964");
+  add_parsed(*color.app, "--observer", color->observer, one_of<Observer>({"1931", "1964"}),
+             "Standard observer (default 1931)", "1931|1964");
   color.app->add_option("--reflectance", color->reflectance,
                         "NAME or FILE.csv:COLUMN (default: perfect diffuser)");
   add_json(*color.app, color->json);
@@ -210,7 +223,7 @@ void add_query(CLI::App& app, Command& command) {
       query->add_option("--list", options->kind, "List the names of all kinds of data, or of one")
           ->expected(0, 1)
           ->type_name("[KIND]");
-  add_json(*query, options->json);
+  query->add_flag("--json", options->json, "Print the list as one JSON object")->needs(list);
   add_matter_queries(*query, command);
   add_color_queries(*query, command);
   query->callback([query, list, options, &command] {
@@ -238,14 +251,42 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   options
       .add_option("--response", calibration->planted_response, "linear, gamma:G or s-curve, to be recovered")
       ->capture_default_str();
-  options.add_option("--bits", calibration->bits, "Of the code values, 0 for no rounding")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 16));
+  add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
+             "Of the code values, 0 for no rounding (default 12)", "N");
   options
       .add_option("-o,--output", calibration->output,
                   "Folder for the OpenColorIO configuration and the report")
       ->type_name("FOLDER");
   add_json(options, calibration->json);
+}
+
+// CLI11's own complaints do not say which name is near.
+const CLI::App& find_command(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == name) return *command;
+    names.push_back(command->get_name());
+  }
+  throw Error(ErrorCode::usage, "", unknown_name("command", name, names));
+}
+
+void check_option(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw Error(ErrorCode::usage, "", unknown_name("option", name, names));
+}
+
+void check_names(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const CLI::App* at = &app;
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    if (argument.starts_with("--"))
+      check_option(*at, argument.substr(0, argument.find('=')));
+    else if (!argument.starts_with('-') && !at->get_subcommands({}).empty())
+      at = &find_command(*at, argument);
+  }
 }
 
 // Not `app.help()`, which would show the help of the subcommand that was given.
@@ -261,13 +302,8 @@ void add_help(CLI::App& app, Command& command) {
   help->add_option("command", *name, "Command")->type_name("COMMAND");
   help->callback([&app, &command, name] {
     command = [&app, name] {
-      std::vector<std::string> commands;
-      for (CLI::App* about : app.get_subcommands([](const CLI::App*) { return true; })) {
-        commands.push_back(about->get_name());
-        if (about->get_name() == *name) return show(*about, "abbe " + *name);
-      }
-      if (!name->empty()) throw Error(ErrorCode::usage, "help", unknown_name("command", *name, commands));
-      return show(app, "abbe");
+      if (name->empty()) return show(app, "abbe");
+      return show(find_command(app, *name), "abbe " + *name);
     };
   });
 }
@@ -282,8 +318,17 @@ int run(int argc, char** argv) {
   add_query(app, command);
   add_compare_and_calibrate(app, command);
   add_help(app, command);
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  // Some kinds are questions too, and CLI11 would take `--list camera` for the question.
+  for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
+    if (arguments[i] == "--list" && !arguments[i + 1].starts_with('-')) {
+      arguments[i] += '=' + arguments[i + 1];
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
+  check_names(app, arguments);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(arguments));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e);
     throw Error(ErrorCode::usage, "", std::string(e.what()) + "\nRun abbe help for what is allowed.");
@@ -301,6 +346,7 @@ int guarded(int argc, char** argv) {
     say("out of memory");
     return static_cast<int>(ErrorCode::resource);
   } catch (const std::exception& e) {
+    if (std::ferror(stdout) != 0) return 0;  // of which main tells
     say(fmt::format("internal error: {}", e.what()));
     return static_cast<int>(ErrorCode::internal);
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 namespace abbe::cli {
 namespace {
 
@@ -24,6 +26,22 @@ TEST(Arguments, NumbersAreSeparatedByCommasAndChecked) {
             "--at: got 1200, allowed [300, 1100]");
   EXPECT_NE(refusal([] { return parse_numbers("--at", "nan", 300, 1100); }), "accepted");
   EXPECT_NE(refusal([] { return parse_numbers("--at", "", 300, 1100); }), "accepted");
+}
+
+TEST(Arguments, IntegersAreWholeAndInRange) {
+  EXPECT_EQ(parse_integer("--spp", "16777216", 1, 1 << 24), 1 << 24);
+  EXPECT_EQ(parse_integer("--spp", "1e3", 1, 1 << 24), 1000);
+  for (const char* text : {"", "x", "0", "1.5", "-1", "16777217", "1e300"})
+    EXPECT_EQ(refusal([&] { return parse_integer("--spp", text, 1, 1 << 24); }),
+              fmt::format("--spp: got \"{}\", allowed whole numbers in [1, 16777216]", text));
+}
+
+TEST(Arguments, ChoicesGoByName) {
+  EXPECT_EQ(parse_choice("--integrator", "path", {"auto", "path"}), 1U);
+  EXPECT_EQ(refusal([] {
+              return parse_choice("--integrator", "1", {"auto", "path"});
+            }),
+            "--integrator: got \"1\", allowed auto, path");
 }
 
 TEST(Arguments, TriplesHaveThreeNumbers) {

@@ -24,11 +24,25 @@ TEST(Program, UsageErrorsExitWith2) {
        {"", "rendr", "render", "--frobnicate", "help rendr", "info", "compare one.exr",
         "render x.json --spp 0", "render x.json --spp 1.5", "render x.json --spp 4 --time 3s",
         "render x.json --integrator photon", "render x.json --seed -1", "render x.json --threads 5000",
+        "render x.json --integrator 1", "help --list", "query --json ior N-BK7 --at 550",
         "render x.json --set samples=3", "render x.json --crop 3,3,2,2", "render x.json --error 0"}) {
     const Outcome run = abbe(text);
     EXPECT_EQ(run.code, 2) << text << '\n' << run.err;
     EXPECT_TRUE(run.err.starts_with("abbe: ")) << text << '\n' << run.err;
     EXPECT_TRUE(run.out.empty()) << text;
+  }
+}
+
+TEST(Program, UnknownNamesComeWithTheNearest) {
+  for (const auto& [text, nearest] :
+       {std::pair{"rendr", "command \"rendr\"; did you mean \"render\""},
+        {"help rendr", "command \"rendr\"; did you mean \"render\""},
+        {"query brewstr N-BK7 --at 550", "command \"brewstr\"; did you mean \"brewster\""},
+        {"render x.json --sppp=4", "option \"--sppp\"; did you mean \"--spp\""},
+        {"--versoin", "option \"--versoin\"; did you mean \"--version\""}}) {
+    const Outcome run = abbe(text);
+    EXPECT_EQ(run.code, 2) << text;
+    EXPECT_NE(run.err.find(nearest), std::string::npos) << text << '\n' << run.err;
   }
 }
 
@@ -65,7 +79,11 @@ TEST(Program, TooLargeAFilmExitsWith6) {
 }
 
 TEST(Program, AnswersThatCannotBeWrittenExitWith5) {
-  EXPECT_EQ(abbe("query ior N-BK7 --at 550 >/dev/full").code, 5);
+  for (const char* text : {"query ior N-BK7 --at 550", "query --list"}) {
+    const Outcome run = abbe(std::string(text) + " >/dev/full");
+    EXPECT_EQ(run.code, 5) << text;
+    EXPECT_EQ(run.err, "abbe: cannot write to standard output\n") << text;
+  }
 }
 
 TEST(Query, EveryQuestionFromTheCommandLine) {
@@ -92,6 +110,8 @@ TEST(Query, EveryQuestionFromTheCommandLine) {
   EXPECT_NEAR(json("camera Nikon_D5100 --illuminant A")["raw"]["R"].get<double>(), 1.0604997, 1e-7);
   EXPECT_TRUE(json("--list").contains("material"));
   EXPECT_NE(abbe("query --list illuminant").out.find("FL7\n"), std::string::npos);
+  EXPECT_NE(abbe("query --list camera").out.find("Nikon_D5100\n"), std::string::npos);
+  EXPECT_EQ(json("--list reflectance").size(), 1U);
 }
 
 TEST(Query, FaultyQuestions) {
@@ -103,6 +123,19 @@ TEST(Query, FaultyQuestions) {
   EXPECT_EQ(glass.code, 4);
   EXPECT_NE(glass.err.find("N-BK7"), std::string::npos) << glass.err;
   EXPECT_TRUE(glass.out.empty());
+}
+
+TEST(Calibrate, FromTheCommandLine) {
+  const Outcome run = abbe("calibrate --camera Nikon_D5100 --bits 10 --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.json()["bits"], 10);
+  EXPECT_LT(run.json()["dE00_mean"], 1.5);
+  EXPECT_EQ(abbe("calibrate --camera box:400-500").code, 2);
+  const Outcome unknown = abbe("calibrate --camera Nikon_D510 --illuminant D66 --chart none");
+  EXPECT_EQ(unknown.code, 4);
+  for (const char* name : {"\"Nikon_D5100\"?\n", "\"D66\"", "\"none\"\n"})
+    EXPECT_NE(unknown.err.find(name), std::string::npos) << unknown.err;
+  EXPECT_FALSE(unknown.err.ends_with("\n\n"));
 }
 
 TEST(Trace, FromTheCommandLine) {
