@@ -68,6 +68,17 @@ std::optional<std::string> read_string(const JsonValue& value, Diagnostics& diag
   return mismatch(value, "a string", "text in double quotes", diagnostics);
 }
 
+std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
+                                       std::initializer_list<const char*> names, Diagnostics& diagnostics) {
+  const std::optional<std::string> word = read_string(value, diagnostics);
+  if (!word) return std::nullopt;
+  const auto* const found = std::find(names.begin(), names.end(), *word);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  diagnostics.error(value.where,
+                    unknown_name(kind, *word, std::vector<std::string>(names.begin(), names.end())));
+  return std::nullopt;
+}
+
 std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics) {
   if (const auto* boolean = std::get_if<bool>(&value.value)) return *boolean;
   return mismatch(value, "a boolean", "true or false", diagnostics);

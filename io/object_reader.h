@@ -36,6 +36,10 @@ struct Range {
 [[nodiscard]] std::optional<std::int64_t> read_integer(const JsonValue& value, Range allowed,
                                                        Diagnostics& diagnostics);
 [[nodiscard]] std::optional<std::string> read_string(const JsonValue& value, Diagnostics& diagnostics);
+/// The number of a string among `names`; another one is reported as an unknown `kind`.
+[[nodiscard]] std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
+                                                     std::initializer_list<const char*> names,
+                                                     Diagnostics& diagnostics);
 [[nodiscard]] std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics);
 /// An array of numbers, each in `allowed`; of exactly `count` of them unless `count` is 0.
 [[nodiscard]] std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::size_t count,

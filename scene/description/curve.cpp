@@ -20,13 +20,10 @@ std::optional<Curve> read_any(const JsonValue& json, std::string_view folder, Re
 std::optional<Outside> read_outside(ObjectReader& reader, Reading& reading) {
   const JsonValue* json = reader.require("outside");
   if (!json) return std::nullopt;
-  const std::optional<std::string> word = read_string(*json, reading.diagnostics);
-  if (!word) return std::nullopt;
-  if (*word == "clamp") return Outside::clamp;
-  if (*word == "zero") return Outside::zero;
-  reading.diagnostics.error(json->where, unknown_name("rule for outside the table", *word,
-                                                      std::vector<std::string>{"clamp", "zero"}));
-  return std::nullopt;
+  const auto choice =
+      read_choice(*json, "rule for outside the table", {"clamp", "zero"}, reading.diagnostics);
+  if (!choice) return std::nullopt;
+  return *choice == 0 ? Outside::clamp : Outside::zero;
 }
 
 std::optional<Curve> read_table_curve(const JsonValue& json, Reading& reading) {

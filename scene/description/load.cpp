@@ -1,6 +1,7 @@
 #include "scene/description/load.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -33,36 +34,20 @@ bool check_version(ObjectReader& reader, Reading& reading) {
 }
 
 void read_units(ObjectReader& reader, Reading& reading) {
-  struct Unit {
-    const char* name;
-    double metres;
-  };
-  constexpr Unit kUnits[] = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}};
+  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
   const JsonValue* json = reader.find("units");
   if (!json) return;
-  const auto name = read_string(*json, reading.diagnostics);
-  if (!name) return;
-  std::vector<std::string> names;
-  for (const Unit& unit : kUnits) {
-    if (*name == unit.name) {
-      reading.unit_m = unit.metres;
-      return;
-    }
-    names.emplace_back(unit.name);
-  }
-  reading.diagnostics.error(json->where, unknown_name("unit of length", *name, names));
+  if (const auto unit =
+          read_choice(*json, "unit of length", {"m", "cm", "mm", "um", "in"}, reading.diagnostics))
+    reading.unit_m = kMetres.at(*unit);
 }
 
 Integrator read_integrator(ObjectReader& reader, Reading& reading) {
+  constexpr std::array kIntegrators{Integrator::automatic, Integrator::path, Integrator::light};
   const JsonValue* json = reader.find("integrator");
-  if (!json) return Integrator::automatic;
-  const auto name = read_string(*json, reading.diagnostics);
-  if (!name || *name == "auto") return Integrator::automatic;
-  if (*name == "path") return Integrator::path;
-  if (*name == "light") return Integrator::light;
-  reading.diagnostics.error(
-      json->where, unknown_name("integrator", *name, std::vector<std::string>{"auto", "path", "light"}));
-  return Integrator::automatic;
+  const auto choice =
+      json ? read_choice(*json, "integrator", {"auto", "path", "light"}, reading.diagnostics) : std::nullopt;
+  return kIntegrators.at(choice.value_or(0));
 }
 
 RenderSettings read_render(const JsonValue& json, Reading& reading) {

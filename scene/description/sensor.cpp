@@ -24,13 +24,9 @@ bool is_plain(std::string_view name) {
 std::optional<ResponseKind> read_response(ObjectReader& reader, Reading& reading) {
   const JsonValue* json = reader.find("response");
   if (!json) return std::nullopt;
-  const std::optional<std::string> word = read_string(*json, reading.diagnostics);
-  if (!word) return std::nullopt;
-  if (*word == "energy") return ResponseKind::energy;
-  if (*word == "quantum") return ResponseKind::quantum;
-  reading.diagnostics.error(json->where,
-                            unknown_name("response", *word, std::vector<std::string>{"energy", "quantum"}));
-  return std::nullopt;
+  const auto choice = read_choice(*json, "response", {"energy", "quantum"}, reading.diagnostics);
+  if (!choice) return std::nullopt;
+  return *choice == 0 ? ResponseKind::energy : ResponseKind::quantum;
 }
 
 /// What all channels of a sensor share.

@@ -121,6 +121,20 @@ TEST(ObjectReader, MissingAndExclusiveKeys) {
             "a.json:1:1: error: expected exactly one key (got none, allowed sphere, mesh)\n");
 }
 
+TEST(ObjectReader, ChoicesAreNumberedFromZero) {
+  Reading r(R"({"a": "mm", "b": "mmn", "c": 1})");
+  Diagnostics diagnostics;
+  const auto choice = [&](const char* key) {
+    return read_choice(*r.reader.find(key), "unit", {"m", "mm"}, diagnostics);
+  };
+  EXPECT_EQ(choice("a"), 1U);
+  EXPECT_EQ(choice("b"), std::nullopt);
+  EXPECT_EQ(choice("c"), std::nullopt);
+  ASSERT_EQ(diagnostics.all().size(), 2U);
+  EXPECT_EQ(diagnostics.all()[0].message, "unknown unit \"mmn\"; did you mean \"mm\"?");
+  EXPECT_EQ(diagnostics.all()[1].message, "expected a string (got 1, allowed text in double quotes)");
+}
+
 TEST(ObjectReader, TheKeyThatWasMeantInsteadOfNone) {
   Reading r(R"({"material": "m", "shpere": {}})");
   EXPECT_EQ(r.reader.exactly_one({"sphere", "mesh"}), std::nullopt);
