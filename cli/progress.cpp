@@ -24,6 +24,11 @@ std::string duration(double seconds) {
 
 }  // namespace
 
+std::string error_text(double relative_error, std::string_view before) {
+  if (!std::isfinite(relative_error) || relative_error <= 0) return "";
+  return fmt::format("{}error {:.3g} %", before, 100 * relative_error);
+}
+
 std::string progress_line(const Progress& progress, bool with_bar) {
   const double share = std::clamp(progress.share, 0.0, 1.0);
   std::string line;
@@ -34,8 +39,7 @@ std::string progress_line(const Progress& progress, bool with_bar) {
   line += fmt::format("{:3.0f} %  {} samples/pixel", std::floor(100 * share), progress.samples);
   if (progress.elapsed_s > 0)
     line += fmt::format("  {:.3g}/s", static_cast<double>(progress.samples) / progress.elapsed_s);
-  if (std::isfinite(progress.relative_error) && progress.relative_error > 0)
-    line += fmt::format("  error {:.3g} %", 100 * progress.relative_error);
+  line += error_text(progress.relative_error, "  ");
   if (share > 0 && share < 1)
     line += fmt::format("  {} left", duration(progress.elapsed_s * (1 - share) / share));
   return line;

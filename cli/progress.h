@@ -2,10 +2,14 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 #include "transport/render/render.h"
 
 namespace abbe::cli {
+
+/// `before` and the error as a percentage; nothing when it is not known, as after one sample.
+[[nodiscard]] std::string error_text(double relative_error, std::string_view before);
 
 /// One line on how far a render has come: share, samples and their rate, error, time left; with a bar for a
 /// terminal.

@@ -144,9 +144,8 @@ int render(const RenderOptions& options) {
 
   const RenderStats& stats = result.stats;
   if (!options.quiet)
-    say(fmt::format("{} after {} samples per pixel in {:.3g} s, relative error {:.3g} %",
-                    outputs.image.string(), stats.samples_per_pixel, stats.wall_s,
-                    100 * stats.relative_error));
+    say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.image.string(),
+                    stats.samples_per_pixel, stats.wall_s, error_text(stats.relative_error, ", relative ")));
   if (stats.nonfinite_samples > 0)
     say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));
   if (stats.interrupted) return kSignalExit + watch.signal();

@@ -15,6 +15,8 @@ TEST(Progress, SaysShareRateErrorAndTimeLeft) {
 TEST(Progress, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(progress_line({1, 16, 4, std::numeric_limits<double>::infinity()}, false),
             "100 %  16 samples/pixel  4/s");
+  EXPECT_EQ(error_text(0, ", relative "), "");
+  EXPECT_EQ(error_text(0.012, ", relative "), ", relative error 1.2 %");
 }
 
 TEST(Progress, DrawsABarOfFixedWidth) {
