@@ -87,6 +87,7 @@ Curve::Curve(double value) : Curve(std::vector<Knot>{{kMinWavelengthNm, value}})
 Curve::Curve(std::vector<Knot> knots) {
   require_valid(knots);
   knots_ = cut_to_range(knots);
+  constant_ = min() == max();
   cells_.resize(kCells + 1);
   std::size_t next = 0;  // first knot beyond the left end of the cell
   for (int i = 0; i <= kCells; ++i) {
@@ -115,6 +116,7 @@ double Curve::operator()(double wavelength_nm) const {
 }
 
 SampledSpectrum Curve::operator()(const SampledSpectrum& wavelengths_nm) const {
+  if (constant_) return SampledSpectrum(static_cast<float>(knots_.front().value));
   return SampledSpectrum::map(
       wavelengths_nm, [this](float wavelength_nm) { return static_cast<float>((*this)(wavelength_nm)); });
 }
@@ -141,10 +143,6 @@ double Curve::min() const {
   return std::min_element(knots_.begin(), knots_.end(),
                           [](const Knot& a, const Knot& b) { return a.value < b.value; })
       ->value;
-}
-
-bool Curve::is_constant() const {
-  return min() == max();
 }
 
 double integral_of_product(const Curve& a, const Curve& b) {

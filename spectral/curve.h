@@ -41,7 +41,7 @@ class Curve {
   [[nodiscard]] double integral(double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm) const;
   [[nodiscard]] double max() const;
   [[nodiscard]] double min() const;
-  [[nodiscard]] bool is_constant() const;
+  [[nodiscard]] bool is_constant() const { return constant_; }
 
  private:
   // A cell [i, i+1) nm without an inner knot is value + slope (lambda - i); one with inner knots is searched
@@ -54,6 +54,7 @@ class Curve {
   };
   std::vector<Knot> knots_;
   std::vector<Cell> cells_;
+  bool constant_;
 };
 
 /// Exact integral of the product over [300, 1100] nm.

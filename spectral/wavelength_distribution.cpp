@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -15,6 +16,9 @@ constexpr double kUniformShare = 0.05;
 /// Places closer than this [nm] are one edge: far below the spacing of float wavelengths, far above that of
 /// doubles.
 constexpr double kEdgeResolutionNm = 1e-9;
+
+/// Entries of the guide per cell: with more of them fewer cells are walked over.
+constexpr std::size_t kGuideFineness = 4;
 
 /// Two interior points per cell; their mean integrates a product of two lines exactly (Gauss and Legendre).
 struct Cells {
@@ -125,19 +129,17 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
   std::size_t last = support.size();
   while (!(support[last - 1] > 0)) --last;
   const double share = overlap ? kUniformShare : 1;
-  edges_.assign(cells.edges.begin() + static_cast<std::ptrdiff_t>(first),
-                cells.edges.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-  cdf_.push_back(0);
+  double cdf = 0;
   for (std::size_t i = first; i < last; ++i) {
-    density_.push_back((1 - share) * mixture[i] + share * support[i]);
-    cdf_.push_back(cdf_.back() + density_.back() * cells.width(i));
+    cells_.push_back({cells.edges[i], cdf, (1 - share) * mixture[i] + share * support[i]});
+    cdf += cells_.back().density * cells.width(i);
   }
-  cdf_.back() = 1;
+  cells_.push_back({cells.edges[last], 1, 0});
 
-  const std::size_t size = density_.size();
+  const std::size_t size = kGuideFineness * (last - first);
   std::size_t cell = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    while (cdf_[cell + 1] * static_cast<double>(size) <= static_cast<double>(i)) ++cell;
+    while (cells_[cell + 1].cdf * static_cast<double>(size) <= static_cast<double>(i)) ++cell;
     guide_.push_back(static_cast<std::uint32_t>(cell));
   }
 }
@@ -148,20 +150,19 @@ SampledWavelengths WavelengthDistribution::sample(float u) const {
     double v = static_cast<double>(u) + static_cast<double>(lane) / kLanes;
     if (v >= 1) v -= 1;
     std::size_t cell = guide_[static_cast<std::size_t>(v * static_cast<double>(guide_.size()))];
-    while (cdf_[cell + 1] <= v) ++cell;
-    const double t = (v - cdf_[cell]) / (cdf_[cell + 1] - cdf_[cell]);
-    const double low = edges_[cell];
-    const double high = edges_[cell + 1];
-    result.lambda_nm[lane] = float_inside(low + t * (high - low), low, high);
-    result.pdf[lane] = static_cast<float>(density_[cell]);
+    while (cells_[cell + 1].cdf <= v) ++cell;
+    const auto [low, cdf, density] = cells_[cell];
+    result.lambda_nm[lane] = float_inside(low + (v - cdf) / density, low, cells_[cell + 1].low_nm);
+    result.pdf[lane] = static_cast<float>(density);
   }
   return result;
 }
 
 double WavelengthDistribution::pdf(double wavelength_nm) const {
   if (!(wavelength_nm >= low_nm() && wavelength_nm < high_nm())) return 0;
-  const auto above = std::upper_bound(edges_.begin(), edges_.end(), wavelength_nm);
-  return density_[static_cast<std::size_t>(above - edges_.begin()) - 1];
+  const auto above = std::upper_bound(cells_.begin(), cells_.end(), wavelength_nm,
+                                      [](double nm, const Cell& cell) { return nm < cell.low_nm; });
+  return std::prev(above)->density;
 }
 
 }  // namespace abbe

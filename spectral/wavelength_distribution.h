@@ -30,14 +30,18 @@ class WavelengthDistribution {
   /// Density at a wavelength [1/nm]; 0 outside the support.
   [[nodiscard]] double pdf(double wavelength_nm) const;
   /// Support [nm].
-  [[nodiscard]] double low_nm() const { return edges_.front(); }
-  [[nodiscard]] double high_nm() const { return edges_.back(); }
+  [[nodiscard]] double low_nm() const { return cells_.front().low_nm; }
+  [[nodiscard]] double high_nm() const { return cells_.back().low_nm; }
 
  private:
-  std::vector<double> edges_;         // cell boundaries, ascending
-  std::vector<double> density_;       // one per cell
-  std::vector<double> cdf_;           // one per edge, from 0 to 1
-  std::vector<std::uint32_t> guide_;  // first cell whose cdf exceeds i/size
+  // From `low_nm` to the next cell's; the last one only ends the range, with a cdf of 1.
+  struct Cell {
+    double low_nm;
+    double cdf;  // at low_nm
+    double density;
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> guide_;  // per i of its size: the cell that holds a cdf of i/size
 };
 
 }  // namespace abbe

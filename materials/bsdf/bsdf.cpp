@@ -19,4 +19,9 @@ bool is_delta(const Bsdf& bsdf) {
   return std::visit([](const auto& model) { return model.delta(); }, bsdf);
 }
 
+bool is_black(const Bsdf& bsdf) {
+  const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf);
+  return diffuse != nullptr && diffuse->reflectance.is_zero();
+}
+
 }  // namespace abbe

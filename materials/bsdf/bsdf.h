@@ -82,5 +82,7 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf>;
 /// Density with which `sample` would draw wi were each lane the hero [1/sr]; 0 for delta models.
 [[nodiscard]] SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi);
 [[nodiscard]] bool is_delta(const Bsdf& bsdf);
+/// Whether nothing leaves, whatever arrives.
+[[nodiscard]] bool is_black(const Bsdf& bsdf);
 
 }  // namespace abbe

@@ -45,6 +45,8 @@ struct Camera {
   double pixel_pitch = 1;  ///< [m]
 
   [[nodiscard]] bool is_probe() const { return kind.index() == 1; }
+  /// Sees through one point: no lens point has to be drawn.
+  [[nodiscard]] bool is_pinhole() const { return kind.index() == 0 && std::get<LensCamera>(kind).pinhole; }
 };
 
 /// A ray into the scene. Radiance L along it adds `weight` L to the spectral irradiance at its film position.

@@ -50,11 +50,11 @@ Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
   const double c = std::clamp(std::copysign(1 / std::sqrt(f * f + b0_ * b0_), f), -1.0, 1.0);
   const double x = std::clamp(c * height_ / std::sqrt(std::max((1 - c) * (1 + c), 1e-300)), x0_, x1_);
   // On that line equal steps of sine are equal solid angles.
-  const double d = std::hypot(x, height_);
-  const double h0 = y0_ / std::hypot(d, y0_);
-  const double h1 = y1_ / std::hypot(d, y1_);
+  const double d2 = x * x + height_ * height_;
+  const double h0 = y0_ / std::sqrt(d2 + y0_ * y0_);
+  const double h1 = y1_ / std::sqrt(d2 + y1_ * y1_);
   const double h = h0 + static_cast<double>(u.y) * (h1 - h0);
-  const double y = std::clamp(h * d / std::sqrt(std::max((1 - h) * (1 + h), 1e-300)), y0_, y1_);
+  const double y = std::clamp(h * std::sqrt(d2 / std::max((1 - h) * (1 + h), 1e-300)), y0_, y1_);
   return {(x - x0_) / (x1_ - x0_), (y - y0_) / (y1_ - y0_)};
 }
 

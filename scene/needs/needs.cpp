@@ -133,8 +133,7 @@ Needs analyse(const Scene& scene) {
   analyse_matter(scene, needs);
   analyse_lights(scene, needs);
   for (const Channel& channel : scene.channels) needs.narrow_bands |= has_narrow_feature(channel.weight);
-  const auto* lens = std::get_if<LensCamera>(&scene.camera.kind);
-  needs.depth_of_field = lens != nullptr && !lens->pinhole;
+  needs.depth_of_field = !scene.camera.is_probe() && !scene.camera.is_pinhole();
   return needs;
 }
 

@@ -55,7 +55,10 @@ void Film::add(std::size_t pixel, int replicate, std::span<const double> values)
   while (lock.test_and_set(std::memory_order_acquire)) {
   }
   Int128* sum = &sums_[index(pixel, replicate)];
-  for (const double value : values) *sum++ += to_fixed(value, unit_exponent_);
+  for (const double value : values) {
+    if (value != 0) *sum += to_fixed(value, unit_exponent_);  // most samples of a dark pixel
+    ++sum;
+  }
   lock.clear(std::memory_order_release);
 }
 

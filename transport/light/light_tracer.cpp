@@ -43,6 +43,7 @@ class PhotonPath {
       // Lights may stand inside glass: a first surface met from behind tells what the photon started in.
       if (depth == 0) medium_ = crossed_into(scene_, hit->shape, vertex.wo.z < 0, lambda());
       medium_.attenuate(packet_.throughput, hit->t);
+      if (is_black(vertex.bsdf)) return;
       const bool specular = is_delta(vertex.bsdf);
       if (depth == 0 && !specular && !plan_.light_owns_all) return;
       if (!specular) connect(vertex, depth);
@@ -54,7 +55,8 @@ class PhotonPath {
   [[nodiscard]] const SampledSpectrum& lambda() const { return packet_.wavelengths.lambda_nm; }
 
   void connect(const Vertex& vertex, int depth) {
-    const std::array<float, 4> u = sampler_.group(lens_group(depth));
+    const std::array<float, 4> u =
+        scene_.camera.is_pinhole() ? std::array<float, 4>{} : sampler_.group(lens_group(depth));
     const std::optional<CameraConnection> lens =
         sample_towards(scene_.camera, vertex.hit.point, {u[0], u[1]});
     if (!lens) return;

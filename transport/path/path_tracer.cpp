@@ -52,6 +52,7 @@ class CameraPath {
       add_emission(*hit, depth);
       if (depth >= scene_.render.max_depth) return;
       const Vertex vertex(scene_, *hit, ray_.direction, lambda());
+      if (is_black(vertex.bsdf)) return;
       if (depth == 0) first_specular_ = is_delta(vertex.bsdf);
       if (!scatter(vertex, depth)) return;
     }
@@ -175,11 +176,12 @@ class CameraPath {
 void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampler, int x, int y,
                        PathExposure& exposure) {
   const std::array<float, 4> film = sampler.group(kFilmGroup);
-  const std::array<float, 4> lens = sampler.group(kLensGroup);
+  const Camera& camera = plan.scene.camera;
+  const std::array<float, 4> lens = camera.is_pinhole() ? std::array<float, 4>{} : sampler.group(kLensGroup);
   const Imath::V2f position(static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]);
-  const CameraRay start = sample_ray(plan.scene.camera, position, {lens[0], lens[1]});
+  const CameraRay start = sample_ray(camera, position, {lens[0], lens[1]});
   CameraPath path(plan, caster, sampler, plan.wavelengths.sample(film[2]), start, exposure);
-  if (const auto* meter = std::get_if<IrradianceProbe>(&plan.scene.camera.kind))
+  if (const auto* meter = std::get_if<IrradianceProbe>(&camera.kind))
     path.trace_from_meter(start.ray.origin, Imath::V3f(meter->normal));
   else
     path.trace();

@@ -7,6 +7,13 @@ namespace {
 
 using Point = std::array<std::uint32_t, 4>;
 
+constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+  x = ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
+  x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
+  x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
+  return __builtin_bswap32(x);
+}
+
 // Generator matrices of the first four Sobol dimensions: bit b of the index flips column b. The recurrence
 // and its initial numbers are those of [Joe2008] (primitive polynomials 1, x+1, x^2+x+1, x^3+x+1).
 constexpr std::array<Point, 32> sobol_columns() {
@@ -31,7 +38,7 @@ constexpr std::array<Point, 32> sobol_columns() {
   return columns;
 }
 
-// The same by bytes: four look-ups make a point.
+// The same by bytes: four look-ups make a point, its bits reversed.
 constexpr std::array<std::array<Point, 256>, 4> sobol_bytes() {
   constexpr std::array<Point, 32> kColumns = sobol_columns();
   std::array<std::array<Point, 256>, 4> table{};
@@ -40,7 +47,8 @@ constexpr std::array<std::array<Point, 256>, 4> sobol_bytes() {
       std::size_t bit = 0;
       while (!((value >> bit) & 1U)) ++bit;
       for (std::size_t d = 0; d < 4; ++d)
-        table[byte][value][d] = table[byte][value & (value - 1)][d] ^ kColumns[8 * byte + bit][d];
+        table[byte][value][d] =
+            table[byte][value & (value - 1)][d] ^ reverse_bits(kColumns[8 * byte + bit][d]);
     }
   return table;
 }
@@ -60,17 +68,11 @@ constexpr std::uint32_t combine(std::uint32_t a, std::uint32_t b) {
   return mix(a ^ (mix(b) + 0x9e3779b9U));
 }
 
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-  x = ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
-  x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
-  x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
-  return __builtin_bswap32(x);
-}
-
 // A permutation in which each bit depends only on itself and lower bits [Laine2011]; between two bit
-// reversals it is an Owen scrambling of a point, or a nested uniform shuffle of an index.
-constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
-  x = reverse_bits(x) + seed;
+// reversals, the first of which the caller has done, it is an Owen scrambling of a point, or a nested uniform
+// shuffle of an index.
+constexpr std::uint32_t owen_scramble(std::uint32_t reversed, std::uint32_t seed) {
+  std::uint32_t x = reversed + seed;
   x ^= x * 0x6c50b47cU;
   x ^= x * 0xb82f1e52U;
   x ^= x * 0xc7afe638U;
@@ -91,11 +93,11 @@ Sampler::Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t replicate, s
                           static_cast<std::uint32_t>(purpose)),
                   replicate),
           stream)),
-      index_(index) {}
+      reversed_index_(reverse_bits(index)) {}
 
 std::array<float, 4> Sampler::group(std::uint32_t group) const {
   const std::uint32_t key = combine(key_, group);
-  const std::uint32_t i = owen_scramble(index_, key);
+  const std::uint32_t i = owen_scramble(reversed_index_, key);
   std::array<float, 4> point;
   for (std::uint32_t d = 0; d < 4; ++d) {
     const std::uint32_t x = kSobol[0][i & 255U][d] ^ kSobol[1][(i >> 8) & 255U][d] ^

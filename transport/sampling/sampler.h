@@ -22,7 +22,7 @@ class Sampler {
 
  private:
   std::uint32_t key_;
-  std::uint32_t index_;
+  std::uint32_t reversed_index_;
 };
 
 }  // namespace abbe
