@@ -2,15 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "io/error.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -29,12 +32,16 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+std::string temporary_prefix(const fs::path& path) {
+  return fmt::format(".{}.abbe-", path.stem().string());
+}
+
 /// Keeps the extension, by which image libraries choose the format, and differs between processes and
 /// threads.
 fs::path temporary_for(const fs::path& path) {
   static std::atomic<unsigned> count = 0;
-  return folder_of(path) / fmt::format(".{}.abbe-{}-{}{}", path.stem().string(), ::getpid(), count++,
-                                       path.extension().string());
+  return folder_of(path) /
+         fmt::format("{}{}-{}{}", temporary_prefix(path), ::getpid(), count++, path.extension().string());
 }
 
 /// Waits until a file or folder is on the disk.
@@ -45,6 +52,18 @@ void flush(const fs::path& path) {
   const std::string why = flushed ? "" : reason();
   ::close(descriptor);
   if (!flushed) fail(path, fmt::format("cannot flush to disk ({})", why));
+}
+
+/// Whether what comes next in the file is `bytes`; reads as many.
+bool starts_with(std::istream& file, std::string_view bytes) {
+  std::array<char, 1 << 16> block;
+  while (!bytes.empty()) {
+    const std::string_view part = bytes.substr(0, block.size());
+    file.read(block.data(), static_cast<std::streamsize>(part.size()));
+    if (!file || std::string_view(block.data(), part.size()) != part) return false;
+    bytes.remove_prefix(part.size());
+  }
+  return true;
 }
 
 /// Removes its file on every way out; after the rename there is none.
@@ -80,19 +99,38 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   }
 }
 
-void write_atomically(const fs::path& path, std::string_view bytes) {
+void write_atomically(const fs::path& path, std::span<const std::string_view> pieces) {
   write_atomically(
       path,
       [&](const fs::path& temporary) {
         std::ofstream file(temporary, std::ios::binary);
-        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        for (const std::string_view piece : pieces)
+          file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
         file.close();
         if (!file) fail(path, fmt::format("cannot write ({})", reason()));
       },
       [&](const fs::path& temporary) {
         std::ifstream file(temporary, std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(file), {}) == bytes;
+        return std::all_of(pieces.begin(), pieces.end(),
+                           [&file](std::string_view piece) { return starts_with(file, piece); }) &&
+               file.peek() == std::ifstream::traits_type::eof();
       });
+}
+
+void write_atomically(const fs::path& path, std::string_view bytes) {
+  write_atomically(path, std::span(&bytes, 1));
+}
+
+void remove_leftovers(const fs::path& path) {
+  const std::string prefix = temporary_prefix(path);
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix) || entry.path().extension() != path.extension()) continue;
+    const auto process = parse_number(split(std::string_view(name).substr(prefix.size()), '-').front());
+    if (process && ::kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH)
+      fs::remove(entry.path(), ignored);
+  }
 }
 
 void require_writable(const fs::path& path) {

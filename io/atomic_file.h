@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string_view>
 
 namespace abbe {
@@ -13,8 +14,13 @@ void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write,
                       const std::function<bool(const std::filesystem::path& temporary)>& verify);
 
-/// The same for a text or bytes already in memory, verified by reading them back.
+/// The same for text or bytes already in memory, written one piece after the other and verified by reading
+/// them back.
+void write_atomically(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Removes the temporary files of `path` that processes now dead have left. For the holder of its lock.
+void remove_leftovers(const std::filesystem::path& path);
 
 /// Throws Error{output} now if a file could not be created at `path` later: folder missing or read-only, or
 /// `path` a folder.

@@ -1,0 +1,50 @@
+#include "io/file_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "io/atomic_file.h"
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+// Whether the file locked is still the one of that name: its last holder may have removed it in between.
+bool is_current(int descriptor, const std::filesystem::path& path) {
+  struct stat held {};
+  struct stat named {};
+  return ::fstat(descriptor, &held) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+FileLock::FileLock(const std::filesystem::path& path)
+    : lock_(path.parent_path() / fmt::format(".{}.lock", path.filename().string())), descriptor_(-1) {
+  while (true) {
+    descriptor_ = ::open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const bool locked = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    if (locked && is_current(descriptor_, lock_)) break;
+    const int error = errno;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!locked)
+      throw Error(ErrorCode::output, path.string(),
+                  error == EWOULDBLOCK
+                      ? "another process is writing it"
+                      : fmt::format("cannot lock it ({})", std::generic_category().message(error)));
+  }
+  remove_leftovers(path);
+}
+
+FileLock::~FileLock() {
+  ::unlink(lock_.c_str());
+  ::close(descriptor_);
+}
+
+}  // namespace abbe

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace abbe {
+
+/// Named texts and bytes that belong together. A file of them is read back whole or refused: its header
+/// carries the length of the bytes and a SHA-256 of everything.
+struct PartFile {
+  std::map<std::string, std::string> header;  ///< Keys without ':', keys and values without line breaks.
+  std::string bytes;
+};
+
+/// Writes header and bytes to `path`, atomically. Throws Error{output}.
+void write_part_file(const std::filesystem::path& path, const std::map<std::string, std::string>& header,
+                     std::string_view bytes);
+
+/// Throws Error{input} for a file that is missing, of another format, torn or changed.
+[[nodiscard]] PartFile read_part_file(const std::filesystem::path& path);
+
+}  // namespace abbe
