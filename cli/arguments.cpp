@@ -80,6 +80,12 @@ Crop parse_crop(const std::string& option, const std::string& text) {
   return {edges[0], edges[1], edges[2], edges[3]};
 }
 
+SampleRange parse_sample_range(const std::string& option, const std::string& text) {
+  const std::optional<SampleRanges> ranges = parse_sample_ranges(text);
+  if (!ranges || ranges->size() != 1) refuse(option, "\"" + text + "\"", "whole numbers a:b with a < b");
+  return ranges->front();
+}
+
 Override parse_override(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || !text.starts_with('/'))

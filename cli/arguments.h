@@ -31,6 +31,8 @@ namespace abbe::cli {
 [[nodiscard]] double parse_share(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.
 [[nodiscard]] Crop parse_crop(const std::string& option, const std::string& text);
+/// "a:b", whole numbers with a < b.
+[[nodiscard]] SampleRange parse_sample_range(const std::string& option, const std::string& text);
 /// "/pointer=value".
 [[nodiscard]] Override parse_override(const std::string& option, const std::string& text);
 

@@ -35,8 +35,7 @@ constexpr std::array<Need, 9> kNeeds{{
 
 std::size_t film_bytes(const Scene& scene) {
   return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
-         scene.channels.size() * static_cast<std::size_t>(replicate_count(scene.render.samples)) *
-         sizeof(Int128);
+         scene.channels.size() * static_cast<std::size_t>(replicate_count(scene, {})) * sizeof(Int128);
 }
 
 Json answer_for(const Scene& scene) {

@@ -15,6 +15,7 @@
 #include "cli/calibrate.h"
 #include "cli/compare.h"
 #include "cli/info.h"
+#include "cli/merge.h"
 #include "cli/query.h"
 #include "cli/render.h"
 #include "cli/trace.h"
@@ -102,7 +103,10 @@ void add_render(CLI::App& app, Command& command) {
   const Sub<RenderOptions> sub(app, "render", "Render a scene", command, render);
   CLI::App& render = *sub.app;
   render.add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
-  render.add_option("-o,--output", sub->output, "Image to write (default: the scene's, else SCENE.exr)")
+  render
+      .add_option(
+          "-o,--output", sub->output,
+          "Film to write, an .exr or the exact sums as .abbepart (default: the scene's, else SCENE.exr)")
       ->type_name("FILE.exr");
   CLI::Option* spp =
       add_parsed(render, "--spp", sub->samples, integer_in<int>(1, kMaxSamples), "Samples per pixel", "N");
@@ -128,6 +132,16 @@ void add_render(CLI::App& app, Command& command) {
           "Replace a value of the scene file; may be repeated")
       ->allow_extra_args(false)
       ->type_name("/POINTER=VALUE");
+  CLI::Option* range = add_parsed(render, "--sample-range", sub->sample_range, parse_sample_range,
+                                  "Render only samples A to B - 1 of every pixel", "A:B");
+  range->excludes(error)->excludes(time);
+  CLI::Option* checkpoint =
+      render.add_option("--checkpoint", sub->checkpoint, "Where to save what is finished")
+          ->type_name("FILE.abbepart");
+  add_parsed(render, "--checkpoint-every", sub->checkpoint_interval_s, parse_seconds,
+             "How often, at most a hundredth of the time (default 60s)", "TIME")
+      ->needs(checkpoint);
+  render.add_flag("--resume", sub->resume, "Go on from the checkpoint, if there is one")->needs(checkpoint);
   render.add_option("--display", sub->display, "Also write a picture for sRGB displays")
       ->type_name("FILE.png");
   render.add_option("--stats", sub->stats, "Write what the render did as JSON")->type_name("FILE.json");
@@ -233,6 +247,14 @@ void add_query(CLI::App& app, Command& command) {
   });
 }
 
+void add_merge(CLI::App& app, Command& command) {
+  const Sub<MergeOptions> sub(app, "merge", "Add up parts of one render", command, merge);
+  sub.app->add_option("parts", sub->parts, "Parts, in any order")->required()->type_name("PART.abbepart...");
+  sub.app->add_option("-o,--output", sub->output, "Film to write")
+      ->required()
+      ->type_name("FILE.exr|FILE.abbepart");
+}
+
 void add_compare_and_calibrate(CLI::App& app, Command& command) {
   const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
   sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
@@ -314,6 +336,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "abbe " ABBE_VERSION);
   app.require_subcommand(1);
   add_render(app, command);
+  add_merge(app, command);
   add_scene_commands(app, command);
   add_query(app, command);
   add_compare_and_calibrate(app, command);

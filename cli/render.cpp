@@ -1,16 +1,17 @@
 #include "cli/render.h"
 
-#include <algorithm>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "calibration/output/display.h"
 #include "cli/answer.h"
+#include "cli/film_output.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "io/atomic_file.h"
-#include "io/exr.h"
+#include "io/file_lock.h"
 #include "io/picture.h"
 
 namespace abbe::cli {
@@ -30,77 +31,92 @@ Scene load(const RenderOptions& options) {
 }
 
 struct Outputs {
-  fs::path image;
+  fs::path film;
   fs::path display;  ///< Empty when no picture is wanted.
   fs::path stats;    ///< Likewise.
 };
 
-void require_extension(const fs::path& path, std::initializer_list<const char*> allowed) {
-  const auto same = [&path](const char* extension) { return path.extension() == extension; };
-  if (std::none_of(allowed.begin(), allowed.end(), same))
-    throw Error(
-        ErrorCode::usage, path.string(),
-        fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
-}
-
 // Where to write, checked before any time is spent on rendering.
 Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
   Outputs outputs{options.output, options.display, options.stats};
-  if (outputs.image.empty()) outputs.image = scene.output.image;
-  if (outputs.image.empty()) outputs.image = options.scene.stem().concat(".exr");
+  if (outputs.film.empty()) outputs.film = scene.output.image;
+  if (outputs.film.empty()) outputs.film = options.scene.stem().concat(".exr");
   if (outputs.display.empty()) outputs.display = scene.output.display;
-  require_extension(outputs.image, {".exr"});
-  require_writable(outputs.image);
+  require_film_output(outputs.film);
   if (!outputs.display.empty()) {
     require_extension(outputs.display, {".png", ".jpg", ".tif"});
     require_writable(outputs.display);
   }
   if (!outputs.stats.empty()) require_writable(outputs.stats);
+  if (!options.checkpoint.empty()) require_writable(options.checkpoint);
   return outputs;
 }
 
-void check_crop(const Crop& crop, const Camera& camera) {
-  if (crop.x1 > camera.width || crop.y1 > camera.height)
+void check_ranges(const RenderOptions& options, const Scene& scene) {
+  const Camera& camera = scene.camera;
+  if (options.crop && (options.crop->x1 > camera.width || options.crop->y1 > camera.height))
     throw Error(ErrorCode::usage, "--crop",
-                fmt::format("reaches beyond the film (got {},{}, allowed up to {},{})", crop.x1, crop.y1,
-                            camera.width, camera.height));
+                fmt::format("reaches beyond the film (got {},{}, allowed up to {},{})", options.crop->x1,
+                            options.crop->y1, camera.width, camera.height));
+  if (options.sample_range && options.sample_range->last > static_cast<std::uint64_t>(scene.render.samples))
+    throw Error(ErrorCode::usage, "--sample-range",
+                fmt::format("reaches beyond the samples of the whole render (got {}, allowed up to {})",
+                            options.sample_range->last, scene.render.samples));
 }
 
-RenderResult develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch) {
-  ProgressDisplay display;
+abbe::RenderOptions how_to_render(const RenderOptions& options) {
   abbe::RenderOptions how;
   how.threads = options.threads;
   how.time_limit_s = options.time_limit_s;
   how.target_error = options.target_error;
   how.crop = options.crop;
+  how.samples = options.sample_range;
+  how.checkpoint_interval_s = options.checkpoint_interval_s;
   how.measure_replay = !options.stats.empty();
-  how.stop = &watch.stop();
-  if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
-  RenderResult result = abbe::render(scene, how);
-  display.finish();
-  return result;
+  return how;
 }
 
-Image image_of(const Scene& scene, const RenderResult& result, const RenderOptions& options) {
-  std::vector<std::string> names;
-  for (const Channel& channel : scene.channels) names.push_back(channel.name);
-  Image image = result.film.image(names);
-  image.metadata["renderer"] = "Abbe";
-  image.metadata["version"] = ABBE_VERSION;
-  image.metadata["scene"] = options.scene.filename().string();
-  image.metadata["scene_sha256"] = scene.sha256;
-  image.metadata["seed"] = fmt::format("{}", scene.render.seed);
-  image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
-  image.metadata["relative_error"] = fmt::format("{}", result.stats.relative_error);
-  image.metadata["exposure_s"] = fmt::format("{}", scene.exposure_s);
-  for (const Channel& channel : scene.channels)
-    image.metadata["channel." + channel.name] = channel.kind == ResponseKind::quantum
-                                                    ? "quantum, electrons per m^2"
-                                                    : "energy, response-weighted J per m^2";
-  if (options.crop)
-    image.metadata["crop"] =
-        fmt::format("{},{},{},{}", options.crop->x0, options.crop->y0, options.crop->x1, options.crop->y1);
-  return image;
+// What an earlier run left, if it is asked for and there is some.
+std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIdentity& identity) {
+  const fs::path& path = options.checkpoint;
+  std::error_code ignored;
+  if (path.empty() || !fs::exists(path, ignored)) {
+    if (options.resume)
+      say(fmt::format("{}: no checkpoint yet, starting from the first sample", path.string()));
+    return std::nullopt;
+  }
+  if (!options.resume)
+    throw Error(ErrorCode::output, path.string(), "holds an earlier render: --resume goes on with it");
+  RenderPart part = read_part(path);
+  require_same_film(path, part.identity, identity);
+  if (!options.quiet)
+    say(fmt::format("{}: going on after samples {}", path.string(), to_text(part.result.samples)));
+  return std::move(part.result);
+}
+
+// A checkpoint that fails costs no more than itself: the render goes on, and the last one is not forgiven.
+void try_to_save(const fs::path& path, const FilmIdentity& identity, const RenderResult& result) {
+  try {
+    write_part(path, identity, result);
+  } catch (const Error& error) {
+    if (error.code != ErrorCode::output) throw;
+    say(fmt::format("warning: no checkpoint: {}", error.what()));
+  }
+}
+
+RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch) {
+  ProgressDisplay display;
+  abbe::RenderOptions how = how_to_render(options);
+  const FilmIdentity identity = identity_of(scene, options.scene, how);
+  how.stop = &watch.stop();
+  if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
+  const fs::path& checkpoint = options.checkpoint;
+  if (!checkpoint.empty())
+    how.checkpoint = [&](const RenderResult& result) { try_to_save(checkpoint, identity, result); };
+  RenderPart part{identity, abbe::render(scene, how, earlier(options, identity))};
+  display.finish();
+  if (!checkpoint.empty()) write_part(checkpoint, identity, part.result);
+  return part;
 }
 
 void write_stats(const fs::path& path, const Scene& scene, const RenderStats& stats) {
@@ -125,7 +141,10 @@ void write_stats(const fs::path& path, const Scene& scene, const RenderStats& st
 int render(const RenderOptions& options) {
   const Scene scene = load(options);
   const Outputs outputs = choose_outputs(options, scene);
-  if (options.crop) check_crop(*options.crop, scene.camera);
+  check_ranges(options, scene);
+  const FileLock film_lock(outputs.film);
+  std::optional<FileLock> checkpoint_lock;
+  if (!options.checkpoint.empty()) checkpoint_lock.emplace(options.checkpoint);
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty())
     display = make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission);
@@ -133,18 +152,17 @@ int render(const RenderOptions& options) {
   warn_about_polarisation(scene.needs);
 
   const InterruptWatch watch;
-  const RenderResult result = develop(scene, options, watch);
-  const Image image = image_of(scene, result, options);
-  write_exr(outputs.image, image);
+  const RenderPart part = develop(scene, options, watch);
+  write_film(outputs.film, part);
   if (display) {
     const std::optional<double> white = scene.output.display_exposure;
-    write_picture(outputs.display, (*display)(image, white ? std::optional(1 / *white) : std::nullopt).image);
+    write_picture(outputs.display,
+                  (*display)(image_of(part), white ? std::optional(1 / *white) : std::nullopt).image);
   }
-  if (!outputs.stats.empty()) write_stats(outputs.stats, scene, result.stats);
-
-  const RenderStats& stats = result.stats;
+  const RenderStats& stats = part.result.stats;
+  if (!outputs.stats.empty()) write_stats(outputs.stats, scene, stats);
   if (!options.quiet)
-    say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.image.string(),
+    say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.relative_error, ", relative ")));
   if (stats.nonfinite_samples > 0)
     say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));

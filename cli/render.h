@@ -20,6 +20,10 @@ struct RenderOptions {
   std::optional<int> samples;
   std::optional<double> target_error;
   std::optional<double> time_limit_s;
+  std::optional<SampleRange> sample_range;
+  std::filesystem::path checkpoint;
+  double checkpoint_interval_s = 60;
+  bool resume = false;  ///< Goes on from the checkpoint where there is one.
   std::optional<Integrator> integrator;
   std::optional<std::uint64_t> seed;
   std::optional<Crop> crop;
@@ -31,7 +35,7 @@ struct RenderOptions {
 };
 
 /// Scene file to pictures. Returns the exit code: 0, or 128 plus the signal that stopped the render early,
-/// its image written and valid.
+/// its image and checkpoint written and valid.
 int render(const RenderOptions& options);
 
 }  // namespace abbe::cli

@@ -1,6 +1,10 @@
 #include "sensor/film/film.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -11,6 +15,11 @@ namespace {
 
 constexpr int kFractionBits = 80;
 constexpr int kHeadroomBits = 44;
+
+std::size_t sums_of(const FilmShape& shape) {
+  return static_cast<std::size_t>(shape.width) * static_cast<std::size_t>(shape.height) *
+         static_cast<std::size_t>(shape.channels) * static_cast<std::size_t>(shape.replicates);
+}
 
 }  // namespace
 
@@ -30,24 +39,23 @@ double from_fixed(Int128 fixed, int unit_exponent) {
 }
 
 Film::Film(int width, int height, int channels, int replicates, double nominal)
-    : width_(width),
-      height_(height),
-      channels_(channels),
-      replicates_(replicates),
-      unit_exponent_((nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits),
-      samples_(static_cast<std::size_t>(replicates), 0),
+    : Film(FilmShape{width, height, channels, replicates,
+                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits}) {}
+
+Film::Film(const FilmShape& shape)
+    : shape_(shape),
+      samples_(static_cast<std::size_t>(shape.replicates), 0),
       locks_(std::make_unique<std::atomic_flag[]>(kLocks)) {
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   try {
-    sums_.assign(pixels * static_cast<std::size_t>(channels * replicates), 0);
+    sums_.assign(sums_of(shape), 0);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::resource, "film", "not enough memory for its sums");
   }
 }
 
 std::size_t Film::index(std::size_t pixel, int replicate) const {
-  return (pixel * static_cast<std::size_t>(replicates_) + static_cast<std::size_t>(replicate)) *
-         static_cast<std::size_t>(channels_);
+  return (pixel * static_cast<std::size_t>(shape_.replicates) + static_cast<std::size_t>(replicate)) *
+         static_cast<std::size_t>(shape_.channels);
 }
 
 void Film::add(std::size_t pixel, int replicate, std::span<const double> values) {
@@ -56,25 +64,43 @@ void Film::add(std::size_t pixel, int replicate, std::span<const double> values)
   }
   Int128* sum = &sums_[index(pixel, replicate)];
   for (const double value : values) {
-    if (value != 0) *sum += to_fixed(value, unit_exponent_);  // most samples of a dark pixel
+    if (value != 0) *sum += to_fixed(value, shape_.unit_exponent);  // most samples of a dark pixel
     ++sum;
   }
   lock.clear(std::memory_order_release);
 }
 
 bool Film::holds(double value) const {
-  return std::abs(value) < std::ldexp(1.0, unit_exponent_ + kFractionBits + kHeadroomBits);
+  return std::abs(value) < std::ldexp(1.0, shape_.unit_exponent + kFractionBits + kHeadroomBits);
 }
 
 void Film::set_samples(std::vector<std::uint64_t> per_replicate) {
   samples_ = std::move(per_replicate);
 }
 
+void Film::add(const Film& other) {
+  std::transform(sums_.begin(), sums_.end(), other.sums_.begin(), sums_.begin(), std::plus<>());
+}
+
+std::string_view Film::bytes() const {
+  return {reinterpret_cast<const char*>(sums_.data()), memory_bytes()};
+}
+
+std::optional<Film> Film::from_bytes(const FilmShape& shape, std::string_view bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  if (bytes.size() / sizeof(Int128) != sums_of(shape) || bytes.size() % sizeof(Int128) != 0)
+    return std::nullopt;
+  Film film(shape);
+  std::memcpy(film.sums_.data(), bytes.data(), bytes.size());
+  return film;
+}
+
 double Film::mean(std::size_t pixel, int channel) const {
   Int128 total = 0;
-  for (int r = 0; r < replicates_; ++r) total += sums_[index(pixel, r) + static_cast<std::size_t>(channel)];
+  for (int r = 0; r < shape_.replicates; ++r)
+    total += sums_[index(pixel, r) + static_cast<std::size_t>(channel)];
   const std::uint64_t count = std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0});
-  return count == 0 ? 0 : from_fixed(total, unit_exponent_) / static_cast<double>(count);
+  return count == 0 ? 0 : from_fixed(total, shape_.unit_exponent) / static_cast<double>(count);
 }
 
 double Film::variance(std::size_t pixel, int channel) const {
@@ -82,12 +108,12 @@ double Film::variance(std::size_t pixel, int channel) const {
   const auto count = static_cast<double>(std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}));
   double spread = 0;
   int filled = 0;
-  for (int r = 0; r < replicates_; ++r) {
+  for (int r = 0; r < shape_.replicates; ++r) {
     const auto n = static_cast<double>(samples_[static_cast<std::size_t>(r)]);
     if (n == 0) continue;
     ++filled;
     const double m =
-        from_fixed(sums_[index(pixel, r) + static_cast<std::size_t>(channel)], unit_exponent_) / n;
+        from_fixed(sums_[index(pixel, r) + static_cast<std::size_t>(channel)], shape_.unit_exponent) / n;
     spread += n / count * (m - center) * (m - center);
   }
   return filled < 2 ? 0 : spread / (filled - 1);
@@ -96,20 +122,20 @@ double Film::variance(std::size_t pixel, int channel) const {
 double Film::relative_error() const {
   double value = 0;
   double error = 0;
-  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  const std::size_t pixels = static_cast<std::size_t>(shape_.width) * static_cast<std::size_t>(shape_.height);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    for (int channel = 0; channel < channels_; ++channel) {
+    for (int channel = 0; channel < shape_.channels; ++channel) {
       value += std::abs(mean(pixel, channel));
       error += variance(pixel, channel);
     }
-  const double terms = static_cast<double>(pixels) * channels_;
+  const double terms = static_cast<double>(pixels) * shape_.channels;
   return value > 0 ? std::sqrt(error / terms) / (value / terms) : std::numeric_limits<double>::infinity();
 }
 
 Image Film::image(std::span<const std::string> names) const {
-  Image image{width_, height_, {}, {}};
+  Image image{shape_.width, shape_.height, {}, {}};
   for (const bool variances : {false, true})
-    for (int channel = 0; channel < channels_; ++channel) {
+    for (int channel = 0; channel < shape_.channels; ++channel) {
       const std::string& name = names[static_cast<std::size_t>(channel)];
       ImageChannel plane{variances ? "Variance." + name : name, std::vector<float>(image.pixels())};
       for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)

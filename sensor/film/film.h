@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/image.h"
@@ -19,6 +21,17 @@ __extension__ using Int128 = __int128;
 [[nodiscard]] Int128 to_fixed(double value, int unit_exponent);
 [[nodiscard]] double from_fixed(Int128 fixed, int unit_exponent);
 
+/// How large a film is and in what unit it counts; films of equal shape can be added.
+struct FilmShape {
+  int width;
+  int height;
+  int channels;
+  int replicates;
+  int unit_exponent;  ///< Sums are multiples of 2^unit_exponent.
+
+  bool operator==(const FilmShape&) const = default;
+};
+
 /// Sums of film values per pixel, channel and replicate, in 128-bit fixed point: integer addition is
 /// associative, so the sums do not depend on the order, the threads or the partition that made them.
 /// Replicates are independent scramblings of the sample sequence; the spread of their means is the variance
@@ -28,6 +41,8 @@ class Film {
   /// `nominal` is the order of magnitude of a film value: values from 2^-80 to 2^44 times it are kept exactly
   /// to 2^-80 of it.
   Film(int width, int height, int channels, int replicates, double nominal);
+  /// Throws Error{resource} when there is no memory for the sums.
+  explicit Film(const FilmShape& shape);
 
   /// Adds one sample's or splat's values; any thread may, at any time.
   void add(std::size_t pixel, int replicate, std::span<const double> values);
@@ -36,6 +51,12 @@ class Film {
 
   /// Sets how many samples per pixel each replicate has received.
   void set_samples(std::vector<std::uint64_t> per_replicate);
+  /// Adds the sums of a film of the same shape; its samples are for the caller to add.
+  void add(const Film& other);
+  /// The sums as bytes, 16 a sum, little-endian two's complement, in an order of their own; and the film that
+  /// had these, or nothing if there are more or fewer than its shape needs.
+  [[nodiscard]] std::string_view bytes() const;
+  [[nodiscard]] static std::optional<Film> from_bytes(const FilmShape& shape, std::string_view bytes);
 
   /// Mean of a pixel's channel, and the variance of that mean (0 with fewer than two replicates).
   [[nodiscard]] double mean(std::size_t pixel, int channel) const;
@@ -47,20 +68,17 @@ class Film {
   /// The film as an image: one channel per name, and `Variance.<name>` beside each.
   [[nodiscard]] Image image(std::span<const std::string> names) const;
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
-  [[nodiscard]] int channels() const { return channels_; }
-  [[nodiscard]] int replicates() const { return replicates_; }
+  [[nodiscard]] const FilmShape& shape() const { return shape_; }
+  [[nodiscard]] int width() const { return shape_.width; }
+  [[nodiscard]] int height() const { return shape_.height; }
+  [[nodiscard]] int channels() const { return shape_.channels; }
+  [[nodiscard]] int replicates() const { return shape_.replicates; }
   [[nodiscard]] std::size_t memory_bytes() const { return sums_.size() * sizeof(Int128); }
 
  private:
   [[nodiscard]] std::size_t index(std::size_t pixel, int replicate) const;
 
-  int width_;
-  int height_;
-  int channels_;
-  int replicates_;
-  int unit_exponent_;
+  FilmShape shape_;
   std::vector<Int128> sums_;  // pixel-major, then replicate, then channel
   std::vector<std::uint64_t> samples_;
   static constexpr std::size_t kLocks = 4096;

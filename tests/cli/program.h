@@ -52,16 +52,21 @@ inline const Scratch& scratch() {
   return folder;
 }
 
-/// Runs the program through a shell; `arguments` as one would type them.
-inline Outcome abbe(const std::string& arguments) {
+/// Runs a shell command.
+inline Outcome shell(const std::string& command) {
   const std::filesystem::path err = scratch() / "stderr";
   Outcome run{};
-  FILE* pipe = popen(("exec " ABBE_BINARY " " + arguments + " 2>" + err.string()).c_str(), "r");
+  FILE* pipe = popen(("{ " + command + "\n} 2>" + err.string()).c_str(), "r");
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) run.out += static_cast<char>(c);
   const int status = pclose(pipe);
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.err = read_file(err);
   return run;
+}
+
+/// Runs the program through a shell; `arguments` as one would type them.
+inline Outcome abbe(const std::string& arguments) {
+  return shell(ABBE_BINARY " " + arguments);
 }
 
 }  // namespace abbe::test

@@ -91,8 +91,8 @@ TEST(Render, TimeAndErrorStopTheRender) {
 TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {
   for (const auto& [name, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
     const std::string file = out(std::string(name) + ".exr");
-    const Outcome run = abbe("render " + ball() + " --quiet --spp 10000000 -o " + file +
-                             " & pid=$!; sleep 1.5; kill -" + name + " $pid; wait $pid");
+    const Outcome run = shell(ABBE_BINARY " render " + ball() + " --quiet --spp 10000000 -o " + file +
+                              " & pid=$!; sleep 1.5; kill -" + name + " $pid; wait $pid");
     EXPECT_EQ(run.code, code) << run.err;
     const Image image = read_exr(file);
     const int samples = std::stoi(image.metadata.at("samples_per_pixel"));

@@ -101,5 +101,33 @@ TEST(Film, ImageNamesValueAndVariancePlanes) {
   EXPECT_EQ(image.find("Variance.G")->values, (std::vector<float>{0, 0.25F}));
 }
 
+TEST(Film, FilmsAddUpToTheFilmOfAllTheirSamples) {
+  std::mt19937_64 random(3);
+  std::lognormal_distribution<double> values(0, 6);
+  Film whole(3, 2, 2, 2, 1.0);
+  std::vector<Film> parts;
+  for (int i = 0; i < 3; ++i) parts.emplace_back(whole.shape());
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const std::vector<double> both{values(random), -values(random)};
+    whole.add(i % 6, static_cast<int>(i % 2), both);
+    parts[random() % 3].add(i % 6, static_cast<int>(i % 2), both);
+  }
+  parts[2].add(parts[0]);
+  parts[2].add(parts[1]);
+  EXPECT_EQ(parts[2].bytes(), whole.bytes());
+  EXPECT_NE(parts[0].bytes(), whole.bytes());
+}
+
+TEST(Film, BytesMakeTheSameFilm) {
+  Film film(2, 1, 3, 2, 1e-3);
+  film.add(1, 1, std::vector<double>{1e-3, -2.5, 1e6});
+  const std::optional<Film> back = Film::from_bytes(film.shape(), film.bytes());
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->bytes(), film.bytes());
+  EXPECT_EQ(back->shape(), film.shape());
+  EXPECT_FALSE(Film::from_bytes(film.shape(), film.bytes().substr(1)));
+  EXPECT_FALSE(Film::from_bytes(film.shape(), film.bytes().substr(16)));
+}
+
 }  // namespace
 }  // namespace abbe

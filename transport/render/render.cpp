@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/error.h"
 #include "transport/render/pass.h"
 #include "transport/render/plan.h"
 #include "transport/render/replay.h"
@@ -20,30 +21,47 @@ namespace {
 // enough to make threads worth starting.
 constexpr std::uint64_t kPassPaths = 1U << 18;
 
+// Of the time, at most.
+constexpr double kCheckpointShare = 0.01;
+
+constexpr std::uint64_t kMaxSamples = std::numeric_limits<std::uint32_t>::max();
+
+bool open_ended(const RenderOptions& options) {
+  return options.time_limit_s || options.target_error;
+}
+
 class Rendering {
  public:
-  Rendering(const Scene& scene, const RenderOptions& options)
+  Rendering(const Scene& scene, const RenderOptions& options, std::optional<RenderResult> start)
       : scene_(scene),
         options_(options),
         plan_(make_plan(scene)),
-        open_ended_(options.time_limit_s || options.target_error),
+        wanted_(options.samples.value_or(SampleRange{
+            0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
+        step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
+                                                       static_cast<std::uint64_t>(scene.camera.height)))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.channels.size()),
-                     replicate_count(open_ended_ ? std::numeric_limits<int>::max() : scene.render.samples),
-                     plan_.nominal_value),
+                     replicate_count(scene, options), plan_.nominal_value),
+                {},
                 {}} {
+    if (start) {
+      if (start->film.shape() != result_.film.shape())
+        throw Error(ErrorCode::internal, "render", "the film to go on with has another shape");
+      result_ = *std::move(start);
+    }
     RenderStats& stats = result_.stats;
     stats.threads = options.threads > 0 ? options.threads
                                         : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     stats.relative_error = std::numeric_limits<double>::infinity();
+    look_at_error();
   }
 
   RenderResult run() {
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(scene_.camera.width) * static_cast<std::uint64_t>(scene_.camera.height);
-    const std::uint64_t step = std::max<std::uint64_t>(1, kPassPaths / pixels);
-    const std::uint64_t end = open_ended_ ? std::numeric_limits<std::uint32_t>::max()
-                                          : static_cast<std::uint64_t>(scene_.render.samples);
-    while (samples() < end && !finished()) run_pass(std::min(samples() + step, end));
+    for (auto next = first_missing(result_.samples, wanted_); next && !finished();
+         next = first_missing(result_.samples, wanted_)) {
+      run_pass({next->first, std::min(next->last, (next->first / step_ + 1) * step_)});
+      save();
+    }
     RenderStats& stats = result_.stats;
     stats.wall_s = elapsed();
     stats.cpu_s = process_cpu_seconds() - cpu_start_;
@@ -58,37 +76,50 @@ class Rendering {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  void run_pass(std::uint64_t last) {
+  void run_pass(const SampleRange& range) {
     const PassCounts counts =
-        Pass(plan_, result_.film, options_.crop, samples(), last).run(result_.stats.threads);
+        Pass(plan_, result_.film, options_.crop, range.first, range.last).run(result_.stats.threads);
     RenderStats& stats = result_.stats;
     stats.paths += counts.paths;
     stats.rays += counts.rays;
     stats.nonfinite_samples += counts.nonfinite;
-    stats.samples_per_pixel = last;
-    const auto replicates = static_cast<std::uint64_t>(result_.film.replicates());
-    std::vector<std::uint64_t> per_replicate;
-    for (std::uint64_t r = 0; r < replicates; ++r)
-      per_replicate.push_back((last + replicates - 1 - r) / replicates);
-    result_.film.set_samples(std::move(per_replicate));
-    look_at_error(replicates);
-    if (options_.progress) options_.progress({share(), last, elapsed(), stats.relative_error});
+    if (!add(result_.samples, range)) throw Error(ErrorCode::internal, "render", "a pass was done twice");
+    stats.samples_per_pixel = count(result_.samples);
+    result_.film.set_samples(count_per_replicate(result_.samples, result_.film.replicates()));
+    look_at_error();
+    if (options_.progress) options_.progress({share(), samples(), elapsed(), stats.relative_error});
   }
 
-  // The error costs a walk over the film, so it is looked at when the work has grown by a quarter, and known
-  // once every replicate has samples.
-  void look_at_error(std::uint64_t replicates) {
-    if (samples() < replicates || samples() < next_look_ || !(options_.progress || options_.target_error))
+  // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
+  // and known once every replicate has some. When depends on nothing but the number of samples, so that a
+  // render goes on after an interruption as it would have without.
+  void look_at_error() {
+    if (samples() < static_cast<std::uint64_t>(result_.film.replicates()) ||
+        !(options_.progress || options_.target_error))
       return;
-    next_look_ = samples() + samples() / 4;
-    result_.stats.relative_error = result_.film.relative_error();
+    const auto stage = [](std::uint64_t n) {
+      return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
+    };
+    const std::uint64_t before = (samples() - 1) / step_ * step_;
+    if (before == 0 || stage(before) != stage(samples()))
+      result_.stats.relative_error = result_.film.relative_error();
+  }
+
+  void save() {
+    const double begin = elapsed();
+    const double pause = std::max(options_.checkpoint_interval_s, saving_s_ / kCheckpointShare);
+    if (!options_.checkpoint || begin - last_save_s_ < pause) return;
+    options_.checkpoint(result_);
+    last_save_s_ = elapsed();
+    saving_s_ = last_save_s_ - begin;
   }
 
   [[nodiscard]] double share() const {
-    const double share = options_.time_limit_s ? elapsed() / *options_.time_limit_s
-                         : options_.target_error
-                             ? std::pow(*options_.target_error / result_.stats.relative_error, 2)
-                             : static_cast<double>(samples()) / scene_.render.samples;
+    const double share =
+        options_.time_limit_s ? elapsed() / *options_.time_limit_s
+        : options_.target_error
+            ? std::pow(*options_.target_error / result_.stats.relative_error, 2)
+            : static_cast<double>(samples()) / static_cast<double>(wanted_.last - wanted_.first);
     return std::min(share, 1.0);
   }
 
@@ -104,20 +135,25 @@ class Rendering {
   const Scene& scene_;
   const RenderOptions& options_;
   Plan plan_;
-  bool open_ended_;
+  SampleRange wanted_;
+  // Passes end at multiples of their size, whatever the film starts with.
+  std::uint64_t step_;
   RenderResult result_;
-  std::uint64_t next_look_ = 0;
+  double last_save_s_ = 0;
+  double saving_s_ = 0;
 };
 
 }  // namespace
 
-int replicate_count(int samples) {
-  const auto wanted = static_cast<unsigned>(std::clamp(samples / 16, 2, 8));
-  return std::min(static_cast<int>(std::bit_floor(wanted)), samples);
+int replicate_count(const Scene& scene, const RenderOptions& options) {
+  constexpr int kMost = 8;
+  if (open_ended(options)) return kMost;
+  const auto wanted = static_cast<unsigned>(std::clamp(scene.render.samples / 16, 2, kMost));
+  return std::min(static_cast<int>(std::bit_floor(wanted)), scene.render.samples);
 }
 
-RenderResult render(const Scene& scene, const RenderOptions& options) {
-  return Rendering(scene, options).run();
+RenderResult render(const Scene& scene, const RenderOptions& options, std::optional<RenderResult> start) {
+  return Rendering(scene, options, std::move(start)).run();
 }
 
 }  // namespace abbe

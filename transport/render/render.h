@@ -7,6 +7,7 @@
 
 #include "scene/scene.h"
 #include "sensor/film/film.h"
+#include "transport/render/sample_ranges.h"
 
 namespace abbe {
 
@@ -23,6 +24,8 @@ struct Progress {
   double relative_error;  ///< Of the film so far; infinite until known.
 };
 
+struct RenderResult;
+
 /// When to stop, and with what.
 struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
@@ -31,6 +34,11 @@ struct RenderOptions {
   std::optional<Crop> crop = {};
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
+  std::optional<SampleRange> samples = {};  ///< Only these of the samples the scene asks for.
+  /// Called between passes, with what is finished, once `checkpoint_interval_s` has gone by since the last
+  /// call or since the start, and so seldom that the calls take no more than a hundredth of the time.
+  std::function<void(const RenderResult&)> checkpoint = {};
+  double checkpoint_interval_s = 60;
   const std::atomic<bool>* stop = nullptr;  ///< Checked after each pass; what is finished stays valid.
   std::function<void(const Progress&)> progress = {};
 };
@@ -52,14 +60,18 @@ struct RenderStats {
 
 struct RenderResult {
   Film film;
+  SampleRanges samples;
   RenderStats stats;
 };
 
-/// Renders the scene. For a fixed sample count the film is a pure function of scene, data, version and seed:
-/// threads and their timing change nothing. Throws Error{resource} when the film does not fit in memory.
-[[nodiscard]] RenderResult render(const Scene& scene, const RenderOptions& options);
+/// Renders the scene, or those of its samples that `start` does not have. For fixed samples the film is a
+/// pure function of scene, data, version and seed: threads, interruptions and their timing change nothing.
+/// Throws Error{resource} when the film does not fit in memory.
+[[nodiscard]] RenderResult render(const Scene& scene, const RenderOptions& options,
+                                  std::optional<RenderResult> start = {});
 
-/// Replicates used for `samples` per pixel: enough for a variance, few enough to leave the sequences long.
-[[nodiscard]] int replicate_count(int samples);
+/// Replicates of the scene's film: by its samples per pixel, where time or error do not decide; enough for a
+/// variance, few enough to leave the sequences long.
+[[nodiscard]] int replicate_count(const Scene& scene, const RenderOptions& options);
 
 }  // namespace abbe

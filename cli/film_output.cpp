@@ -1,0 +1,64 @@
+#include "cli/film_output.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+#include "io/error.h"
+#include "io/exr.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr const char* kPartExtension = ".abbepart";
+
+}  // namespace
+
+FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
+                         const abbe::RenderOptions& how) {
+  constexpr std::array kIntegrators{"auto", "path", "light"};
+  FilmIdentity identity{
+      {"version", ABBE_VERSION},
+      {"scene", scene_file.filename().string()},
+      {"scene_sha256", scene.sha256},
+      {"seed", fmt::format("{}", scene.render.seed)},
+      {"integrator", kIntegrators.at(static_cast<std::size_t>(scene.render.integrator))},
+      {"exposure_s", fmt::format("{}", scene.exposure_s)},
+      {"replicates", fmt::format("{}", replicate_count(scene, how))},
+  };
+  std::vector<std::string> names;
+  for (const Channel& channel : scene.channels) {
+    names.push_back(channel.name);
+    identity["channel." + channel.name] = channel.kind == ResponseKind::quantum
+                                              ? "quantum, electrons per m^2"
+                                              : "energy, response-weighted J per m^2";
+  }
+  identity["sensor_channels"] = fmt::format("{}", fmt::join(names, ","));
+  if (how.crop)
+    identity["crop"] = fmt::format("{},{},{},{}", how.crop->x0, how.crop->y0, how.crop->x1, how.crop->y1);
+  return identity;
+}
+
+void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed) {
+  const auto same = [&path](const char* extension) { return path.extension() == extension; };
+  if (std::none_of(allowed.begin(), allowed.end(), same))
+    throw Error(
+        ErrorCode::usage, path.string(),
+        fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
+}
+
+void require_film_output(const std::filesystem::path& path) {
+  require_extension(path, {".exr", kPartExtension});
+  require_writable(path);
+}
+
+void write_film(const std::filesystem::path& path, const RenderPart& part) {
+  if (path.extension() == kPartExtension)
+    write_part(path, part.identity, part.result);
+  else
+    write_exr(path, image_of(part));
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,187 @@
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "io/exr.h"
+#include "io/part_file.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// Parts, checkpoints and interruptions, as a user of the program meets them.
+
+namespace abbe::test {
+namespace {
+
+std::string ball() {
+  return scratch().write("ball.json", ball_scene()).string();
+}
+std::string file(const std::string& name) {
+  return (scratch() / name).string();
+}
+std::string part(const std::string& name, const std::string& options) {
+  const std::string path = file(name + ".abbepart");
+  const Outcome run = abbe("render " + ball() + " --quiet -o " + path + " " + options);
+  EXPECT_EQ(run.code, 0) << run.err;
+  return path;
+}
+Outcome merged(const std::string& parts, const std::string& output) {
+  return abbe("merge " + parts + " -o " + output);
+}
+
+TEST(Merge, PartsAreTheFileOfTheWholeRender) {
+  const std::string whole = part("whole", "");
+  const std::string parts = part("b", "--sample-range 5:8 --threads 1") + " " +
+                            part("a", "--sample-range 0:2") + " " + part("c", "--sample-range 2:5");
+  ASSERT_EQ(merged(parts, file("sum.abbepart")).code, 0);
+  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(whole));
+  ASSERT_EQ(merged(parts, file("sum.exr")).code, 0);
+  ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
+  EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
+  EXPECT_EQ(read_exr(file("sum.exr")).metadata.at("samples_per_pixel"), "8");
+}
+
+TEST(Merge, RefusesPartsOfOtherRenders) {
+  const std::string a = part("a", "--sample-range 0:2");
+  const auto refusal = [&a](const std::string& other) {
+    const Outcome run = merged(a + " " + other, file("no.exr"));
+    EXPECT_EQ(run.code, 4) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(file("no.exr")));
+    return run.err;
+  };
+  const auto names = [](const std::string& text, const std::string& what) {
+    return text.find(what) != std::string::npos;
+  };
+  EXPECT_TRUE(names(refusal(part("seed", "--seed 3 --sample-range 2:4")), "another seed (got 3, allowed 0)"));
+  EXPECT_TRUE(names(refusal(part("set", "--set /render/max_depth=3 --sample-range 2:4")), "scene_sha256"));
+  EXPECT_TRUE(
+      names(refusal(part("spp", "--spp 64 --sample-range 2:4")), "another replicates (got 4, allowed 2)"));
+  EXPECT_TRUE(names(refusal(part("crop", "--crop 0,0,4,4 --sample-range 2:4")), "another crop"));
+  EXPECT_TRUE(names(refusal(part("path", "--integrator light --sample-range 2:4")), "another integrator"));
+  EXPECT_TRUE(names(refusal(a), "has samples that are there already (got 0:2)"));
+  PartFile older = read_part_file(part("old", "--sample-range 2:4"));
+  older.header["version"] = "0.0.9";
+  write_part_file(file("old.abbepart"), older.header, older.bytes);
+  EXPECT_TRUE(names(refusal(file("old.abbepart")), "another version (got 0.0.9"));
+  older.header.erase("samples");
+  write_part_file(file("old.abbepart"), older.header, older.bytes);
+  EXPECT_TRUE(names(refusal(file("old.abbepart")), "holds no part of a render"));
+  EXPECT_TRUE(names(refusal(ball()), "not a part file"));
+  EXPECT_TRUE(names(refusal("/nowhere/b.abbepart"), "no such file"));
+}
+
+TEST(Merge, UsageErrors) {
+  const std::string render = "render " + ball() + " -o " + file("no.exr") + " ";
+  for (const char* options :
+       {"--sample-range 4:4", "--sample-range 4", "--sample-range -1:4", "--sample-range 0:9",
+        "--sample-range 0:4 --error 3%", "--sample-range 0:4 --time 3s", "--resume", "--checkpoint-every 3s"})
+    EXPECT_EQ(abbe(render + options).code, 2) << options;
+  EXPECT_EQ(abbe("merge -o " + file("no.exr")).code, 2);
+  EXPECT_EQ(merged(part("a", "--sample-range 0:2"), file("no.png")).code, 2);
+  EXPECT_EQ(merged(part("a", "--sample-range 0:2"), "/nowhere/no.exr").code, 5);
+}
+
+/// A render with checkpoints that takes about a second.
+class Checkpoint : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::remove_all(checkpoint_);
+    std::filesystem::remove(film_);
+  }
+
+  [[nodiscard]] std::string command(const std::string& options) const {
+    return "render " + scene_ + " --quiet --checkpoint " + checkpoint_ + " --checkpoint-every 0.01s -o " +
+           film_ + " --spp " + options;
+  }
+  // The film of a render left alone, and how long it took [s].
+  double render_calmly() const {
+    const Outcome run =
+        abbe("render " + scene_ + " --spp 4096 --quiet -o " + calm_ + " --stats " + file("calm.json"));
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(read_file(file("calm.json")))["wall_s"];
+  }
+
+  const std::string scene_ = ball();
+  const std::string checkpoint_ = file("checkpoint.abbepart");
+  const std::string film_ = file("film.exr");
+  const std::string calm_ = file("calm.exr");
+};
+
+TEST_F(Checkpoint, TwentyKillsChangeNoBit) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> delay(0, 1.3 * render_calmly());
+  int kills = 0;
+  int interrupted = 0;
+  while (kills < 20) {
+    const Outcome run =
+        shell(ABBE_BINARY " " + command("4096 --resume & pid=$!; sleep " + std::to_string(delay(random)) +
+                                        "; kill -9 $pid; wait $pid"));
+    kills += run.code == 137 ? 1 : 0;
+    if (std::filesystem::exists(film_)) {  // complete or absent
+      EXPECT_EQ(read_file(film_), read_file(calm_));
+      std::filesystem::remove(film_);
+      std::filesystem::remove(checkpoint_);
+    } else if (std::filesystem::exists(checkpoint_)) {
+      EXPECT_NE(read_part_file(checkpoint_).header.at("samples"), "");
+      ++interrupted;
+    }
+  }
+  EXPECT_GT(interrupted, 2);
+  const Outcome last = abbe(command("4096 --resume"));
+  ASSERT_EQ(last.code, 0) << last.err;
+  EXPECT_EQ(read_file(film_), read_file(calm_));
+  for (const auto& entry : std::filesystem::directory_iterator(scratch() / ""))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
+}
+
+TEST_F(Checkpoint, SignalsEndWithAValidOneAndResumeGoesOn) {
+  render_calmly();
+  const Outcome stopped =
+      shell(ABBE_BINARY " " + command("4096 & pid=$!; until [ -e " + checkpoint_ +
+                                      " ]; do sleep 0.01; done; kill -TERM $pid; wait $pid"));
+  EXPECT_EQ(stopped.code, 143) << stopped.err;
+  const PartFile saved = read_part_file(checkpoint_);
+  EXPECT_NE(saved.header.at("samples"), "0:4096");
+  EXPECT_EQ(read_exr(film_).metadata.at("samples_per_pixel"), saved.header.at("samples").substr(2));
+  EXPECT_EQ(abbe(command("4096 --resume")).code, 0);
+  EXPECT_EQ(read_file(film_), read_file(calm_));
+}
+
+TEST_F(Checkpoint, OthersAreRefusedAndKept) {
+  ASSERT_EQ(abbe(command("128 --sample-range 0:64")).code, 0);
+  const std::string good = read_file(checkpoint_);
+  EXPECT_EQ(abbe(command("128")).code, 5);  // not overwritten without a word
+  for (const char* other : {"128 --seed 4", "128 --set /render/max_depth=2", "16", "128 --crop 0,0,3,3"}) {
+    const Outcome run = abbe(command("") + other + " --resume");
+    EXPECT_EQ(run.code, 4) << other;
+    EXPECT_NE(run.err.find("is a part of another render"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(read_file(checkpoint_), good);
+  std::string flipped = good;
+  flipped[good.size() / 2] = static_cast<char>(flipped[good.size() / 2] ^ 1);
+  for (const std::string& bad : {good.substr(0, good.size() - 1), flipped, std::string()}) {
+    const auto path = scratch().write("checkpoint.abbepart", bad);
+    EXPECT_EQ(abbe(command("128 --resume")).code, 4);
+    EXPECT_EQ(read_file(path), bad);
+  }
+}
+
+TEST_F(Checkpoint, OneThatCannotBeWrittenIsToldAndDoesNotStopTheRender) {
+  const Outcome run = shell(ABBE_BINARY " " + command("10000000 & pid=$!; until [ -e ") + checkpoint_ +
+                            " ]; do sleep 0.01; done; rm " + checkpoint_ + "; mkdir " + checkpoint_ +
+                            "; until grep -q warning " + file("stderr") +
+                            "; do sleep 0.01; done; kill -TERM $pid; wait $pid");
+  EXPECT_NE(run.err.find("warning: no checkpoint: "), std::string::npos) << run.err;
+  EXPECT_EQ(run.code, 5) << run.err;  // the last one is not forgiven
+}
+
+TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
+  const Outcome run = shell(ABBE_BINARY " " +
+                            command("10000000 & pid=$!; until [ -e " + checkpoint_ +
+                                    " ]; do sleep 0.01; done; " ABBE_BINARY " render ") +
+                            scene_ + " --spp 1 --quiet -o " + film_ + "; echo $?; kill -9 $pid");
+  EXPECT_EQ(run.out, "5\n");
+  EXPECT_NE(run.err.find("film.exr: another process is writing it"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+#include "io/exr.h"
+#include "tests/scenes/scene_fixture.h"
+#include "transport/render/part.h"
+
+// A render may be cut into ranges of samples, interrupted and put together again in any order: every bit of
+// its film stays as it was.
+
+namespace abbe {
+namespace {
+
+constexpr int kSamples = 24;
+
+Scene small(const char* name) {
+  return test::load(name,
+                    {{"/sensor/resolution", "[40, 24]"}, {"/render/samples", std::to_string(kSamples)}});
+}
+
+/// Cuts [0, kSamples) at random places.
+SampleRanges cut(int pieces, std::mt19937& random) {
+  std::vector<std::uint64_t> edges(kSamples - 1);
+  for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = i + 1;
+  std::shuffle(edges.begin(), edges.end(), random);
+  edges.resize(static_cast<std::size_t>(pieces) - 1);
+  edges.insert(edges.end(), {0, kSamples});
+  std::sort(edges.begin(), edges.end());
+  SampleRanges ranges;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) ranges.push_back({edges[i], edges[i + 1]});
+  std::shuffle(ranges.begin(), ranges.end(), random);
+  return ranges;
+}
+
+class Partition : public testing::TestWithParam<const char*> {
+ protected:
+  const FilmIdentity identity_{{"sensor_channels", "R,G,B"}, {"scene", GetParam()}};
+
+  // Through a file, as parts travel.
+  RenderPart rendered(const Scene& scene, const SampleRange& range) const {
+    const auto path = std::filesystem::path(testing::TempDir()) /
+                      ("abbe_partition_" + std::to_string(::getpid()) + ".abbepart");
+    RenderOptions options;
+    options.samples = range;
+    write_part(path, identity_, render(scene, options));
+    RenderPart part = read_part(path);
+    std::filesystem::remove(path);
+    return part;
+  }
+
+  static void expect_same(const RenderPart& sum, const RenderPart& whole) {
+    EXPECT_EQ(sum.result.film.bytes(), whole.result.film.bytes());
+    EXPECT_EQ(sum.result.samples, whole.result.samples);
+    EXPECT_EQ(sum.result.stats.paths, whole.result.stats.paths);
+    EXPECT_EQ(sum.result.stats.rays, whole.result.stats.rays);
+    const Image a = image_of(sum);
+    const Image b = image_of(whole);
+    EXPECT_EQ(a.metadata, b.metadata);
+    ASSERT_EQ(a.channels.size(), b.channels.size());
+    for (std::size_t i = 0; i < a.channels.size(); ++i)
+      EXPECT_EQ(a.channels[i].values, b.channels[i].values) << a.channels[i].name;
+  }
+};
+
+TEST_P(Partition, AnyPartsInAnyOrderAndGroupingAreTheWhole) {
+  const Scene scene = small(GetParam());
+  const RenderPart whole{identity_, render(scene, {})};
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 7; ++trial) {
+    std::vector<RenderPart> parts;
+    for (const SampleRange& range : cut(2 + trial, random)) parts.push_back(rendered(scene, range));
+    while (parts.size() > 1) {  // any two become one
+      std::shuffle(parts.begin(), parts.end(), random);
+      merge(parts[parts.size() - 2], parts.back(), "part");
+      parts.pop_back();
+    }
+    expect_same(parts.front(), whole);
+  }
+}
+
+TEST_P(Partition, AnInterruptedRenderGoesOnAsItWouldHave) {
+  const Scene scene = small(GetParam());
+  const RenderPart whole{identity_, render(scene, {})};
+  RenderPart part = rendered(scene, {3, 9});
+  RenderOptions options;
+  options.samples = SampleRange{0, 17};
+  part.result = render(scene, options, std::move(part.result));
+  EXPECT_EQ(to_text(part.result.samples), "0:17");
+  part.result = render(scene, {}, std::move(part.result));
+  expect_same(part, whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Partition,
+                         testing::Values("prism.json", "cornell.json", "glass_sphere.json"),
+                         [](const auto& info) {
+                           return std::string(info.param, std::strchr(info.param, '.'));
+                         });
+
+TEST(Resume, AStopByErrorFallsOnTheSameSample) {
+  const Scene scene = small("cornell.json");
+  RenderOptions to_error;
+  to_error.target_error = 0.03;
+  const RenderResult whole = render(scene, to_error);
+  std::vector<RenderResult> saved;  // every state a checkpoint could hold
+  RenderOptions saving = to_error;
+  saving.checkpoint_interval_s = 0;
+  std::vector<std::string> bytes;
+  std::vector<SampleRanges> samples;
+  saving.checkpoint = [&](const RenderResult& result) {
+    bytes.emplace_back(result.film.bytes());
+    samples.push_back(result.samples);
+  };
+  (void)render(scene, saving);
+  ASSERT_GT(bytes.size(), 0U);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    RenderResult start{*Film::from_bytes(whole.film.shape(), bytes[i]), samples[i], {}};
+    start.film.set_samples(count_per_replicate(samples[i], start.film.replicates()));
+    start.stats.samples_per_pixel = count(samples[i]);
+    const RenderResult end = render(scene, to_error, std::move(start));
+    EXPECT_EQ(end.samples, whole.samples) << "from " << to_text(samples[i]);
+    EXPECT_EQ(end.film.bytes(), whole.film.bytes());
+  }
+}
+
+TEST(Merge, RefusesWhatDoesNotBelongTogether) {
+  const Scene scene = small("cornell.json");
+  RenderOptions options;
+  const auto part = [&](const FilmIdentity& identity, const SampleRange& range) {
+    options.samples = range;
+    return RenderPart{identity, render(scene, options)};
+  };
+  const auto refusal = [](RenderPart& sum, const RenderPart& more) {
+    try {
+      merge(sum, more, "b.abbepart");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::input);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const FilmIdentity own{{"sensor_channels", "X,Y,Z"}, {"seed", "1"}, {"scene", "a.json"}};
+  FilmIdentity other = own;
+  other["seed"] = "2";
+  FilmIdentity cropped = own;
+  cropped["crop"] = "0,0,4,4";
+  FilmIdentity renamed = own;
+  renamed["scene"] = "b.json";
+  RenderPart sum = part(own, {0, 2});
+  EXPECT_EQ(refusal(sum, part(other, {2, 3})),
+            "b.abbepart: is a part of another render: another seed (got 2, allowed 1)");
+  EXPECT_EQ(refusal(sum, part(cropped, {2, 3})),
+            "b.abbepart: is a part of another render: another crop (got 0,0,4,4, allowed none)");
+  EXPECT_EQ(refusal(sum, part(own, {1, 3})), "b.abbepart: has samples that are there already (got 1:3)");
+  EXPECT_EQ(refusal(sum, part(renamed, {2, 3})), "");
+  EXPECT_EQ(to_text(sum.result.samples), "0:3");
+}
+
+}  // namespace
+}  // namespace abbe

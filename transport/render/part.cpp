@@ -1,0 +1,123 @@
+#include "transport/render/part.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "io/part_file.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Keys of the header that belong to the sums; all others are the identity.
+constexpr const char* kShape = "film";
+constexpr const char* kSamples = "samples";
+constexpr const char* kCounts = "paths_rays_nonfinite";
+
+template <typename Number>
+std::optional<std::vector<Number>> parse_numbers(const std::string& text, std::size_t count) {
+  std::vector<Number> numbers;
+  for (const std::string& word : split(text, ' ')) {
+    Number number{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers.size() == count ? std::optional(std::move(numbers)) : std::nullopt;
+}
+
+std::optional<FilmShape> parse_shape(const std::string& text) {
+  const auto n = parse_numbers<int>(text, 5);
+  if (!n) return std::nullopt;
+  const FilmShape shape{(*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4]};
+  const bool possible = shape.width > 0 && shape.width <= kMaxImageEdge && shape.height > 0 &&
+                        shape.height <= kMaxImageEdge && shape.channels > 0 && shape.channels <= 1 << 14 &&
+                        shape.replicates > 0 && shape.replicates <= 1 << 14;
+  return possible ? std::optional(shape) : std::nullopt;
+}
+
+std::string take(FilmIdentity& header, const char* key) {
+  auto entry = header.extract(key);
+  return entry ? std::move(entry.mapped()) : "";
+}
+
+}  // namespace
+
+void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result) {
+  FilmIdentity header = identity;
+  const FilmShape& s = result.film.shape();
+  header[kShape] =
+      fmt::format("{} {} {} {} {}", s.width, s.height, s.channels, s.replicates, s.unit_exponent);
+  header[kSamples] = to_text(result.samples);
+  header[kCounts] =
+      fmt::format("{} {} {}", result.stats.paths, result.stats.rays, result.stats.nonfinite_samples);
+  write_part_file(path, header, result.film.bytes());
+}
+
+RenderPart read_part(const fs::path& path) {
+  PartFile file = read_part_file(path);
+  const auto shape = parse_shape(take(file.header, kShape));
+  const auto samples = parse_sample_ranges(take(file.header, kSamples));
+  const auto counts = parse_numbers<std::uint64_t>(take(file.header, kCounts), 3);
+  auto film = shape ? Film::from_bytes(*shape, file.bytes) : std::nullopt;
+  const bool named = split(file.header["sensor_channels"], ',').size() ==
+                     static_cast<std::size_t>(shape ? shape->channels : 0);
+  if (!film || !samples || !counts || !named)
+    throw Error(ErrorCode::input, path.string(), "holds no part of a render");
+  RenderPart part{std::move(file.header), {std::move(*film), *samples, {}}};
+  part.result.film.set_samples(count_per_replicate(*samples, shape->replicates));
+  part.result.stats.samples_per_pixel = count(*samples);
+  part.result.stats.paths = (*counts)[0];
+  part.result.stats.rays = (*counts)[1];
+  part.result.stats.nonfinite_samples = (*counts)[2];
+  return part;
+}
+
+void require_same_film(const fs::path& path, const FilmIdentity& identity, const FilmIdentity& wanted) {
+  FilmIdentity all = wanted;
+  all.insert(identity.begin(), identity.end());
+  const auto value = [](const FilmIdentity& of, const std::string& key) {
+    const auto found = of.find(key);
+    return found == of.end() ? std::string("none") : found->second;
+  };
+  for (const auto& [key, unused] : all) {
+    if (key == "scene" || value(identity, key) == value(wanted, key)) continue;
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("is a part of another render: another {} (got {}, allowed {})", key,
+                            value(identity, key), value(wanted, key)));
+  }
+}
+
+void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
+  require_same_film(path, part.identity, sum.identity);
+  if (part.result.film.shape() != sum.result.film.shape())
+    throw Error(ErrorCode::input, path.string(), "has a film of another shape");
+  for (const SampleRange& range : part.result.samples)
+    if (!add(sum.result.samples, range))
+      throw Error(ErrorCode::input, path.string(),
+                  fmt::format("has samples that are there already (got {}:{})", range.first, range.last));
+  sum.result.film.add(part.result.film);
+  sum.result.film.set_samples(count_per_replicate(sum.result.samples, sum.result.film.replicates()));
+  RenderStats& stats = sum.result.stats;
+  stats.samples_per_pixel = count(sum.result.samples);
+  stats.paths += part.result.stats.paths;
+  stats.rays += part.result.stats.rays;
+  stats.nonfinite_samples += part.result.stats.nonfinite_samples;
+}
+
+Image image_of(const RenderPart& part) {
+  const RenderResult& result = part.result;
+  Image image = result.film.image(split(part.identity.at("sensor_channels"), ','));
+  image.metadata = part.identity;
+  image.metadata["renderer"] = "Abbe";
+  image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
+  image.metadata["relative_error"] = fmt::format("{}", result.film.relative_error());
+  return image;
+}
+
+}  // namespace abbe
