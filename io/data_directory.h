@@ -1,12 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace abbe {
 
-/// The folder of the shipped tables: `$ABBE_DATA`, else `share/abbe/data` beside the running program's
-/// folder, else `data` of the source tree it was built from. Throws Error{input} when `$ABBE_DATA` is set to
-/// something that is no folder, or none of the others exists.
+/// The folder of the shipped tables: `$ABBE_DATA`, else that of `set_data_directory`, else `share/abbe/data`
+/// beside the running program's folder, links to the program followed. A build folder holds a link of that
+/// name to the source tree's, so that no path of a source tree is part of a program. Throws Error{input} when
+/// there is no such folder.
 [[nodiscard]] const std::filesystem::path& data_directory();
+
+/// Names that folder for a program which is not installed beside it. Only a call before the first use of
+/// `data_directory` counts.
+void set_data_directory(const std::filesystem::path& folder);
+
+/// SHA-256 over the tables of `data_directory`, its `scenes` left out: of what `sha256sum` prints for all
+/// `.csv` files by their paths within the folder, in the order of the paths' bytes. Worked out when first
+/// asked for. Throws Error{input} when a table cannot be read.
+[[nodiscard]] const std::string& data_sha256();
 
 }  // namespace abbe

@@ -51,5 +51,63 @@ TEST(DataDirectory, WrongEnvironmentIsAnErrorAndNoneMeansTheSourceTree) {
       testing::ExitedWithCode(0), "/data$");
 }
 
+TEST(DataDirectory, AProgramMayNameIt) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto named = test_folder();
+  EXPECT_EXIT(
+      {
+        ::unsetenv("ABBE_DATA");
+        set_data_directory(named);
+        std::exit(data_directory() == named ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(
+      {
+        set_data_directory(named);
+        std::exit(data_directory() == kOwnData.folder ? 0 : 1);  // the environment comes first
+      },
+      testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(
+      {
+        ::unsetenv("ABBE_DATA");
+        set_data_directory("/nonexistent");
+        try {
+          std::exit(data_directory().empty() ? 1 : 0);
+        } catch (const Error& error) {
+          std::fputs(error.what(), stderr);
+          std::exit(static_cast<int>(error.code));
+        }
+      },
+      testing::ExitedWithCode(4), "set_data_directory: no such folder \\(got /nonexistent\\)");
+}
+
+// The known answer is what coreutils say: sha256sum b/y.csv z.csv | sha256sum.
+TEST(DataDirectory, HashIsThatOfTheTables) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto folder = test_folder();
+  for (const char* inner : {"b", "scenes"}) std::filesystem::create_directories(folder / inner);
+  put(folder / "z.csv", "2\n");
+  put(folder / "b" / "y.csv", "1\n");
+  put(folder / "b" / "y.txt", "no table");
+  put(folder / "scenes" / "x.csv", "no table of this hash");
+  const auto hash = [&folder] {
+    try {
+      ::setenv("ABBE_DATA", folder.c_str(), 1);
+      std::fputs(data_sha256().c_str(), stderr);
+      std::exit(0);
+    } catch (const Error& error) {
+      std::fputs(error.what(), stderr);
+      std::exit(static_cast<int>(error.code));
+    }
+  };
+  EXPECT_EXIT(hash(), testing::ExitedWithCode(0),
+              "^83f40fa66ca3ce1c76cc3299b90b1d68fe3a013049773706456a19946703f799$");
+  put(folder / "b" / "y.csv", "3\n");
+  EXPECT_EXIT(hash(), testing::ExitedWithCode(0),
+              "^511bd2fde32fef0f0e2021782e37a4016b16fd91b4bad2687873c79cc5a57a57$");
+  put(folder / "b" / "y.csv", std::string("\0", 1));
+  EXPECT_EXIT(hash(), testing::ExitedWithCode(4), "b/y.csv:1:1: error: NUL byte in a text");
+}
+
 }  // namespace
 }  // namespace abbe

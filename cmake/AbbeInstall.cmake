@@ -1,0 +1,30 @@
+# What `cmake --install` puts where. Component `tool` is all that running Abbe needs, `development` what programs linking its libraries need.
+include(CMakePackageConfigHelpers)
+set(ABBE_DATA_INSTALL_DIR "${CMAKE_INSTALL_DATADIR}/abbe/data")
+set(ABBE_PACKAGE_INSTALL_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Abbe")
+set(ABBE_PUBLIC_ROOMS io spectral materials sensor scene transport calibration)
+
+install(TARGETS abbe DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${ABBE_DATA_INSTALL_DIR}" COMPONENT tool)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
+install(FILES CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
+install(FILES cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
+
+foreach(room ${ABBE_PUBLIC_ROOMS})
+  set_target_properties(abbe_${room} PROPERTIES EXPORT_NAME ${room})
+  install(TARGETS abbe_${room} EXPORT AbbeTargets DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${room}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/abbe" COMPONENT development
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(EXPORT AbbeTargets NAMESPACE Abbe:: DESTINATION "${ABBE_PACKAGE_INSTALL_DIR}" COMPONENT development)
+configure_package_config_file(cmake/AbbeConfig.cmake.in "${PROJECT_BINARY_DIR}/AbbeConfig.cmake"
+  INSTALL_DESTINATION "${ABBE_PACKAGE_INSTALL_DIR}" PATH_VARS ABBE_DATA_INSTALL_DIR)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/AbbeConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/AbbeConfig.cmake" "${PROJECT_BINARY_DIR}/AbbeConfigVersion.cmake" cmake/AbbePackages.cmake
+  DESTINATION "${ABBE_PACKAGE_INSTALL_DIR}" COMPONENT development)
+
+# Programs of the build folder find the source tree's data by the rule of installed ones.
+foreach(folder "${PROJECT_BINARY_DIR}" "${PROJECT_BINARY_DIR}/tests")
+  file(MAKE_DIRECTORY "${folder}/share/abbe")
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/data" "${folder}/share/abbe/data" SYMBOLIC)
+endforeach()
