@@ -19,6 +19,7 @@
 #include "cli/query.h"
 #include "cli/render.h"
 #include "cli/trace.h"
+#include "cli/usage.h"
 
 namespace abbe::cli {
 namespace {
@@ -282,41 +283,6 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   add_json(options, calibration->json);
 }
 
-// CLI11's own complaints do not say which name is near.
-const CLI::App& find_command(const CLI::App& app, const std::string& name) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == name) return *command;
-    names.push_back(command->get_name());
-  }
-  throw Error(ErrorCode::usage, "", unknown_name("command", name, names));
-}
-
-void check_option(const CLI::App& app, const std::string& name) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    throw Error(ErrorCode::usage, "", unknown_name("option", name, names));
-}
-
-void check_names(const CLI::App& app, const std::vector<std::string>& arguments) {
-  const CLI::App* at = &app;
-  for (const std::string& argument : arguments) {
-    if (argument == "--") return;
-    if (argument.starts_with("--"))
-      check_option(*at, argument.substr(0, argument.find('=')));
-    else if (!argument.starts_with('-') && !at->get_subcommands({}).empty())
-      at = &find_command(*at, argument);
-  }
-}
-
-// Not `app.help()`, which would show the help of the subcommand that was given.
-int show(const CLI::App& app, const std::string& name) {
-  fmt::print("{}", app.get_formatter()->make_help(&app, name, CLI::AppFormatMode::Normal));
-  return 0;
-}
-
 // `abbe help [COMMAND]`.
 void add_help(CLI::App& app, Command& command) {
   CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, or one command");
@@ -324,8 +290,9 @@ void add_help(CLI::App& app, Command& command) {
   help->add_option("command", *name, "Command")->type_name("COMMAND");
   help->callback([&app, &command, name] {
     command = [&app, name] {
-      if (name->empty()) return show(app, "abbe");
-      return show(find_command(app, *name), "abbe " + *name);
+      fmt::print("{}",
+                 name->empty() ? help_of(app, "abbe") : help_of(find_command(app, *name), "abbe " + *name));
+      return 0;
     };
   });
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace abbe::cli {
+
+/// What a command line may say, asked of CLI11's description of it.
+
+/// The command of that name. Throws Error{usage} with the nearest name, which CLI11 does not know.
+[[nodiscard]] const CLI::App& find_command(const CLI::App& app, const std::string& name);
+
+/// Throws the same for any command or long option among the arguments that does not exist.
+void check_names(const CLI::App& app, const std::vector<std::string>& arguments);
+
+/// Help on one command, which is called `name` in it.
+[[nodiscard]] std::string help_of(const CLI::App& app, const std::string& name);
+
+}  // namespace abbe::cli
