@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
+#include "io/data_directory.h"
 #include "io/error.h"
 #include "io/exr.h"
 
@@ -23,6 +24,7 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
       {"version", ABBE_VERSION},
       {"scene", scene_file.filename().string()},
       {"scene_sha256", scene.sha256},
+      {"data_sha256", data_sha256()},
       {"seed", fmt::format("{}", scene.render.seed)},
       {"integrator", kIntegrators.at(static_cast<std::size_t>(scene.render.integrator))},
       {"exposure_s", fmt::format("{}", scene.exposure_s)},

@@ -20,6 +20,7 @@
 #include "cli/render.h"
 #include "cli/trace.h"
 #include "cli/usage.h"
+#include "cli/version.h"
 
 namespace abbe::cli {
 namespace {
@@ -174,7 +175,7 @@ void add_scene_commands(CLI::App& app, Command& command) {
 void add_index_query(CLI::App& query, const std::string& name, const std::string& help, Command& command,
                      int (*run)(const IndexOptions&)) {
   const Sub<IndexOptions> sub(query, name, help, command, run);
-  sub.app->add_option("name", sub->name, "Material or FILE.csv")->required()->type_name("NAME");
+  sub.app->add_option("name", sub->name, "Material or FILE.csv")->required()->type_name("MATERIAL");
   add_at(*sub.app, sub->at_nm);
   add_json(*sub.app, sub->json);
 }
@@ -188,7 +189,7 @@ void add_matter_queries(CLI::App& query, Command& command) {
                                             command, query_reflectance);
   reflectance.app->add_option("name", reflectance->name, "Material or FILE.csv")
       ->required()
-      ->type_name("NAME");
+      ->type_name("MATERIAL");
   add_at(*reflectance.app, reflectance->at_nm);
   add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
              "Angles of incidence (default 0)", "DEG[,DEG...]");
@@ -196,7 +197,7 @@ void add_matter_queries(CLI::App& query, Command& command) {
 
   const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
                                 query_prism);
-  prism.app->add_option("name", prism->name, "Material or FILE.csv")->required()->type_name("NAME");
+  prism.app->add_option("name", prism->name, "Material or FILE.csv")->required()->type_name("MATERIAL");
   add_at(*prism.app, prism->at_nm);
   add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
       ->required();
@@ -209,11 +210,13 @@ void add_color_queries(CLI::App& query, Command& command) {
   const Sub<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
                                 query_color);
   color.app->add_option("--illuminant", color->illuminant, "Illuminant, blackbody:K or daylight:K")
-      ->required();
+      ->required()
+      ->type_name("ILLUMINANT");
   add_parsed(*color.app, "--observer", color->observer, one_of<Observer>({"1931", "1964"}),
              "Standard observer (default 1931)", "1931|1964");
-  color.app->add_option("--reflectance", color->reflectance,
-                        "NAME or FILE.csv:COLUMN (default: perfect diffuser)");
+  color.app
+      ->add_option("--reflectance", color->reflectance, "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->type_name("REFLECTANCE");
   add_json(*color.app, color->json);
 
   const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
@@ -223,11 +226,14 @@ void add_color_queries(CLI::App& query, Command& command) {
 
   const Sub<CameraOptions> camera(query, "camera", "Raw values of a camera, green of the perfect diffuser 1",
                                   command, query_camera);
-  camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("NAME");
+  camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("CAMERA");
   camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
-      ->required();
-  camera.app->add_option("--reflectance", camera->reflectance,
-                         "NAME or FILE.csv:COLUMN (default: perfect diffuser)");
+      ->required()
+      ->type_name("ILLUMINANT");
+  camera.app
+      ->add_option("--reflectance", camera->reflectance,
+                   "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->type_name("REFLECTANCE");
   add_json(*camera.app, camera->json);
 }
 
@@ -268,12 +274,18 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   options
       .add_option("--camera", calibration->camera,
                   "Camera or FILE.csv, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
-      ->required();
-  options.add_option("--illuminant", calibration->illuminant, "Light on the chart")->capture_default_str();
-  options.add_option("--chart", calibration->chart, "Table of patch reflectances")->capture_default_str();
+      ->required()
+      ->type_name("CAMERA");
+  options.add_option("--illuminant", calibration->illuminant, "Light on the chart")
+      ->capture_default_str()
+      ->type_name("ILLUMINANT");
+  options.add_option("--chart", calibration->chart, "Table of patch reflectances")
+      ->capture_default_str()
+      ->type_name("TABLE");
   options
       .add_option("--response", calibration->planted_response, "linear, gamma:G or s-curve, to be recovered")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("CURVE");
   add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
              "Of the code values, 0 for no rounding (default 12)", "N");
   options
@@ -285,13 +297,24 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
 
 // `abbe help [COMMAND]`.
 void add_help(CLI::App& app, Command& command) {
+  struct Options {
+    std::string command;
+    std::optional<ReferenceFormat> format;
+  };
   CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, or one command");
-  auto name = std::make_shared<std::string>();
-  help->add_option("command", *name, "Command")->type_name("COMMAND");
-  help->callback([&app, &command, name] {
-    command = [&app, name] {
-      fmt::print("{}",
-                 name->empty() ? help_of(app, "abbe") : help_of(find_command(app, *name), "abbe " + *name));
+  auto options = std::make_shared<Options>();
+  CLI::Option* name = help->add_option("command", options->command, "Command")->type_name("COMMAND");
+  add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
+             "Write the reference of all commands", "markdown|man|bash")
+      ->excludes(name);
+  help->callback([&app, &command, options] {
+    command = [&app, options] {
+      const std::string& chosen = options->command;
+      if (options->format)
+        fmt::print("{}", reference(usage_of(app, "abbe"), *options->format));
+      else
+        fmt::print("{}", chosen.empty() ? help_of(app, "abbe")
+                                        : help_of(find_command(app, chosen), "abbe " + chosen));
       return 0;
     };
   });
@@ -300,7 +323,7 @@ void add_help(CLI::App& app, Command& command) {
 int run(int argc, char** argv) {
   CLI::App app{"Abbe, a spectral renderer validated against measured colour science", "abbe"};
   Command command;
-  app.set_version_flag("--version", "abbe " ABBE_VERSION);
+  app.set_version_flag("--version", version_text, "Show the version, the data and the libraries");
   app.require_subcommand(1);
   add_render(app, command);
   add_merge(app, command);

@@ -76,5 +76,7 @@ struct ListOptions {
   bool json = false;
 };
 int query_list(const ListOptions& options);
+/// The kinds it knows.
+[[nodiscard]] std::vector<std::string> name_kinds();
 
 }  // namespace abbe::cli

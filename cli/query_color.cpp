@@ -87,14 +87,18 @@ int query_camera(const CameraOptions& options) {
   return 0;
 }
 
+std::vector<std::string> name_kinds() {
+  std::vector<std::string> kinds;
+  for (const Kind& kind : kKinds) kinds.emplace_back(kind.name);
+  return kinds;
+}
+
 int query_list(const ListOptions& options) {
   Json answer = Json::object();
-  std::vector<std::string> kinds;
-  for (const Kind& kind : kKinds) {
-    kinds.emplace_back(kind.name);
+  for (const Kind& kind : kKinds)
     if (options.kind.empty() || options.kind == kind.name) answer[kind.name] = kind.names();
-  }
-  if (answer.empty()) throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, kinds));
+  if (answer.empty())
+    throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, name_kinds()));
   if (options.json) {
     print(answer, true);
     return 0;

@@ -11,6 +11,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "io/atomic_file.h"
+#include "io/data_directory.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
 
@@ -133,6 +134,7 @@ void write_stats(const fs::path& path, const Scene& scene, const RenderStats& st
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;
+  answer["data_sha256"] = data_sha256();
   write_atomically(path, text(answer, true));
 }
 

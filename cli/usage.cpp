@@ -1,7 +1,9 @@
 #include "cli/usage.h"
 
 #include <algorithm>
+#include <set>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "io/diagnostics.h"
@@ -16,6 +18,27 @@ void check_option(const CLI::App& app, const std::string& name) {
     for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw Error(ErrorCode::usage, "", unknown_name("option", name, names));
+}
+
+std::string names_of(const std::set<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options)
+    names.push_back(option->nonpositional() ? option->get_name() : option->get_type_name());
+  std::sort(names.begin(), names.end());  // the set is in the order of addresses
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+OptionUsage usage_of(const CLI::Option& option) {
+  OptionUsage usage;
+  for (const std::string& name : option.get_snames()) usage.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) usage.names.push_back("--" + name);
+  if (option.get_items_expected_max() > 0) usage.value = option.get_type_name();
+  usage.help = option.get_description();
+  if (!option.get_default_str().empty()) usage.help += fmt::format(" (default {})", option.get_default_str());
+  if (!option.get_needs().empty()) usage.help += "; only with " + names_of(option.get_needs());
+  if (!option.get_excludes().empty()) usage.help += "; not with " + names_of(option.get_excludes());
+  usage.required = option.get_required();
+  return usage;
 }
 
 }  // namespace
@@ -43,6 +66,14 @@ void check_names(const CLI::App& app, const std::vector<std::string>& arguments)
 // Not `app.help()`, which would show the help of the subcommand that was given.
 std::string help_of(const CLI::App& app, const std::string& name) {
   return app.get_formatter()->make_help(&app, name, CLI::AppFormatMode::Normal);
+}
+
+CommandUsage usage_of(const CLI::App& app, const std::string& name) {
+  CommandUsage usage{name, app.get_description(), {}, {}};
+  for (const CLI::Option* option : app.get_options()) usage.options.push_back(usage_of(*option));
+  for (const CLI::App* command : app.get_subcommands({}))
+    usage.commands.push_back(usage_of(*command, name + ' ' + command->get_name()));
+  return usage;
 }
 
 }  // namespace abbe::cli

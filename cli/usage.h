@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/reference.h"
+
 namespace CLI {
 class App;
 }  // namespace CLI
@@ -19,5 +21,8 @@ void check_names(const CLI::App& app, const std::vector<std::string>& arguments)
 
 /// Help on one command, which is called `name` in it.
 [[nodiscard]] std::string help_of(const CLI::App& app, const std::string& name);
+
+/// All that a command allows, its subcommands included.
+[[nodiscard]] CommandUsage usage_of(const CLI::App& app, const std::string& name);
 
 }  // namespace abbe::cli

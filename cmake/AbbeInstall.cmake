@@ -7,8 +7,23 @@ set(ABBE_PUBLIC_ROOMS io spectral materials sensor scene transport calibration)
 install(TARGETS abbe DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${ABBE_DATA_INSTALL_DIR}" COMPONENT tool)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
-install(FILES CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
-install(FILES cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
+install(FILES CITATION.cff cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
+
+# The program describes itself; Debian wants what describes it compressed.
+set(ABBE_DESCRIPTIONS "${PROJECT_BINARY_DIR}/share/abbe.1.gz" "${PROJECT_BINARY_DIR}/share/abbe.bash"
+  "${PROJECT_BINARY_DIR}/share/changelog.gz")
+add_custom_command(OUTPUT ${ABBE_DESCRIPTIONS}
+  COMMAND sh -c "$<TARGET_FILE:abbe> help --format man | gzip -9n >share/abbe.1.gz"
+  COMMAND sh -c "$<TARGET_FILE:abbe> help --format bash >share/abbe.bash"
+  COMMAND sh -c "gzip -9nc '${PROJECT_SOURCE_DIR}/CHANGELOG.md' >share/changelog.gz"
+  DEPENDS abbe CHANGELOG.md WORKING_DIRECTORY "${PROJECT_BINARY_DIR}" VERBATIM)
+add_custom_target(descriptions ALL DEPENDS ${ABBE_DESCRIPTIONS})
+add_custom_target(reference COMMAND sh -c "$<TARGET_FILE:abbe> help --format markdown >docs/reference.md"
+  DEPENDS abbe WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" VERBATIM)
+install(FILES "${PROJECT_BINARY_DIR}/share/abbe.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tool)
+install(FILES "${PROJECT_BINARY_DIR}/share/abbe.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME abbe
+  COMPONENT tool)
+install(FILES "${PROJECT_BINARY_DIR}/share/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
 
 foreach(room ${ABBE_PUBLIC_ROOMS})
   set_target_properties(abbe_${room} PROPERTIES EXPORT_NAME ${room})

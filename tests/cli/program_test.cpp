@@ -1,3 +1,5 @@
+#include <regex>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +10,13 @@ namespace abbe::test {
 namespace {
 
 TEST(Program, HelpAndVersionGoToStdout) {
-  EXPECT_EQ(abbe("--version").out, "abbe " ABBE_VERSION "\n");
+  const std::string version = abbe("--version").out;
+  EXPECT_TRUE(std::regex_match(
+      version,
+      std::regex("abbe " ABBE_VERSION "\ndata /.*/data\ndata_sha256 [0-9a-f]{64}\ncompiler .* [0-9.]+.*\n"
+                 "Embree 3[0-9.]+\nOpenEXR 3[0-9.]+\nOpenImageIO 2[0-9.]+\nOpenColorIO 2[0-9.]+\n"
+                 "Ceres 2[0-9.]+\n")))
+      << version;
   for (const char* text : {"--help", "help", "help render", "query prism --help"}) {
     const Outcome run = abbe(text);
     EXPECT_EQ(run.code, 0) << text;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
 #include "tests/cli/program.h"
@@ -36,12 +37,14 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(out("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(out("a.stats")));
-  EXPECT_EQ(stats.size(), 12U);
+  EXPECT_EQ(stats.size(), 13U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
   EXPECT_EQ(stats["nonfinite_samples"], 0);
   EXPECT_EQ(stats["scene_sha256"], image.metadata.at("scene_sha256"));
+  EXPECT_EQ(stats["data_sha256"], data_sha256());
+  EXPECT_EQ(image.metadata.at("data_sha256"), data_sha256());
   EXPECT_GE(stats["paths"], 24 * 16 * 8);
   EXPECT_GT(stats["rays"], 0);
   EXPECT_GT(stats["wall_s"], 0);

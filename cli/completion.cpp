@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cli/query.h"
+#include "cli/reference.h"
+#include "io/text.h"
+
+namespace abbe::cli {
+namespace {
+
+// Finds the command and the place of the word to complete. Works on the line itself, because bash cuts its
+// words at = and :, and takes from the answers what stands before the last of these, as bash will not replace
+// it.
+constexpr std::string_view kScript = R"BASH(
+_abbe() {
+  local line=${COMP_LINE:0:COMP_POINT} path=abbe place=0 kind= commands= options= i
+  local -a words
+  read -ra words <<<"$line"
+  [[ $line == *[[:space:]] ]] && words+=("")
+  local last=$((${#words[@]} - 1))
+  local word=${words[last]} program=${words[0]/#\~/$HOME}
+  _abbe_words "$path"
+  for ((i = 1; i < last; i++)); do
+    kind=
+    case ${words[i]} in
+      -*=*) ;;
+      -*) if _abbe_kind "$path ${words[i]}"; then ((++i)); fi ;;
+      *)
+        if [[ " $commands " == *" ${words[i]} "* ]]; then
+          path+=" ${words[i]}"
+          _abbe_words "$path"
+        else
+          ((++place))
+        fi
+        ;;
+    esac
+  done
+  local value=$word
+  if ((i == last)); then  # not the value of the option before
+    kind=
+    if [[ $word == --*=* ]]; then
+      _abbe_kind "$path ${word%%=*}"
+      value=${word#*=}
+    elif [[ $word == -* ]]; then
+      kind="words $options"
+    elif [[ $commands ]]; then
+      kind="words $commands"
+    else
+      _abbe_kind "$path $((place + 1))" || kind="words $options"
+    fi
+  fi
+  _abbe_answer "$program" "$value" $kind
+  local before=${value%"${value##*:}"} j
+  if [[ $before && $COMP_WORDBREAKS == *:* ]]; then
+    for j in "${!COMPREPLY[@]}"; do COMPREPLY[j]=${COMPREPLY[j]#"$before"}; done
+  fi
+}
+
+_abbe_answer() {  # PROGRAM VALUE KIND...
+  local IFS=$'\n' value=$2 i
+  case $3 in
+    words) mapfile -t COMPREPLY < <(compgen -W "${*:4}" -- "$value") ;;
+    names)
+      mapfile -t COMPREPLY < <(compgen -W "$("$1" query --list "$4" 2>/dev/null)" -- "$value")
+      if ((${#COMPREPLY[@]})); then
+        mapfile -t COMPREPLY < <(printf '%q\n' "${COMPREPLY[@]}")
+      else
+        _abbe_answer "$1" "$value" files csv
+      fi
+      ;;
+    files)
+      compopt -o filenames 2>/dev/null
+      mapfile -t COMPREPLY < <(
+        for i in "${@:4}"; do compgen -f -X "!*.$i" -- "$value"; done
+        compgen -d -- "$value"
+      )
+      ;;
+    folders)
+      compopt -o filenames 2>/dev/null
+      mapfile -t COMPREPLY < <(compgen -d -- "$value")
+      ;;
+    *) COMPREPLY=() ;;
+  esac
+}
+
+complete -F _abbe abbe
+)BASH";
+
+std::string short_name(const CommandUsage& command) {
+  return command.name.substr(command.name.rfind(' ') + 1);
+}
+
+std::string without(std::string text, std::string_view characters) {
+  std::erase_if(text, [characters](char c) { return characters.find(c) != std::string_view::npos; });
+  return text;
+}
+
+// "FILE.exr|FILE.abbepart" and the like.
+bool names_files(const std::vector<std::string>& words) {
+  return std::all_of(words.begin(), words.end(), [](const std::string& word) {
+    const std::size_t dot = word.find('.');
+    return dot != std::string::npos && dot + 1 < word.size() && word[dot + 1] != '.';
+  });
+}
+
+// What `_abbe_answer` is told of a value.
+std::string kind_of(const std::string& value, const CommandUsage& program) {
+  const std::vector<std::string> kinds = name_kinds();
+  std::vector<std::string> words = split(without(value, "[]"), '|');
+  if (names_files(words)) {
+    for (std::string& word : words) word = without(word.substr(word.find('.') + 1), ".");
+    return fmt::format("files {}", fmt::join(words, " "));
+  }
+  if (words.size() > 1) return fmt::format("words {}", fmt::join(words, " "));
+  std::string& word = words.front();
+  if (word == "SCENE") return "files json";
+  if (word == "FOLDER") return "folders";
+  if (word == "KIND") return fmt::format("words {}", fmt::join(kinds, " "));
+  if (word == "COMMAND") {
+    std::vector<std::string> commands;
+    for (const CommandUsage& command : program.commands) commands.push_back(short_name(command));
+    return fmt::format("words {}", fmt::join(commands, " "));
+  }
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::find(kinds.begin(), kinds.end(), word) != kinds.end() ? "names " + word : "none";
+}
+
+// What `_abbe_kind` is asked for: every name of an option, or the place of an argument, or of all from there
+// on.
+std::string keys_of(const OptionUsage& option, const std::string& command, int& place) {
+  std::vector<std::string> keys;
+  for (const std::string& name : option.names) keys.push_back(fmt::format("'{} {}'", command, name));
+  if (keys.empty() && option.value.ends_with("...")) return fmt::format("'{} '[1-9]*", command);
+  if (keys.empty()) keys.push_back(fmt::format("'{} {}'", command, ++place));
+  return fmt::format("{}", fmt::join(keys, " | "));
+}
+
+void add_words(const CommandUsage& command, std::string& script) {
+  std::vector<std::string> commands;
+  std::vector<std::string> options;
+  for (const CommandUsage& inner : command.commands) commands.push_back(short_name(inner));
+  for (const OptionUsage& option : command.options)
+    if (!option.names.empty()) options.push_back(option.names.back());
+  script += fmt::format("    '{}') commands='{}' options='{}' ;;\n", command.name, fmt::join(commands, " "),
+                        fmt::join(options, " "));
+  for (const CommandUsage& inner : command.commands) add_words(inner, script);
+}
+
+void add_kinds(const CommandUsage& command, const CommandUsage& program, std::string& script) {
+  int place = 0;
+  for (const OptionUsage& option : command.options)
+    if (!option.value.empty())
+      script += fmt::format("    {}) kind='{}' ;;\n", keys_of(option, command.name, place),
+                            kind_of(option.value, program));
+  for (const CommandUsage& inner : command.commands) add_kinds(inner, program, script);
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandUsage& program) {
+  std::string script =
+      "# Completes abbe's command lines under bash. Written by `abbe help --format bash`.\n\n"
+      "_abbe_words() {  # COMMAND: sets the commands and options that may follow\n  case $1 in\n";
+  add_words(program, script);
+  script +=
+      "  esac\n}\n\n_abbe_kind() {  # COMMAND OPTION or COMMAND PLACE: sets the kind of its value, if it has "
+      "one\n  case $1 in\n";
+  add_kinds(program, program, script);
+  script += "    *) return 1 ;;\n  esac\n}\n";
+  return script + std::string(kScript);
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,27 @@
+# The Debian package has its name, what it depends on, and a program that runs from where it is unpacked.
+. "$(dirname "$0")/check.sh"
+cd "$ABBE_BUILD"
+cpack -G DEB -B "$scratch" >"$scratch/cpack.log" || fail "cpack: $(tail -5 "$scratch/cpack.log")"
+package=$scratch/abbe_$(sed -n 's/^version: //p' "$ABBE_SOURCE/CITATION.cff")_amd64.deb
+[ -f "$package" ] || fail "no $package"
+
+for field in Package=abbe Architecture=amd64 Section=graphics; do
+  equal "${field%=*}" "$(dpkg-deb -f "$package" "${field%=*}")" "${field#*=}"
+done
+depends=$(dpkg-deb -f "$package" Depends)
+for library in libc6 libembree3-3 libopenexr-3-1-30 libopenimageio2.4 libopencolorio2.1 libassimp5 libfmt9 libssl3; do
+  contains "Depends" ", $depends" ", $library"
+done
+files=$(dpkg-deb -c "$package" | awk '{print $6}')
+for file in bin/abbe share/abbe/data/glass/dielectrics.csv share/man/man1/abbe.1.gz share/bash-completion/completions/abbe share/doc/abbe/copyright; do
+  contains "files" "$files" "./usr/$file"
+done
+grep -vE '^\./usr/(bin|share)?' <<<"$files" && fail "files outside usr/bin and usr/share"
+
+dpkg-deb -x "$package" "$scratch/root"
+cd /
+check_program "$scratch/root/usr/bin/abbe" "$scratch/root/usr/share/abbe/data"
+if command -v lintian >/dev/null; then
+  errors=$(lintian --allow-root --fail-on none "$package" | grep '^E:' || true)
+  equal "errors of lintian" "$errors" ""
+fi

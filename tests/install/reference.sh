@@ -1,0 +1,12 @@
+# What is written of the command line is what the program says of it.
+. "$(dirname "$0")/check.sh"
+program=$ABBE_BUILD/cli/abbe
+"$program" help --format markdown | diff -u "$ABBE_SOURCE/docs/reference.md" - ||
+  fail "docs/reference.md is out of date; write it anew with: cmake --build --preset release --target reference"
+
+"$program" help --format man >"$scratch/abbe.1"
+equal "complaints of groff" "$(groff -man -ww -z -b "$scratch/abbe.1" 2>&1)" ""
+page=$(groff -man -Tascii -P-cbou "$scratch/abbe.1")
+for text in "abbe query ior MATERIAL --at NM\[,NM...\] \[OPTION...\]" "--integrator auto|path|light" "Exit with 70" "ABBE_DATA"; do
+  grep -qe "$text" <<<"$page" || fail "the manual page does not show $text"
+done
