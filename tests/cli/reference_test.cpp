@@ -15,33 +15,33 @@ const CommandUsage kProgram{"tool",
                                {{"--dry"}, "", "'Only' think", false}},
                               {}}}};
 
-void expect_line(const std::string& page, const std::string& line) {
-  EXPECT_NE(('\n' + page).find('\n' + line + '\n'), std::string::npos) << line << "\nin\n" << page;
+bool has_line(const std::string& page, const std::string& line) {
+  return ('\n' + page).find('\n' + line + '\n') != std::string::npos;
 }
 
 TEST(Reference, MarkdownKeepsBarsInTheirCells) {
   const std::string page = reference(kProgram, ReferenceFormat::markdown);
-  expect_line(page, "## tool cut");
-  expect_line(page, "tool cut SCENE --with saw|axe [OPTION...]");
-  expect_line(page, "| `-w, --with saw\\|axe` | Saw\\|axe; required |");
-  expect_line(page, "| `--dry` | 'Only' think |");
+  EXPECT_TRUE(has_line(page, "## tool cut")) << page;
+  EXPECT_TRUE(has_line(page, "tool cut SCENE --with saw|axe [OPTION...]")) << page;
+  EXPECT_TRUE(has_line(page, "| `-w, --with saw\\|axe` | Saw\\|axe; required |")) << page;
+  EXPECT_TRUE(has_line(page, "| `--dry` | 'Only' think |")) << page;
   EXPECT_EQ(page.find("| `-h"), std::string::npos) << page;  // said once for all
 }
 
 TEST(Reference, ManTakesTextForText) {
   const std::string page = reference(kProgram, ReferenceFormat::man);
-  expect_line(page, ".SS \"tool cut SCENE \\-\\-with saw|axe [OPTION...]\"");
-  expect_line(page, "\\&.hidden \\e part.");
-  expect_line(page, "\\fB\\-w, \\-\\-with saw|axe\\fR");
-  expect_line(page, "\\&'Only' think.");
+  EXPECT_TRUE(has_line(page, ".SS \"tool cut SCENE \\-\\-with saw|axe [OPTION...]\"")) << page;
+  EXPECT_TRUE(has_line(page, "\\&.hidden \\e part.")) << page;
+  EXPECT_TRUE(has_line(page, "\\fB\\-w, \\-\\-with saw|axe\\fR")) << page;
+  EXPECT_TRUE(has_line(page, "\\&'Only' think.")) << page;
 }
 
 TEST(Reference, CompletionKnowsWhatValuesAre) {
   const std::string script = reference(kProgram, ReferenceFormat::bash);
-  expect_line(script, "    'tool') commands='cut' options='--help' ;;");
-  expect_line(script, "    'tool cut') commands='' options='--with --dry' ;;");
-  expect_line(script, "    'tool cut 1') kind='files json' ;;");
-  expect_line(script, "    'tool cut -w' | 'tool cut --with') kind='words saw axe' ;;");
+  EXPECT_TRUE(has_line(script, "    'tool') commands='cut' options='--help' ;;")) << script;
+  EXPECT_TRUE(has_line(script, "    'tool cut') commands='' options='--with --dry' ;;")) << script;
+  EXPECT_TRUE(has_line(script, "    'tool cut 1') kind='files json' ;;")) << script;
+  EXPECT_TRUE(has_line(script, "    'tool cut -w' | 'tool cut --with') kind='words saw axe' ;;")) << script;
   EXPECT_EQ(script.find("--dry')"), std::string::npos) << script;  // takes no value
 }
 
