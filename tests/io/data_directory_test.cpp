@@ -25,6 +25,19 @@ const struct OwnData {
       std::filesystem::path(testing::TempDir()) / ("abbe_io_test_data_" + std::to_string(::getpid()));
 } kOwnData;
 
+/// Prints what `ask` gives or complains of on stderr and ends the process: for a fresh one, which has not
+/// chosen its folder yet.
+template <class Ask>
+[[noreturn]] void answer_and_exit(Ask ask) {
+  try {
+    std::fputs(ask().c_str(), stderr);
+    std::exit(0);
+  } catch (const Error& error) {
+    std::fputs(error.what(), stderr);
+    std::exit(static_cast<int>(error.code));
+  }
+}
+
 TEST(DataDirectory, FollowsTheEnvironment) {
   EXPECT_EQ(data_directory(), kOwnData.folder);
 }
@@ -34,19 +47,13 @@ TEST(DataDirectory, WrongEnvironmentIsAnErrorAndNoneMeansTheSourceTree) {
   EXPECT_EXIT(
       {
         ::setenv("ABBE_DATA", "/nonexistent", 1);
-        try {
-          std::exit(data_directory().empty() ? 1 : 0);
-        } catch (const Error& error) {
-          std::fputs(error.what(), stderr);
-          std::exit(static_cast<int>(error.code));
-        }
+        answer_and_exit(data_directory);
       },
       testing::ExitedWithCode(4), "ABBE_DATA: no such folder \\(got /nonexistent\\)");
   EXPECT_EXIT(
       {
         ::unsetenv("ABBE_DATA");
-        std::fputs(data_directory().c_str(), stderr);
-        std::exit(0);
+        answer_and_exit(data_directory);
       },
       testing::ExitedWithCode(0), "/data$");
 }
@@ -71,12 +78,7 @@ TEST(DataDirectory, AProgramMayNameIt) {
       {
         ::unsetenv("ABBE_DATA");
         set_data_directory("/nonexistent");
-        try {
-          std::exit(data_directory().empty() ? 1 : 0);
-        } catch (const Error& error) {
-          std::fputs(error.what(), stderr);
-          std::exit(static_cast<int>(error.code));
-        }
+        answer_and_exit(data_directory);
       },
       testing::ExitedWithCode(4), "set_data_directory: no such folder \\(got /nonexistent\\)");
 }
@@ -91,14 +93,8 @@ TEST(DataDirectory, HashIsThatOfTheTables) {
   put(folder / "b" / "y.txt", "no table");
   put(folder / "scenes" / "x.csv", "no table of this hash");
   const auto hash = [&folder] {
-    try {
-      ::setenv("ABBE_DATA", folder.c_str(), 1);
-      std::fputs(data_sha256().c_str(), stderr);
-      std::exit(0);
-    } catch (const Error& error) {
-      std::fputs(error.what(), stderr);
-      std::exit(static_cast<int>(error.code));
-    }
+    ::setenv("ABBE_DATA", folder.c_str(), 1);
+    answer_and_exit(data_sha256);
   };
   EXPECT_EXIT(hash(), testing::ExitedWithCode(0),
               "^83f40fa66ca3ce1c76cc3299b90b1d68fe3a013049773706456a19946703f799$");
