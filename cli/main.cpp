@@ -106,10 +106,9 @@ void add_render(CLI::App& app, Command& command) {
   CLI::App& render = *sub.app;
   render.add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
   render
-      .add_option(
-          "-o,--output", sub->output,
-          "Film to write, an .exr or the exact sums as .abbepart (default: the scene's, else SCENE.exr)")
-      ->type_name("FILE.exr");
+      .add_option("-o,--output", sub->output,
+                  "Film to write, or its exact sums (default: the scene's, else SCENE.exr)")
+      ->type_name("FILE.exr|FILE.abbepart");
   CLI::Option* spp =
       add_parsed(render, "--spp", sub->samples, integer_in<int>(1, kMaxSamples), "Samples per pixel", "N");
   CLI::Option* error = add_parsed(render, "--error", sub->target_error, parse_share,

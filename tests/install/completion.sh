@@ -33,9 +33,9 @@ cd "$scratch"
 mkdir folder
 touch a.json b.json c.exr d.csv e.abbepart
 completes "abbe render " "a.json b.json folder"
+completes "abbe render a.json -o " "c.exr e.abbepart folder"
 completes "abbe render a.json --stats " "a.json b.json folder"
 completes "abbe merge e.abbepart " "e.abbepart folder"
-completes "abbe merge e.abbepart -o " "c.exr e.abbepart folder"
 completes "abbe compare c.exr c" "c.exr"
 completes "abbe calibrate --camera ./" "./d.csv ./folder"
 completes "abbe calibrate -o f" "folder"

@@ -1,7 +1,7 @@
 # The Debian package has its name, what it depends on, and a program that runs from where it is unpacked.
 . "$(dirname "$0")/check.sh"
 cd "$ABBE_BUILD"
-cpack -G DEB -B "$scratch" >"$scratch/cpack.log" || fail "cpack: $(tail -5 "$scratch/cpack.log")"
+cpack -G DEB -B "$scratch" >"$scratch/cpack.log" 2>&1 || fail "cpack: $(tail -5 "$scratch/cpack.log")"
 package=$scratch/abbe_$(sed -n 's/^version: //p' "$ABBE_SOURCE/CITATION.cff")_amd64.deb
 [ -f "$package" ] || fail "no $package"
 
