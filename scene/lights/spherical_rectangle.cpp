@@ -7,9 +7,9 @@
 namespace abbe {
 namespace {
 
-// Area over squared distance below which a rectangle looks small: its cosine and distance then vary by a few
-// percent at most.
-constexpr double kSmall = 0.01;
+// Area over squared distance below which a rectangle looks small: the cosine and distance over it vary little
+// enough for the cheaper sampling by area to reach an error sooner.
+constexpr double kSmall = 0.5;
 // Height over size below which it is seen edge-on, and the sum of angles cancels.
 constexpr double kEdgeOn = 1e-4;
 
