@@ -12,6 +12,7 @@
 
 #include "cli/answer.h"
 #include "cli/arguments.h"
+#include "cli/bench.h"
 #include "cli/calibrate.h"
 #include "cli/compare.h"
 #include "cli/info.h"
@@ -294,6 +295,27 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   add_json(options, calibration->json);
 }
 
+void add_bench(CLI::App& app, Command& command) {
+  const Sub<BenchOptions> sub(app, "bench", "Measure run time against error", command, bench);
+  CLI::App& options = *sub.app;
+  options.add_option("suite", sub->suites, "Scenes to measure (default: all)")->type_name("SUITE");
+  options.add_option("-o,--output", sub->output, "Folder for tables and plots")->type_name("FOLDER");
+  add_parsed(options, "--spp", sub->samples, parse_sample_counts, "Samples per pixel (default 4,8,16,32,64)",
+             "N[,N...]");
+  add_parsed(options, "--seeds", sub->seeds, integer_in<int>(1, 1000), "Renders of each (default 3)", "N");
+  add_parsed(options, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
+             "Threads, 0 for one per processor", "N");
+  add_parsed(options, "--reference-spp", sub->reference_samples, integer_in<int>(2, kMaxSamples),
+             "Of the references (default: 64 times the most of --spp)", "N");
+  options.add_option("--baseline", sub->baseline, "A bench.json to compare with")->type_name("FILE.json");
+  options.add_option("--cache", sub->cache, "Where references are kept (default ~/.cache/abbe/bench)")
+      ->type_name("FOLDER");
+  options.add_flag("--quick", sub->quick, "Small films, compared with no rival");
+  options.add_flag("--strict", sub->strict, "Exit with 1 when something got worse than the baseline");
+  options.add_flag("--list", sub->list, "Say what suites there are");
+  add_json(options, sub->json);
+}
+
 // `abbe help [COMMAND]`.
 void add_help(CLI::App& app, Command& command) {
   struct Options {
@@ -329,6 +351,7 @@ int run(int argc, char** argv) {
   add_scene_commands(app, command);
   add_query(app, command);
   add_compare_and_calibrate(app, command);
+  add_bench(app, command);
   add_help(app, command);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   // Some kinds are questions too, and CLI11 would take `--list camera` for the question.

@@ -1,10 +1,10 @@
-#include "cli/compare.h"
+#include "validation/statistics/image_difference.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 Image image(std::vector<std::pair<std::string, std::vector<float>>> channels) {
@@ -51,6 +51,39 @@ TEST(Compare, GreyOfLinearSrgbDiffersInLightnessAlone) {
   EXPECT_NEAR(c.color->max, (l2 - l1) / (1 + 0.015 * m / std::sqrt(20 + m)), 1e-6);
 }
 
+// Every value is off by 0.5 from a reference whose own variance is 0.05.
+TEST(RelMse, KnownAnswerWithFloorVarianceAndWeights) {
+  const Image reference =
+      image({{"R", {1, 2}}, {"G", {2, 3}}, {"Variance.R", {0.05F, 0.05F}}, {"Variance.G", {0.05F, 0.05F}}});
+  const Image noisy = image({{"R", {1.5F, 1.5F}}, {"G", {2.5F, 2.5F}}});
+  const double v = 0.05F;
+  const auto expected = [](double taken, double floor) {
+    const double d = 0.25 - taken;
+    const double m2 = 4 * floor;  // the mean is 2
+    return (d / (1 + m2) + 2 * d / (4 + m2) + d / (9 + m2)) / 4;
+  };
+  EXPECT_DOUBLE_EQ(rel_mse(noisy, reference), expected(0, 0.01));
+  EXPECT_DOUBLE_EQ(rel_mse(noisy, reference, {.floor = 0.0025}), expected(0, 0.0025));
+  EXPECT_DOUBLE_EQ(rel_mse(noisy, reference, {.subtract_variance = true}), expected(v, 0.01));
+  EXPECT_DOUBLE_EQ(rel_mse(noisy, reference, {.relative = 0, .floor = 1}), 0.25 / 4);
+  EXPECT_LT(rel_mse(reference, reference, {.subtract_variance = true}), 0);
+}
+
+TEST(RelMse, TrimLeavesTheLargestQuotientsOut) {
+  std::vector<float> values(2000, 1.0F);
+  const Image reference = image({{"Y", values}});
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = i < 2 ? 100.0F : 1.5F;
+  const Image fireflies = image({{"Y", values}});
+  EXPECT_NEAR(rel_mse(fireflies, reference, {.trim = 0.001}), 0.25 / 1.01, 1e-12);
+  EXPECT_NEAR(rel_mse(fireflies, reference), (2 * 9801.0 + 1998 * 0.25) / 2000 / 1.01, 1e-9);
+}
+
+TEST(RelMse, RefusesAReferenceWithoutVariance) {
+  EXPECT_THROW(
+      static_cast<void>(rel_mse(image({{"Y", {1}}}), image({{"Y", {1}}}), {.subtract_variance = true})),
+      Error);
+}
+
 TEST(Compare, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"Y", {1, 2}}}))), Error);
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"R", {1}}}))), Error);
@@ -58,4 +91,4 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -1,0 +1,85 @@
+#include "cli/bench.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "cli/arguments.h"
+#include "io/text.h"
+#include "validation/bench/report.h"
+
+namespace abbe::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path default_cache() {
+  const char* home = std::getenv("HOME");
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+    return fs::path(cache) / "abbe" / "bench";
+  if (home == nullptr) throw Error(ErrorCode::usage, "--cache", "needed where HOME is not set");
+  return fs::path(home) / ".cache" / "abbe" / "bench";
+}
+
+BenchSettings settings_of(const BenchOptions& options) {
+  BenchSettings settings;
+  settings.samples = options.samples;
+  settings.seeds = options.seeds;
+  settings.threads = options.threads;
+  settings.reference_samples = options.reference_samples;
+  settings.quick = options.quick;
+  settings.cache = options.cache.empty() ? default_cache() : options.cache;
+  settings.version = ABBE_VERSION;
+  settings.say = say;
+  return settings;
+}
+
+int list_suites(bool as_json) {
+  Json answer;
+  for (const Suite& suite : bench_suites()) answer[suite.name] = suite.description;
+  print(answer, as_json);
+  return 0;
+}
+
+std::vector<BaselineRow> read_baseline(const fs::path& path) {
+  if (path.empty()) return {};
+  Diagnostics diagnostics;
+  return accepted(load_baseline(path, diagnostics), diagnostics);
+}
+
+bool got_worse(const Change& change) {
+  const auto worse = [](const Ratio& ratio) { return ratio.changed() && ratio.value > 1; };
+  return worse(change.cpu_per_path) || worse(change.rel_mse);
+}
+
+}  // namespace
+
+std::vector<int> parse_sample_counts(const std::string& option, const std::string& text) {
+  constexpr int kMostSamples = 1 << 20;
+  std::vector<int> counts;
+  for (const std::string& piece : split(text, ','))
+    counts.push_back(static_cast<int>(parse_integer(option, piece, 1, kMostSamples)));
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  return counts;
+}
+
+int bench(const BenchOptions& options) {
+  if (options.list) return list_suites(options.json);
+  const std::vector<Suite> suites = choose_suites(options.suites);
+  const std::vector<BaselineRow> before = read_baseline(options.baseline);
+  BenchReport report{this_machine(), settings_of(options), {}, {}, {}};
+  if (!options.quick) report.rivals = load_rivals();
+  for (const Suite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));
+  report.changes = compare_runs(before, baseline_rows(report.runs));
+  if (!options.baseline.empty() && report.changes.empty())
+    say("warning: no render of the baseline is of the same suite, sample count and seed");
+  if (!options.output.empty()) write_report(options.output, report);
+  fmt::print("{}", options.json ? json_text(report) : readable_text(report));
+  const bool worse = std::any_of(report.changes.begin(), report.changes.end(), got_worse);
+  return options.strict && worse ? 1 : 0;
+}
+
+}  // namespace abbe::cli

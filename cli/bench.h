@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace abbe::cli {
+
+/// What `abbe bench` was asked for.
+struct BenchOptions {
+  std::vector<std::string> suites;  ///< All when empty.
+  std::filesystem::path output;     ///< Folder for the report; nothing is written when empty.
+  std::vector<int> samples{4, 8, 16, 32, 64};
+  int seeds = 3;
+  int threads = 0;
+  int reference_samples = 0;  ///< 0: 64 times the largest of `samples`.
+  std::filesystem::path baseline;
+  std::filesystem::path cache;  ///< Empty: `$XDG_CACHE_HOME/abbe/bench`, else `~/.cache/abbe/bench`.
+  bool quick = false;           ///< Small films, compared with no rival.
+  bool strict = false;          ///< Exit with 1 when something got worse than the baseline.
+  bool list = false;
+  bool json = false;
+};
+
+/// Numbers of samples per pixel, ascending, from "4,8,16". Throws Error{usage} naming the option.
+[[nodiscard]] std::vector<int> parse_sample_counts(const std::string& option, const std::string& text);
+
+/// Renders the suites against the clock and their references, and prints the figures. Returns the exit code.
+int bench(const BenchOptions& options);
+
+}  // namespace abbe::cli

@@ -1,0 +1,113 @@
+#include "validation/bench/baseline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include "io/object_reader.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kSignificance = 0.01;
+constexpr double kLeastChange = 0.02;
+
+const JsonValue::Array* array_at(const JsonValue& json, const char* key, Diagnostics& diagnostics) {
+  const JsonValue* member = json.find(key);
+  const auto* array = member ? std::get_if<JsonValue::Array>(&member->value) : nullptr;
+  if (array == nullptr)
+    diagnostics.error(json.where, std::string("expected an array \"") + key + "\", as abbe bench writes it",
+                      ErrorCode::input);
+  return array;
+}
+
+double number_at(const JsonValue& json, const char* key, Diagnostics& diagnostics) {
+  const JsonValue* member = json.find(key);
+  const double* number = member ? std::get_if<double>(&member->value) : nullptr;
+  if (number == nullptr)
+    diagnostics.error(json.where, std::string("expected a number \"") + key + "\"", ErrorCode::input);
+  return number ? *number : 0;
+}
+
+BaselineRow read_row(const std::string& suite, const JsonValue& json, Diagnostics& diagnostics) {
+  const auto number = [&](const char* key) { return number_at(json, key, diagnostics); };
+  return {suite,
+          static_cast<int>(number("spp")),
+          static_cast<std::uint64_t>(number("seed")),
+          number("cpu_s"),
+          number("paths"),
+          number("relMSE")};
+}
+
+Ratio geometric_mean(const std::vector<double>& logs) {
+  const auto n = static_cast<double>(logs.size());
+  double mean = 0;
+  for (const double l : logs) mean += l / n;
+  double squares = 0;
+  for (const double l : logs) squares += (l - mean) * (l - mean);
+  if (logs.size() < 2) return {std::exp(mean), std::numeric_limits<double>::infinity()};
+  const double t = boost::math::quantile(boost::math::students_t(n - 1), 1 - kSignificance / 2);
+  return {std::exp(mean), std::expm1(t * std::sqrt(squares / (n - 1) / n))};
+}
+
+}  // namespace
+
+bool Ratio::changed() const {
+  const double size = std::expm1(std::abs(std::log(value)));
+  return size > noise && size > kLeastChange;
+}
+
+std::optional<std::vector<BaselineRow>> load_baseline(const std::filesystem::path& path,
+                                                      Diagnostics& diagnostics) {
+  const auto source = read_text(path, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (!root) return std::nullopt;
+  std::vector<BaselineRow> rows;
+  const auto* suites = array_at(*root, "suites", diagnostics);
+  for (std::size_t i = 0; suites && i < suites->size(); ++i) {
+    const JsonValue& suite = (*suites)[i];
+    const JsonValue* name = suite.find("name");
+    const std::string text = name ? read_string(*name, diagnostics).value_or("") : "";
+    if (const auto* found = array_at(suite, "rows", diagnostics))
+      for (const JsonValue& row : *found) rows.push_back(read_row(text, row, diagnostics));
+  }
+  if (diagnostics.has_errors()) return std::nullopt;
+  return rows;
+}
+
+std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs) {
+  std::vector<BaselineRow> rows;
+  for (const SuiteRun& run : runs)
+    for (const BenchRow& row : run.rows)
+      rows.push_back(
+          {run.suite.name, row.samples, row.seed, row.cpu_s, static_cast<double>(row.paths), row.rel_mse});
+  return rows;
+}
+
+std::vector<Change> compare_runs(std::span<const BaselineRow> before, std::span<const BaselineRow> after) {
+  std::vector<std::string> suites;
+  for (const BaselineRow& row : after)
+    if (std::find(suites.begin(), suites.end(), row.suite) == suites.end()) suites.push_back(row.suite);
+  std::vector<Change> changes;
+  for (const std::string& suite : suites) {
+    std::vector<double> times;
+    std::vector<double> errors;
+    for (const BaselineRow& now : after) {
+      const auto then = std::find_if(before.begin(), before.end(), [&](const BaselineRow& row) {
+        return row.suite == suite && now.suite == suite && row.samples == now.samples && row.seed == now.seed;
+      });
+      if (then == before.end()) continue;
+      times.push_back(std::log(now.cpu_s / now.paths) - std::log(then->cpu_s / then->paths));
+      if (now.rel_mse > 0 && then->rel_mse > 0) errors.push_back(std::log(now.rel_mse / then->rel_mse));
+    }
+    if (!times.empty())
+      changes.push_back({suite, times.size(), geometric_mean(times), geometric_mean(errors)});
+  }
+  return changes;
+}
+
+}  // namespace abbe

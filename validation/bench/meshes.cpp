@@ -1,0 +1,87 @@
+#include "validation/bench/meshes.h"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+
+namespace abbe {
+namespace {
+
+double height(double x, double z) {
+  return 0.35 * std::sin(0.9 * x) * std::cos(0.7 * z) + 0.12 * std::sin(2.3 * x + 1.1) * std::sin(2.9 * z) +
+         0.04 * std::sin(7.1 * x) * std::cos(6.3 * z + 0.4);
+}
+
+template <typename T>
+void append(std::string& bytes, T value) {
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+}  // namespace
+
+Mesh make_terrain(std::uint32_t cells) {
+  constexpr double kHalf = 20;
+  Mesh mesh;
+  const std::uint32_t row = cells + 1;
+  for (std::uint32_t j = 0; j < row; ++j)
+    for (std::uint32_t i = 0; i < row; ++i) {
+      const double x = kHalf * (2.0 * i / cells - 1);
+      const double z = kHalf * (2.0 * j / cells - 1);
+      mesh.vertices.emplace_back(x, height(x, z), z);
+    }
+  for (std::uint32_t j = 0; j < cells; ++j)
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t a = j * row + i;
+      mesh.triangles.push_back({a, a + row, a + 1});
+      mesh.triangles.push_back({a + 1, a + row, a + row + 1});
+    }
+  return mesh;
+}
+
+Mesh make_bumpy_ball(std::uint32_t rows) {
+  constexpr double kPi = std::numbers::pi;
+  const std::uint32_t columns = 2 * rows;
+  const Imath::V3d center(0, 1.8, 0);
+  const auto point = [&](double theta, double phi) {
+    const double r = 1.5 * (1 + 0.04 * std::sin(20 * theta) * std::sin(20 * phi));
+    return center +
+           r * Imath::V3d(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+  };
+  Mesh mesh;
+  mesh.vertices = {point(0, 0), point(kPi, 0)};
+  for (std::uint32_t j = 1; j < rows; ++j)
+    for (std::uint32_t i = 0; i < columns; ++i)
+      mesh.vertices.push_back(point(kPi * j / rows, 2 * kPi * i / columns));
+  const auto at = [columns](std::uint32_t j, std::uint32_t i) { return 2 + (j - 1) * columns + i % columns; };
+  for (std::uint32_t i = 0; i < columns; ++i) {
+    mesh.triangles.push_back({0, at(1, i + 1), at(1, i)});
+    mesh.triangles.push_back({1, at(rows - 1, i), at(rows - 1, i + 1)});
+    for (std::uint32_t j = 1; j + 1 < rows; ++j) {
+      mesh.triangles.push_back({at(j, i), at(j, i + 1), at(j + 1, i)});
+      mesh.triangles.push_back({at(j, i + 1), at(j + 1, i + 1), at(j + 1, i)});
+    }
+  }
+  return mesh;
+}
+
+void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+  std::string bytes = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      mesh.vertices.size(), mesh.triangles.size());
+  for (const Imath::V3d& v : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) append(bytes, static_cast<float>(v[axis]));
+  for (const auto& triangle : mesh.triangles) {
+    append(bytes, std::uint8_t{3});
+    for (const std::uint32_t vertex : triangle) append(bytes, vertex);
+  }
+  write_atomically(path, bytes);
+}
+
+}  // namespace abbe

@@ -1,0 +1,145 @@
+#include "validation/bench/plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace abbe {
+namespace {
+
+constexpr double kWidth = 860;
+constexpr double kHeight = 470;
+constexpr double kLeft = 70;
+constexpr double kRight = 570;  // the legend stands beyond
+constexpr double kTop = 46;
+constexpr double kBottom = 410;
+constexpr double kLegendRow = 21;
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text)
+    safe += c == '&'   ? "&amp;"
+            : c == '<' ? "&lt;"
+            : c == '>' ? "&gt;"
+            : c == '"' ? "&quot;"
+                       : std::string(1, c);
+  return safe;
+}
+
+std::string text_at(double x, double y, const std::string& text, const std::string& attributes) {
+  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", x, y, attributes, escaped(text));
+}
+
+std::string line(double x0, double y0, double x1, double y1, const std::string& attributes) {
+  return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>\n", x0, y0, x1, y1,
+                     attributes);
+}
+
+// 1, 2 and 5 times the powers of ten within the axis.
+std::vector<double> ticks(const LogAxis& axis) {
+  std::vector<double> all;
+  for (int decade = -20; decade <= 20; ++decade)
+    for (const double step : {1.0, 2.0, 5.0}) {
+      const double value = step * std::pow(10.0, decade);
+      if (value >= axis.low * (1 - 1e-9) && value <= axis.high * (1 + 1e-9)) all.push_back(value);
+    }
+  return all;
+}
+
+std::string axes(const LogAxis& x, const LogAxis& y, const LogPlot& plot) {
+  const std::string grid = "stroke=\"#dddddd\"";
+  std::string all;
+  for (const double value : ticks(x)) {
+    all += line(x.at(value), kTop, x.at(value), kBottom, grid);
+    all +=
+        text_at(x.at(value), kBottom + 18, fmt::format("{:g}", value), "class=\"x\" text-anchor=\"middle\"");
+  }
+  for (const double value : ticks(y)) {
+    all += line(kLeft, y.at(value), kRight, y.at(value), grid);
+    all += text_at(kLeft - 7, y.at(value) + 4, fmt::format("{:g}", value), "class=\"y\" text-anchor=\"end\"");
+  }
+  all +=
+      fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#444444\"/>\n",
+                  kLeft, kTop, kRight - kLeft, kBottom - kTop);
+  const double middle = (kTop + kBottom) / 2;
+  all += text_at((kLeft + kRight) / 2, kBottom + 42, plot.x_label, "text-anchor=\"middle\"");
+  all += text_at(18, middle, plot.y_label,
+                 fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
+  return all + text_at(kLeft, kTop - 16, plot.title, "font-size=\"15\" font-weight=\"bold\"");
+}
+
+std::string marker(double x, double y, const PlotSeries& series, const std::string& kind) {
+  return fmt::format(
+      "<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" stroke=\"{}\" "
+      "stroke-width=\"1.8\"/>\n",
+      kind, x, y, series.hollow ? "white" : series.color, series.color);
+}
+
+std::string stroke(const PlotSeries& series) {
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", series.color,
+                     series.dashed ? " stroke-dasharray=\"6 4\"" : "");
+}
+
+std::string drawn(const PlotSeries& series, const LogAxis& x, const LogAxis& y) {
+  std::string path;
+  std::string markers;
+  for (const auto& [px, py] : series.points) {
+    path += fmt::format("{}{:.2f},{:.2f}", path.empty() ? "" : " ", x.at(px), y.at(py));
+    markers += marker(x.at(px), y.at(py), series, "point");
+  }
+  return fmt::format("<polyline points=\"{}\" {}/>\n", path, stroke(series)) + markers;
+}
+
+std::string legend(const std::vector<PlotSeries>& series) {
+  std::string all;
+  double y = kTop + 8;
+  for (const PlotSeries& one : series) {
+    all += line(kRight + 16, y, kRight + 46, y, stroke(one));
+    all += marker(kRight + 31, y, one, "key");
+    all += text_at(kRight + 54, y + 4, one.name, "");
+    y += kLegendRow;
+  }
+  return all;
+}
+
+}  // namespace
+
+double LogAxis::at(double value) const {
+  return pixel_low + (pixel_high - pixel_low) * std::log(value / low) / std::log(high / low);
+}
+
+std::pair<double, double> log_range(const std::vector<double>& values) {
+  if (values.empty()) return {1, 10};
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const LogAxis all{std::pow(10, std::floor(std::log10(*least)) - 1),
+                    std::pow(10, std::ceil(std::log10(*most)) + 1), 0, 1};
+  const std::vector<double> steps = ticks(all);
+  const double low = *std::prev(std::upper_bound(steps.begin(), steps.end(), *least * (1 + 1e-9)));
+  const double high = *std::upper_bound(steps.begin(), steps.end(), *most * (1 + 1e-9));
+  return {low, high};
+}
+
+std::string svg(const LogPlot& plot) {
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (const PlotSeries& series : plot.series)
+    for (const auto& [px, py] : series.points) {
+      xs.push_back(px);
+      ys.push_back(py);
+    }
+  const auto [x_low, x_high] = log_range(xs);
+  const auto [y_low, y_high] = log_range(ys);
+  const LogAxis x{x_low, x_high, kLeft, kRight};
+  const LogAxis y{y_low, y_high, kBottom, kTop};
+  std::string all = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" "
+      "height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+      kWidth, kHeight);
+  all += axes(x, y, plot);
+  for (const PlotSeries& series : plot.series) all += drawn(series, x, y);
+  return all + legend(plot.series) + "</svg>\n";
+}
+
+}  // namespace abbe

@@ -1,0 +1,100 @@
+#include "validation/bench/report.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+
+namespace abbe {
+namespace {
+
+// Series of one floor: Abbe's own curve, then its rivals, a colour each.
+void add_series(LogPlot& plot, const SuiteRun& run, std::span<const Rival> rivals, double floor,
+                std::size_t& color) {
+  static const std::vector<std::string> kColors{"#1f77b4", "#2ca02c", "#9467bd",
+                                                "#ff7f0e", "#8c564b", "#e377c2"};
+  const bool low = floor == kLowFloor;
+  PlotSeries abbe{fmt::format("Abbe, floor {:g}", floor), {}, "#d62728", low, low};
+  for (const CurvePoint& point : error_curve(run.rows, floor))
+    abbe.points.emplace_back(point.cpu_s, point.error);
+  plot.series.push_back(std::move(abbe));
+  for (const Rival& rival : rivals) {
+    if (rival.suite != run.suite.name || rival.floor != floor) continue;
+    const std::string name = rival.name();
+    if (plot.series.back().name != name)
+      plot.series.push_back({name, {}, kColors[color++ % kColors.size()], low, low});
+    plot.series.back().points.emplace_back(rival.cpu_s, rival.relrmse);
+  }
+}
+
+bool has_floor(const SuiteRun& run, std::span<const Rival> rivals, double floor) {
+  for (const Rival& rival : rivals)
+    if (rival.suite == run.suite.name && rival.floor == floor) return true;
+  return false;
+}
+
+std::string rows_text(const SuiteRun& run) {
+  std::string all =
+      fmt::format("{:>6} {:>9} {:>9} {:>11} {:>11} {:>12} {:>7} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "spp",
+                  "cpu_s", "wall_s", "paths", "rays", "rays/cpu_s", "replay", "relMSE", "trimmed", "relRMSE",
+                  "nRMSE", "dE mean", "dE p95");
+  for (const BenchRow& row : means_over_seeds(run.rows))
+    all += fmt::format(
+        "{:>6} {:>9.4g} {:>9.4g} {:>11} {:>11} {:>12.4g} {:>7.3f} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} "
+        "{:>7.2f} "
+        "{:>7.2f}\n",
+        row.samples, row.cpu_s, row.wall_s, row.paths, row.rays, static_cast<double>(row.rays) / row.cpu_s,
+        row.embree_replay_share, row.rel_mse, row.rel_mse_trimmed, root_of(row.rel_mse), root_of(row.n_mse),
+        row.dE00_mean, row.dE00_p95);
+  return all;
+}
+
+std::string equal_error_text(const std::vector<EqualError>& all) {
+  std::string text;
+  for (const EqualError& e : all)
+    text += fmt::format("  {:<34} {:>5} spp {:>7.4g} s, relRMSE {:.3g}: Abbe {:.3g} s{}, ratio {:.3g}\n",
+                        e.rival.name(), e.rival.samples, e.rival.cpu_s, e.rival.relrmse, e.abbe.cpu_s,
+                        e.abbe.extrapolated ? " (extrapolated)" : "", e.ratio());
+  return text.empty() ? "" : "at the error of a rival, which ran on another day:\n" + text;
+}
+
+std::string ratio_text(const Ratio& ratio) {
+  return fmt::format("{:.3f} +- {:.3f}{}", ratio.value, ratio.value * ratio.noise,
+                     ratio.changed() ? " CHANGED" : "");
+}
+
+}  // namespace
+
+std::string readable_text(const BenchReport& report) {
+  std::string all = fmt::format("{}, {} processors, {}, {}\n", report.machine.cpu, report.machine.cores,
+                                report.machine.compiler, report.machine.date);
+  for (const SuiteRun& run : report.runs)
+    all += fmt::format("\n{}: {}\n", run.suite.name, run.suite.description) + rows_text(run) +
+           equal_error_text(equal_errors(run, report.rivals));
+  if (!report.changes.empty())
+    all += "\nagainst the baseline, with 99 % intervals from the scatter of the renders:\n";
+  for (const Change& change : report.changes)
+    all += fmt::format("  {:<14} CPU time per path {}, relMSE {} ({} renders)\n", change.suite,
+                       ratio_text(change.cpu_per_path), ratio_text(change.rel_mse), change.pairs);
+  return all;
+}
+
+LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals) {
+  LogPlot plot{run.suite.name, "CPU time / s", "relRMSE", {}};
+  std::size_t color = 0;
+  for (const double floor : {kUsualFloor, kLowFloor})
+    if (floor == kUsualFloor || has_floor(run, rivals, floor)) add_series(plot, run, rivals, floor, color);
+  return plot;
+}
+
+void write_report(const std::filesystem::path& folder, const BenchReport& report) {
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  write_atomically(folder / "bench.csv", csv_text(report.runs));
+  write_atomically(folder / "bench.json", json_text(report));
+  for (const SuiteRun& run : report.runs)
+    write_atomically(folder / (run.suite.name + ".svg"), svg(error_plot(run, report.rivals)));
+}
+
+}  // namespace abbe

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "validation/bench/baseline.h"
+#include "validation/bench/machine.h"
+#include "validation/bench/plot.h"
+#include "validation/bench/rivals.h"
+
+namespace abbe {
+
+/// Everything a benchmark found.
+struct BenchReport {
+  Machine machine;
+  BenchSettings settings;
+  std::vector<SuiteRun> runs;
+  std::vector<Rival> rivals;    ///< To stand beside; empty when the films are not those they rendered.
+  std::vector<Change> changes;  ///< Against the baseline, if there is one.
+};
+
+/// One line per render, the first names the columns.
+[[nodiscard]] std::string csv_text(std::span<const SuiteRun> runs);
+
+/// One JSON object, every digit kept.
+[[nodiscard]] std::string json_text(const BenchReport& report);
+
+/// For reading: per suite the means over seeds, then the times at the rivals' errors, then the changes.
+[[nodiscard]] std::string readable_text(const BenchReport& report);
+
+/// relRMSE against CPU time of one suite, with its rivals.
+[[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals);
+
+/// Writes `bench.csv`, `bench.json` and `<suite>.svg` to a folder, made if need be. Throws Error{output}.
+void write_report(const std::filesystem::path& folder, const BenchReport& report);
+
+}  // namespace abbe

@@ -1,0 +1,106 @@
+#include "validation/bench/run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "transport/render/render.h"
+#include "transport/render/replay.h"
+#include "validation/bench/reference.h"
+#include "validation/statistics/image_difference.h"
+
+namespace abbe {
+namespace {
+
+// No seed of a measured render, so that errors are independent.
+constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 32;
+constexpr int kReferenceFactor = 64;
+
+int reference_samples(const BenchSettings& settings) {
+  if (settings.reference_samples > 0) return settings.reference_samples;
+  return kReferenceFactor * *std::max_element(settings.samples.begin(), settings.samples.end());
+}
+
+BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_t seed, int threads) {
+  scene.render.samples = samples;
+  scene.render.seed = seed;
+  RenderOptions how;
+  how.threads = threads;
+  how.measure_replay = true;
+  const RenderResult result = render(scene, how);
+  const RenderStats& stats = result.stats;
+  std::vector<std::string> names;
+  for (const Channel& channel : scene.channels) names.push_back(channel.name);
+  const Image image = linear_srgb(result.film.image(names));
+  const auto error = [&](ErrorMeasure measure) {
+    measure.subtract_variance = true;
+    return rel_mse(image, reference, measure);
+  };
+  BenchRow row{samples, seed, stats.cpu_s, stats.wall_s, stats.paths, stats.rays, stats.embree_replay_share};
+  row.rel_mse = error({.floor = kUsualFloor});
+  row.rel_mse_trimmed = error({.floor = kUsualFloor, .trim = kTrimmedShare});
+  row.rel_mse_low = error({.floor = kLowFloor});
+  row.n_mse = error({.relative = 0, .floor = 1});
+  const ColorDifference color = color_difference(image, reference).value_or(ColorDifference{});
+  row.dE00_mean = color.mean;
+  row.dE00_p95 = color.p95;
+  return row;
+}
+
+// Adds `row`'s figures, each times `weight`.
+void accumulate(BenchRow& sum, const BenchRow& row, double weight) {
+  for (double BenchRow::*figure : {&BenchRow::cpu_s, &BenchRow::wall_s, &BenchRow::embree_replay_share,
+                                   &BenchRow::rel_mse, &BenchRow::rel_mse_trimmed, &BenchRow::rel_mse_low,
+                                   &BenchRow::n_mse, &BenchRow::dE00_mean, &BenchRow::dE00_p95})
+    sum.*figure += weight * row.*figure;
+}
+
+}  // namespace
+
+SuiteRun run_suite(const Suite& suite, const BenchSettings& settings) {
+  const auto say = [&](const std::string& message) {
+    if (settings.say) settings.say(suite.name + ": " + message);
+  };
+  const double start = process_cpu_seconds();
+  Scene scene = load_suite(suite, settings.cache, settings.quick);
+  const double load_cpu_s = process_cpu_seconds() - start;
+  const int samples = reference_samples(settings);
+  say(fmt::format("reference of {} samples per pixel", samples));
+  const Reference reference =
+      reference_of(scene, settings.cache, settings.version, kReferenceSeed, samples, settings.threads);
+  say(reference.cached ? "the reference was in the cache" : "the reference is rendered");
+  SuiteRun run{
+      suite, scene.camera.width, scene.camera.height, scene.sha256, load_cpu_s, samples, reference.key, {}};
+  for (const int spp : settings.samples)
+    for (int seed = 1; seed <= settings.seeds; ++seed) {
+      const auto& row = run.rows.emplace_back(
+          measure(scene, reference.image, spp, static_cast<std::uint64_t>(seed), settings.threads));
+      say(fmt::format("{} samples per pixel, seed {}: {:.3g} s CPU, relRMSE {:.3g}", spp, seed, row.cpu_s,
+                      root_of(row.rel_mse)));
+    }
+  return run;
+}
+
+double root_of(double mean_square) {
+  return std::sqrt(std::max(0.0, mean_square));
+}
+
+std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows) {
+  std::vector<BenchRow> means;
+  for (const BenchRow& first : rows) {
+    const auto same = [&first](const BenchRow& row) { return row.samples == first.samples; };
+    if (std::any_of(means.begin(), means.end(), same)) continue;
+    const auto count = static_cast<double>(std::count_if(rows.begin(), rows.end(), same));
+    BenchRow mean;
+    mean.samples = first.samples;
+    mean.paths = first.paths;
+    mean.rays = first.rays;
+    for (const BenchRow& row : rows)
+      if (same(row)) accumulate(mean, row, 1 / count);
+    means.push_back(mean);
+  }
+  return means;
+}
+
+}  // namespace abbe

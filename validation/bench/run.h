@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "validation/bench/suite.h"
+
+namespace abbe {
+
+/// The floors under r^2 of relRMSE that the rivals' figures were taken with, in mean^2.
+inline constexpr double kUsualFloor = 0.01;    ///< pbrt-v4's rows; also that of relMSE everywhere in Abbe.
+inline constexpr double kLowFloor = 0.0025;    ///< Mitsuba's rows.
+inline constexpr double kTrimmedShare = 1e-3;  ///< Left out of `rel_mse_trimmed`.
+
+/// How to measure.
+struct BenchSettings {
+  std::vector<int> samples{4, 8, 16, 32, 64};  ///< Per pixel.
+  int seeds = 3;                               ///< Renders of each sample count, seeds 1 to this.
+  int threads = 0;                             ///< 0: one per processor.
+  int reference_samples = 0;                   ///< 0: 64 times the largest of `samples`.
+  bool quick = false;                          ///< Films of a quarter of the edges.
+  std::filesystem::path cache;                 ///< Folder for references and made meshes.
+  std::string version;
+  std::function<void(const std::string&)> say;  ///< Told each step, if set.
+};
+
+/// One render against its reference. Errors are over linear sRGB with the reference's variance subtracted,
+/// and may be negative when the reference is not much better than the render.
+struct BenchRow {
+  int samples = 0;
+  std::uint64_t seed = 0;
+  double cpu_s = 0;  ///< Of all threads, from the loaded scene to the film.
+  double wall_s = 0;
+  std::uint64_t paths = 0;
+  std::uint64_t rays = 0;
+  double embree_replay_share = 0;
+  double rel_mse = 0;          ///< Floor `kUsualFloor`.
+  double rel_mse_trimmed = 0;  ///< Without the largest `kTrimmedShare` of the values.
+  double rel_mse_low = 0;      ///< Floor `kLowFloor`.
+  double n_mse = 0;            ///< Mean square over the square of the mean.
+  double dE00_mean = 0;        ///< As `color_difference`, its exposure fixed by the reference.
+  double dE00_p95 = 0;
+};
+
+/// What a suite gave.
+struct SuiteRun {
+  Suite suite;
+  int width, height;
+  std::string scene_sha256;
+  double load_cpu_s;  ///< Reading the scene and building its acceleration structure.
+  int reference_samples;
+  std::string reference_key;
+  std::vector<BenchRow> rows;  ///< By samples, then seed.
+};
+
+/// Renders a suite at every sample count and seed.
+[[nodiscard]] SuiteRun run_suite(const Suite& suite, const BenchSettings& settings);
+
+/// Square root of an error that noise may have made negative: 0 then.
+[[nodiscard]] double root_of(double mean_square);
+
+/// Mean over the seeds of one sample count.
+[[nodiscard]] std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows);
+
+}  // namespace abbe

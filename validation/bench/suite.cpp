@@ -1,0 +1,87 @@
+#include "validation/bench/suite.h"
+
+#include <algorithm>
+
+#include "io/atomic_file.h"
+#include "io/data_directory.h"
+#include "io/text.h"
+#include "validation/bench/meshes.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where the scene file is: in the data, or copied beside the meshes it names.
+fs::path scene_file(const Suite& suite, const fs::path& cache, Diagnostics& diagnostics) {
+  constexpr std::uint32_t kTerrainCells = 724;  // 1 048 352 triangles
+  constexpr std::uint32_t kBallRows = 513;      // 1 050 624 triangles
+  const fs::path shipped = data_directory() / suite.scene;
+  if (!suite.makes_meshes) return shipped;
+  const fs::path folder = cache / suite.name;
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const auto text = read_text(shipped, diagnostics);
+  if (!text) return shipped;
+  write_atomically(folder / shipped.filename(), text->text);
+  write_ply(folder / "terrain.ply", make_terrain(kTerrainCells));
+  write_ply(folder / "ball.ply", make_bumpy_ball(kBallRows));
+  return folder / shipped.filename();
+}
+
+}  // namespace
+
+const std::vector<Suite>& bench_suites() {
+  static const std::vector<Suite> suites{
+      {"furnace",
+       "a closed sphere where every pixel is the same: little noise, many bounces",
+       "scenes/furnace.json",
+       {{"/sensor/resolution", "[256, 256]"}}},
+      {"cornell", "the Cornell box as measured: diffuse light between walls", "scenes/cornell.json"},
+      {"cornell-10nm",
+       "the same box in a lamp of 584 to 594 nm",
+       "scenes/cornell.json",
+       {{"/lights/0/emission", R"({"spectrum": {"band": [584, 594]}, "luminance": 13660.04})"}}},
+      {"prism-spot", "a spectrum on a screen, from a spot aimed at the slit", "scenes/prism_spot.json"},
+      {"prism-area", "the same from a panel that shines into a half space", "scenes/prism_area.json"},
+      {"glass-sphere", "the caustic of a ball of glass under a small lamp", "scenes/glass_sphere.json"},
+      {"mesh",
+       "a terrain and a bumpy ball of 1.05 million triangles each; the ball is diffuse, where the rivals' is "
+       "of "
+       "rough copper",
+       "bench/mesh.json",
+       {},
+       true}};
+  return suites;
+}
+
+std::vector<Suite> choose_suites(const std::vector<std::string>& names) {
+  const std::vector<Suite>& all = bench_suites();
+  if (names.empty()) return all;
+  std::vector<std::string> known;
+  for (const Suite& suite : all) known.push_back(suite.name);
+  std::vector<Suite> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) throw Error(ErrorCode::usage, "", unknown_name("suite", name, known));
+    chosen.push_back(all[static_cast<std::size_t>(found - known.begin())]);
+  }
+  return chosen;
+}
+
+Scene load_suite(const Suite& suite, const fs::path& cache, bool quick) {
+  Diagnostics diagnostics;
+  const fs::path file = scene_file(suite, cache, diagnostics);
+  std::optional<Scene> scene = load_scene(file, suite.settings, diagnostics);
+  if (!scene) throw Error(ErrorCode::input, suite.name, diagnostics.text());
+  if (quick) {
+    constexpr int kCoarser = 4;
+    Camera& camera = scene->camera;
+    camera.width = std::max(1, camera.width / kCoarser);
+    camera.height = std::max(1, camera.height / kCoarser);
+    camera.pixel_pitch *= kCoarser;
+  }
+  return std::move(*scene);
+}
+
+}  // namespace abbe

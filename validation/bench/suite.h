@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/description/load.h"
+
+namespace abbe {
+
+/// A scene that is rendered against the clock.
+struct Suite {
+  std::string name;  ///< As in `data/bench/rivals.csv`.
+  std::string description;
+  std::string scene;                    ///< Relative to the data directory.
+  std::vector<Override> settings = {};  ///< Applied to the scene.
+  bool makes_meshes = false;            ///< The scene's meshes are made first.
+};
+
+/// All of them, in the order they run.
+[[nodiscard]] const std::vector<Suite>& bench_suites();
+
+/// The suites of those names, all for none. Throws Error{usage} for another name.
+[[nodiscard]] std::vector<Suite> choose_suites(const std::vector<std::string>& names);
+
+/// The scene of a suite, any mesh it needs written to a folder of `cache` first; with `quick` a film of a
+/// quarter of the edges. Throws Error{input} with the loader's complaints.
+[[nodiscard]] Scene load_suite(const Suite& suite, const std::filesystem::path& cache, bool quick);
+
+}  // namespace abbe

@@ -1,0 +1,153 @@
+#include "validation/statistics/image_difference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/delta_e.h"
+#include "calibration/output/color_spaces.h"
+#include "spectral/colorimetry.h"
+
+namespace abbe {
+namespace {
+
+struct Pair {
+  const std::vector<float>& image;
+  const std::vector<float>& reference;
+  const ImageChannel* variance;  // of the reference, if it has one
+};
+
+std::vector<Pair> common_channels(const Image& image, const Image& reference) {
+  if (image.width != reference.width || image.height != reference.height)
+    throw Error(ErrorCode::input, "",
+                fmt::format("the images differ in size (got {} x {} and {} x {})", image.width, image.height,
+                            reference.width, reference.height));
+  std::vector<Pair> pairs;
+  for (const ImageChannel& channel : reference.channels) {
+    const ImageChannel* other = image.find(channel.name);
+    if (other != nullptr && !channel.name.starts_with("Variance."))
+      pairs.push_back({other->values, channel.values, reference.find("Variance." + channel.name)});
+  }
+  if (pairs.empty()) throw Error(ErrorCode::input, "", "the images have no channel in common");
+  return pairs;
+}
+
+struct Means {
+  double image = 0;
+  double reference = 0;
+};
+
+Means means(const std::vector<Pair>& pairs) {
+  Means sum;
+  for (const Pair& pair : pairs) {
+    sum.image = std::accumulate(pair.image.begin(), pair.image.end(), sum.image);
+    sum.reference = std::accumulate(pair.reference.begin(), pair.reference.end(), sum.reference);
+  }
+  if (!std::isfinite(sum.image) || !std::isfinite(sum.reference))
+    throw Error(ErrorCode::input, "", "an image has a value that is not finite");
+  const double count = static_cast<double>(pairs.size() * pairs.front().reference.size());
+  return {sum.image / count, sum.reference / count};
+}
+
+// The smallest value that at least a share `quantile` of `values` does not exceed.
+double percentile(std::vector<double> values, double quantile) {
+  const double rank = std::ceil(quantile * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// XYZ of every pixel, from X, Y, Z or linear sRGB; nothing for other images.
+std::vector<XYZ> tristimuli(const Image& image) {
+  const Matrix3 from_rgb = rgb_to_xyz(kRec709);
+  for (const auto& names : {std::array{"X", "Y", "Z"}, std::array{"R", "G", "B"}}) {
+    const ImageChannel* a = image.find(names[0]);
+    const ImageChannel* b = image.find(names[1]);
+    const ImageChannel* c = image.find(names[2]);
+    if (a == nullptr || b == nullptr || c == nullptr) continue;
+    std::vector<XYZ> pixels(image.pixels());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const XYZ value{a->values[i], b->values[i], c->values[i]};
+      pixels[i] = *names[0] == 'X' ? value : multiply(from_rgb, value);
+    }
+    return pixels;
+  }
+  return {};
+}
+
+// One value's share of an error: what it is trimmed by, and what it adds.
+struct Term {
+  double quotient;
+  double added;
+};
+
+std::vector<Term> terms(const std::vector<Pair>& pairs, double mean, const ErrorMeasure& measure) {
+  std::vector<Term> all;
+  for (const Pair& pair : pairs) {
+    if (measure.subtract_variance && pair.variance == nullptr)
+      throw Error(ErrorCode::input, "", "a channel of the reference has no variance");
+    for (std::size_t i = 0; i < pair.reference.size(); ++i) {
+      const double r = pair.reference[i];
+      const double d2 = std::pow(pair.image[i] - r, 2);
+      const double v = measure.subtract_variance ? static_cast<double>(pair.variance->values[i]) : 0.0;
+      const double scale = measure.relative * r * r + measure.floor * mean * mean;
+      all.push_back({d2 == 0 ? 0 : d2 / scale, d2 == v ? 0 : (d2 - v) / scale});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& measure) {
+  const std::vector<Pair> pairs = common_channels(image, reference);
+  std::vector<Term> all = terms(pairs, means(pairs).reference, measure);
+  const auto kept = all.end() - static_cast<std::ptrdiff_t>(measure.trim * static_cast<double>(all.size()));
+  if (kept != all.end())
+    std::nth_element(all.begin(), kept, all.end(),
+                     [](const Term& a, const Term& b) { return a.quotient < b.quotient; });
+  const double sum =
+      std::accumulate(all.begin(), kept, 0.0, [](double total, const Term& t) { return total + t.added; });
+  return sum / static_cast<double>(kept - all.begin());
+}
+
+std::optional<ColorDifference> color_difference(const Image& image, const Image& reference) {
+  const std::vector<XYZ> x = tristimuli(image);
+  const std::vector<XYZ> r = tristimuli(reference);
+  if (x.empty() || r.empty() || (image.find("X") == nullptr) != (reference.find("X") == nullptr))
+    return std::nullopt;
+  std::vector<double> luminance;
+  for (const XYZ& xyz : r) luminance.push_back(xyz[1]);
+  const double full = percentile(std::move(luminance), 0.99);
+  if (!(full > 0)) return std::nullopt;
+  const XYZ white = unit_xyz(kD65);
+  const auto lab = [&](XYZ xyz) {
+    for (double& v : xyz) v /= full;
+    return xyz_to_lab(xyz, white);
+  };
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < x.size(); ++i) differences.push_back(delta_e_2000(lab(r[i]), lab(x[i])));
+  const double total = std::accumulate(differences.begin(), differences.end(), 0.0);
+  const double largest = *std::max_element(differences.begin(), differences.end());
+  const auto count = static_cast<double>(differences.size());
+  return ColorDifference{total / count, percentile(std::move(differences), 0.95), largest};
+}
+
+Comparison compare_images(const Image& image, const Image& reference) {
+  const std::vector<Pair> pairs = common_channels(image, reference);
+  const Means mean = means(pairs);
+  double squares = 0;
+  for (const Pair& pair : pairs)
+    for (std::size_t i = 0; i < pair.reference.size(); ++i)
+      squares += std::pow(static_cast<double>(pair.image[i]) - pair.reference[i], 2);
+  const double count = static_cast<double>(pairs.size() * reference.pixels());
+  return {rel_mse(image, reference), std::sqrt(squares / count), mean.image / mean.reference,
+          color_difference(image, reference)};
+}
+
+}  // namespace abbe
