@@ -22,12 +22,13 @@ int reference_samples(const BenchSettings& settings) {
   return kReferenceFactor * *std::max_element(settings.samples.begin(), settings.samples.end());
 }
 
-BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_t seed, int threads) {
+BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_t seed, int threads,
+                 bool with_replay) {
   scene.render.samples = samples;
   scene.render.seed = seed;
   RenderOptions how;
   how.threads = threads;
-  how.measure_replay = true;
+  how.measure_replay = with_replay;
   const RenderResult result = render(scene, how);
   const RenderStats& stats = result.stats;
   std::vector<std::string> names;
@@ -74,10 +75,13 @@ SuiteRun run_suite(const Suite& suite, const BenchSettings& settings) {
       suite, scene.camera.width, scene.camera.height, scene.sha256, load_cpu_s, samples, reference.key, {}};
   for (const int spp : settings.samples)
     for (int seed = 1; seed <= settings.seeds; ++seed) {
-      const auto& row = run.rows.emplace_back(
-          measure(scene, reference.image, spp, static_cast<std::uint64_t>(seed), settings.threads));
+      const bool first = run.rows.empty();
+      BenchRow row =
+          measure(scene, reference.image, spp, static_cast<std::uint64_t>(seed), settings.threads, first);
+      if (!first) row.embree_replay_share = run.rows.front().embree_replay_share;
       say(fmt::format("{} samples per pixel, seed {}: {:.3g} s CPU, relRMSE {:.3g}", spp, seed, row.cpu_s,
                       root_of(row.rel_mse)));
+      run.rows.push_back(row);
     }
   return run;
 }

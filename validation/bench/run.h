@@ -36,12 +36,12 @@ struct BenchRow {
   double wall_s = 0;
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
-  double embree_replay_share = 0;
-  double rel_mse = 0;          ///< Floor `kUsualFloor`.
-  double rel_mse_trimmed = 0;  ///< Without the largest `kTrimmedShare` of the values.
-  double rel_mse_low = 0;      ///< Floor `kLowFloor`.
-  double n_mse = 0;            ///< Mean square over the square of the mean.
-  double dE00_mean = 0;        ///< As `color_difference`, its exposure fixed by the reference.
+  double embree_replay_share = 0;  ///< Of the scene: measured beside the suite's first render.
+  double rel_mse = 0;              ///< Floor `kUsualFloor`.
+  double rel_mse_trimmed = 0;      ///< Without the largest `kTrimmedShare` of the values.
+  double rel_mse_low = 0;          ///< Floor `kLowFloor`.
+  double n_mse = 0;                ///< Mean square over the square of the mean.
+  double dE00_mean = 0;            ///< As `color_difference`, its exposure fixed by the reference.
   double dE00_p95 = 0;
 };
 

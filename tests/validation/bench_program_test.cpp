@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace abbe::test {
+namespace {
+
+std::string quick_furnace(const std::string& more) {
+  return "bench furnace --spp 1,2 --seeds 2 --quick --reference-spp 32 --json --cache " +
+         (scratch() / "cache").string() + " " + more;
+}
+
+TEST(BenchProgram, RunsEndToEndAndComparesWithItself) {
+  const std::filesystem::path folder = scratch() / "out";
+  const Outcome run = abbe(quick_furnace("-o " + folder.string()));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("the reference is rendered"), std::string::npos) << run.err;
+  const nlohmann::json json = run.json();
+  EXPECT_EQ(json["version"], ABBE_VERSION);
+  EXPECT_TRUE(json["quick"]);
+  EXPECT_EQ(json, nlohmann::json::parse(read_file(folder / "bench.json")));
+  const nlohmann::json& rows = json["suites"].at(0)["rows"];
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(json["suites"][0]["reference_spp"], 32);
+  EXPECT_EQ(rows[0]["paths"], 64 * 64);
+  EXPECT_GT(rows[0]["cpu_s"], 0);
+  EXPECT_GT(rows[0]["embree_replay_share"], 0);
+  EXPECT_GT(rows[0]["relMSE"], rows[3]["relMSE"]);
+  EXPECT_TRUE(read_file(folder / "bench.csv").starts_with("suite,spp,seed,"));
+  EXPECT_TRUE(read_file(folder / "furnace.svg").ends_with("</svg>\n"));
+
+  const Outcome again = abbe(quick_furnace("--baseline " + (folder / "bench.json").string()));
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.err.find("the reference was in the cache"), std::string::npos) << again.err;
+  const nlohmann::json change = again.json()["baseline"].at(0);
+  EXPECT_EQ(change["relMSE"]["ratio"], 1);
+  EXPECT_FALSE(change["relMSE"]["changed"]);
+}
+
+TEST(BenchProgram, StrictFailsWhenErrorGrew) {
+  const Outcome first = abbe(quick_furnace(""));
+  ASSERT_EQ(first.code, 0) << first.err;
+  nlohmann::json planted = first.json();
+  for (nlohmann::json& row : planted["suites"][0]["rows"]) row["relMSE"] = row["relMSE"].get<double>() / 1.2;
+  const std::string baseline = "--baseline " + scratch().write("planted.json", planted.dump()).string();
+  EXPECT_EQ(abbe(quick_furnace(baseline)).code, 0);
+  EXPECT_EQ(abbe(quick_furnace(baseline + " --strict")).code, 1);
+}
+
+TEST(BenchProgram, ListsItsSuitesAndRefusesOthers) {
+  const Outcome list = abbe("bench --list --json");
+  ASSERT_EQ(list.code, 0) << list.err;
+  for (const char* name :
+       {"furnace", "cornell", "cornell-10nm", "prism-spot", "prism-area", "glass-sphere", "mesh"})
+    EXPECT_TRUE(list.json().contains(name)) << name;
+  EXPECT_NE(list.json()["mesh"].get<std::string>().find("diffuse"), std::string::npos);
+  EXPECT_EQ(abbe("bench cornel").code, 2);
+  EXPECT_EQ(abbe("bench furnace --spp 4,0").code, 2);
+  EXPECT_EQ(abbe("bench furnace --baseline /nowhere.json").code, 4);
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,64 @@
+#include <benchmark/benchmark.h>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/warp.h"
+#include "materials/index/library.h"
+#include "materials/interface/fresnel.h"
+#include "validation/bench/micro/inputs.h"
+
+namespace abbe {
+namespace {
+
+RefractiveIndex index_of(const char* name) {
+  Diagnostics diagnostics;
+  const auto found = load_index(name, {}, diagnostics);
+  if (!found) throw Error(ErrorCode::input, name, diagnostics.text());
+  return found->index;
+}
+
+void fresnel_of_glass(benchmark::State& state) {
+  micro::Stream u;
+  for (auto _ : state) benchmark::DoNotOptimize(fresnel_dielectric(u.next(), 1.78F));
+}
+BENCHMARK(fresnel_of_glass);
+
+void fresnel_of_metal(benchmark::State& state) {
+  micro::Stream u;
+  for (auto _ : state) benchmark::DoNotOptimize(fresnel_conductor(u.next(), 0.96F, 6.69F));
+}
+BENCHMARK(fresnel_of_metal);
+
+// Sellmeier's formula of N-SF11 for a packet.
+void index_of_glass(benchmark::State& state) {
+  const RefractiveIndex glass = index_of("N-SF11");
+  micro::Stream u;
+  for (auto _ : state) benchmark::DoNotOptimize(glass.n(u.packet()));
+}
+BENCHMARK(index_of_glass);
+
+void sample_bsdf(benchmark::State& state, const Bsdf& bsdf) {
+  micro::Stream u;
+  for (auto _ : state) {
+    const Imath::V3f wo = cosine_hemisphere(u.pair());
+    benchmark::DoNotOptimize(sample(bsdf, wo, {u.next(), u.pair()}, 0, TransportMode::radiance));
+  }
+}
+BENCHMARK_CAPTURE(sample_bsdf, diffuse, DiffuseBsdf{SampledSpectrum(0.5F)});
+BENCHMARK_CAPTURE(sample_bsdf, dielectric, DielectricBsdf{SampledSpectrum(1.5F), false});
+BENCHMARK_CAPTURE(sample_bsdf, conductor, ConductorBsdf{SampledSpectrum(0.96F), SampledSpectrum(6.69F)});
+
+// f and pdf together, as light sampling asks for them.
+void evaluate_diffuse(benchmark::State& state) {
+  const Bsdf bsdf = DiffuseBsdf{SampledSpectrum(0.5F)};
+  micro::Stream u;
+  for (auto _ : state) {
+    const Imath::V3f wo = cosine_hemisphere(u.pair());
+    const Imath::V3f wi = cosine_hemisphere(u.pair());
+    benchmark::DoNotOptimize(eval(bsdf, wo, wi, TransportMode::radiance));
+    benchmark::DoNotOptimize(pdf(bsdf, wo, wi));
+  }
+}
+BENCHMARK(evaluate_diffuse);
+
+}  // namespace
+}  // namespace abbe
