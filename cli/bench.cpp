@@ -70,6 +70,7 @@ int bench(const BenchOptions& options) {
   if (options.list) return list_suites(options.json);
   const std::vector<Suite> suites = choose_suites(options.suites);
   const std::vector<BaselineRow> before = read_baseline(options.baseline);
+  if (!options.output.empty()) require_report_folder(options.output);
   BenchReport report{this_machine(), settings_of(options), {}, {}, {}};
   if (!options.quick) report.rivals = load_rivals();
   for (const Suite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));

@@ -57,6 +57,9 @@ TEST(BenchProgram, ListsItsSuitesAndRefusesOthers) {
   EXPECT_EQ(abbe("bench cornel").code, 2);
   EXPECT_EQ(abbe("bench furnace --spp 4,0").code, 2);
   EXPECT_EQ(abbe("bench furnace --baseline /nowhere.json").code, 4);
+  const Outcome nowhere = abbe("bench furnace -o /dev/null/folder");
+  EXPECT_EQ(nowhere.code, 5);
+  EXPECT_EQ(nowhere.err.find("reference"), std::string::npos) << "found out before rendering";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibration/output/color_spaces.h"
+#include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/text.h"
@@ -96,6 +97,7 @@ Reference reference_of(const Scene& scene, const fs::path& cache, const std::str
   fs::create_directories(cache, ignored);
   const fs::path file = cache / (key.text() + ".exr");
   if (fs::is_regular_file(file, ignored)) return {read_exr(file), key.text(), true};
+  require_writable(file);
   const Image image = render_reference(scene, seed, samples, threads);
   write_exr(file, image);
   return {image, key.text(), false};

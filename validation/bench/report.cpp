@@ -88,9 +88,13 @@ LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals) {
   return plot;
 }
 
-void write_report(const std::filesystem::path& folder, const BenchReport& report) {
+void require_report_folder(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
+  require_writable(folder / "bench.json");
+}
+
+void write_report(const std::filesystem::path& folder, const BenchReport& report) {
   write_atomically(folder / "bench.csv", csv_text(report.runs));
   write_atomically(folder / "bench.json", json_text(report));
   for (const SuiteRun& run : report.runs)

@@ -33,7 +33,10 @@ struct BenchReport {
 /// relRMSE against CPU time of one suite, with its rivals.
 [[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals);
 
-/// Writes `bench.csv`, `bench.json` and `<suite>.svg` to a folder, made if need be. Throws Error{output}.
+/// Makes the folder of a report if need be. Throws Error{output} now if nothing can be written there later.
+void require_report_folder(const std::filesystem::path& folder);
+
+/// Writes `bench.csv`, `bench.json` and `<suite>.svg` to a folder that is there. Throws Error{output}.
 void write_report(const std::filesystem::path& folder, const BenchReport& report);
 
 }  // namespace abbe
