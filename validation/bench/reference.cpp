@@ -73,7 +73,7 @@ std::string ReferenceKey::text() const {
 }
 
 std::string data_sha256() {
-  const fs::path folder = data_directory();
+  const fs::path& folder = data_directory();
   std::vector<fs::path> tables;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".csv" && entry.path().parent_path().filename() != "bench")

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 fs::path scene_file(const Suite& suite, const fs::path& cache, Diagnostics& diagnostics) {
   constexpr std::uint32_t kTerrainCells = 724;  // 1 048 352 triangles
   constexpr std::uint32_t kBallRows = 513;      // 1 050 624 triangles
-  const fs::path shipped = data_directory() / suite.scene;
+  fs::path shipped = data_directory() / suite.scene;
   if (!suite.makes_meshes) return shipped;
   const fs::path folder = cache / suite.name;
   std::error_code ignored;
