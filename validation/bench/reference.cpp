@@ -72,23 +72,6 @@ std::string ReferenceKey::text() const {
       fmt::format("{} {}x{} {} {} {} {}", scene_sha256, width, height, version, data_sha256, seed, samples));
 }
 
-std::string data_sha256() {
-  const fs::path& folder = data_directory();
-  std::vector<fs::path> tables;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".csv" && entry.path().parent_path().filename() != "bench")
-      tables.push_back(entry.path());
-  std::sort(tables.begin(), tables.end());
-  std::string all;
-  for (const fs::path& path : tables) {
-    Diagnostics diagnostics;
-    const auto text = read_text(path, diagnostics);
-    if (!text) throw Error(ErrorCode::input, path.string(), diagnostics.text());
-    all += path.lexically_relative(folder).string() + sha256(text->text);
-  }
-  return sha256(all);
-}
-
 Reference reference_of(const Scene& scene, const fs::path& cache, const std::string& version,
                        std::uint64_t seed, int samples, int threads) {
   const ReferenceKey key{scene.sha256, scene.camera.width, scene.camera.height, version, data_sha256(), seed,

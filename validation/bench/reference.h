@@ -29,9 +29,6 @@ struct ReferenceKey {
   [[nodiscard]] std::string text() const;
 };
 
-/// SHA-256 over names and contents of all tables of the data directory that a scene can name.
-[[nodiscard]] std::string data_sha256();
-
 struct Reference {
   Image image;  ///< R, G, B and Variance.R, Variance.G, Variance.B.
   std::string key;
