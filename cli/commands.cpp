@@ -1,0 +1,354 @@
+#include "cli/commands.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "cli/arguments.h"
+#include "cli/bench.h"
+#include "cli/calibrate.h"
+#include "cli/compare.h"
+#include "cli/info.h"
+#include "cli/merge.h"
+#include "cli/query.h"
+#include "cli/render.h"
+#include "cli/trace.h"
+#include "cli/usage.h"
+#include "cli/version.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr std::int64_t kMaxThreads = 1024;
+constexpr std::int64_t kMaxSamples = 1 << 24;
+constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  // as in scene files
+constexpr double kAnyNumber = std::numeric_limits<double>::max();
+
+// A subcommand with its own options, which outlive the parsing.
+template <typename Options>
+struct Sub {
+  CLI::App* app;
+  std::shared_ptr<Options> options = std::make_shared<Options>();
+
+  Sub(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
+      int (*run)(const Options&))
+      : app(parent.add_subcommand(name, help)) {
+    app->callback([&command, run, kept = options] { command = [run, kept] { return run(*kept); }; });
+  }
+  Options* operator->() const { return options.get(); }
+};
+
+// An option whose text `parse` turns into a value.
+template <typename T, typename Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
+                        const std::string& help, const std::string& type) {
+  return app
+      .add_option_function<std::string>(
+          flag, [&value, parse, flag](const std::string& text) { value = parse(flag, text); }, help)
+      ->type_name(type);
+}
+
+auto numbers_in(double low, double high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    return parse_numbers(option, text, low, high);
+  };
+}
+
+auto number_in(double low, double high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    const std::vector<double> numbers = parse_numbers(option, text, low, high);
+    if (numbers.size() != 1)
+      throw Error(ErrorCode::usage, option, "got \"" + text + "\", allowed one number");
+    return numbers.front();
+  };
+}
+
+template <typename T>
+auto integer_in(std::int64_t low, std::int64_t high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    return static_cast<T>(parse_integer(option, text, low, high));
+  };
+}
+
+// One of some names, whose values count from 0 in their order.
+template <typename T>
+auto one_of(std::vector<std::string> names) {
+  return [names = std::move(names)](const std::string& option, const std::string& text) {
+    return static_cast<T>(parse_choice(option, text, names));
+  };
+}
+
+Imath::V3d parse_vector(const std::string& option, const std::string& text) {
+  const std::array<double, 3> v = parse_triple(option, text);
+  return {v[0], v[1], v[2]};
+}
+
+void add_json(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "Print one JSON object");
+}
+
+void add_at(CLI::App& app, std::vector<double>& at_nm) {
+  add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air", "NM[,NM...]")
+      ->required();
+}
+
+void add_render(CLI::App& app, Command& command) {
+  const Sub<RenderOptions> sub(app, "render", "Render a scene", command, render);
+  CLI::App& render = *sub.app;
+  render.add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
+  render
+      .add_option("-o,--output", sub->output,
+                  "Film to write, or its exact sums (default: the scene's, else SCENE.exr)")
+      ->type_name("FILE.exr|FILE.abbepart");
+  CLI::Option* spp =
+      add_parsed(render, "--spp", sub->samples, integer_in<int>(1, kMaxSamples), "Samples per pixel", "N");
+  CLI::Option* error = add_parsed(render, "--error", sub->target_error, parse_share,
+                                  "Stop when the relative error is this small, as 0.5% or 0.005", "SHARE");
+  CLI::Option* time = add_parsed(render, "--time", sub->time_limit_s, parse_seconds,
+                                 "Stop after this time, as 60s, 2m or 1h", "TIME");
+  spp->excludes(error)->excludes(time);
+  error->excludes(time);
+  add_parsed(render, "--integrator", sub->integrator, one_of<Integrator>({"auto", "path", "light"}),
+             "Technique", "auto|path|light");
+  add_parsed(render, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
+             "Seed of the random numbers", "N");
+  add_parsed(render, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
+             "Threads, 0 for one per processor", "N");
+  add_parsed(render, "--crop", sub->crop, parse_crop, "Part of the film to render, in pixels", "X0,Y0,X1,Y1");
+  render
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [options = sub.options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options->overrides.push_back(parse_override("--set", text));
+          },
+          "Replace a value of the scene file; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("/POINTER=VALUE");
+  CLI::Option* range = add_parsed(render, "--sample-range", sub->sample_range, parse_sample_range,
+                                  "Render only samples A to B - 1 of every pixel", "A:B");
+  range->excludes(error)->excludes(time);
+  CLI::Option* checkpoint =
+      render.add_option("--checkpoint", sub->checkpoint, "Where to save what is finished")
+          ->type_name("FILE.abbepart");
+  add_parsed(render, "--checkpoint-every", sub->checkpoint_interval_s, parse_seconds,
+             "How often, at most a hundredth of the time (default 60s)", "TIME")
+      ->needs(checkpoint);
+  render.add_flag("--resume", sub->resume, "Go on from the checkpoint, if there is one")->needs(checkpoint);
+  render.add_option("--display", sub->display, "Also write a picture for sRGB displays")
+      ->type_name("FILE.png");
+  render.add_option("--stats", sub->stats, "Write what the render did as JSON")->type_name("FILE.json");
+  render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
+  render.add_flag("--strict", sub->strict, "Exit with 70 if any sample was not finite");
+  render.add_flag("--quiet", sub->quiet, "Show no progress");
+}
+
+void add_scene_commands(CLI::App& app, Command& command) {
+  const Sub<InfoOptions> info_sub(app, "info", "Say what a scene contains, needs and skips", command, info);
+  info_sub.app->add_option("scene", info_sub->scene, "Scene file")->required()->type_name("SCENE");
+  add_json(*info_sub.app, info_sub->json);
+
+  const Sub<TraceOptions> sub(app, "trace", "Follow one ray through a scene in double precision", command,
+                              trace);
+  sub.app->add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
+  add_parsed(*sub.app, "--lambda", sub->wavelength_nm, number_in(kMinWavelengthNm, kMaxWavelengthNm),
+             "Wavelength in standard air", "NM")
+      ->required();
+  add_parsed(*sub.app, "--origin", sub->origin, parse_vector, "Where the ray starts, in scene units", "X,Y,Z")
+      ->required();
+  add_parsed(*sub.app, "--dir", sub->direction, parse_vector, "Its direction, of any length", "X,Y,Z")
+      ->required();
+  add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
+             "Events to follow at most (default 64)", "N");
+  add_json(*sub.app, sub->json);
+}
+
+void add_index_query(CLI::App& query, const std::string& name, const std::string& help, Command& command,
+                     int (*run)(const IndexOptions&)) {
+  const Sub<IndexOptions> sub(query, name, help, command, run);
+  sub.app->add_option("name", sub->name, "Material or FILE.csv")->required()->type_name("MATERIAL");
+  add_at(*sub.app, sub->at_nm);
+  add_json(*sub.app, sub->json);
+}
+
+void add_matter_queries(CLI::App& query, Command& command) {
+  add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
+  add_index_query(query, "critical", "Critical angle from inside", command, query_critical);
+  add_index_query(query, "brewster", "Brewster's angle from outside", command, query_brewster);
+
+  const Sub<ReflectanceOptions> reflectance(query, "reflectance", "Reflectance of a polished surface in air",
+                                            command, query_reflectance);
+  reflectance.app->add_option("name", reflectance->name, "Material or FILE.csv")
+      ->required()
+      ->type_name("MATERIAL");
+  add_at(*reflectance.app, reflectance->at_nm);
+  add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
+             "Angles of incidence (default 0)", "DEG[,DEG...]");
+  add_json(*reflectance.app, reflectance->json);
+
+  const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
+                                query_prism);
+  prism.app->add_option("name", prism->name, "Material or FILE.csv")->required()->type_name("MATERIAL");
+  add_at(*prism.app, prism->at_nm);
+  add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
+      ->required();
+  add_parsed(*prism.app, "--incidence", prism->incidence_deg, number_in(-90 + 1e-6, 90 - 1e-6),
+             "Incidence at the first face (default: least deviation)", "DEG");
+  add_json(*prism.app, prism->json);
+}
+
+void add_color_queries(CLI::App& query, Command& command) {
+  const Sub<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
+                                query_color);
+  color.app->add_option("--illuminant", color->illuminant, "Illuminant, blackbody:K or daylight:K")
+      ->required()
+      ->type_name("ILLUMINANT");
+  add_parsed(*color.app, "--observer", color->observer, one_of<Observer>({"1931", "1964"}),
+             "Standard observer (default 1931)", "1931|1964");
+  color.app
+      ->add_option("--reflectance", color->reflectance, "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->type_name("REFLECTANCE");
+  add_json(*color.app, color->json);
+
+  const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
+  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_triple, "First colour", "L,a,b")->required();
+  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_triple, "Second colour", "L,a,b")->required();
+  add_json(*delta_e.app, delta_e->json);
+
+  const Sub<CameraOptions> camera(query, "camera", "Raw values of a camera, green of the perfect diffuser 1",
+                                  command, query_camera);
+  camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("CAMERA");
+  camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
+      ->required()
+      ->type_name("ILLUMINANT");
+  camera.app
+      ->add_option("--reflectance", camera->reflectance,
+                   "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->type_name("REFLECTANCE");
+  add_json(*camera.app, camera->json);
+}
+
+void add_query(CLI::App& app, Command& command) {
+  CLI::App* query = app.add_subcommand("query", "Ask the data and the closed forms");
+  auto options = std::make_shared<ListOptions>();
+  CLI::Option* list =
+      query->add_option("--list", options->kind, "List the names of all kinds of data, or of one")
+          ->expected(0, 1)
+          ->type_name("[KIND]");
+  query->add_flag("--json", options->json, "Print the list as one JSON object")->needs(list);
+  add_matter_queries(*query, command);
+  add_color_queries(*query, command);
+  query->callback([query, list, options, &command] {
+    if (!query->get_subcommands().empty()) return;
+    if (list->count() == 0) throw CLI::RequiredError("query: a question or --list");
+    command = [options] { return query_list(*options); };
+  });
+}
+
+void add_merge(CLI::App& app, Command& command) {
+  const Sub<MergeOptions> sub(app, "merge", "Add up parts of one render", command, merge);
+  sub.app->add_option("parts", sub->parts, "Parts, in any order")->required()->type_name("PART.abbepart...");
+  sub.app->add_option("-o,--output", sub->output, "Film to write")
+      ->required()
+      ->type_name("FILE.exr|FILE.abbepart");
+}
+
+void add_compare_and_calibrate(CLI::App& app, Command& command) {
+  const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
+  sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
+  sub.app->add_option("reference", sub->reference, "Reference")->required()->type_name("FILE.exr");
+  add_json(*sub.app, sub->json);
+
+  const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
+                                          calibrate);
+  CLI::App& options = *calibration.app;
+  options
+      .add_option("--camera", calibration->camera,
+                  "Camera or FILE.csv, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
+      ->required()
+      ->type_name("CAMERA");
+  options.add_option("--illuminant", calibration->illuminant, "Light on the chart")
+      ->capture_default_str()
+      ->type_name("ILLUMINANT");
+  options.add_option("--chart", calibration->chart, "Table of patch reflectances")
+      ->capture_default_str()
+      ->type_name("TABLE");
+  options
+      .add_option("--response", calibration->planted_response, "linear, gamma:G or s-curve, to be recovered")
+      ->capture_default_str()
+      ->type_name("CURVE");
+  add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
+             "Of the code values, 0 for no rounding (default 12)", "N");
+  options
+      .add_option("-o,--output", calibration->output,
+                  "Folder for the OpenColorIO configuration and the report")
+      ->type_name("FOLDER");
+  add_json(options, calibration->json);
+}
+
+void add_bench(CLI::App& app, Command& command) {
+  const Sub<BenchOptions> sub(app, "bench", "Measure run time against error", command, bench);
+  CLI::App& options = *sub.app;
+  options.add_option("suite", sub->suites, "Scenes to measure (default: all)")->type_name("SUITE");
+  options.add_option("-o,--output", sub->output, "Folder for tables and plots")->type_name("FOLDER");
+  add_parsed(options, "--spp", sub->samples, parse_sample_counts, "Samples per pixel (default 4,8,16,32,64)",
+             "N[,N...]");
+  add_parsed(options, "--seeds", sub->seeds, integer_in<int>(1, 1000), "Renders of each (default 3)", "N");
+  add_parsed(options, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
+             "Threads, 0 for one per processor", "N");
+  add_parsed(options, "--reference-spp", sub->reference_samples, integer_in<int>(2, kMaxSamples),
+             "Of the references (default: 64 times the most of --spp)", "N");
+  options.add_option("--baseline", sub->baseline, "A bench.json to compare with")->type_name("FILE.json");
+  options.add_option("--cache", sub->cache, "Where references are kept (default ~/.cache/abbe/bench)")
+      ->type_name("FOLDER");
+  options.add_flag("--quick", sub->quick, "Small films, compared with no rival");
+  options.add_flag("--strict", sub->strict, "Exit with 1 when something got worse than the baseline");
+  options.add_flag("--list", sub->list, "Say what suites there are");
+  add_json(options, sub->json);
+}
+
+// `abbe help [COMMAND]`.
+void add_help(CLI::App& app, Command& command) {
+  struct Options {
+    std::string command;
+    std::optional<ReferenceFormat> format;
+  };
+  CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, or one command");
+  auto options = std::make_shared<Options>();
+  CLI::Option* name = help->add_option("command", options->command, "Command")->type_name("COMMAND");
+  add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
+             "Write the reference of all commands", "markdown|man|bash")
+      ->excludes(name);
+  help->callback([&app, &command, options] {
+    command = [&app, options] {
+      const std::string& chosen = options->command;
+      if (options->format)
+        fmt::print("{}", reference(usage_of(app, "abbe"), *options->format));
+      else
+        fmt::print("{}", chosen.empty() ? help_of(app, "abbe")
+                                        : help_of(find_command(app, chosen), "abbe " + chosen));
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Command& command) {
+  app.set_version_flag("--version", version_text, "Show the version, the data and the libraries");
+  app.require_subcommand(1);
+  add_render(app, command);
+  add_merge(app, command);
+  add_scene_commands(app, command);
+  add_query(app, command);
+  add_compare_and_calibrate(app, command);
+  add_bench(app, command);
+  add_help(app, command);
+}
+
+}  // namespace abbe::cli
