@@ -47,14 +47,12 @@ int guarded(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     say("out of memory");
     return static_cast<int>(ErrorCode::resource);
-  } catch (const std::system_error& e) {
-    const bool resource = e.code() == std::errc::resource_unavailable_try_again;  // no more threads
-    say(fmt::format("{}: {}", resource ? "out of resources" : "internal error", e.what()));
-    return static_cast<int>(resource ? ErrorCode::resource : ErrorCode::internal);
   } catch (const std::exception& e) {
     if (std::ferror(stdout) != 0) return 0;  // of which main tells
-    say(fmt::format("internal error: {}", e.what()));
-    return static_cast<int>(ErrorCode::internal);
+    const auto* system = dynamic_cast<const std::system_error*>(&e);
+    const bool no_threads = system != nullptr && system->code() == std::errc::resource_unavailable_try_again;
+    say(fmt::format("{}: {}", no_threads ? "out of threads" : "internal error", e.what()));
+    return static_cast<int>(no_threads ? ErrorCode::resource : ErrorCode::internal);
   }
 }
 
