@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
+#include "scene/shapes/placed.h"
 #include "scene/shapes/quad.h"
 #include "scene/shapes/sphere.h"
 
@@ -20,15 +21,31 @@ constexpr const char* kDeviceConfig = "isa=avx2";
 
 // What the callbacks need beyond Embree's float ray, and what they found beyond Embree's float hit.
 struct ExactContext : RTCIntersectContext {
-  explicit ExactContext(const BasicRay<double>& r) : RTCIntersectContext(), ray(r) {
+  ExactContext(const BasicRay<double>& r, const std::vector<Part>& all)
+      : RTCIntersectContext(), ray(r), parts(all) {
     rtcInitIntersectContext(this);
   }
   BasicRay<double> ray;
+  const std::vector<Part>& parts;
   ShapeHit<double> nearest{};  // on a sphere or disc
 };
-const BasicRay<double>& exact_ray(const RTCIntersectContext* context) {
-  return static_cast<const ExactContext*>(context)->ray;
-}
+
+// The ray is the world's; within an instance, where that stands, else nullptr.
+struct Exact {
+  const BasicRay<double>& ray;
+  const Placement* at;
+
+  explicit Exact(const RTCIntersectContext* context)
+      : ray(static_cast<const ExactContext*>(context)->ray), at(nullptr) {
+    const std::uint32_t instance = context->instID[0];
+    if (instance == RTC_INVALID_GEOMETRY_ID) return;
+    at = std::get<PlacedPart>(static_cast<const ExactContext*>(context)->parts[instance]).at.get();
+  }
+  template <typename S>
+  [[nodiscard]] std::optional<ShapeHit<double>> intersection(const S& shape) const {
+    return at == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *at, ray, 0.0);
+  }
+};
 
 RTCRay embree_ray(const BasicRay<double>& ray) {
   RTCRay r{};
@@ -55,9 +72,11 @@ double plane_crossing(const TriangleSet& set, std::uint32_t triangle, const Basi
 // Rays come one by one, so N is 1 in all callbacks and the N-ray structures are plain ones.
 void reject_behind(const RTCFilterFunctionNArguments* args) {
   const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
-  const BasicRay<double>& ray = exact_ray(args->context);
-  const double t = plane_crossing(set, reinterpret_cast<const RTCHit*>(args->hit)->primID, ray);
-  if (!(t > 0 && t < ray.t_max)) args->valid[0] = 0;
+  const Exact exact(args->context);
+  const std::uint32_t triangle = reinterpret_cast<const RTCHit*>(args->hit)->primID;
+  const double t =
+      plane_crossing(set, triangle, exact.at == nullptr ? exact.ray : to_prototype(*exact.at, exact.ray));
+  if (!(t > 0 && t < exact.ray.t_max)) args->valid[0] = 0;
 }
 
 template <typename S>
@@ -74,34 +93,64 @@ template <typename S>
 void user_intersect(const RTCIntersectFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
   auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto found = intersect(*static_cast<const S*>(args->geometryUserPtr), exact_ray(args->context), 0.0);
+  const auto found = Exact(args->context).intersection(*static_cast<const S*>(args->geometryUserPtr));
   if (!found || !(found->t < static_cast<double>(ray.tfar))) return;
   ray.tfar = static_cast<float>(found->t);
   static_cast<ExactContext*>(args->context)->nearest = *found;
   hit.geomID = args->geomID;
   hit.primID = args->primID;
+  hit.instID[0] = args->context->instID[0];
 }
 
 template <typename S>
 void user_occluded(const RTCOccludedFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
-  if (intersect(*static_cast<const S*>(args->geometryUserPtr), exact_ray(args->context), 0.0))
+  if (Exact(args->context).intersection(*static_cast<const S*>(args->geometryUserPtr)))
     reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
 TriangleSet triangles_of(const Mesh& mesh) {
   TriangleSet set;
+  set.vertices.reserve(mesh.vertices.size() + 1);
   for (const Imath::V3d& vertex : mesh.vertices) set.vertices.emplace_back(vertex);
   set.triangles = mesh.triangles;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    set.normals.emplace_back(area_vector(mesh, i).normalized());
   return set;
 }
 
 TriangleSet triangles_of(const Quad& quad) {
   const std::array<Imath::V3f, 4> c = corners(quad);
-  const Imath::V3f normal(normal_of(quad));
-  return {{c.begin(), c.end()}, {kQuadTriangles.begin(), kQuadTriangles.end()}, {normal, normal}};
+  return {{c.begin(), c.end()}, {kQuadTriangles.begin(), kQuadTriangles.end()}, {}};
+}
+
+// From the unrounded vertices.
+Imath::V3d normal_of(const Mesh& mesh, std::size_t triangle) {
+  return area_vector(mesh, triangle).normalized();
+}
+Imath::V3d normal_of(const Quad& quad, std::size_t) {
+  return normal_of(quad);
+}
+Imath::V3d normal_of(const PlainShape& shape, std::size_t triangle) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return normal_of(*mesh, triangle);
+  return normal_of(std::get<Quad>(shape), triangle);
+}
+
+template <typename S>
+TriangleSet with_normals(const S& shape) {
+  TriangleSet set = triangles_of(shape);
+  set.normals.reserve(set.triangles.size());
+  for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_of(shape, i));
+  return set;
+}
+
+PlainPart plain_part(const Sphere& sphere) {
+  return sphere;
+}
+PlainPart plain_part(const Disc& disc) {
+  return disc;
+}
+template <typename S>
+PlainPart plain_part(const S& triangulated) {
+  return triangles_of(triangulated);
 }
 
 RTCGeometry triangle_geometry(RTCDevice device, TriangleSet& set) {
@@ -129,27 +178,80 @@ RTCGeometry user_geometry(RTCDevice device, S& shape) {
   return geometry;
 }
 
+RTCGeometry geometry_of(RTCDevice device, TriangleSet& set) {
+  return triangle_geometry(device, set);
+}
+RTCGeometry geometry_of(RTCDevice device, Sphere& sphere) {
+  return user_geometry(device, sphere);
+}
+RTCGeometry geometry_of(RTCDevice device, Disc& disc) {
+  return user_geometry(device, disc);
+}
+RTCGeometry geometry_of(RTCDevice device, const PlacedPart& placed) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, placed.of->scene.get());
+  const Imath::M44d& m = placed.at->to_world;  // its rows are the columns Embree asks for
+  std::array<float, 12> columns{};
+  for (int row = 0; row < 4; ++row)
+    for (int i = 0; i < 3; ++i)
+      columns.at(static_cast<std::size_t>(3 * row + i)) = static_cast<float>(m[row][i]);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+  return geometry;
+}
+
 SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape) {
   return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape};
+}
+
+// What Embree found, in double; nothing for the plane of a triangle that the ray does not cross.
+std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context) {
+  const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  const std::uint32_t shape = placed ? hit.instID[0] : hit.geomID;
+  const Part& part = context.parts[shape];
+  const auto* instance = std::get_if<PlacedPart>(&part);
+  const auto* set =
+      instance == nullptr ? std::get_if<TriangleSet>(&part) : std::get_if<TriangleSet>(&instance->of->part);
+  if (set == nullptr) return surface_hit(context.nearest, shape);
+  const BasicRay<double>& ray = context.ray;
+  const double t =
+      plane_crossing(*set, hit.primID, instance == nullptr ? ray : to_prototype(*instance->at, ray));
+  if (!(t > 0 && t < ray.t_max)) return std::nullopt;
+  const Imath::V3d point = ray.origin + ray.direction * t;
+  if (instance == nullptr)
+    return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape};
+  const Imath::V3d normal = normal_of(instance->of->prototype->shape, hit.primID);
+  return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape);
+}
+
+std::size_t bytes_of(const TriangleSet& set) {
+  return (set.vertices.size() + set.normals.size()) * sizeof(Imath::V3f) +
+         set.triangles.size() * sizeof(set.triangles[0]);
 }
 
 }  // namespace
 
 Geometry::Geometry(const std::vector<ShapeInstance>& shapes)
     : device_(nullptr, rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
+  open_device();
   parts_.reserve(shapes.size());
   for (const ShapeInstance& instance : shapes) {
-    if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) parts_.emplace_back(triangles_of(*mesh));
-    if (const auto* quad = std::get_if<Quad>(&instance.shape)) parts_.emplace_back(triangles_of(*quad));
+    if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) parts_.emplace_back(with_normals(*mesh));
+    if (const auto* quad = std::get_if<Quad>(&instance.shape)) parts_.emplace_back(with_normals(*quad));
     if (const auto* sphere = std::get_if<Sphere>(&instance.shape)) parts_.emplace_back(*sphere);
     if (const auto* disc = std::get_if<Disc>(&instance.shape)) parts_.emplace_back(*disc);
+    if (const auto* placed = std::get_if<PlacedShape>(&instance.shape))
+      parts_.emplace_back(PlacedPart{build_prototype(placed->of), placed->at});
   }
-  build();
+  scene_ = new_scene();
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    attach(scene_.get(), static_cast<std::uint32_t>(i),
+           std::visit([this](auto& part) { return geometry_of(device_.get(), part); }, parts_[i]));
+  commit(scene_.get());
 }
 
 Geometry::~Geometry() = default;
 
-void Geometry::build() {
+void Geometry::open_device() {
   device_.reset(rtcNewDevice(kDeviceConfig));
   if (!device_)
     throw Error(ErrorCode::internal, "Embree",
@@ -168,25 +270,39 @@ void Geometry::build() {
         return true;
       },
       &embree_bytes_);
-  scene_.reset(rtcNewScene(device_.get()));
+}
+
+Geometry::ScenePointer Geometry::new_scene() {
+  ScenePointer scene(rtcNewScene(device_.get()), rtcReleaseScene);
   check();
-  rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-  for (std::size_t i = 0; i < parts_.size(); ++i) attach(static_cast<std::uint32_t>(i), parts_[i]);
-  rtcCommitScene(scene_.get());
+  rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                           RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+  return scene;
+}
+
+void Geometry::commit(RTCSceneTy* scene) {
+  rtcCommitScene(scene);
   check();
 }
 
-void Geometry::attach(std::uint32_t index, Part& part) {
-  RTCGeometry geometry = nullptr;
-  if (auto* set = std::get_if<TriangleSet>(&part)) geometry = triangle_geometry(device_.get(), *set);
-  if (auto* sphere = std::get_if<Sphere>(&part)) geometry = user_geometry(device_.get(), *sphere);
-  if (auto* disc = std::get_if<Disc>(&part)) geometry = user_geometry(device_.get(), *disc);
+void Geometry::attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geometry) {
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_.get(), geometry, index);
+  rtcAttachGeometryByID(scene, geometry, index);
   rtcReleaseGeometry(geometry);
   check();
+}
+
+const PrototypePart* Geometry::build_prototype(const std::shared_ptr<const Prototype>& prototype) {
+  std::unique_ptr<PrototypePart>& built = prototypes_[prototype.get()];
+  if (built) return built.get();
+  built = std::make_unique<PrototypePart>(PrototypePart{
+      prototype, std::visit([](const auto& shape) { return plain_part(shape); }, prototype->shape),
+      new_scene()});
+  attach(built->scene.get(), 0,
+         std::visit([this](auto& part) { return geometry_of(device_.get(), part); }, built->part));
+  commit(built->scene.get());
+  return built.get();
 }
 
 void Geometry::check() const {
@@ -199,19 +315,14 @@ void Geometry::check() const {
 std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
   const BasicRay<double> exact{Imath::V3d(ray.origin), Imath::V3d(ray.direction),
                                static_cast<double>(ray.t_max)};
-  ExactContext context(exact);
+  ExactContext context(exact, parts_);
   while (true) {
     RTCRayHit query{embree_ray(exact), {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &context, &query);
-    const std::uint32_t shape = query.hit.geomID;
-    if (shape == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const auto* set = std::get_if<TriangleSet>(&parts_[shape]);
-    if (set == nullptr) return surface_hit(context.nearest, shape);
-    const double t = plane_crossing(*set, query.hit.primID, exact);
-    if (t > 0 && t < exact.t_max)
-      return SurfaceHit{Imath::V3f(exact.origin + exact.direction * t), set->normals[query.hit.primID],
-                        static_cast<float>(t), shape};
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    if (const auto hit = decide(query.hit, context)) return hit;
     // The plane the ray has just left, mistaken by rounding: rare enough to ask again with every candidate
     // looked at in double.
     context.filter = reject_behind;
@@ -219,7 +330,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
 }
 
 bool Geometry::occluded(const BasicRay<double>& ray) const {
-  ExactContext context(ray);
+  ExactContext context(ray, parts_);
   RTCRay query = embree_ray(ray);
   rtcOccluded1(scene_.get(), &context, &query);
   return query.tfar < 0;
@@ -228,7 +339,8 @@ bool Geometry::occluded(const BasicRay<double>& ray) const {
 void Geometry::replay(std::span<const LoggedRay> rays) const {
   for (const LoggedRay& logged : rays) {
     const Ray& ray = logged.ray;
-    ExactContext context({Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)});
+    ExactContext context({Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)},
+                         parts_);
     RTCRayHit query{embree_ray(context.ray), {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     if (logged.shadow)
@@ -240,8 +352,12 @@ void Geometry::replay(std::span<const LoggedRay> rays) const {
 
 std::size_t Geometry::triangle_count() const {
   std::size_t count = 0;
-  for (const Part& part : parts_)
-    if (const auto* set = std::get_if<TriangleSet>(&part)) count += set->triangles.size();
+  for (const Part& part : parts_) {
+    const auto* set = std::get_if<TriangleSet>(&part);
+    if (const auto* instance = std::get_if<PlacedPart>(&part))
+      set = std::get_if<TriangleSet>(&instance->of->part);
+    if (set != nullptr) count += set->triangles.size();
+  }
   return count;
 }
 
@@ -249,9 +365,12 @@ std::size_t Geometry::memory_bytes() const {
   std::size_t bytes =
       static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree_bytes_, 0)) + parts_.size() * sizeof(Part);
   for (const Part& part : parts_)
-    if (const auto* set = std::get_if<TriangleSet>(&part))
-      bytes += (set->vertices.size() + set->normals.size()) * sizeof(Imath::V3f) +
-               set->triangles.size() * sizeof(set->triangles[0]);
+    if (const auto* set = std::get_if<TriangleSet>(&part)) bytes += bytes_of(*set);
+  for (const auto& [prototype, built] : prototypes_) {
+    bytes += sizeof(PrototypePart) + sizeof(Prototype);
+    if (const auto* mesh = std::get_if<Mesh>(&prototype->shape)) bytes += abbe::memory_bytes(*mesh);
+    if (const auto* set = std::get_if<TriangleSet>(&built->part)) bytes += bytes_of(*set);
+  }
   return bytes;
 }
 

@@ -5,12 +5,15 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <unordered_map>
 #include <variant>
 #include <vector>
 
 #include "scene/scene.h"
 
 struct RTCDeviceTy;
+struct RTCGeometryTy;
 struct RTCSceneTy;
 
 namespace abbe {
@@ -19,12 +22,27 @@ namespace abbe {
 struct TriangleSet {
   std::vector<Imath::V3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Imath::V3f> normals;  ///< Per triangle, from the unrounded vertices.
+  std::vector<Imath::V3f> normals;  ///< Per triangle, from the unrounded vertices; none in a prototype.
 };
 
+/// What Embree holds of a shape that stands by itself.
+using PlainPart = std::variant<TriangleSet, Sphere, Disc>;
+/// A prototype in Embree's hands: a scene of one geometry, which its instances refer to.
+struct PrototypePart {
+  std::shared_ptr<const Prototype> prototype;
+  PlainPart part;
+  std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene;
+};
+struct PlacedPart {
+  const PrototypePart* of;
+  std::shared_ptr<const Placement> at;
+};
+using Part = std::variant<TriangleSet, Sphere, Disc, PlacedPart>;
+
 /// The shapes in Embree's hands. Embree finds the primitive in float; where it is met, and whether it is met
-/// at all rather than left, is then decided in double by the shape's own formula. A ray that starts on the
-/// right side of a surface never meets that surface again at once.
+/// at all rather than left, is then decided in double by the shape's own formula, for instances in the
+/// coordinates of their prototype. A ray that starts on the right side of a surface never meets that surface
+/// again at once.
 class Geometry {
  public:
   /// Throws Error{resource} when there is no memory, Error{internal} when Embree refuses.
@@ -39,24 +57,31 @@ class Geometry {
   /// Every ray through Embree, the answers dropped.
   void replay(std::span<const LoggedRay> rays) const;
 
+  /// Of every instance.
   [[nodiscard]] std::size_t triangle_count() const;
+  /// Prototypes once each, however many instances they have.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  using Part = std::variant<TriangleSet, Sphere, Disc>;
   struct Failure {
     int code = 0;
     std::string message;
   };
 
-  void build();
-  void attach(std::uint32_t index, Part& part);
+  using ScenePointer = std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)>;
+
+  void open_device();
+  [[nodiscard]] ScenePointer new_scene();
+  void commit(RTCSceneTy* scene);
+  void attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geometry);
+  const PrototypePart* build_prototype(const std::shared_ptr<const Prototype>& prototype);
   void check() const;
 
   std::vector<Part> parts_;  // by index of the shape
   std::atomic<std::ptrdiff_t> embree_bytes_{0};
   Failure failure_;
   std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;
+  std::unordered_map<const Prototype*, std::unique_ptr<PrototypePart>> prototypes_;
   std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene_;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/geometry.h"
+#include "scene/shapes/mesh.h"
 
 namespace abbe {
 namespace {
@@ -59,10 +60,14 @@ std::size_t Scene::triangle_count() const {
 std::size_t Scene::memory_bytes() const {
   std::size_t bytes =
       geometry_->memory_bytes() + shapes.size() * sizeof(ShapeInstance) + lights.size() * sizeof(Light);
-  for (const ShapeInstance& instance : shapes)
-    if (const auto* mesh = std::get_if<Mesh>(&instance.shape))
-      bytes += mesh->vertices.size() * sizeof(mesh->vertices[0]) +
-               mesh->triangles.size() * sizeof(mesh->triangles[0]);
+  const Placement* last = nullptr;  // the shapes of one instance stand side by side and share theirs
+  for (const ShapeInstance& instance : shapes) {
+    if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) bytes += abbe::memory_bytes(*mesh);
+    const auto* placed = std::get_if<PlacedShape>(&instance.shape);
+    if (placed == nullptr || placed->at.get() == last) continue;
+    last = placed->at.get();
+    bytes += sizeof(Placement);
+  }
   return bytes;
 }
 

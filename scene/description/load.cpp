@@ -12,6 +12,7 @@
 
 #include "io/text.h"
 #include "scene/description/pieces.h"
+#include "scene/shapes/placed.h"
 
 namespace abbe {
 namespace description {
@@ -74,17 +75,6 @@ OutputSettings read_output(const JsonValue& json, Reading& reading) {
   return output;
 }
 
-void shift(Shape& shape, const Imath::V3d& by) {
-  if (auto* mesh = std::get_if<Mesh>(&shape))
-    for (Imath::V3d& vertex : mesh->vertices) vertex += by;
-  else if (auto* sphere = std::get_if<Sphere>(&shape))
-    sphere->center += by;
-  else if (auto* disc = std::get_if<Disc>(&shape))
-    disc->center += by;
-  else if (auto* quad = std::get_if<Quad>(&shape))
-    quad->corner += by;
-}
-
 Imath::V3d& position(Camera& camera) {
   if (auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
   return std::get<IrradianceProbe>(camera.kind).corner;
@@ -92,7 +82,8 @@ Imath::V3d& position(Camera& camera) {
 
 // Moves the scene so that its middle is at (0, 0, 0), where floats are finest; everything up to here is in
 // double.
-void recentre(Scene& scene, const std::vector<Imath::V3d>& light_positions) {
+void recentre(Scene& scene, Reading& reading) {
+  const std::vector<Imath::V3d>& light_positions = reading.light_positions;
   Imath::Box3d box;
   for (const ShapeInstance& instance : scene.shapes) box.extendBy(bounds(instance.shape));
   if (box.isEmpty()) {
@@ -101,7 +92,10 @@ void recentre(Scene& scene, const std::vector<Imath::V3d>& light_positions) {
       if (!scene.lights[i].is_environment()) box.extendBy(light_positions[i]);
   }
   scene.origin_m = box.center();
-  for (ShapeInstance& instance : scene.shapes) shift(instance.shape, -scene.origin_m);
+  for (ShapeInstance& instance : scene.shapes)
+    std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
+  for (const auto& at : reading.placements)
+    *at = placement(at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
   position(scene.camera) -= scene.origin_m;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Imath::V3f at(light_positions[i] - scene.origin_m);
@@ -132,6 +126,7 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   if (const JsonValue* json = reader.require("sensor"))
     sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), reading);
   if (materials) read_materials(*materials, reading, scene);
+  if (const JsonValue* json = reader.find("objects")) read_objects(*json, reading, scene);
   if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, reading, scene);
   if (const JsonValue* json = reader.find("lights")) read_lights(*json, reading, scene);
   if (camera)
@@ -195,7 +190,7 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
   description::Reading reading{diagnostics, path.parent_path()};
   Scene scene = description::read_scene(*root, reading);
   if (diagnostics.has_errors()) return std::nullopt;
-  description::recentre(scene, reading.light_positions);
+  description::recentre(scene, reading);
   scene.sha256 = description::hash(*source, overrides, reading);
   scene.commit();
   return scene;

@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <ImathMatrix.h>
 #include <ImathVec.h>
 
 #include "io/json.h"
@@ -15,6 +18,23 @@
 
 namespace abbe::description {
 
+/// A shape as read, in metres.
+struct Part {
+  std::string name;
+  PlainShape shape;
+  std::uint32_t material;
+};
+/// What instances are made of, moved by `-center` to where floats are finest.
+struct Object {
+  struct Member {
+    std::string name;
+    std::uint32_t material;
+    std::shared_ptr<const Prototype> prototype;
+  };
+  std::vector<Member> parts;
+  Imath::V3d center{0, 0, 0};
+};
+
 /// What the readers of one scene file share.
 struct Reading {
   Diagnostics& diagnostics;
@@ -22,6 +42,8 @@ struct Reading {
   double unit_m = 1;             ///< Metres per unit of length.
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
   std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
+  std::map<std::string, Object> objects{};
+  std::vector<std::shared_ptr<Placement>> placements{};  ///< Of each instance, until the scene is recentred.
 
   /// A file named by the scene, remembered for the hash; a URL is reported.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,
@@ -69,10 +91,34 @@ void read_materials(const JsonValue& json, Reading& reading, Scene& scene);
 /// Warns of every index used beyond the wavelengths it holds for.
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene);
 
+/// What a `transform` does, as a matrix for row vectors [m], and the product of its uniform scales.
+struct Transform {
+  Imath::M44d matrix;
+  double scale = 1;
+};
+/// Steps of uniform scale, rotation and translation.
+[[nodiscard]] Transform read_similarity(const JsonValue& json, const Reading& reading);
+/// Those, scales along the axes and matrices; a map without an inverse is reported.
+[[nodiscard]] std::optional<Imath::M44d> read_affine(const JsonValue& json, const Reading& reading);
+
 [[nodiscard]] std::optional<Sphere> read_sphere(const JsonValue& json, const Reading& reading);
 [[nodiscard]] std::optional<Disc> read_disc(const JsonValue& json, const Reading& reading);
 [[nodiscard]] std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading);
+/// The shape of the kind `key` with its material and transform.
+[[nodiscard]] std::optional<Part> read_part(ObjectReader& reader, std::string_view key, std::string name,
+                                            Reading& reading, const Scene& scene);
 void read_shapes(const JsonValue& json, Reading& reading, Scene& scene);
+
+void read_objects(const JsonValue& json, Reading& reading, const Scene& scene);
+/// The shapes of an object, placed.
+void add_instance(const JsonValue& json, const std::string& name, Reading& reading, Scene& scene);
+
+void shift(Mesh& mesh, const Imath::V3d& by);
+void shift(Sphere& sphere, const Imath::V3d& by);
+void shift(Disc& disc, const Imath::V3d& by);
+void shift(Quad& quad, const Imath::V3d& by);
+/// Nothing: instances may share their placements, which are moved once each.
+void shift(PlacedShape& placed, const Imath::V3d& by);
 
 void read_lights(const JsonValue& json, Reading& reading, Scene& scene);
 /// Makes `scene.shapes[shape]` emit.

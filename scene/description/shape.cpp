@@ -1,8 +1,5 @@
-#include <cmath>
-#include <numbers>
 #include <utility>
 
-#include <ImathMatrix.h>
 #include <fmt/format.h>
 
 #include "scene/description/pieces.h"
@@ -11,65 +8,24 @@
 namespace abbe::description {
 namespace {
 
-constexpr Range kScale{0, 1e9, true, false};
-
-/// A similarity: rotation, uniform scale and translation, as a matrix for row vectors.
-struct Placement {
-  Imath::M44d matrix;
-  double scale = 1;
-};
-
-// One step; scale, then rotation, then translation, when it has several.
-void read_step(const JsonValue& json, Placement& placement, const Reading& reading) {
-  ObjectReader reader(json, reading.diagnostics);
-  if (const auto factor = reader.number("scale", kScale)) {
-    placement.matrix = placement.matrix * Imath::M44d().setScale(*factor);
-    placement.scale *= *factor;
-  }
-  if (const JsonValue* rotation = reader.find("rotate")) {
-    ObjectReader inner(*rotation, reading.diagnostics);
-    const auto axis = read_direction(inner, "axis", reading);
-    const auto angle = inner.require_number("deg", kValue);
-    inner.finish();
-    if (axis && angle)
-      placement.matrix =
-          placement.matrix * Imath::M44d().setAxisAngle(*axis, *angle * std::numbers::pi / 180);
-  }
-  if (reader.find("translate")) {
-    const auto by = read_point(reader, "translate", reading);
-    if (by) placement.matrix = placement.matrix * Imath::M44d().setTranslation(*by);
-  }
-  reader.finish();
-}
-
-Placement read_transform(const JsonValue& json, const Reading& reading) {
-  Placement placement;
-  if (const auto* steps = std::get_if<JsonValue::Array>(&json.value)) {
-    for (const JsonValue& step : *steps) read_step(step, placement, reading);
-  } else {
-    read_step(json, placement, reading);
-  }
-  return placement;
-}
-
-Imath::V3d moved_direction(const Imath::V3d& v, const Placement& by) {
+Imath::V3d moved_direction(const Imath::V3d& v, const Transform& by) {
   Imath::V3d result;
   by.matrix.multDirMatrix(v, result);
   return result;
 }
-void move(Mesh& mesh, const Placement& by) {
+void move(Mesh& mesh, const Transform& by) {
   for (Imath::V3d& vertex : mesh.vertices) vertex *= by.matrix;
 }
-void move(Sphere& sphere, const Placement& by) {
+void move(Sphere& sphere, const Transform& by) {
   sphere.center *= by.matrix;
   sphere.radius *= by.scale;
 }
-void move(Disc& disc, const Placement& by) {
+void move(Disc& disc, const Transform& by) {
   disc.center *= by.matrix;
   disc.normal = moved_direction(disc.normal, by).normalized();
   disc.radius *= by.scale;
 }
-void move(Quad& quad, const Placement& by) {
+void move(Quad& quad, const Transform& by) {
   quad.corner *= by.matrix;
   quad.edge_u = moved_direction(quad.edge_u, by);
   quad.edge_v = moved_direction(quad.edge_v, by);
@@ -133,37 +89,58 @@ std::optional<Mesh> read_prism(const JsonValue& json, const Reading& reading) {
   return make_prism(*apex, *side * reading.unit_m, *length * reading.unit_m);
 }
 
-std::optional<Shape> read_geometry(ObjectReader& reader, Reading& reading) {
-  const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism"});
-  if (!key) return std::nullopt;
-  const JsonValue& json = *reader.find(*key);
-  if (*key == "mesh") return read_mesh(json, reading);
-  if (*key == "sphere") return read_sphere(json, reading);
-  if (*key == "disc") return read_disc(json, reading);
-  if (*key == "quad") return read_quad(json, reading);
-  return read_prism(json, reading);
+template <typename S>
+std::optional<PlainShape> as_shape(std::optional<S> shape) {
+  if (!shape) return std::nullopt;
+  return PlainShape(std::move(*shape));
+}
+
+std::optional<PlainShape> read_geometry(ObjectReader& reader, std::string_view key, Reading& reading) {
+  const JsonValue& json = *reader.find(key);
+  if (key == "mesh") return as_shape(read_mesh(json, reading));
+  if (key == "sphere") return as_shape(read_sphere(json, reading));
+  if (key == "disc") return as_shape(read_disc(json, reading));
+  if (key == "quad") return as_shape(read_quad(json, reading));
+  return as_shape(read_prism(json, reading));
 }
 
 void read_shape(const JsonValue& json, std::size_t number, Reading& reading, Scene& scene) {
   ObjectReader reader(json, reading.diagnostics);
   std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
-  std::optional<Shape> shape = read_geometry(reader, reading);
-  const JsonValue* material_name = reader.require("material");
-  const auto material = material_name ? find_material(*material_name, reading, scene) : std::nullopt;
-  const JsonValue* transform = reader.find("transform");
+  const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism", "instance"});
+  if (!key) return;
+  if (*key == "instance") {
+    add_instance(*reader.find(*key), name, reading, scene);
+    reader.finish();
+    return;
+  }
+  auto part = read_part(reader, *key, std::move(name), reading, scene);
   const JsonValue* emission = reader.find("emission");
   const bool two_sided = reader.boolean_or("two_sided", false);
   reader.finish();
-  Placement placement;
-  if (transform) placement = read_transform(*transform, reading);
-  if (!shape || !material) return;
-  std::visit([&](auto& s) { move(s, placement); }, *shape);
-  scene.shapes.push_back({std::move(name), std::move(*shape), *material});
+  if (!part) return;
+  scene.shapes.push_back({std::move(part->name),
+                          std::visit([](auto& s) { return Shape(std::move(s)); }, part->shape),
+                          part->material});
   if (emission)
     add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), reading, scene);
 }
 
 }  // namespace
+
+void shift(Mesh& mesh, const Imath::V3d& by) {
+  for (Imath::V3d& vertex : mesh.vertices) vertex += by;
+}
+void shift(Sphere& sphere, const Imath::V3d& by) {
+  sphere.center += by;
+}
+void shift(Disc& disc, const Imath::V3d& by) {
+  disc.center += by;
+}
+void shift(Quad& quad, const Imath::V3d& by) {
+  quad.corner += by;
+}
+void shift(PlacedShape&, const Imath::V3d&) {}
 
 std::optional<Imath::V3d> read_point(ObjectReader& reader, std::string_view key, const Reading& reading) {
   const auto v = reader.require_numbers(key, 3, kCoordinate);
@@ -211,6 +188,18 @@ std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading) {
                             "edge_u and edge_v are parallel: a quad of zero area (got 0, allowed (0, inf))",
                             ErrorCode::input);
   return std::nullopt;
+}
+
+std::optional<Part> read_part(ObjectReader& reader, std::string_view key, std::string name, Reading& reading,
+                              const Scene& scene) {
+  std::optional<PlainShape> shape = read_geometry(reader, key, reading);
+  const JsonValue* material_name = reader.require("material");
+  const auto material = material_name ? find_material(*material_name, reading, scene) : std::nullopt;
+  const JsonValue* json = reader.find("transform");
+  const Transform transform = json ? read_similarity(*json, reading) : Transform{};
+  if (!shape || !material) return std::nullopt;
+  std::visit([&](auto& s) { move(s, transform); }, *shape);
+  return Part{std::move(name), std::move(*shape), *material};
 }
 
 void read_shapes(const JsonValue& json, Reading& reading, Scene& scene) {

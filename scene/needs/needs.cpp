@@ -51,9 +51,7 @@ bool chains_interfaces(const Scene& scene) {
     if (!is_specular(material)) continue;
     ++specular;
     const bool refracts = interior(material) != nullptr;
-    if (std::holds_alternative<Mesh>(instance.shape) ||
-        (refracts && std::holds_alternative<Sphere>(instance.shape)))
-      return true;
+    if (plain<Mesh>(instance.shape) || (refracts && plain<Sphere>(instance.shape))) return true;
   }
   return specular >= 2;
 }

@@ -52,6 +52,10 @@ Imath::V3d area_vector(const Mesh& mesh, std::size_t triangle) {
   return (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]) * 0.5;
 }
 
+std::size_t memory_bytes(const Mesh& mesh) {
+  return mesh.vertices.size() * sizeof(mesh.vertices[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+}
+
 double area(const Mesh& mesh) {
   double total = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) total += area_vector(mesh, i).length();

@@ -14,6 +14,7 @@ template <typename T>
 /// Half the cross product of two edges: the normal times the area.
 [[nodiscard]] Imath::V3d area_vector(const Mesh& mesh, std::size_t triangle);
 
+[[nodiscard]] std::size_t memory_bytes(const Mesh& mesh);
 [[nodiscard]] double area(const Mesh& mesh);
 [[nodiscard]] Imath::Box3d bounds(const Mesh& mesh);
 [[nodiscard]] SurfacePoint sample_area(const Mesh& mesh, const std::vector<float>& triangle_cdf,

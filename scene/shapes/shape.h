@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
 
 #include <ImathBox.h>
+#include <ImathMatrix.h>
 #include <ImathVec.h>
 
 #include "scene/ray.h"
@@ -44,10 +46,37 @@ struct Quad {
   Imath::V3d edge_v;
 };
 
-/// The closed list of shapes, each with its formulas in a file of its name. Each gives its nearest hit at t
-/// in (t_min, ray.t_max) by its own code in the scalar asked for, float or double; `ray.direction` may have
-/// any length, and t counts in that length.
-using Shape = std::variant<Mesh, Sphere, Disc, Quad>;
+/// The closed list of shapes that stand by themselves, each with its formulas in a file of its name.
+using PlainShape = std::variant<Mesh, Sphere, Disc, Quad>;
+
+/// What all instances of a shape share: the shape in coordinates of its own, and the box around it.
+struct Prototype {
+  PlainShape shape;
+  Imath::Box3d bounds;
+};
+[[nodiscard]] std::shared_ptr<const Prototype> make_prototype(PlainShape shape);
+/// An invertible affine map between a prototype's coordinates and the world, for row vectors. A mirror is one
+/// too: normals stay outward.
+struct Placement {
+  Imath::M44d to_world;
+  Imath::M44d to_prototype;
+};
+/// One instance: a prototype, and where it stands.
+struct PlacedShape {
+  std::shared_ptr<const Prototype> of;
+  std::shared_ptr<const Placement> at;
+};
+
+/// Each shape gives its nearest hit at t in (t_min, ray.t_max) by its own code in the scalar asked for, float
+/// or double; `ray.direction` may have any length, and t counts in that length.
+using Shape = std::variant<Mesh, Sphere, Disc, Quad, PlacedShape>;
+
+/// The shape, or what it is an instance of, if that is an S; else nullptr.
+template <typename S>
+[[nodiscard]] const S* plain(const Shape& shape) {
+  if (const auto* placed = std::get_if<PlacedShape>(&shape)) return std::get_if<S>(&placed->of->shape);
+  return std::get_if<S>(&shape);
+}
 
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min);
@@ -57,8 +86,10 @@ template <typename T>
 /// length `length` run along y. The origin is the centroid.
 [[nodiscard]] Mesh make_prism(double apex_deg, double side, double length);
 
-[[nodiscard]] double area(const Shape& shape);  ///< Of the outer side [m^2].
+/// A box around the shape; of an instance, that around its prototype's box.
 [[nodiscard]] Imath::Box3d bounds(const Shape& shape);
+/// Of the outer side [m^2]. Instances do not emit and have no use for it: Error{internal}, here and below.
+[[nodiscard]] double area(const Shape& shape);
 
 /// A point drawn uniformly by area, on the surface as the render holds it: corners rounded to float, curves
 /// exact.

@@ -30,7 +30,7 @@ void collect_keys(const JsonValue& json, std::set<std::string>& keys) {
   if (const auto* object = std::get_if<JsonValue::Object>(&json.value))
     for (const auto& [key, value] : *object) {
       const std::string parent = json.where.pointer;
-      if (parent != "/materials" && parent != "/sensor/channels") keys.insert(key);
+      if (parent != "/materials" && parent != "/sensor/channels" && parent != "/objects") keys.insert(key);
       collect_keys(value, keys);
     }
 }

@@ -1,0 +1,134 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+namespace {
+
+constexpr double kMaxStretch = 1e9;
+constexpr Range kScale{0, kMaxStretch, true, false};
+constexpr Range kSignedScale{-kMaxStretch, kMaxStretch};
+
+// The relative error of a determinant summed up in double, generously.
+constexpr double kRounding = 1e-13;
+
+void append(Transform& transform, const Imath::M44d& step) {
+  transform.matrix = transform.matrix * step;
+}
+
+void read_scale(ObjectReader& reader, bool affine, Transform& transform, const Reading& reading) {
+  const JsonValue* json = reader.find("scale");
+  if (!json) return;
+  if (affine && std::holds_alternative<JsonValue::Array>(json->value)) {
+    if (const auto s = read_numbers(*json, 3, kSignedScale, reading.diagnostics))
+      append(transform, Imath::M44d().setScale(Imath::V3d((*s)[0], (*s)[1], (*s)[2])));
+  } else if (const auto factor = read_number(*json, kScale, reading.diagnostics)) {
+    append(transform, Imath::M44d().setScale(*factor));
+    transform.scale *= *factor;
+  }
+}
+
+void read_rotation(const JsonValue& json, Transform& transform, const Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const auto axis = read_direction(reader, "axis", reading);
+  const auto angle = reader.require_number("deg", kValue);
+  reader.finish();
+  if (axis && angle) append(transform, Imath::M44d().setAxisAngle(*axis, *angle * std::numbers::pi / 180));
+}
+
+// Rows of a matrix for column vectors: the fourth column translates, a fourth row must be 0 0 0 1.
+void read_matrix(const JsonValue& json, Transform& transform, const Reading& reading) {
+  const auto m = read_numbers(json, 0, kCoordinate, reading.diagnostics);
+  if (!m) return;
+  const bool rows4 = m->size() == 16;
+  if (!rows4 && m->size() != 12) {
+    reading.diagnostics.error(
+        json.where,
+        fmt::format("expected the rows of a matrix (got {} numbers, allowed 12 or 16)", m->size()));
+    return;
+  }
+  if (rows4 && !((*m)[12] == 0 && (*m)[13] == 0 && (*m)[14] == 0 && (*m)[15] == 1)) {
+    reading.diagnostics.error(json.where,
+                              fmt::format("a transform is affine (got the last row [{}, {}, {}, {}], allowed "
+                                          "[0, 0, 0, 1])",
+                                          (*m)[12], (*m)[13], (*m)[14], (*m)[15]));
+    return;
+  }
+  Imath::M44d matrix;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix[column][row] =
+          (*m)[static_cast<std::size_t>(4 * row + column)] * (column == 3 ? reading.unit_m : 1);
+  append(transform, matrix);
+}
+
+// One step; scale, then rotation, then translation, when it has several.
+void read_step(const JsonValue& json, bool affine, Transform& transform, const Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  if (affine)
+    if (const JsonValue* matrix = reader.find("matrix")) {
+      read_matrix(*matrix, transform, reading);
+      reader.finish();
+      return;
+    }
+  read_scale(reader, affine, transform, reading);
+  if (const JsonValue* rotation = reader.find("rotate")) read_rotation(*rotation, transform, reading);
+  if (reader.find("translate")) {
+    const auto by = read_point(reader, "translate", reading);
+    if (by) append(transform, Imath::M44d().setTranslation(*by));
+  }
+  reader.finish();
+}
+
+Transform read_steps(const JsonValue& json, bool affine, const Reading& reading) {
+  Transform transform;
+  if (const auto* steps = std::get_if<JsonValue::Array>(&json.value)) {
+    for (const JsonValue& step : *steps) read_step(step, affine, transform, reading);
+  } else {
+    read_step(json, affine, transform, reading);
+  }
+  return transform;
+}
+
+// Root of the sum of the squares of the linear part.
+double norm(const Imath::M44d& matrix) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum += matrix[i][j] * matrix[i][j];
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+Transform read_similarity(const JsonValue& json, const Reading& reading) {
+  return read_steps(json, false, reading);
+}
+
+std::optional<Imath::M44d> read_affine(const JsonValue& json, const Reading& reading) {
+  const std::size_t faults = reading.diagnostics.all().size();
+  const Imath::M44d matrix = read_steps(json, true, reading).matrix;
+  if (reading.diagnostics.all().size() > faults) return std::nullopt;
+  const Imath::V3d rows[3] = {{matrix[0][0], matrix[0][1], matrix[0][2]},
+                              {matrix[1][0], matrix[1][1], matrix[1][2]},
+                              {matrix[2][0], matrix[2][1], matrix[2][2]}};
+  const double determinant = rows[0].dot(rows[1].cross(rows[2]));
+  const double largest = rows[0].length() * rows[1].length() * rows[2].length();
+  if (!(std::abs(determinant) > kRounding * largest) || !std::isfinite(determinant)) {
+    reading.diagnostics.error(
+        json.where, fmt::format("transform is singular (determinant got {:g}, allowed not 0)", determinant));
+    return std::nullopt;
+  }
+  // Embree inverts the matrix in float.
+  const double shrinks = 1 / norm(matrix.inverse());
+  if (norm(matrix) <= 2 * kMaxStretch && shrinks >= 0.5 / kMaxStretch) return matrix;
+  reading.diagnostics.error(
+      json.where,
+      fmt::format("transform is out of range (got lengths times {:g} to {:g}, allowed [{:g}, {:g}])", shrinks,
+                  norm(matrix), 1 / kMaxStretch, kMaxStretch));
+  return std::nullopt;
+}
+
+}  // namespace abbe::description

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "scene/shapes/disc.h"
+#include "scene/shapes/mesh.h"
+#include "scene/shapes/quad.h"
+#include "scene/shapes/shape.h"
+#include "scene/shapes/sphere.h"
+
+namespace abbe {
+
+/// The placement of a matrix that has an inverse.
+[[nodiscard]] inline Placement placement(const Imath::M44d& to_world) {
+  return {to_world, to_world.inverse()};
+}
+
+/// The ray in the prototype's coordinates. Its direction keeps what the map does to lengths, so that t means
+/// the same on both sides.
+template <typename T>
+[[nodiscard]] BasicRay<T> to_prototype(const Placement& placement, const BasicRay<T>& ray) {
+  const Imath::Matrix44<T> map(placement.to_prototype);
+  BasicRay<T> moved{ray.origin * map, {}, ray.t_max};
+  map.multDirMatrix(ray.direction, moved.direction);
+  return moved;
+}
+
+/// A prototype's normal in the world, by the inverse transpose, which turns an outward normal into an outward
+/// one whatever the map's handedness. Of unit length.
+template <typename T>
+[[nodiscard]] Imath::Vec3<T> normal_to_world(const Placement& placement, const Imath::Vec3<T>& normal) {
+  Imath::Vec3<T> moved;
+  Imath::Matrix44<T>(placement.to_prototype).transposed().multDirMatrix(normal, moved);
+  return moved.normalized();
+}
+
+/// Nearest hit with an instance of a plain shape.
+template <typename T, typename S>
+[[nodiscard]] std::optional<ShapeHit<T>> intersect_placed(const S& shape, const Placement& placement,
+                                                          const BasicRay<T>& ray, T t_min) {
+  const auto hit = intersect(shape, to_prototype(placement, ray), t_min);
+  if (!hit) return std::nullopt;
+  return ShapeHit<T>{hit->t, hit->point * Imath::Matrix44<T>(placement.to_world),
+                     normal_to_world(placement, hit->normal)};
+}
+
+/// Whether the ray comes near the box, beyond doubt from rounding when it says no.
+template <typename T>
+[[nodiscard]] bool passes(const BasicRay<T>& ray, const Imath::Box3d& box) {
+  const Imath::V3d origin(ray.origin);
+  const double slack = 64 * static_cast<double>(std::numeric_limits<T>::epsilon()) *
+                       (box.size().length() + box.center().length() + origin.length());
+  double near = 0;
+  double far = static_cast<double>(ray.t_max);
+  for (int i = 0; i < 3; ++i) {
+    const double step = static_cast<double>(ray.direction[i]);
+    double enter = (box.min[i] - slack - origin[i]) / step;
+    double leave = (box.max[i] + slack - origin[i]) / step;
+    if (enter > leave) std::swap(enter, leave);
+    near = std::max(near, enter);  // NaN, from a ray within a face, changes nothing
+    far = std::min(far, leave);
+  }
+  return near <= far * (1 + 1e-9);
+}
+
+template <typename T>
+[[nodiscard]] std::optional<ShapeHit<T>> intersect(const PlacedShape& placed, const BasicRay<T>& ray,
+                                                   T t_min) {
+  if (!passes(to_prototype(*placed.at, ray), placed.of->bounds)) return std::nullopt;
+  return std::visit([&](const auto& shape) { return intersect_placed(shape, *placed.at, ray, t_min); },
+                    placed.of->shape);
+}
+
+[[nodiscard]] inline Imath::Box3d bounds(const PlacedShape& placed) {
+  const std::array<Imath::V3d, 2> ends{placed.of->bounds.min, placed.of->bounds.max};
+  Imath::Box3d box;
+  for (const auto& x : ends)
+    for (const auto& y : ends)
+      for (const auto& z : ends) box.extendBy(Imath::V3d(x.x, y.y, z.z) * placed.at->to_world);
+  return box;
+}
+
+}  // namespace abbe
