@@ -140,7 +140,8 @@ void add_area(ObjectReader& reader, std::string name, std::optional<Shape> shape
   const JsonValue* material_name = reader.find("material");
   const bool two_sided = reader.boolean_or("two_sided", false);
   reader.finish();
-  const auto material = material_name ? find_material(*material_name, reading, scene) : black_material(scene);
+  const auto material =
+      material_name ? find_material(*material_name, reading, scene) : black_material(reading, scene);
   if (!shape || !emission || !material) return;
   scene.shapes.push_back({std::move(name), std::move(*shape), *material});
   add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), reading, scene);

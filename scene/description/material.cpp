@@ -136,26 +136,46 @@ void read_materials(const JsonValue& json, Reading& reading, Scene& scene) {
                               fmt::format("expected an object of materials by name (got {})", json.kind()));
     return;
   }
-  for (const auto& [name, value] : *members) scene.materials.push_back(read_material(name, value, reading));
+  for (const auto& [name, value] : *members) {
+    reading.materials.emplace(name, static_cast<std::uint32_t>(scene.materials.size()));
+    scene.materials.push_back(read_material(name, value, reading));
+  }
 }
 
 std::optional<std::uint32_t> find_material(const JsonValue& json, Reading& reading, const Scene& scene) {
   const std::optional<std::string> name = read_string(json, reading.diagnostics);
   if (!name) return std::nullopt;
+  if (const auto found = reading.materials.find(*name); found != reading.materials.end())
+    return found->second;
   std::vector<std::string> names;
-  for (const Material& material : scene.materials) {
-    if (material.name == *name) return static_cast<std::uint32_t>(names.size());
-    names.push_back(material.name);
-  }
+  for (const Material& material : scene.materials) names.push_back(material.name);
   reading.diagnostics.error(json.where, unknown_name("material", *name, names));
   return std::nullopt;
 }
 
-std::uint32_t black_material(Scene& scene) {
-  for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    if (scene.materials[i].name == kBlack) return static_cast<std::uint32_t>(i);
-  scene.materials.push_back({kBlack, DiffuseMaterial{Curve(0.0)}});
-  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+std::uint32_t add_file_material(const FileMaterial& material, const std::string& file, const JsonValue& at,
+                                Reading& reading, Scene& scene) {
+  const std::string name = file + ":" + material.name;
+  const auto [known, added] =
+      reading.materials.emplace(name, static_cast<std::uint32_t>(scene.materials.size()));
+  if (!added) return known->second;
+  if (material.index)
+    scene.materials.push_back(
+        {name, DielectricMaterial{fmt::format("{}", *material.index), RefractiveIndex(*material.index, 0)}});
+  else
+    scene.materials.push_back({name, DiffuseMaterial{rgb_spectrum(material.color)}});
+  if (!material.lost.empty())
+    reading.diagnostics.warning(
+        at.where, fmt::format("material \"{}\" of \"{}\": {} {} not represented", material.name, file,
+                              fmt::join(material.lost, ", "), material.lost.size() == 1 ? "is" : "are"));
+  return known->second;
+}
+
+std::uint32_t black_material(Reading& reading, Scene& scene) {
+  const auto [known, added] =
+      reading.materials.emplace(kBlack, static_cast<std::uint32_t>(scene.materials.size()));
+  if (added) scene.materials.push_back({kBlack, DiffuseMaterial{Curve(0.0)}});
+  return known->second;
 }
 
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene) {

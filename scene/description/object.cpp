@@ -8,10 +8,10 @@
 namespace abbe::description {
 namespace {
 
-void read_object_shape(const JsonValue& json, std::size_t number, Reading& reading, const Scene& scene,
+void read_object_shape(const JsonValue& json, std::size_t number, Reading& reading, Scene& scene,
                        std::vector<Part>& parts) {
   ObjectReader reader(json, reading.diagnostics);
-  std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
+  const std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
   if (const JsonValue* instance = json.find("instance")) {
     reading.diagnostics.error(instance->where, "an object holds shapes, not instances");
     return;
@@ -20,9 +20,8 @@ void read_object_shape(const JsonValue& json, std::size_t number, Reading& readi
     reading.diagnostics.error(emission->where, "a shape of an object cannot emit");
   const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism"});
   if (!key) return;
-  auto part = read_part(reader, *key, std::move(name), reading, scene);
+  for (Part& part : read_parts(reader, *key, name, reading, scene)) parts.push_back(std::move(part));
   reader.finish();
-  if (part) parts.push_back(std::move(*part));
 }
 
 // Around the middle of the object, where floats are finest.
@@ -40,7 +39,7 @@ Object centred(std::vector<Part> parts) {
 
 }  // namespace
 
-void read_objects(const JsonValue& json, Reading& reading, const Scene& scene) {
+void read_objects(const JsonValue& json, Reading& reading, Scene& scene) {
   const auto* members = std::get_if<JsonValue::Object>(&json.value);
   if (!members) {
     reading.diagnostics.error(json.where,

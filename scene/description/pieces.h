@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <ImathMatrix.h>
@@ -15,6 +16,7 @@
 #include "io/json.h"
 #include "io/object_reader.h"
 #include "scene/scene.h"
+#include "scene/shapes/mesh_file.h"
 
 namespace abbe::description {
 
@@ -43,6 +45,7 @@ struct Reading {
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
   std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
   std::map<std::string, Object> objects{};
+  std::unordered_map<std::string, std::uint32_t> materials{};  ///< Numbers by name.
   std::vector<std::shared_ptr<Placement>> placements{};  ///< Of each instance, until the scene is recentred.
 
   /// A file named by the scene, remembered for the hash; a URL is reported.
@@ -86,8 +89,11 @@ void read_materials(const JsonValue& json, Reading& reading, Scene& scene);
 /// Index of the material of that name; an unknown one is reported with the nearest.
 [[nodiscard]] std::optional<std::uint32_t> find_material(const JsonValue& name, Reading& reading,
                                                          const Scene& scene);
+/// Index of a mesh file's material in the scene, as "FILE:NAME"; what of it is lost is told in one warning.
+[[nodiscard]] std::uint32_t add_file_material(const FileMaterial& material, const std::string& file,
+                                              const JsonValue& at, Reading& reading, Scene& scene);
 /// Index of the material of lamps that name none: diffuse, reflecting nothing.
-[[nodiscard]] std::uint32_t black_material(Scene& scene);
+[[nodiscard]] std::uint32_t black_material(Reading& reading, Scene& scene);
 /// Warns of every index used beyond the wavelengths it holds for.
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene);
 
@@ -104,12 +110,12 @@ struct Transform {
 [[nodiscard]] std::optional<Sphere> read_sphere(const JsonValue& json, const Reading& reading);
 [[nodiscard]] std::optional<Disc> read_disc(const JsonValue& json, const Reading& reading);
 [[nodiscard]] std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading);
-/// The shape of the kind `key` with its material and transform.
-[[nodiscard]] std::optional<Part> read_part(ObjectReader& reader, std::string_view key, std::string name,
-                                            Reading& reading, const Scene& scene);
+/// The shape of the kind `key`, placed; of a mesh file, one for each material. None after an error.
+[[nodiscard]] std::vector<Part> read_parts(ObjectReader& reader, std::string_view key,
+                                           const std::string& name, Reading& reading, Scene& scene);
 void read_shapes(const JsonValue& json, Reading& reading, Scene& scene);
 
-void read_objects(const JsonValue& json, Reading& reading, const Scene& scene);
+void read_objects(const JsonValue& json, Reading& reading, Scene& scene);
 /// The shapes of an object, placed.
 void add_instance(const JsonValue& json, const std::string& name, Reading& reading, Scene& scene);
 

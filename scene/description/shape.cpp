@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/description/pieces.h"
-#include "scene/shapes/ply.h"
+#include "scene/shapes/mesh_file.h"
 
 namespace abbe::description {
 namespace {
@@ -66,19 +66,6 @@ std::optional<Mesh> read_inline_mesh(const JsonValue& json, const Reading& readi
   return mesh;
 }
 
-std::optional<Mesh> read_mesh(const JsonValue& json, Reading& reading) {
-  std::optional<Mesh> mesh;
-  if (const auto* name = std::get_if<std::string>(&json.value)) {
-    const auto path = reading.file(*name, json.where);
-    if (path) mesh = load_ply(*path, json.where, reading.diagnostics);
-  } else {
-    mesh = read_inline_mesh(json, reading);
-  }
-  if (mesh)
-    for (Imath::V3d& vertex : mesh->vertices) vertex *= reading.unit_m;
-  return mesh;
-}
-
 std::optional<Mesh> read_prism(const JsonValue& json, const Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   const auto apex = reader.require_number("apex_deg", {0, 180, true, true});
@@ -95,13 +82,45 @@ std::optional<PlainShape> as_shape(std::optional<S> shape) {
   return PlainShape(std::move(*shape));
 }
 
-std::optional<PlainShape> read_geometry(ObjectReader& reader, std::string_view key, Reading& reading) {
-  const JsonValue& json = *reader.find(key);
-  if (key == "mesh") return as_shape(read_mesh(json, reading));
+std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
+  if (mesh)
+    for (Imath::V3d& vertex : mesh->vertices) vertex *= factor;
+  return mesh;
+}
+
+std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view key, Reading& reading) {
+  if (key == "mesh") return as_shape(scaled(read_inline_mesh(json, reading), reading.unit_m));
   if (key == "sphere") return as_shape(read_sphere(json, reading));
   if (key == "disc") return as_shape(read_disc(json, reading));
   if (key == "quad") return as_shape(read_quad(json, reading));
   return as_shape(read_prism(json, reading));
+}
+
+// The parts of a mesh file, made of `material` or of the file's own.
+std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file, const std::string& name,
+                                 const std::uint32_t* material, Reading& reading, Scene& scene) {
+  std::vector<Part> parts;
+  const auto path = reading.file(file, json.where);
+  if (!path) return parts;
+  auto found = load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, json.where,
+                              reading.diagnostics);
+  if (!found) return parts;
+  reading.files.insert(reading.files.end(), found->others.begin(), found->others.end());
+  for (MeshFile::Part& part : found->parts) {
+    if (!material && !part.material) {
+      reading.diagnostics.error(
+          json.where, fmt::format("mesh \"{}\": triangles without a material; the shape needs one", file));
+      return {};
+    }
+    const std::string full =
+        found->parts.size() == 1 ? name : name + "/" + found->materials[*part.material].name;
+    Part& added = parts.emplace_back(Part{full, *scaled(std::move(part.mesh), reading.unit_m), 0});
+    if (material)
+      added.material = *material;
+    else
+      added.material = add_file_material(found->materials[*part.material], file, json, reading, scene);
+  }
+  return parts;
 }
 
 void read_shape(const JsonValue& json, std::size_t number, Reading& reading, Scene& scene) {
@@ -114,16 +133,20 @@ void read_shape(const JsonValue& json, std::size_t number, Reading& reading, Sce
     reader.finish();
     return;
   }
-  auto part = read_part(reader, *key, std::move(name), reading, scene);
+  std::vector<Part> parts = read_parts(reader, *key, name, reading, scene);
   const JsonValue* emission = reader.find("emission");
   const bool two_sided = reader.boolean_or("two_sided", false);
   reader.finish();
-  if (!part) return;
-  scene.shapes.push_back({std::move(part->name),
-                          std::visit([](auto& s) { return Shape(std::move(s)); }, part->shape),
-                          part->material});
-  if (emission)
-    add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), reading, scene);
+  if (emission && !reader.find("material"))
+    reading.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
+  for (Part& part : parts) {
+    scene.shapes.push_back({std::move(part.name),
+                            std::visit([](auto& s) { return Shape(std::move(s)); }, part.shape),
+                            part.material});
+    if (emission)
+      add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), reading,
+                     scene);
+  }
 }
 
 }  // namespace
@@ -190,16 +213,24 @@ std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading) {
   return std::nullopt;
 }
 
-std::optional<Part> read_part(ObjectReader& reader, std::string_view key, std::string name, Reading& reading,
-                              const Scene& scene) {
-  std::optional<PlainShape> shape = read_geometry(reader, key, reading);
-  const JsonValue* material_name = reader.require("material");
+std::vector<Part> read_parts(ObjectReader& reader, std::string_view key, const std::string& name,
+                             Reading& reading, Scene& scene) {
+  const JsonValue& json = *reader.find(key);
+  const auto* file = key == "mesh" ? std::get_if<std::string>(&json.value) : nullptr;
+  const bool optional = file && brings_materials(*file);
+  const JsonValue* material_name = optional ? reader.find("material") : reader.require("material");
   const auto material = material_name ? find_material(*material_name, reading, scene) : std::nullopt;
-  const JsonValue* json = reader.find("transform");
-  const Transform transform = json ? read_similarity(*json, reading) : Transform{};
-  if (!shape || !material) return std::nullopt;
-  std::visit([&](auto& s) { move(s, transform); }, *shape);
-  return Part{std::move(name), std::move(*shape), *material};
+  std::vector<Part> parts;
+  if (file && (material || !material_name)) {
+    parts = read_mesh_file(json, *file, name, material ? &*material : nullptr, reading, scene);
+  } else if (!file) {
+    auto shape = read_geometry(json, key, reading);
+    if (shape && material) parts.push_back({name, std::move(*shape), *material});
+  }
+  const JsonValue* steps = reader.find("transform");
+  const Transform transform = steps ? read_similarity(*steps, reading) : Transform{};
+  for (Part& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
+  return parts;
 }
 
 void read_shapes(const JsonValue& json, Reading& reading, Scene& scene) {

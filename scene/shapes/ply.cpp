@@ -1,36 +1,32 @@
-#include "scene/shapes/ply.h"
-
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "io/text.h"
-#include "scene/shapes/mesh.h"
+#include "scene/shapes/mesh_formats.h"
 
 namespace abbe {
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
-
-/// One `property` of a PLY header. A list has the width of its count, a single value 0.
+/// How a value is stored.
+struct Type {
+  enum class Kind { none, integer, natural, real } kind = Kind::none;
+  std::size_t bytes = 0;
+};
+/// One `property` of a PLY header; a list has a type for its count.
 struct Property {
-  std::size_t count_bytes;
-  std::size_t value_bytes;
+  std::string name;
+  Type count;
+  Type value;
+  [[nodiscard]] bool is_list() const { return count.kind != Type::Kind::none; }
 };
 struct Element {
+  std::string name;
   double count;
   std::vector<Property> properties;
 };
@@ -40,26 +36,31 @@ struct Header {
   std::size_t bytes = 0;
 };
 
-std::size_t width_of(std::string_view type) {
-  constexpr std::array<std::pair<std::string_view, std::size_t>, 16> kTypes{{{"char", 1},
-                                                                             {"uchar", 1},
-                                                                             {"int8", 1},
-                                                                             {"uint8", 1},
-                                                                             {"short", 2},
-                                                                             {"ushort", 2},
-                                                                             {"int16", 2},
-                                                                             {"uint16", 2},
-                                                                             {"int", 4},
-                                                                             {"uint", 4},
-                                                                             {"int32", 4},
-                                                                             {"uint32", 4},
-                                                                             {"float", 4},
-                                                                             {"float32", 4},
-                                                                             {"double", 8},
-                                                                             {"float64", 8}}};
+Type type_named(std::string_view name) {
+  using enum Type::Kind;
+  struct Named {
+    std::string_view name;
+    Type type;
+  };
+  constexpr std::array<Named, 16> kTypes{{{"char", {integer, 1}},
+                                          {"uchar", {natural, 1}},
+                                          {"int8", {integer, 1}},
+                                          {"uint8", {natural, 1}},
+                                          {"short", {integer, 2}},
+                                          {"ushort", {natural, 2}},
+                                          {"int16", {integer, 2}},
+                                          {"uint16", {natural, 2}},
+                                          {"int", {integer, 4}},
+                                          {"uint", {natural, 4}},
+                                          {"int32", {integer, 4}},
+                                          {"uint32", {natural, 4}},
+                                          {"float", {real, 4}},
+                                          {"float32", {real, 4}},
+                                          {"double", {real, 8}},
+                                          {"float64", {real, 8}}}};
   const auto* found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& t) { return t.first == type; });
-  return found == kTypes.end() ? 0 : found->second;
+      std::find_if(kTypes.begin(), kTypes.end(), [&](const Named& t) { return t.name == name; });
+  return found == kTypes.end() ? Type{} : found->type;
 }
 
 // Takes one header line in; false when it is malformed.
@@ -74,12 +75,13 @@ bool take_line(const std::vector<std::string>& words, Header& header) {
   if (words[0] == "element") {
     const auto count = words.size() == 3 ? parse_number(words[2]) : std::nullopt;
     if (!count || *count < 0) return false;
-    header.elements.push_back({*count, {}});
+    header.elements.push_back({words[1], *count, {}});
   } else if (words[0] == "property") {
     const bool list = words.size() == 5 && words[1] == "list";
     if (header.elements.empty() || (!list && words.size() != 3)) return false;
-    const Property property{list ? width_of(words[2]) : 0, width_of(words[list ? 3 : 1])};
-    if (property.value_bytes == 0 || (list && property.count_bytes == 0)) return false;
+    const Property property{words.back(), list ? type_named(words[2]) : Type{},
+                            type_named(words[list ? 3 : 1])};
+    if (property.value.bytes == 0 || (list && property.count.bytes == 0)) return false;
     header.elements.back().properties.push_back(property);
   }
   return true;
@@ -102,26 +104,49 @@ std::optional<Header> read_header(std::string_view bytes) {
   return header;
 }
 
-/// Walks over the values behind a header without keeping them. The library would repeat the last entry of a
-/// truncated file, and allocate whatever a list says its length is.
+/// Takes the values behind a header one by one.
 class Body {
  public:
   Body(std::string_view bytes, const Header& header)
       : rest_(bytes.substr(header.bytes)), format_(header.format) {}
 
-  /// Whether the file holds all that the header promises.
-  [[nodiscard]] bool holds(const std::vector<Element>& elements) {
-    for (const Element& element : elements)
-      for (double i = 0; i < element.count; ++i)
-        for (const Property& property : element.properties) {
-          const double values = property.count_bytes == 0 ? 1 : take_count(property.count_bytes);
-          if (!skip(values, property.value_bytes)) return false;
-        }
-    return true;
+  /// Whether the rest may hold `count` entries of an element: what to know before allocating for them.
+  [[nodiscard]] bool may_hold(const Element& element) const {
+    double least = 0;
+    for (const Property& property : element.properties)
+      least +=
+          static_cast<double>(ascii() ? 1 : (property.is_list() ? property.count : property.value).bytes);
+    return element.count * least <= static_cast<double>(rest_.size());
+  }
+
+  /// Nothing at the end of the file. What is no number in a text is NaN.
+  std::optional<double> take(const Type& type) {
+    if (ascii()) {
+      const std::string_view word = take_word();
+      if (word.empty()) return std::nullopt;
+      return parse_number(word).value_or(std::numeric_limits<double>::quiet_NaN());
+    }
+    if (rest_.size() < type.bytes) return std::nullopt;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < type.bytes; ++i)
+      bits = bits << 8 | static_cast<unsigned char>(
+                             rest_[format_ == Header::Format::big_endian ? i : type.bytes - 1 - i]);
+    rest_.remove_prefix(type.bytes);
+    return decoded(type, bits);
+  }
+
+  /// The length of a list that the file can hold.
+  std::optional<double> take_count(const Property& list) {
+    const auto count = take(list.count);
+    const double least = ascii() ? 1 : static_cast<double>(list.value.bytes);
+    if (!count || !(*count >= 0 && *count * least <= static_cast<double>(rest_.size()))) return std::nullopt;
+    return count;
   }
 
  private:
   static constexpr std::string_view kBlanks = " \t\r\n";
+
+  [[nodiscard]] bool ascii() const { return format_ == Header::Format::ascii; }
 
   std::string_view take_word() {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
@@ -130,112 +155,96 @@ class Body {
     return word;
   }
 
-  // Infinite when there is none, so that skipping as many fails.
-  double take_count(std::size_t width) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    if (format_ == Header::Format::ascii) return parse_number(take_word()).value_or(kNone);
-    if (rest_.size() < width) return kNone;
-    double count = 0;
-    for (std::size_t i = 0; i < width; ++i)
-      count = count * 256 +
-              static_cast<unsigned char>(rest_[format_ == Header::Format::big_endian ? i : width - 1 - i]);
-    rest_.remove_prefix(width);
-    return count;
-  }
-
-  bool skip(double values, std::size_t width) {
-    const std::size_t least = format_ == Header::Format::ascii ? 1 : width;
-    if (!(values >= 0) || values * static_cast<double>(least) > static_cast<double>(rest_.size()))
-      return false;
-    if (format_ == Header::Format::ascii) {
-      for (double i = 0; i < values; ++i)
-        if (take_word().empty()) return false;
-    } else {
-      rest_.remove_prefix(static_cast<std::size_t>(values) * width);
-    }
-    return true;
+  static double decoded(const Type& type, std::uint64_t bits) {
+    if (type.kind == Type::Kind::real)
+      return type.bytes == 8 ? std::bit_cast<double>(bits)
+                             : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    if (type.kind == Type::Kind::natural) return static_cast<double>(bits);
+    const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
+    return static_cast<double>(bits) - ((bits & sign) != 0 ? 2 * static_cast<double>(sign) : 0);
   }
 
   std::string_view rest_;
   Header::Format format_;
 };
 
-// Polygons are cut into the fan around their first corner. (The library's own cutting aborts on degenerate
-// ones.)
-Mesh triangles_of(const aiMesh& from) {
-  Mesh mesh;
-  for (unsigned i = 0; i < from.mNumVertices; ++i)
-    mesh.vertices.emplace_back(from.mVertices[i].x, from.mVertices[i].y, from.mVertices[i].z);
-  for (unsigned f = 0; f < from.mNumFaces; ++f) {
-    const aiFace& face = from.mFaces[f];
-    for (unsigned i = 2; i < face.mNumIndices; ++i)
-      mesh.triangles.push_back({face.mIndices[0], face.mIndices[i - 1], face.mIndices[i]});
-  }
-  return mesh;
+// What names no vertex names the last there could be, and is reported with it.
+std::uint32_t vertex_number(double x) {
+  constexpr double kLast = std::numeric_limits<std::uint32_t>::max();
+  return x >= 0 && x < kLast && x == std::floor(x) ? static_cast<std::uint32_t>(x)
+                                                   : std::numeric_limits<std::uint32_t>::max();
 }
 
-// The bytes of a PLY that keeps its header's promises, or what is wrong with it.
-std::optional<std::string> read_checked(const std::filesystem::path& path, std::string& bytes) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return error ? "no such file" : "not a regular file";
-  if (std::filesystem::file_size(path, error) > kMaxFileBytes) return "file too large";
-  std::ifstream stream(path, std::ios::binary);
-  bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream) return "cannot read the file";
-  const std::optional<Header> header = read_header(bytes);
-  if (!header) return "malformed PLY header";
-  if (!Body(bytes, *header).holds(header->elements)) return "the header promises more than the file holds";
-  return std::nullopt;
+bool take_vertices(Body& body, const Element& element, Mesh& mesh) {
+  mesh.vertices.reserve(static_cast<std::size_t>(element.count));
+  for (double i = 0; i < element.count; ++i) {
+    Imath::V3d& vertex = mesh.vertices.emplace_back(0.0);
+    for (const Property& property : element.properties) {
+      double values = 1;
+      if (property.is_list()) {
+        const auto count = body.take_count(property);
+        if (!count) return false;
+        values = *count;
+      }
+      for (double k = 0; k < values; ++k) {
+        const auto value = body.take(property.value);
+        if (!value) return false;
+        if (!property.is_list() && property.name.size() == 1 && property.name[0] >= 'x' &&
+            property.name[0] <= 'z')
+          vertex[property.name[0] - 'x'] = *value;
+      }
+    }
+  }
+  return true;
+}
+
+// Polygons are cut into the fan around their first corner.
+bool take_faces(Body& body, const Element& element, Mesh& mesh) {
+  mesh.triangles.reserve(static_cast<std::size_t>(element.count));
+  for (double i = 0; i < element.count; ++i)
+    for (const Property& property : element.properties) {
+      const auto count = property.is_list() ? body.take_count(property) : 1.0;
+      if (!count) return false;
+      const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
+      std::uint32_t first = 0;
+      std::uint32_t last = 0;
+      for (double k = 0; k < *count; ++k) {
+        const auto value = body.take(property.value);
+        if (!value) return false;
+        if (!corners) continue;
+        const std::uint32_t corner = vertex_number(*value);
+        if (k == 0) first = corner;
+        if (k >= 2) mesh.triangles.push_back({first, last, corner});
+        last = corner;
+      }
+    }
+  return true;
+}
+
+bool skip(Body& body, const Element& element) {
+  Mesh ignored;
+  const Element counted{element.name, element.count, element.properties};
+  return take_faces(body, counted, ignored);
 }
 
 }  // namespace
 
-std::optional<Mesh> load_ply(const std::filesystem::path& path, const SourcePosition& where,
-                             Diagnostics& diagnostics) {
-  const auto refuse = [&](const std::string& message) {
-    diagnostics.error(where, fmt::format("mesh \"{}\": {}", path.string(), message), ErrorCode::input);
-    return std::nullopt;
-  };
-  std::string bytes;
-  if (const auto fault = read_checked(path, bytes)) return refuse(*fault);
-
-  Assimp::Importer importer;
-  const aiScene* found = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "ply");
-  if (!found) return refuse(importer.GetErrorString());
-  if (found->mNumMeshes != 1)
-    return refuse(fmt::format("one mesh is needed (got {}, allowed 1)", found->mNumMeshes));
-  Mesh mesh = triangles_of(*found->mMeshes[0]);
-  if (mesh.triangles.empty()) return refuse("no faces");
-  if (!check_mesh(mesh, where, diagnostics)) return std::nullopt;
-  return mesh;
-}
-
-bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Imath::V3d& v = mesh.vertices[i];
-    if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
-    diagnostics.error(where, fmt::format("vertex {} is not finite (got [{}, {}, {}])", i, v.x, v.y, v.z),
-                      ErrorCode::input);
-    return false;
+bool read_ply(std::string_view bytes, MeshReading& reading) {
+  constexpr const char* kPromises = "the header promises more than the file holds";
+  const std::optional<Header> header = read_header(bytes);
+  if (!header) return reading.refuse("malformed PLY header");
+  Body body(bytes, *header);
+  Mesh mesh;
+  for (const Element& element : header->elements) {
+    if (!body.may_hold(element)) return reading.refuse(kPromises);
+    const bool whole = element.name == "vertex" ? take_vertices(body, element, mesh)
+                       : element.name == "face" ? take_faces(body, element, mesh)
+                                                : skip(body, element);
+    if (!whole) return reading.refuse(kPromises);
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const std::uint32_t index = *std::max_element(mesh.triangles[i].begin(), mesh.triangles[i].end());
-    if (index < mesh.vertices.size()) continue;
-    diagnostics.error(where,
-                      fmt::format("triangle {} names a vertex that does not exist (got {}, allowed [0, {}])",
-                                  i, index, mesh.vertices.size() - 1),
-                      ErrorCode::input);
-    return false;
-  }
-  std::vector<std::array<std::uint32_t, 3>> kept;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (area_vector(mesh, i).length() > 0) kept.push_back(mesh.triangles[i]);
-  const std::size_t dropped = mesh.triangles.size() - kept.size();
-  mesh.triangles = std::move(kept);
-  if (dropped > 0) diagnostics.warning(where, fmt::format("triangles of zero area dropped: {}", dropped));
-  if (!mesh.triangles.empty()) return true;
-  diagnostics.error(where, "a mesh without a triangle of any area", ErrorCode::input);
-  return false;
+  if (mesh.triangles.empty()) return reading.refuse("no faces");
+  reading.file.parts.push_back({std::move(mesh), std::nullopt});
+  return true;
 }
 
 }  // namespace abbe

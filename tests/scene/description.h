@@ -54,6 +54,8 @@ class DescriptionTest : public ::testing::Test {
   DescriptionTest() : folder_(fs::temp_directory_path() / fmt::format("abbe_description_{}", ::getpid())) {
     fs::create_directories(folder_);
     write(folder_ / "bench.ply", ply(4, 1, kSquare + "4 0 1 2 3\n"));
+    write(folder_ / "chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\n");
+    write(folder_ / "chair.obj", "mtllib chair.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write(folder_ / "lamp.csv", "# unit: W/(m2 sr nm)\n# outside: zero\nwavelength_nm,L\n400,1\n700,3\n");
     write(folder_ / "filter.csv",
           "# unit: transmittance\n# outside: zero\nwavelength_nm,T\n500,0.2\n600,0.4\n");

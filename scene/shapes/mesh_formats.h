@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scene/shapes/mesh_file.h"
+
+namespace abbe {
+
+/// One reader per format: the bytes of a file into `file`, or in `fault` what is wrong with them.
+struct MeshReading {
+  std::filesystem::path path;
+  FileMaterials materials;
+  MeshFile file;
+  std::string fault;
+
+  /// Remembers the fault; false, so that a reader can end with it.
+  bool refuse(std::string what) {
+    fault = std::move(what);
+    return false;
+  }
+};
+[[nodiscard]] bool read_ply(std::string_view bytes, MeshReading& reading);
+[[nodiscard]] bool read_obj(std::string_view bytes, MeshReading& reading);
+/// glTF 2.0, as JSON or GLB. Node transforms are applied, a mirror turning the triangles round.
+[[nodiscard]] bool read_gltf(std::string&& bytes, MeshReading& reading);
+
+/// Bytes of a regular file, or why there are none.
+[[nodiscard]] std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path,
+                                                         std::string& bytes);
+/// Bytes of a file that `reading`'s file names, which must lie beside it or below.
+[[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
+
+/// The most triangles of a file, counted after nodes have been followed: a small file can name many.
+inline constexpr double kMaxTriangles = 67108864;
+
+}  // namespace abbe

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+#include "spectral/curve.h"
+
+namespace abbe {
+
+/// A linear colour in the primaries of Rec.709 and sRGB; (1, 1, 1) is the perfect diffuser under D65.
+using LinearRgb = std::array<double, 3>;
+
+/// Chromaticities of those primaries [BT709].
+inline constexpr std::array<std::array<double, 2>, 3> kRec709Primaries{
+    {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}}};
+
+/// Colour of a reflectance under D65, for the CIE 1931 observer, 380-780 nm. Its white is that of the shipped
+/// table of D65, so that a reflectance of 1 is exactly (1, 1, 1).
+[[nodiscard]] LinearRgb linear_rgb(const Curve& reflectance);
+
+/// Three smooth spectra in [0, 1] that add up to 1 everywhere and have the colours (1, 0, 0), (0, 1, 0) and
+/// (0, 0, 1) under `linear_rgb`, so that any mixture of them has the colour of its weights, and stays a
+/// reflectance while the weights are in [0, 1] [Mallett2019]. Here their logarithms differ by quadratics in
+/// wavelength, whose six coefficients the six conditions fix; held constant beyond 380-780 nm, where no
+/// colour says anything. Worked out once. Throws Error{input} when a shipped table is missing.
+struct RgbBasis {
+  Curve red;
+  Curve green;
+  Curve blue;
+};
+[[nodiscard]] const RgbBasis& rgb_basis();
+
+/// The mixture of the basis with the weights `rgb`, each >= 0.
+[[nodiscard]] Curve rgb_spectrum(const LinearRgb& rgb);
+
+}  // namespace abbe

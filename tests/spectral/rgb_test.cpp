@@ -1,0 +1,52 @@
+#include "spectral/rgb.h"
+
+#include <gtest/gtest.h>
+
+#include "spectral/colorimetry.h"
+#include "spectral/library.h"
+
+namespace abbe {
+namespace {
+
+void expect_near(const LinearRgb& a, const LinearRgb& b, double tolerance) {
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << "channel " << c;
+}
+
+TEST(Rgb, SpectraHaveTheColoursTheyAreMadeFrom) {
+  for (const double r : {0.0, 0.02, 0.5, 1.0})
+    for (const double g : {0.0, 0.3, 1.0})
+      for (const double b : {0.0, 0.7, 1.0}) {
+        const Curve spectrum = rgb_spectrum({r, g, b});
+        expect_near(linear_rgb(spectrum), {r, g, b}, 1e-9);
+        EXPECT_GE(spectrum.min(), std::min({r, g, b}));
+        EXPECT_LE(spectrum.max(), std::max({r, g, b}));
+      }
+  EXPECT_TRUE(rgb_spectrum({0.3, 0.3, 0.3}).is_constant());
+  EXPECT_NEAR(rgb_spectrum({3e4, 0, 1e3})(700), 3e4, 30) << "lights are not bounded";
+}
+
+TEST(Rgb, ColoursAreThoseOfTheTables) {
+  Diagnostics diagnostics;
+  const auto d65 = load_illuminant("D65", {}, diagnostics);
+  ASSERT_TRUE(d65);
+  const XYZ red = tristimulus(d65->curve, rgb_basis().red, Observer::cie1931);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(chromaticity(red)[i], kRec709Primaries[0][i], 1e-9);
+  EXPECT_NEAR(red[1], 21.26, 0.02) << "luminance of the primary [BT709]";
+  expect_near(linear_rgb(Curve(0.25)), {0.25, 0.25, 0.25}, 1e-12);
+}
+
+TEST(Rgb, BasisIsSmoothAndAddsUpToOne) {
+  const RgbBasis& basis = rgb_basis();
+  for (double nm = 300; nm <= 1100; nm += 0.5) {
+    EXPECT_NEAR(basis.red(nm) + basis.green(nm) + basis.blue(nm), 1, 1e-12);
+    for (const Curve* curve : {&basis.red, &basis.green, &basis.blue})
+      EXPECT_LT(std::abs((*curve)(nm + 1) - (*curve)(nm)), 0.05) << "between neighbouring nanometres";
+  }
+  EXPECT_EQ(basis.red(900), basis.red(780));
+  EXPECT_GT(basis.red(650), 0.99);
+  EXPECT_GT(basis.green(540), 0.9);
+  EXPECT_GT(basis.blue(440), 0.9);
+}
+
+}  // namespace
+}  // namespace abbe
