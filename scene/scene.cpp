@@ -60,6 +60,9 @@ std::size_t Scene::triangle_count() const {
 std::size_t Scene::memory_bytes() const {
   std::size_t bytes =
       geometry_->memory_bytes() + shapes.size() * sizeof(ShapeInstance) + lights.size() * sizeof(Light);
+  for (const Light& light : lights)
+    if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind); sky && sky->image)
+      bytes += sky->image->memory_bytes();
   const Placement* last = nullptr;  // the shapes of one instance stand side by side and share theirs
   for (const ShapeInstance& instance : shapes) {
     if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) bytes += abbe::memory_bytes(*mesh);

@@ -77,7 +77,7 @@ std::optional<Curve> read_emission(const JsonValue& json, const LampKind& kind, 
   return normalised(*spectrum, scale, *value, kind, json.where, reading);
 }
 
-/// A light at a point or at infinity: where it is, and how it spreads.
+/// A light at a point: where it is, and how it spreads.
 struct Placed {
   decltype(Light::kind) kind;
   Imath::V3d position{0, 0, 0};
@@ -105,16 +105,26 @@ std::optional<Placed> read_spot(const JsonValue& json, const Reading& reading) {
   return Placed{spot, *at, {kPointScales, solid_angle}};
 }
 
-std::optional<Placed> read_environment(const JsonValue& json, const Reading& reading, const Scene& scene) {
-  ObjectReader reader(json, reading.diagnostics);
+void add_environment(ObjectReader& reader, std::string name, const JsonValue& json, Reading& reading,
+                     Scene& scene) {
+  auto sky = read_sky(json, reading);
+  const JsonValue* emission = reader.require("emission");
   reader.finish();
   for (const Light& light : scene.lights) {
     if (!light.is_environment()) continue;
     reading.diagnostics.error(
         json.where, fmt::format("a scene has one environment (got another beside \"{}\")", light.name));
-    return std::nullopt;
+    return;
   }
-  return Placed{EnvironmentLight{}, {0, 0, 0}, {kEnvironmentScales, 1}};
+  if (!sky || !emission) return;
+  auto curve = read_emission(*emission, {kEnvironmentScales, 1}, reading);
+  if (!curve) return;
+  EnvironmentLight light;
+  if (!sky->texels.empty())
+    light.image = std::make_shared<const EnvironmentImage>(sky->width, sky->height, std::move(sky->texels),
+                                                           sky->frame, *curve, scene.channels);
+  scene.lights.push_back({std::move(name), std::move(light), std::move(*curve)});
+  reading.light_positions.push_back({0, 0, 0});
 }
 
 void add_placed(ObjectReader& reader, std::string name, const std::optional<Placed>& placed, Reading& reading,
@@ -164,7 +174,7 @@ void read_light(const JsonValue& json, std::size_t number, Reading& reading, Sce
   } else if (*key == "spot") {
     add_placed(reader, std::move(name), read_spot(kind, reading), reading, scene);
   } else {
-    add_placed(reader, std::move(name), read_environment(kind, reading, scene), reading, scene);
+    add_environment(reader, std::move(name), kind, reading, scene);
   }
 }
 

@@ -125,6 +125,8 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   Sensor sensor;
   if (const JsonValue* json = reader.require("sensor"))
     sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), reading);
+  scene.exposure_s = sensor.exposure_s;
+  scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
   if (materials) read_materials(*materials, reading, scene);
   if (const JsonValue* json = reader.find("objects")) read_objects(*json, reading, scene);
   if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, reading, scene);
@@ -134,8 +136,6 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   if (const JsonValue* json = reader.find("render")) scene.render = read_render(*json, reading);
   if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, reading);
   reader.finish();
-  scene.exposure_s = sensor.exposure_s;
-  scene.channels = std::move(sensor.channels);
   if (reading.diagnostics.has_errors()) return scene;
   if (materials) check_validity(*materials, reading, scene);
   if (scene.lights.empty()) reading.diagnostics.warning(root.where, "no light: the image will be black");

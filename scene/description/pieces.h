@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -130,6 +131,16 @@ void read_lights(const JsonValue& json, Reading& reading, Scene& scene);
 /// Makes `scene.shapes[shape]` emit.
 void add_area_light(const JsonValue& emission, bool two_sided, std::uint32_t shape, Reading& reading,
                     Scene& scene);
+
+/// An environment: nothing but its light, or the texels of an image and which way it faces.
+struct Sky {
+  int width = 0;
+  int height = 0;
+  std::vector<std::array<float, 3>> texels = {};
+  EnvironmentFrame frame = {{0, 0, 1}, {0, 1, 0}};
+};
+/// Throws Error{input} or Error{resource} for an image file that cannot be read or is too large.
+[[nodiscard]] std::optional<Sky> read_sky(const JsonValue& json, Reading& reading);
 
 /// The film: its pixels, and what they count.
 struct Sensor {

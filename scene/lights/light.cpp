@@ -115,14 +115,29 @@ std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, cons
   return sample;
 }
 
-std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight&,
+std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& environment,
                                        const std::vector<ShapeInstance>&, const Imath::V3f& point,
                                        Imath::V2f u) {
-  const Imath::V3f wi = sample_area(Sphere{{0, 0, 0}, 1}, u).normal;
-  return LightSample{wi, std::numeric_limits<float>::infinity(), 1, static_cast<float>(1 / (4 * kPi)), point};
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  if (!environment.image)
+    return LightSample{sample_area(Sphere{{0, 0, 0}, 1}, u).normal, kInfinity, 1,
+                       static_cast<float>(1 / (4 * kPi)), point};
+  const auto wi = environment.image->sample(u);
+  if (!wi) return std::nullopt;
+  // Rounded, the direction may meet the next texel; then that one's density goes with that one's radiance.
+  const float pdf = environment.image->pdf(*wi);
+  if (!(pdf > 0)) return std::nullopt;
+  return LightSample{*wi, kInfinity, 1, pdf, point};
 }
 
 }  // namespace
+
+SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
+                              const SampledSpectrum& wavelengths_nm) {
+  const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
+  if (environment == nullptr || !environment->image) return light.emission(wavelengths_nm);
+  return environment->image->radiance(wi, wavelengths_nm);
+}
 
 std::optional<LightSample> sample_light(const Light& light, const std::vector<ShapeInstance>& shapes,
                                         const Imath::V3f& point, Imath::V2f u) {
@@ -131,7 +146,8 @@ std::optional<LightSample> sample_light(const Light& light, const std::vector<Sh
 
 float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
                 const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal) {
-  if (light.is_environment()) return static_cast<float>(1 / (4 * kPi));
+  if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind))
+    return environment->image ? environment->image->pdf(wi) : static_cast<float>(1 / (4 * kPi));
   if (light.is_delta() || !emits_towards(light, hit_normal, -wi)) return 0;
   const auto& emitter = std::get<AreaLight>(light.kind);
   const Shape& shape = shapes[emitter.shape].shape;
@@ -166,6 +182,8 @@ Curve power(const Light& light, double scene_radius_m) {
   if (std::holds_alternative<PointLight>(light.kind)) factor = 4 * kPi;
   if (const auto* lamp = std::get_if<SpotLight>(&light.kind))
     factor = 2 * kPi * static_cast<double>(lamp->cap);
+  if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind); environment && environment->image)
+    return scaled(environment->image->mean_radiance(), factor);
   return scaled(light.emission, factor);
 }
 

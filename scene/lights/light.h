@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -8,6 +9,7 @@
 
 #include <ImathVec.h>
 
+#include "scene/lights/environment_image.h"
 #include "scene/ray.h"
 #include "scene/shapes/shape.h"
 #include "spectral/curve.h"
@@ -34,11 +36,14 @@ struct SpotLight {
   /// Whether the unit direction `wi` from the lamp is within the cone: |wi - axis|^2 = 2 (1 - cos).
   [[nodiscard]] bool lights(const Imath::V3f& wi) const { return (wi - axis).length2() <= 2 * cap; }
 };
-/// The same radiance from all directions at infinity.
-struct EnvironmentLight {};
+/// Light from infinity: the same radiance from all directions, or as an image says.
+struct EnvironmentLight {
+  std::shared_ptr<const EnvironmentImage> image = nullptr;
+};
 
 /// A light: where it is, and its emission: spectral radiance [W m^-2 sr^-1 nm^-1] of an area or environment
-/// light, spectral intensity [W sr^-1 nm^-1] of a point or spot light.
+/// light, spectral intensity [W sr^-1 nm^-1] of a point or spot light. With an image, that of a texel (1, 1,
+/// 1).
 struct Light {
   std::string name;
   std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight> kind;
@@ -48,9 +53,14 @@ struct Light {
   [[nodiscard]] bool is_environment() const { return kind.index() == 3; }
 };
 
-/// Light arriving at a point, without its spectrum: `factor` times emission is the incident radiance (area,
-/// environment) or irradiance per unit cosine (point, spot), and `pdf` the density of `wi` [1/sr] (1 for
-/// delta lights, whose direction is no choice).
+/// The emission at these wavelengths of light arriving from the unit direction `wi`, which only an
+/// environment image asks for.
+[[nodiscard]] SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
+                                            const SampledSpectrum& wavelengths_nm);
+
+/// Light arriving at a point, without its spectrum: `factor` times `emission_from` is the incident radiance
+/// (area, environment) or irradiance per unit cosine (point, spot), and `pdf` the density of `wi` [1/sr] (1
+/// for delta lights, whose direction is no choice).
 struct LightSample {
   Imath::V3f wi;
   float distance;  ///< infinity for the environment

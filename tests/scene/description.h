@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "io/exr.h"
 #include "io/json.h"
 #include "scene/description/load.h"
 
@@ -56,6 +57,7 @@ class DescriptionTest : public ::testing::Test {
     write(folder_ / "bench.ply", ply(4, 1, kSquare + "4 0 1 2 3\n"));
     write(folder_ / "chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\n");
     write(folder_ / "chair.obj", "mtllib chair.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
     write(folder_ / "lamp.csv", "# unit: W/(m2 sr nm)\n# outside: zero\nwavelength_nm,L\n400,1\n700,3\n");
     write(folder_ / "filter.csv",
           "# unit: transmittance\n# outside: zero\nwavelength_nm,T\n500,0.2\n600,0.4\n");

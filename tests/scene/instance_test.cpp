@@ -78,15 +78,20 @@ TEST(Instance, IsTheShapeWrittenOut) {
   for (int k = 0; k < 200; ++k) {
     const PlainShape& shape = shapes[static_cast<std::size_t>(k) % shapes.size()];
     const M44d map = random_map(random, shape.index() == 1 || shape.index() == 2);
-    const Scene instance = scene_of({placed(shape, map)});
-    const Scene plain = scene_of({written_out(shape, map)});
-    const double size = plain.bounds.size().length();
-    const double near = 1e-5 * (size + plain.bounds.center().length());
-    for (const double x :
-         {instance.bounds.min.x - plain.bounds.min.x, plain.bounds.max.x - instance.bounds.max.x})
-      EXPECT_LE(x, near) << "the bounds hold the shape";
+    const Shape beside = Sphere{V3d(0, 0, 3e4), 1};  // so that the shape looked for is not the first
+    const Shape moved = written_out(shape, map);
+    const Imath::Box3d box = bounds(moved);
+    const Scene instance = scene_of({beside, placed(shape, map)});
+    const Scene plain = scene_of({beside, moved});
+    const double size = box.size().length();
+    const double near = 1e-5 * (size + box.center().length());
+    const Imath::Box3d around = bounds(instance.shapes[1].shape);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(around.min[axis] - box.min[axis], near) << "the bounds hold the shape";
+      EXPECT_LE(box.max[axis] - around.max[axis], near);
+    }
     for (int i = 0; i < 1000; ++i) {
-      const Ray ray = ray_near(random, plain.bounds);
+      const Ray ray = ray_near(random, box);
       const auto a = instance.intersect(ray);
       const auto b = plain.intersect(ray);
       const BasicRay<double> exact_ray{V3d(ray.origin), V3d(ray.direction)};
@@ -102,6 +107,8 @@ TEST(Instance, IsTheShapeWrittenOut) {
       if (std::abs(truth->hit.normal.dot(exact_ray.direction)) < 1e-3 || truth->hit.t < 2 * near) continue;
       ++hits;
       inside += a->normal.dot(ray.direction) > 0;
+      EXPECT_EQ(a->shape, 1U);
+      EXPECT_EQ(exact->shape, 1U);
       EXPECT_NEAR(static_cast<double>(a->t), exact->hit.t, near);
       EXPECT_LT((V3d(a->point) - exact->hit.point).length(), near);
       EXPECT_LT((V3d(a->normal) - exact->hit.normal).length(), 1e-5);
@@ -177,10 +184,13 @@ TEST(Instance, CostsATransformOnly) {
   const Scene many = scene_with(1001);
   EXPECT_EQ(one.triangle_count(), 10000U);
   EXPECT_EQ(many.triangle_count(), 10010000U);
-  EXPECT_GT(one.memory_bytes(), 10000U * 60) << "the mesh is counted";
+  EXPECT_GT(one.memory_bytes() + 10000 * sizeof(Imath::V3f) + 20000, scene_of({mesh}).memory_bytes())
+      << "a prototype is counted like a shape, which has normals besides";
   const std::size_t each = (many.memory_bytes() - one.memory_bytes()) / 1000;
-  EXPECT_GE(each, sizeof(Placement));
   EXPECT_LT(each, 1500U);
+  const auto at = std::make_shared<const Placement>(placement(M44d()));
+  const Scene stacked = scene_of(std::vector<Shape>(1001, PlacedShape{prototype, at}));
+  EXPECT_GT(many.memory_bytes(), stacked.memory_bytes() + 800 * sizeof(Placement)) << "less by all but one";
   EXPECT_GT(many.bounds.max.x, 3000);
 }
 

@@ -77,7 +77,8 @@ class CameraPath {
             ? 0.0F
             : plan_.path_lights.probability(static_cast<std::uint32_t>(index)) *
                   light_pdf(light, scene_.shapes, ray_.origin, ray_.direction, Imath::V3f(0), Imath::V3f(0));
-    exposure_.deposit(packet_.throughput * light.emission(lambda()) * (1 / balance(pdf)));
+    exposure_.deposit(packet_.throughput * emission_from(light, ray_.direction, lambda()) *
+                      (1 / balance(pdf)));
   }
 
   void add_emission(const SurfaceHit& hit, int depth) {
@@ -139,7 +140,8 @@ class CameraPath {
     const Imath::V3f wi = vertex.frame.to_local(towards->wi);
     SampledSpectrum contribution = eval(vertex.bsdf, vertex.wo, wi, TransportMode::radiance);
     if (contribution.is_zero() || wi.z * vertex.wo.z <= 0) return;
-    contribution *= packet_.throughput * light.emission(lambda()) * (std::abs(wi.z) * towards->factor);
+    contribution *=
+        packet_.throughput * emission_from(light, towards->wi, lambda()) * (std::abs(wi.z) * towards->factor);
     const float light_density = pick.probability * towards->pdf;
     const SampledSpectrum scatter_density =
         light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);

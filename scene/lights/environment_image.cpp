@@ -1,0 +1,146 @@
+#include "scene/lights/environment_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <ImathMatrix.h>
+
+namespace abbe {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// What a unit of each primary exposes, over all channels; a response may be negative.
+LinearRgb exposures(const std::array<Curve, 3>& primaries, std::span<const Channel> channels) {
+  LinearRgb exposed{};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const Channel& channel : channels)
+      exposed.at(c) += std::abs(integral_of_product(primaries.at(c), channel.weight));
+  return exposed;
+}
+
+// The step of a cumulative distribution that u falls into, and how far.
+struct Step {
+  std::size_t index;
+  double within;
+};
+Step find_step(std::span<const double> cdf, double u) {
+  const auto above = std::upper_bound(cdf.begin(), cdf.end(), u);
+  auto index = std::min(static_cast<std::size_t>(above - cdf.begin()), cdf.size() - 1);
+  const auto low = [&cdf](std::size_t i) { return i > 0 ? cdf[i - 1] : 0.0; };
+  while (index > 0 && cdf[index] == low(index)) --index;  // u beyond a sum rounded below 1
+  return {index, std::clamp((u - low(index)) / (cdf[index] - low(index)), 0.0, 1.0)};
+}
+
+// Divides by the last value, which is left as it is when nothing was added up.
+void normalise(std::span<double> sums) {
+  const double total = sums.back();
+  if (!(total > 0)) return;
+  for (double& sum : sums) sum /= total;
+}
+
+}  // namespace
+
+EnvironmentFrame environment_frame(const Imath::V3d& up, double rotate_deg) {
+  const Imath::V3d ahead =
+      up.cross(Imath::V3d(0, 1, 0)).length() > 1e-6 ? Imath::V3d(0, 1, 0) : Imath::V3d(1, 0, 0);
+  const Imath::V3d level = (ahead - up * ahead.dot(up)).normalized();
+  const double angle = rotate_deg * kPi / 180;
+  return {up, level * std::cos(angle) + up.cross(level) * std::sin(angle)};
+}
+
+EnvironmentImage::EnvironmentImage(int width, int height, std::vector<std::array<float, 3>> texels,
+                                   const EnvironmentFrame& frame, const Curve& emission,
+                                   std::span<const Channel> channels)
+    : width_(static_cast<std::size_t>(width)),
+      height_(static_cast<std::size_t>(height)),
+      texels_(std::move(texels)),
+      up_(frame.up),
+      forward_(frame.forward),
+      right_(frame.forward.cross(frame.up)),
+      primaries_{product(emission, rgb_basis().red), product(emission, rgb_basis().green),
+                 product(emission, rgb_basis().blue)},
+      row_cdf_(height_),
+      column_cdf_(texels_.size()) {
+  const LinearRgb exposed = exposures(primaries_, channels);
+  double rows = 0;
+  for (std::size_t row = 0; row < height_; ++row) {
+    double columns = 0;
+    for (std::size_t i = row * width_; i < (row + 1) * width_; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = static_cast<double>(texels_[i].at(c));
+        columns += exposed.at(c) * value;
+        mean_.at(c) += value * solid_angle(row) / (4 * kPi);
+      }
+      column_cdf_[i] = columns;
+    }
+    rows += columns * solid_angle(row);
+    row_cdf_[row] = rows;
+    normalise(std::span(column_cdf_).subspan(row * width_, width_));
+  }
+  normalise(row_cdf_);
+  if (!(rows > 0)) row_cdf_.clear();
+}
+
+double EnvironmentImage::row_top(std::size_t row) const {
+  return std::cos(kPi * static_cast<double>(row) / static_cast<double>(height_));
+}
+
+// Of one texel: the difference of the cosines at its edges, written as a product, times its azimuth.
+double EnvironmentImage::solid_angle(std::size_t row) const {
+  const double middle = kPi * (static_cast<double>(row) + 0.5) / static_cast<double>(height_);
+  return 2 * std::sin(middle) * std::sin(kPi / (2 * static_cast<double>(height_))) * 2 * kPi /
+         static_cast<double>(width_);
+}
+
+std::size_t EnvironmentImage::texel_at(const Imath::V3f& wi) const {
+  const Imath::V3d d = Imath::V3d(wi).normalized();
+  const double across = std::hypot(d.dot(forward_), d.dot(right_));
+  const double theta = std::atan2(across, d.dot(up_));
+  const double turn = std::atan2(d.dot(right_), d.dot(forward_)) / (2 * kPi) + 0.5;
+  const auto row = static_cast<std::size_t>(theta / kPi * static_cast<double>(height_));
+  const auto column = static_cast<std::size_t>(turn * static_cast<double>(width_));
+  return std::min(row, height_ - 1) * width_ + std::min(column, width_ - 1);
+}
+
+SampledSpectrum EnvironmentImage::radiance(const Imath::V3f& wi,
+                                           const SampledSpectrum& wavelengths_nm) const {
+  const std::array<float, 3>& texel = texels_[texel_at(wi)];
+  return primaries_[0](wavelengths_nm) * texel[0] + primaries_[1](wavelengths_nm) * texel[1] +
+         primaries_[2](wavelengths_nm) * texel[2];
+}
+
+std::optional<Imath::V3f> EnvironmentImage::sample(Imath::V2f u) const {
+  if (row_cdf_.empty()) return std::nullopt;
+  const Step row = find_step(row_cdf_, static_cast<double>(u.y));
+  const Step column =
+      find_step(std::span(column_cdf_).subspan(row.index * width_, width_), static_cast<double>(u.x));
+  // Uniform by solid angle within the texel: in azimuth, and in the cosine.
+  const double azimuth = (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
+  const double phi = 2 * kPi * (azimuth - 0.5);
+  const double cosine = row_top(row.index) * (1 - row.within) + row_top(row.index + 1) * row.within;
+  const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
+  return Imath::V3f(forward_ * (sine * std::cos(phi)) + right_ * (sine * std::sin(phi)) + up_ * cosine);
+}
+
+float EnvironmentImage::pdf(const Imath::V3f& wi) const {
+  if (row_cdf_.empty()) return 0;
+  const std::size_t texel = texel_at(wi);
+  const std::size_t row = texel / width_;
+  const double by_row = row_cdf_[row] - (row > 0 ? row_cdf_[row - 1] : 0);
+  const double by_column = column_cdf_[texel] - (texel % width_ > 0 ? column_cdf_[texel - 1] : 0);
+  return static_cast<float>(by_row * by_column / solid_angle(row));
+}
+
+Curve EnvironmentImage::mean_radiance() const {
+  return sum(sum(scaled(primaries_[0], mean_[0]), scaled(primaries_[1], mean_[1])),
+             scaled(primaries_[2], mean_[2]));
+}
+
+std::size_t EnvironmentImage::memory_bytes() const {
+  return texels_.size() * sizeof(texels_[0]) + (row_cdf_.size() + column_cdf_.size()) * sizeof(double);
+}
+
+}  // namespace abbe

@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+
+#include "description.h"
+#include "io/exr.h"
+#include "scene/lights/environment_image.h"
+#include "scenes.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3d;
+using Imath::V3f;
+using testing::Loaded;
+using testing::Random;
+using Texels = std::vector<std::array<float, 3>>;
+using EnvironmentFileTest = testing::DescriptionTest;
+
+constexpr double kPi = std::numbers::pi;
+const SampledSpectrum kGreen(550);
+
+EnvironmentImage image_of(int width, int height, Texels texels,
+                          const EnvironmentFrame& frame = {{0, 0, 1}, {0, 1, 0}}) {
+  const std::vector<Channel> channels{energy_channel("all", Curve(1.0))};
+  return {width, height, std::move(texels), frame, Curve(2.0), channels};
+}
+
+Texels noise(std::size_t count) {
+  Random random(21);
+  Texels texels(count);
+  for (auto& texel : texels)
+    for (float& value : texel)
+      value = random.uniform() < 0.3F ? 0 : std::pow(10.0F, 6 * random.uniform() - 4);
+  return texels;
+}
+
+TEST(EnvironmentImage, FacesWhereItSays) {
+  // One row of four columns around, between a white top and a black bottom.
+  Texels texels(12, {0, 0, 0});
+  for (std::size_t i = 0; i < 4; ++i) texels[i] = {9, 9, 9};
+  for (std::size_t i = 0; i < 4; ++i) texels[4 + i] = std::array<float, 3>{};
+  for (std::size_t i = 0; i < 4; ++i) texels[4 + i].fill(static_cast<float>(i) + 1);
+  const auto seen = [&](const EnvironmentFrame& frame, const V3f& wi) {
+    return image_of(4, 3, texels, frame).radiance(wi, kGreen)[0] / 2;
+  };
+  const EnvironmentFrame upright = environment_frame({0, 0, 1}, 0);
+  EXPECT_NEAR(seen(upright, {0.1F, 0.2F, 0.9F}), 9, 1e-5);
+  EXPECT_NEAR(seen(upright, {0.1F, 0.2F, -0.9F}), 0, 1e-5);
+  // The middle, between the second and third columns, is +y; to its right is +x.
+  EXPECT_NEAR(seen(upright, {-0.1F, 1, 0}), 2, 1e-5);
+  EXPECT_NEAR(seen(upright, {0.1F, 1, 0}), 3, 1e-5);
+  EXPECT_NEAR(seen(upright, {1, -0.1F, 0}), 4, 1e-5);
+  EXPECT_NEAR(seen(upright, {-1, -0.1F, 0}), 1, 1e-5);
+  // Turned by a quarter about up, the middle is -x.
+  const EnvironmentFrame turned = environment_frame({0, 0, 1}, 90);
+  EXPECT_NEAR(seen(turned, {-1, -0.1F, 0}), 2, 1e-5);
+  EXPECT_NEAR(seen(turned, {-1, 0.1F, 0}), 3, 1e-5);
+  // With y up the middle is +x, and right of it is +z.
+  const EnvironmentFrame tilted = environment_frame({0, 1, 0}, 0);
+  EXPECT_NEAR(seen(tilted, {0.1F, 0.9F, 0}), 9, 1e-5);
+  EXPECT_NEAR(seen(tilted, {1, 0, 0.1F}), 3, 1e-5);
+  EXPECT_NEAR(seen(tilted, {1, 0, -0.1F}), 2, 1e-5);
+}
+
+TEST(EnvironmentImage, DensityIsThatOfItsSamples) {
+  constexpr int kWidth = 12;
+  constexpr int kHeight = 7;
+  const EnvironmentImage image =
+      image_of(kWidth, kHeight, noise(kWidth * kHeight), environment_frame(V3d(1, 2, -1).normalized(), 35));
+  // It integrates to 1, and so do samples over it: the mean of f/pdf is the integral of f, for any f.
+  Random random(22);
+  double total = 0;
+  double moment = 0;
+  constexpr int kPoints = 400000;
+  for (int i = 0; i < kPoints; ++i) {
+    const V3f wi(random.direction());
+    const double pdf = static_cast<double>(image.pdf(wi)) * 4 * kPi / kPoints;
+    total += pdf;
+    moment += pdf * std::pow(static_cast<double>(wi.x) + 0.5 * static_cast<double>(wi.z), 2);
+  }
+  EXPECT_NEAR(total, 1, 0.03);
+  double drawn = 0;
+  int strange = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const auto wi = image.sample(random.pair());
+    ASSERT_TRUE(wi);
+    EXPECT_NEAR(wi->length(), 1, 1e-6);
+    strange += !(image.pdf(*wi) > 0) || !(image.radiance(*wi, kGreen).max() > 0);
+    drawn += std::pow(static_cast<double>(wi->x) + 0.5 * static_cast<double>(wi->z), 2) / kPoints;
+  }
+  EXPECT_NEAR(drawn / moment, 1, 0.03);
+  EXPECT_LE(strange, kPoints / 10000) << "a black texel next to the one drawn, by rounding";
+  EXPECT_FALSE(image_of(2, 1, Texels(2, {0, 0, 0})).sample({0.5F, 0.5F}));
+  EXPECT_EQ(image_of(2, 1, Texels(2, {0, 0, 0})).pdf({1, 0, 0}), 0);
+}
+
+TEST(EnvironmentImage, WhiteIsTheConstantEnvironment) {
+  Scene scene{};
+  scene.camera = testing::pinhole();
+  const Curve emission(std::vector<Knot>{{400, 1}, {700, 3}});
+  const std::vector<Channel> channels = observer_channels(Observer::cie1931);
+  const Light plain{"sky", EnvironmentLight{}, emission};
+  const Light white{"sky",
+                    EnvironmentLight{std::make_shared<const EnvironmentImage>(
+                        16, 8, Texels(128, {1, 1, 1}), environment_frame({0, 0, 1}, 0), emission, channels)},
+                    emission};
+  Random random(23);
+  for (int i = 0; i < 1000; ++i) {
+    const V3f wi(random.direction());
+    const SampledSpectrum nm(static_cast<float>(random.between(300, 1100)));
+    EXPECT_NEAR(emission_from(white, wi, nm)[0] / emission_from(plain, wi, nm)[0], 1, 1e-6);
+    EXPECT_NEAR(
+        light_pdf(white, {}, V3f(0), wi, V3f(0), V3f(0)) / light_pdf(plain, {}, V3f(0), wi, V3f(0), V3f(0)),
+        1, 1e-5);
+    const auto sample = sample_light(white, {}, V3f(0), random.pair());
+    ASSERT_TRUE(sample);
+    EXPECT_NEAR(sample->pdf * 4 * static_cast<float>(kPi), 1, 1e-5);
+  }
+  EXPECT_NEAR(power(white, 2).integral() / power(plain, 2).integral(), 1, 1e-12);
+}
+
+TEST(EnvironmentImage, OneHotTexelLightsAsItShould) {
+  constexpr int kWidth = 64;
+  constexpr int kHeight = 32;
+  Texels texels(kWidth * kHeight, {1e-3F, 1e-3F, 1e-3F});
+  constexpr int kRow = 10;
+  constexpr int kColumn = 40;
+  texels[kRow * kWidth + kColumn] = {1e8F, 1e8F, 1e8F};
+  const Light sky{
+      "sky", EnvironmentLight{std::make_shared<const EnvironmentImage>(image_of(kWidth, kHeight, texels))},
+      Curve(2.0)};
+  // Onto a level surface: the integral of cos theta sin theta over the texel.
+  const double top = kPi * kRow / kHeight;
+  const double bottom = kPi * (kRow + 1) / kHeight;
+  const double irradiance =
+      2e8 * (2 * kPi / kWidth) * (std::pow(std::sin(bottom), 2) - std::pow(std::sin(top), 2)) / 2;
+  Random random(24);
+  double sum = 0;
+  constexpr int kSamples = 64;
+  for (int i = 0; i < kSamples; ++i) {
+    const auto sample = sample_light(sky, {}, V3f(0), random.pair());
+    ASSERT_TRUE(sample);
+    sum += static_cast<double>(emission_from(sky, sample->wi, kGreen)[0] * std::max(sample->wi.z, 0.0F) /
+                               sample->pdf);
+  }
+  EXPECT_NEAR(sum / kSamples / irradiance, 1, 0.01);
+  EXPECT_NEAR(power(sky, 1).integral() /
+                  (2e8 * 800 * 4 * kPi * kPi / (kWidth * kHeight) * 1.5708 * std::sin((top + bottom) / 2)),
+              1, 1e-2);
+}
+
+TEST_F(EnvironmentFileTest, ReadsImages) {
+  Image image{
+      4,
+      2,
+      {{"R", {8, 0, 0, 0, 0, 0, 0, 0}}, {"G", std::vector<float>(8, 1)}, {"B", std::vector<float>(8, 0)}},
+      {}};
+  write_exr(folder_ / "sky.exr", image);
+  const std::string text =
+      R"({"lights": [{"environment": {"image": "sky.exr", "up": [0, 1, 0], "rotate_deg": 180}, "emission": {"illuminant": "D65", "radiance": 5}}]})";
+  const Loaded loaded = load(text);
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  ASSERT_EQ(loaded->environment(), 0);
+  const Light& sky = loaded->lights[0];
+  // The image's left edge lies behind its middle, which looks along -x: towards +x, above.
+  EXPECT_NEAR(emission_from(sky, {0.7F, 0.7F, 0.1F}, SampledSpectrum(650))[0] /
+                  (8 * static_cast<float>(sky.emission(650.0))),
+              1, 0.02);
+  EXPECT_LT(emission_from(sky, {-0.7F, 0.7F, 0.1F}, SampledSpectrum(650))[0], 0.02F);
+  EXPECT_GT(loaded->memory_bytes(), 8 * (sizeof(float) * 3 + sizeof(double)));
+  image.channels[0].values[0] = 7;
+  write_exr(folder_ / "sky.exr", image);
+  EXPECT_NE(load(text)->sha256, loaded->sha256);
+  image.channels[0].values[3] = -1;
+  write_exr(folder_ / "sky.exr", image);
+  EXPECT_NE(
+      load(text).text().find(
+          "/lights/0/environment/image: warning: environment \"sky.exr\": negative values taken as 0: 1"),
+      std::string::npos);
+  write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
+  EXPECT_TRUE(load(text).scene) << "grey";
+}
+
+TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {
+  const auto loaded_with = [&](const std::string& members) {
+    return load(R"({"lights": [{"environment": {)" + members + R"(}, "emission": {"spectrum": 1}}]})");
+  };
+  const auto expect_refused = [&](const std::string& members, ErrorCode code, const char* message) {
+    const Loaded loaded = loaded_with(members);
+    EXPECT_FALSE(loaded.scene);
+    EXPECT_EQ(loaded.diagnostics.code(), code);
+    EXPECT_NE(loaded.text().find(message), std::string::npos) << loaded.text();
+  };
+  write_exr(folder_ / "nan.exr", {2, 1, {{"R", {1, NAN}}, {"G", {1, 1}}, {"B", {1, 1}}}, {}});
+  write_exr(folder_ / "depth.exr", {2, 1, {{"Z", {1, 1}}}, {}});
+  expect_refused(R"("image": "nan.exr")", ErrorCode::input, "texel (1, 0) (got nan, allowed [0, 1e+30])");
+  expect_refused(R"("image": "depth.exr")", ErrorCode::input, "no channels R, G, B or Y");
+  expect_refused(R"("image": "sky.png")", ErrorCode::input,
+                 "linear values are needed (got \".png\", allowed .exr, .hdr)");
+  expect_refused(R"("image": "http://x/sky.exr")", ErrorCode::input, "expected a file");
+  expect_refused(R"("up": [0, 0, 1])", ErrorCode::scene, "up turns an image, and there is none");
+  expect_refused(R"("image": "nan.exr", "up": [0, 0, 0])", ErrorCode::scene, "a direction must not be zero");
+  EXPECT_THROW((void)loaded_with(R"("image": "gone.exr")"), Error);
+}
+
+}  // namespace
+}  // namespace abbe
