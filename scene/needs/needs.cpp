@@ -24,22 +24,35 @@ bool emits(const Light& light) {
   return light.emission.max() > 0;
 }
 
-double solid_angle_of_ball(const Imath::Box3d& box, const Imath::V3d& from) {
-  const double radius = box.size().length() / 2;
-  const double distance = (box.center() - from).length();
-  if (distance <= radius) return 4 * std::numbers::pi;
-  return 2 * std::numbers::pi * (1 - std::sqrt((distance - radius) * (distance + radius)) / distance);
+/// The middle of a specular shape.
+struct SpecularCenter {
+  Imath::V3d at;
+  std::size_t shape;
+};
+// In order of x, so that those near a light are found without asking all.
+std::vector<SpecularCenter> specular_centers(const Scene& scene) {
+  std::vector<SpecularCenter> centers;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    if (is_specular(material_of(scene, scene.shapes[i])))
+      centers.push_back({bounds(scene.shapes[i].shape).center(), i});
+  std::sort(centers.begin(), centers.end(),
+            [](const SpecularCenter& a, const SpecularCenter& b) { return a.at.x < b.at.x; });
+  return centers;
 }
 
-// Whether the light looks small from every specular shape; delta lights do from anywhere.
-bool looks_small(const Scene& scene, const Light& light) {
+// Whether the light looks small from every specular shape; delta lights do from anywhere. A ball of radius r
+// looks larger than the limit from nearer than r/sin, the sine being that of half the limit's cone.
+bool looks_small(const Scene& scene, const Light& light, std::span<const SpecularCenter> centers) {
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr) return light.is_delta();
   const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
-  return std::none_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeInstance& instance) {
-    return is_specular(material_of(scene, instance)) && &instance != &scene.shapes[emitter->shape] &&
-           solid_angle_of_ball(box, bounds(instance.shape).center()) >= kSmallLight_sr;
-  });
+  const double cosine = 1 - kSmallLight_sr / (2 * std::numbers::pi);
+  const double reach = box.size().length() / 2 / std::sqrt((1 - cosine) * (1 + cosine));
+  auto near = std::lower_bound(centers.begin(), centers.end(), box.center().x - reach,
+                               [](const SpecularCenter& c, double x) { return c.at.x < x; });
+  for (; near != centers.end() && near->at.x <= box.center().x + reach; ++near)
+    if (near->shape != emitter->shape && (near->at - box.center()).length() <= reach) return false;
+  return true;
 }
 
 // Two specular shapes may throw light at each other; so may the faces of one mesh, and the two interfaces of
@@ -74,12 +87,13 @@ void analyse_matter(const Scene& scene, Needs& needs) {
 
 void analyse_lights(const Scene& scene, Needs& needs) {
   const bool connectable = !scene.camera.is_probe();
+  const std::vector<SpecularCenter> centers = specular_centers(scene);
   for (const Light& light : scene.lights) {
     needs.environment |= light.is_environment();
     needs.delta_lights |= light.is_delta();
     needs.narrow_bands |= has_narrow_feature(light.emission);
     needs.light_is_traced.push_back(needs.caustics && connectable && !light.is_environment() &&
-                                    emits(light) && looks_small(scene, light));
+                                    emits(light) && looks_small(scene, light, centers));
     needs.light_tracing |= needs.light_is_traced.back();
   }
 }
@@ -102,13 +116,17 @@ double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t 
   return std::numeric_limits<double>::infinity();
 }
 
-// The lights of the scene that `select` holds for, by name.
+// The lights of the scene that `select` holds for, by name; of very many, the first ones.
 template <typename Select>
 std::string names_of(const Scene& scene, Select select) {
+  constexpr std::size_t kMostNames = 8;
   std::string names;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (select(i)) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.lights[i].name);
-  return names;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    if (!select(i) || ++count > kMostNames) continue;
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.lights[i].name);
+  }
+  return count > kMostNames ? fmt::format("{} and {} more", names, count - kMostNames) : names;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "scenes.h"
 #include "spectral/sources.h"
 
@@ -207,6 +209,47 @@ TEST(Unreached, ClassesOfTheLightTracerAlone) {
   add_ball(scene, kGlass);
   scene.commit();
   EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E (S|D)* L", "E L", "E S (S|D)* L"}));
+}
+
+TEST(Needs, EveryLampIsHeldAgainstEverySpecularShape) {
+  Scene scene = floor_scene();
+  testing::Random random(31);
+  for (int i = 0; i < 400; ++i)
+    scene.shapes.push_back({"ball", Sphere{random.in_cube(3), random.between(0.001, 0.02)}, kGlass});
+  for (int i = 0; i < 400; ++i) {
+    scene.lights.push_back({"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size())}, Curve(1.0)});
+    scene.shapes.push_back({"lamp", Sphere{random.in_cube(3), std::pow(10.0, random.between(-3, 0))},
+                            i % 2 == 0 ? kGlass : kDiffuse});
+  }
+  scene.commit();
+  int small = 0;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const std::size_t own = std::get<AreaLight>(scene.lights[i].kind).shape;
+    const Imath::Box3d box = bounds(scene.shapes[own].shape);
+    bool looks_small = true;
+    for (std::size_t j = 0; j < scene.shapes.size(); ++j) {
+      if (j == own || scene.shapes[j].material != kGlass) continue;
+      // The cone around the ball around the lamp's box, against 0.05 sr.
+      const double radius = box.size().length() / 2;
+      const double distance = (bounds(scene.shapes[j].shape).center() - box.center()).length();
+      const double sine = std::min(1.0, radius / distance);
+      looks_small = looks_small && 2 * std::numbers::pi * (1 - std::sqrt(1 - sine * sine)) < 0.05;
+    }
+    EXPECT_EQ(scene.needs.light_is_traced[i], looks_small) << i;
+    small += looks_small;
+  }
+  EXPECT_GT(small, 50);
+  EXPECT_LT(small, 350);
+}
+
+TEST(Unreached, NamesTheFirstOfManyLights) {
+  Scene scene = floor_scene();
+  scene.shapes.push_back({"pane", Quad{{-5, -5, 1}, {10, 0, 0}, {0, 10, 0}}, kGlass});
+  for (int i = 0; i < 20; ++i) scene.lights.push_back({fmt::format("l{}", i), PointLight{}, Curve(1.0)});
+  scene.commit();
+  const std::vector<PathClass> classes = unreached(scene, scene.needs, true);
+  ASSERT_FALSE(classes.empty());
+  EXPECT_NE(classes[0].find("\"l7\" and 12 more"), std::string::npos) << classes[0];
 }
 
 }  // namespace

@@ -137,7 +137,9 @@ void learn_aims(Plan& plan, std::uint64_t seed) {
   RayCaster caster(plan.scene);
   PathExposure exposure(plan.scene.channels);
   for (std::uint32_t stage = 0; stage < kReaches.size(); ++stage) {
-    std::vector<std::vector<double>> importance(plan.aims.size(), std::vector<double>(Aim::kGrid, 0.0));
+    std::vector<std::vector<double>> importance(plan.aims.size());
+    for (std::size_t light = 0; light < plan.aims.size(); ++light)
+      if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
     for (std::uint32_t i = 0; i < kPhotons; ++i) {
       double worth = 0;
       const Splat add = [&worth](int, int, std::span<const double> values) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -37,12 +38,20 @@ Imath::V3f center_of(const Light& light, const Scene& scene) {
   return Imath::V3f(bounds(scene.shapes[area.shape].shape).center());
 }
 
-std::vector<Aim> make_aims(const Scene& scene, bool light_only) {
+// Aims cost half a megabyte each, so that of very many traced lights only the strongest have one; the others
+// shine everywhere.
+constexpr std::ptrdiff_t kMostAims = 128;
+
+std::vector<Aim> make_aims(const Scene& scene, const std::vector<double>& traced_powers, bool light_only) {
   const Imath::Box3d box = specular_bounds(scene);
   std::vector<Aim> aims(scene.lights.size());
-  if (light_only || box.isEmpty()) return aims;
+  if (light_only || box.isEmpty() || aims.empty()) return aims;
+  std::vector<double> strongest(traced_powers);
+  const auto least = strongest.begin() + std::min<std::ptrdiff_t>(kMostAims, std::ssize(strongest)) - 1;
+  std::nth_element(strongest.begin(), least, strongest.end(), std::greater<>());
+  std::ptrdiff_t count = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (!scene.lights[i].is_environment())
+    if (traced_powers[i] > 0 && traced_powers[i] >= *least && count++ < kMostAims)
       aims[i] = Aim(center_of(scene.lights[i], scene), Imath::V3f(box.center()),
                     static_cast<float>(box.size().length() / 2));
   return aims;
@@ -119,9 +128,16 @@ Plan make_plan(const Scene& scene) {
         light_active && !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
     if (traced[i]) traced_powers[i] = powers[i];
   }
-  Plan plan{scene,      make_wavelengths(scene),      LightPicker(powers), LightPicker(traced_powers),
-            traced,     make_aims(scene, light_only), !light_only,         light_active,
-            light_only, nominal_value(scene)};
+  Plan plan{scene,
+            make_wavelengths(scene),
+            LightPicker(powers),
+            LightPicker(traced_powers),
+            traced,
+            make_aims(scene, traced_powers, light_only),
+            !light_only,
+            light_active,
+            light_only,
+            nominal_value(scene)};
   plan.light_active = light_active && !plan.traced_lights.empty();
   if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
   if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed);

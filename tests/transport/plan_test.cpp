@@ -1,0 +1,56 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "transport/render/plan.h"
+
+namespace abbe {
+namespace {
+
+Scene lamps_over_glass(std::size_t count) {
+  Scene scene{};
+  scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true}, 4, 4,
+                  0.01};
+  scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
+                     {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
+  scene.channels = {energy_channel("all", Curve(1.0))};
+  scene.shapes.push_back({"floor", Quad{{-5, -5, 5}, {0, 10, 0}, {10, 0, 0}}, 0});
+  scene.shapes.push_back({"ball", Sphere{{0, 0, 4}, 0.2}, 1});
+  for (std::size_t i = 0; i < count; ++i)
+    scene.lights.push_back(
+        {"lamp", PointLight{{static_cast<float>(i) * 1e-3F, 0, 2}}, Curve(1.0 + static_cast<double>(i))});
+  scene.commit();
+  return scene;
+}
+
+TEST(Plan, AimsTheStrongestOfManyLamps) {
+  const Scene scene = lamps_over_glass(300);
+  const Plan plan = make_plan(scene);
+  ASSERT_EQ(plan.aims.size(), 300U);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(plan.aims[i].guided(), i >= 172) << i;
+  const Scene few_scene = lamps_over_glass(3);
+  const Plan few = make_plan(few_scene);
+  EXPECT_TRUE(std::all_of(few.aims.begin(), few.aims.end(), [](const Aim& aim) { return aim.guided(); }));
+  const Scene dark_scene = lamps_over_glass(0);
+  EXPECT_TRUE(make_plan(dark_scene).aims.empty());
+}
+
+TEST(LightPicker, PicksAsOftenAsItSays) {
+  std::vector<double> weights;
+  for (int i = 0; i < 10000; ++i) weights.push_back(i % 3 == 0 ? 0 : 1 + i % 7);
+  const LightPicker picker(weights);
+  std::vector<int> counts(weights.size());
+  constexpr int kPicks = 1 << 21;
+  for (int i = 0; i < kPicks; ++i) {
+    const LightPicker::Pick pick = picker.pick((static_cast<float>(i) + 0.5F) / kPicks);
+    ASSERT_EQ(pick.probability, picker.probability(pick.light));
+    ++counts[pick.light];
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    ASSERT_NEAR(counts[i], static_cast<double>(picker.probability(static_cast<std::uint32_t>(i))) * kPicks,
+                2.1)
+        << i;
+}
+
+}  // namespace
+}  // namespace abbe
