@@ -25,7 +25,8 @@ struct RgbSpace {
   Chromaticity blue;
   Chromaticity white;
 };
-inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2], kD65};  ///< [BT709]
+inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
+                                  kD65};  ///< [BT709]
 inline constexpr RgbSpace kAces2065{
     {0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, {0.32168, 0.33767}};  ///< [ST2065-1]
 

@@ -93,6 +93,23 @@ TEST(EnvironmentImage, DensityIsThatOfItsSamples) {
   EXPECT_EQ(image_of(2, 1, Texels(2, {0, 0, 0})).pdf({1, 0, 0}), 0);
 }
 
+TEST(EnvironmentImage, TexelsAreSampledByTheirSolidAngle) {
+  // A white upper half in one texel: cos theta is uniform on [0, 1], with mean 1/2 and variance 1/12.
+  const EnvironmentImage half = image_of(1, 2, {{1, 1, 1}, {0, 0, 0}});
+  Random random(25);
+  double sum = 0;
+  double squares = 0;
+  constexpr int kSamples = 40000;
+  for (int i = 0; i < kSamples; ++i) {
+    const double z = static_cast<double>(half.sample(random.pair())->z);
+    sum += z / kSamples;
+    squares += z * z / kSamples;
+  }
+  EXPECT_NEAR(sum, 0.5, 0.01);
+  EXPECT_NEAR(squares, 1.0 / 3, 0.01);
+  EXPECT_NEAR(half.pdf({0, 0.6F, 0.8F}) * 2 * static_cast<float>(kPi), 1, 1e-6);
+}
+
 TEST(EnvironmentImage, WhiteIsTheConstantEnvironment) {
   Scene scene{};
   scene.camera = testing::pinhole();
@@ -166,6 +183,9 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
                   (8 * static_cast<float>(sky.emission(650.0))),
               1, 0.02);
   EXPECT_LT(emission_from(sky, {-0.7F, 0.7F, 0.1F}, SampledSpectrum(650))[0], 0.02F);
+  const auto drawn = sample_light(sky, loaded->shapes, V3f(0), {0.5F, 0.25F});
+  ASSERT_TRUE(drawn) << "by what the sensor of the scene sees";
+  EXPECT_GT(drawn->wi.y, 0);
   EXPECT_GT(loaded->memory_bytes(), 8 * (sizeof(float) * 3 + sizeof(double)));
   image.channels[0].values[0] = 7;
   write_exr(folder_ / "sky.exr", image);

@@ -121,6 +121,9 @@ TEST_F(MeshFileTest, ObjBringsItsMaterials) {
   const auto& second = std::get<Mesh>(loaded->shapes[1].shape);
   EXPECT_EQ(second.vertices.size(), 4U);
   EXPECT_NEAR(area(second), 4e-4, 1e-12) << "two halves of a square of 2 cm";
+  const auto& [from, along, up] = second.triangles.at(0);
+  EXPECT_LT((second.vertices[up] - second.vertices[from] - Imath::V3d(0, 0, 0.02)).length(), 1e-12);
+  EXPECT_LT((second.vertices[along] - second.vertices[from] - Imath::V3d(0.02, 0, 0)).length(), 1e-12);
   const Material& red = loaded->materials[loaded->shapes[0].material];
   EXPECT_EQ(red.name, "a.obj:red paint");
   const LinearRgb color = linear_rgb(std::get<DiffuseMaterial>(red.model).reflectance);

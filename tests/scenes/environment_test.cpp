@@ -49,7 +49,7 @@ TEST_F(EnvironmentScene, WhiteFurnaceHolds) {
     EXPECT_NEAR(lit.mean(pixel, 0) / sky.mean(pixel, 0), 1, 0.01);
 }
 
-// A texel of 1e8 above, 2000 times smaller than a sun of that brightness would need: few samples find it.
+// A small texel of 1e8 in a dark sky: few samples measure it.
 TEST_F(EnvironmentScene, HotTexelGivesItsIrradiance) {
   constexpr int kWidth = 64;
   constexpr int kHeight = 32;
