@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/shapes/mesh.h"
-#include "scene/shapes/ply.h"
+#include "scene/shapes/mesh_file.h"
 #include "spectral/colorimetry.h"
 #include "tests/validation/bench_runs.h"
 #include "validation/bench/meshes.h"
@@ -145,11 +145,12 @@ TEST(BenchMeshes, ComeBackFromPly) {
   const Mesh ball = make_bumpy_ball(8);
   write_ply(folder.path() / "ball.ply", ball);
   Diagnostics diagnostics;
-  const auto read = load_ply(folder.path() / "ball.ply", {}, diagnostics);
-  ASSERT_TRUE(read) << diagnostics.text();
-  EXPECT_EQ(read->triangles, ball.triangles);
-  ASSERT_EQ(read->vertices.size(), ball.vertices.size());
-  EXPECT_NEAR((read->vertices.back() - ball.vertices.back()).length(), 0, 1e-6);
+  const auto file = load_mesh_file(folder.path() / "ball.ply", FileMaterials::ignored, {}, diagnostics);
+  ASSERT_TRUE(file && file->parts.size() == 1) << diagnostics.text();
+  const Mesh& read = file->parts.front().mesh;
+  EXPECT_EQ(read.triangles, ball.triangles);
+  ASSERT_EQ(read.vertices.size(), ball.vertices.size());
+  EXPECT_NEAR((read.vertices.back() - ball.vertices.back()).length(), 0, 1e-6);
 }
 
 }  // namespace
