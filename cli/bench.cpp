@@ -9,6 +9,7 @@
 #include "cli/arguments.h"
 #include "io/text.h"
 #include "validation/bench/report.h"
+#include "validation/bench/scale.h"
 
 namespace abbe::cli {
 namespace {
@@ -43,6 +44,24 @@ int list_suites(bool as_json) {
   return 0;
 }
 
+int scale(const BenchOptions& options) {
+  const fs::path folder = settings_of(options).cache / "scale";
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const std::vector<ScaleRow> rows = measure_scale(folder, options.threads, options.quick);
+  Json answer = Json::array();
+  for (const ScaleRow& row : rows)
+    answer.push_back({{"subject", row.subject},
+                      {"count", row.count},
+                      {"load_cpu_s", row.load_cpu_s},
+                      {"build_cpu_s", row.build_cpu_s},
+                      {"plan_cpu_s", row.plan_cpu_s},
+                      {"bytes_per_count", row.bytes},
+                      {"rays_per_cpu_s", row.rays_per_cpu_s}});
+  fmt::print("{}", options.json ? text(answer, true) : readable_text(rows));
+  return 0;
+}
+
 std::vector<BaselineRow> read_baseline(const fs::path& path) {
   if (path.empty()) return {};
   Diagnostics diagnostics;
@@ -68,6 +87,7 @@ std::vector<int> parse_sample_counts(const std::string& option, const std::strin
 
 int bench(const BenchOptions& options) {
   if (options.list) return list_suites(options.json);
+  if (options.scale) return scale(options);
   const std::vector<Suite> suites = choose_suites(options.suites);
   const std::vector<BaselineRow> before = read_baseline(options.baseline);
   if (!options.output.empty()) require_report_folder(options.output);

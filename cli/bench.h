@@ -19,6 +19,7 @@ struct BenchOptions {
   bool quick = false;           ///< Small films, compared with no rival.
   bool strict = false;          ///< Exit with 1 when something got worse than the baseline.
   bool list = false;
+  bool scale = false;  ///< Measure instead what scenes of growing size cost.
   bool json = false;
 };
 

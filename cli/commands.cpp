@@ -308,6 +308,7 @@ void add_bench(CLI::App& app, Command& command) {
       ->type_name("FOLDER");
   options.add_flag("--quick", sub->quick, "Small films, compared with no rival");
   options.add_flag("--strict", sub->strict, "Exit with 1 when something got worse than the baseline");
+  options.add_flag("--scale", sub->scale, "Measure instead what scenes of growing size cost");
   options.add_flag("--list", sub->list, "Say what suites there are");
   add_json(options, sub->json);
 }
