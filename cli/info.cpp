@@ -1,7 +1,5 @@
 #include "cli/info.h"
 
-#include <array>
-
 #include <fmt/format.h>
 
 #include "cli/answer.h"
@@ -12,26 +10,6 @@
 
 namespace abbe::cli {
 namespace {
-
-// What the needs are called in answers, and what each is about.
-struct Need {
-  const char* key;
-  bool Needs::*member;
-  const char* meaning;
-};
-constexpr std::array<Need, 9> kNeeds{{
-    {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
-    {"media", &Needs::media, "matter absorbs along the path"},
-    {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
-    {"light_tracing", &Needs::light_tracing,
-     "caustics of a light too small to be hit by chance, seen by a camera"},
-    {"environment", &Needs::environment, "light from infinity all around"},
-    {"delta_lights", &Needs::delta_lights, "point or spot lights"},
-    {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
-    {"polarisation_matters", &Needs::polarisation_matters,
-     "interfaces may follow each other at oblique angles"},
-    {"depth_of_field", &Needs::depth_of_field, "a lens of finite aperture"},
-}};
 
 std::size_t film_bytes(const Scene& scene) {
   return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
@@ -45,7 +23,8 @@ Json answer_for(const Scene& scene) {
   answer["triangles"] = scene.triangle_count();
   answer["lights"] = scene.lights.size();
   answer["materials"] = scene.materials.size();
-  for (const Need& need : kNeeds) answer["needs"][need.key] = scene.needs.*need.member;
+  for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
+  answer["because"] = scene.needs.because;
   answer["techniques"] = Json::array();
   if (plan.path_active) answer["techniques"].push_back("path");
   if (plan.light_active) answer["techniques"].push_back("light");
@@ -69,10 +48,11 @@ std::string describe(const Scene& scene) {
       answer["materials"].get<int>(), scene.camera.width, scene.camera.height);
   for (const Channel& channel : scene.channels) lines += channel.name + " ";
   lines += fmt::format("\nneeds\n");
-  for (const Need& need : kNeeds)
-    if (scene.needs.*need.member) lines += fmt::format("  {:<21} {}\n", need.key, need.meaning);
+  for (const NeedName& need : need_names())
+    if (scene.needs.*need.member)
+      lines += fmt::format("  {:<21} {} ({})\n", need.key, need.meaning, scene.needs.because.at(need.key));
   lines += "skips\n";
-  for (const Need& need : kNeeds)
+  for (const NeedName& need : need_names())
     if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
   lines += fmt::format("techniques   {}\n", joined(answer["techniques"]));
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));

@@ -1,6 +1,7 @@
 #include "scene/needs/needs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -22,6 +23,29 @@ const Material& material_of(const Scene& scene, const ShapeInstance& instance) {
 
 bool emits(const Light& light) {
   return light.emission.max() > 0;
+}
+
+constexpr std::array<NeedName, 9> kNeeds{{
+    {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
+    {"media", &Needs::media, "matter absorbs along the path"},
+    {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
+    {"light_tracing", &Needs::light_tracing,
+     "caustics of a light too small to be hit by chance, seen by a camera"},
+    {"environment", &Needs::environment, "light from infinity all around"},
+    {"delta_lights", &Needs::delta_lights, "point or spot lights"},
+    {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
+    {"polarisation_matters", &Needs::polarisation_matters,
+     "interfaces may follow each other at oblique angles"},
+    {"depth_of_field", &Needs::depth_of_field, "a lens of finite aperture"},
+}};
+
+// Remembers the first thing that asks for a need.
+void require(Needs& needs, bool Needs::*need, bool asked, const char* kind, const std::string& name) {
+  if (!asked || needs.*need) return;
+  needs.*need = true;
+  const auto* known =
+      std::find_if(kNeeds.begin(), kNeeds.end(), [need](const NeedName& n) { return n.member == need; });
+  needs.because[known->key] = name.empty() ? kind : fmt::format("{} \"{}\"", kind, name);
 }
 
 /// The middle of a specular shape.
@@ -56,45 +80,49 @@ bool looks_small(const Scene& scene, const Light& light, std::span<const Specula
 }
 
 // Two specular shapes may throw light at each other; so may the faces of one mesh, and the two interfaces of
-// a glass ball.
-bool chains_interfaces(const Scene& scene) {
+// a glass ball. The shape that makes it so, if any.
+const ShapeInstance* chained_interface(const Scene& scene) {
   int specular = 0;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
     if (!is_specular(material)) continue;
-    ++specular;
     const bool refracts = interior(material) != nullptr;
-    if (plain<Mesh>(instance.shape) || (refracts && plain<Sphere>(instance.shape))) return true;
+    if (++specular >= 2 || plain<Mesh>(instance.shape) || (refracts && plain<Sphere>(instance.shape)))
+      return &instance;
   }
-  return specular >= 2;
+  return nullptr;
 }
 
 void analyse_matter(const Scene& scene, Needs& needs) {
-  bool specular = false;
+  const ShapeInstance* specular = nullptr;
   bool scattering = false;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
     const RefractiveIndex* inside = interior(material);
-    needs.dispersion |= is_dispersive(material);
-    needs.media |= inside != nullptr && inside->absorbing();
-    (is_specular(material) ? specular : scattering) = true;
+    require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
+    require(needs, &Needs::media, inside != nullptr && inside->absorbing(), "shape", instance.name);
+    if (!is_specular(material))
+      scattering = true;
+    else if (specular == nullptr)
+      specular = &instance;
   }
   const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
                                [](const Light& light) { return !light.is_environment() && emits(light); });
-  needs.caustics = specular && scattering && lit;
-  needs.polarisation_matters = chains_interfaces(scene);
+  if (specular != nullptr) require(needs, &Needs::caustics, scattering && lit, "shape", specular->name);
+  if (const ShapeInstance* chained = chained_interface(scene))
+    require(needs, &Needs::polarisation_matters, true, "shape", chained->name);
 }
 
 void analyse_lights(const Scene& scene, Needs& needs) {
   const bool connectable = !scene.camera.is_probe();
   const std::vector<SpecularCenter> centers = specular_centers(scene);
   for (const Light& light : scene.lights) {
-    needs.environment |= light.is_environment();
-    needs.delta_lights |= light.is_delta();
-    needs.narrow_bands |= has_narrow_feature(light.emission);
+    require(needs, &Needs::environment, light.is_environment(), "light", light.name);
+    require(needs, &Needs::delta_lights, light.is_delta(), "light", light.name);
+    require(needs, &Needs::narrow_bands, has_narrow_feature(light.emission), "light", light.name);
     needs.light_is_traced.push_back(needs.caustics && connectable && !light.is_environment() &&
                                     emits(light) && looks_small(scene, light, centers));
-    needs.light_tracing |= needs.light_is_traced.back();
+    require(needs, &Needs::light_tracing, needs.light_is_traced.back(), "light", light.name);
   }
 }
 
@@ -144,12 +172,18 @@ bool has_narrow_feature(const Curve& curve, double width_nm) {
   return false;
 }
 
+std::span<const NeedName> need_names() {
+  return kNeeds;
+}
+
 Needs analyse(const Scene& scene) {
   Needs needs;
   analyse_matter(scene, needs);
   analyse_lights(scene, needs);
-  for (const Channel& channel : scene.channels) needs.narrow_bands |= has_narrow_feature(channel.weight);
-  needs.depth_of_field = !scene.camera.is_probe() && !scene.camera.is_pinhole();
+  for (const Channel& channel : scene.channels)
+    require(needs, &Needs::narrow_bands, has_narrow_feature(channel.weight), "channel", channel.name);
+  const bool lens = !scene.camera.is_probe() && !scene.camera.is_pinhole();
+  require(needs, &Needs::depth_of_field, lens, "camera", "");
   return needs;
 }
 

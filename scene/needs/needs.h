@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,8 +24,18 @@ struct Needs {
   bool polarisation_matters =
       false;  ///< Two or more dielectric or metal events may follow each other off-normal.
   bool depth_of_field = false;
+  /// By the names of `need_names`: what in the scene asks for a need that holds, as 'shape "prism"'.
+  std::map<std::string, std::string> because = {};
   std::vector<bool> light_is_traced = {};  ///< Per light: so small that its caustics are the light tracer's.
 };
+
+/// What a need is called in answers, and what it means.
+struct NeedName {
+  const char* key;
+  bool Needs::*member;
+  const char* meaning;
+};
+[[nodiscard]] std::span<const NeedName> need_names();
 
 [[nodiscard]] Needs analyse(const Scene& scene);
 

@@ -182,6 +182,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["needs"]["dispersion"], true);
   EXPECT_EQ(found["needs"]["delta_lights"], false);
   EXPECT_EQ(found["needs"].size(), 9U);
+  EXPECT_EQ(found["because"]["dispersion"], "shape \"prism\"");
   EXPECT_EQ(found["techniques"][0], "path");
   EXPECT_TRUE(found["unreached"].is_array());
   EXPECT_GE(found["wavelength_range_nm"][0], 300);

@@ -58,6 +58,27 @@ TEST(Needs, OfAPlainScene) {
   EXPECT_TRUE(unreached(scene, needs, false).empty());
 }
 
+TEST(Needs, EachNamesWhatAsksForIt) {
+  Scene scene = floor_scene();
+  add_bulb(scene);
+  add_lamp(scene, 0.01);
+  add_ball(scene, kGlass);
+  scene.materials[kGlass].model = DielectricMaterial{"ink", RefractiveIndex(1.5, 1e-6)};
+  scene.channels.push_back(energy_channel("line", Curve({{500, 0}, {501, 1}, {502, 0}})));
+  std::get<LensCamera>(scene.camera.kind).pinhole = false;
+  scene.commit();
+  EXPECT_EQ(scene.needs.because,
+            (std::map<std::string, std::string>{{"media", "shape \"ball\""},
+                                                {"caustics", "shape \"ball\""},
+                                                {"polarisation_matters", "shape \"ball\""},
+                                                {"light_tracing", "light \"bulb\""},
+                                                {"delta_lights", "light \"bulb\""},
+                                                {"narrow_bands", "channel \"line\""},
+                                                {"depth_of_field", "camera"}}));
+  for (const NeedName& need : need_names())
+    EXPECT_EQ(scene.needs.*need.member, scene.needs.because.contains(need.key)) << need.key;
+}
+
 TEST(Needs, OfMatter) {
   Scene scene = floor_scene();
   add_ball(scene, kMirror);
