@@ -140,6 +140,27 @@ TEST(Limits, MatterOfIndexOneIsNotSeen) {
   EXPECT_LT(difference(none.film, air.film), 1e-6);
 }
 
+// A wall lit by a bulb through a pane that does not show: photons are aimed at the pane and must bring what
+// light sampling finds without it.
+TEST(Limits, PhotonsThroughMatterOfIndexOneBringAllTheLight) {
+  constexpr const char* kWall = R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -1.2, 1], "to": [0, 0, 1], "up": [0, 0, 1]},
+    "sensor": {"resolution": [32, 32], "channels": {"g": {"band": [500, 600]}}},
+    "materials": {"white": {"diffuse": {"reflectance": 0.8}}, "air": {"dielectric": {"ior": 1}}},
+    "lights": [{"point": {"at": [0.2, -2, 1.5]}, "emission": {"illuminant": "E", "luminous_intensity": 1}}],
+    "shapes": [
+      {"quad": {"corner": [-2, 0, -1], "edge_u": [4, 0, 0], "edge_v": [0, 0, 4]}, "material": "white"},
+      {"quad": {"corner": [-1, -1.5, 0.3], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2]}, "material": "air"}],
+    "render": {"samples": 1024, "max_depth": 3}})";
+  const RenderResult with_pane = render(test::load_text(kWall), {});
+  Scene no_pane = test::load_text(kWall);
+  no_pane.shapes.pop_back();
+  no_pane.commit();
+  const RenderResult without = render(no_pane, {});
+  ASSERT_GT(with_pane.stats.paths, without.stats.paths) << "photons were traced";
+  EXPECT_NEAR(mean(with_pane) / mean(without), 1, 1e-3);
+}
+
 TEST(Limits, ANarrowSpotSendsOutItsFlux) {
   for (const double half_angle_deg : {0.1, 0.13, 1.0, 5.0}) {
     // A meter that holds the whole spot, 10 m away.
