@@ -175,16 +175,21 @@ EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeI
   return {at.point, at.normal, static_cast<float>(1 / emitter->area)};
 }
 
-Curve power(const Light& light, double scene_radius_m) {
-  double factor = 4 * kPi * kPi * scene_radius_m * scene_radius_m;  // pi r^2 from each of 4 pi directions
+double etendue(const Light& light, double scene_radius_m) {
   if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
-    factor = kPi * emitter->area * (emitter->two_sided ? 2 : 1);
-  if (std::holds_alternative<PointLight>(light.kind)) factor = 4 * kPi;
-  if (const auto* lamp = std::get_if<SpotLight>(&light.kind))
-    factor = 2 * kPi * static_cast<double>(lamp->cap);
-  if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind); environment && environment->image)
-    return scaled(environment->image->mean_radiance(), factor);
-  return scaled(light.emission, factor);
+    return kPi * emitter->area * (emitter->two_sided ? 2 : 1);
+  if (std::holds_alternative<PointLight>(light.kind)) return 4 * kPi;
+  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return 2 * kPi * static_cast<double>(lamp->cap);
+  return 4 * kPi * kPi * scene_radius_m * scene_radius_m;  // pi r^2 from each of 4 pi directions
+}
+
+Curve mean_emission(const Light& light) {
+  const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
+  return environment != nullptr && environment->image ? environment->image->mean_radiance() : light.emission;
+}
+
+Curve power(const Light& light, double scene_radius_m) {
+  return scaled(mean_emission(light), etendue(light, scene_radius_m));
 }
 
 }  // namespace abbe

@@ -100,7 +100,12 @@ struct EmissionPoint {
 [[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
                                                   const std::vector<ShapeInstance>& shapes, Imath::V2f u);
 
-/// Spectral power [W/nm]; for the environment, through the sphere of radius `scene_radius_m`.
+/// What its mean emission is multiplied by to give its power: [m^2 sr], or [sr] for point and spot lights; of
+/// the environment, through the sphere of radius `scene_radius_m`.
+[[nodiscard]] double etendue(const Light& light, double scene_radius_m);
+/// Emission averaged over directions: that of the light, or of the mean texel of an environment image.
+[[nodiscard]] Curve mean_emission(const Light& light);
+/// Spectral power [W/nm]: the product of the two.
 [[nodiscard]] Curve power(const Light& light, double scene_radius_m);
 
 }  // namespace abbe

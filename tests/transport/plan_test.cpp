@@ -35,6 +35,19 @@ TEST(Plan, AimsTheStrongestOfManyLamps) {
   EXPECT_TRUE(make_plan(dark_scene).aims.empty());
 }
 
+// Thousands of lamps of one kind leave a lamp of another kind as many wavelengths as one would.
+TEST(Plan, EqualEmissionsCountOnce) {
+  const auto red_share = [](std::size_t blue_lamps) {
+    Scene scene = lamps_over_glass(blue_lamps);
+    for (Light& light : scene.lights) light.emission = Curve({{400, 0}, {450, 1}, {500, 0}});
+    scene.lights.push_back({"red", PointLight{{1, 0, 2}}, Curve({{600, 0}, {650, 1}, {700, 0}})});
+    scene.commit();
+    return make_plan(scene).wavelengths.pdf(650);
+  };
+  EXPECT_DOUBLE_EQ(red_share(1000), red_share(1));
+  EXPECT_GT(red_share(1), 0.003);
+}
+
 TEST(LightPicker, PicksAsOftenAsItSays) {
   std::vector<double> weights;
   for (int i = 0; i < 10000; ++i) weights.push_back(i % 3 == 0 ? 0 : 1 + i % 7);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "transport/light/light_tracer.h"
@@ -13,14 +15,6 @@ namespace {
 
 double scene_radius(const Scene& scene) {
   return scene.bounds.isEmpty() ? 1.0 : std::max(scene.bounds.size().length() / 2, 1e-12);
-}
-
-WavelengthDistribution make_wavelengths(const Scene& scene) {
-  std::vector<Curve> emissions;
-  for (const Light& light : scene.lights) emissions.push_back(light.emission);
-  std::vector<Curve> responses;
-  for (const Channel& channel : scene.channels) responses.push_back(channel.weight);
-  return {emissions, responses};
 }
 
 // The sphere around all specular shapes, as what photons are aimed at.
@@ -65,20 +59,64 @@ double weighed(const Curve& emission, const Curve& response) {
   return Curve(std::move(knots)).integral();
 }
 
+// The mean emissions of the lights, equal ones once, so that many lamps of one kind cost what one costs and
+// starve no other kind of wavelengths; and how strongly the sensor sees each, its largest channel.
+struct Emissions {
+  std::vector<Curve> distinct;
+  std::vector<double> seen;
+  std::vector<std::size_t> of_light;
+};
+
+Emissions emissions_of(const Scene& scene) {
+  const auto before = [](const Curve* a, const Curve* b) {
+    return std::lexicographical_compare(a->knots().begin(), a->knots().end(), b->knots().begin(),
+                                        b->knots().end(), [](const Knot& x, const Knot& y) {
+                                          return std::tie(x.wavelength_nm, x.value) <
+                                                 std::tie(y.wavelength_nm, y.value);
+                                        });
+  };
+  Emissions emissions;
+  emissions.distinct.reserve(scene.lights.size());  // so that they stay where `known` finds them
+  std::map<const Curve*, std::size_t, decltype(before)> known(before);
+  for (const Light& light : scene.lights) {
+    Curve emission = mean_emission(light);
+    const auto found = known.find(&emission);
+    emissions.of_light.push_back(found == known.end() ? emissions.distinct.size() : found->second);
+    if (found != known.end()) continue;
+    double& seen = emissions.seen.emplace_back(0);
+    for (const Channel& channel : scene.channels) seen = std::max(seen, weighed(emission, channel.weight));
+    emissions.distinct.push_back(std::move(emission));
+    known.emplace(&emissions.distinct.back(), emissions.distinct.size() - 1);
+  }
+  return emissions;
+}
+
 // A bright pixel's value to within a few orders of magnitude: the strongest light filling the view, or
 // shining from a scene's size away.
-double nominal_value(const Scene& scene) {
+double nominal_value(const Scene& scene, const Emissions& emissions) {
   const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
                           static_cast<float>(scene.camera.height) / 2);
   const double weight =
       static_cast<double>(sample_ray(scene.camera, center, {0.5F, 0.5F}).weight) * scene.exposure_s;
   const double radius = scene_radius(scene);
   double nominal = 0;
-  for (const Light& light : scene.lights)
-    for (const Channel& channel : scene.channels)
-      nominal = std::max(nominal,
-                         weighed(light.emission, channel.weight) / (light.is_delta() ? radius * radius : 1));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    nominal = std::max(
+        nominal, emissions.seen[emissions.of_light[i]] / (scene.lights[i].is_delta() ? radius * radius : 1));
   return nominal * weight;
+}
+
+std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& emissions) {
+  std::vector<double> powers;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    powers.push_back(emissions.seen[emissions.of_light[i]] * etendue(scene.lights[i], scene_radius(scene)));
+  return powers;
+}
+
+WavelengthDistribution make_wavelengths(const Scene& scene, const Emissions& emissions) {
+  std::vector<Curve> responses;
+  for (const Channel& channel : scene.channels) responses.push_back(channel.weight);
+  return {emissions.distinct, responses};
 }
 
 }  // namespace
@@ -104,23 +142,12 @@ LightPicker::Pick LightPicker::pick(float u) const {
   return {i, probability_[i]};
 }
 
-std::vector<double> sensor_weighted_powers(const Scene& scene) {
-  std::vector<double> powers;
-  for (const Light& light : scene.lights) {
-    const Curve spectral = power(light, scene_radius(scene));
-    double largest = 0;
-    for (const Channel& channel : scene.channels)
-      largest = std::max(largest, weighed(spectral, channel.weight));
-    powers.push_back(largest);
-  }
-  return powers;
-}
-
 Plan make_plan(const Scene& scene) {
   const bool light_only = scene.render.integrator == Integrator::light;
   const bool light_active =
       light_only || (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
-  std::vector<double> powers = sensor_weighted_powers(scene);
+  const Emissions emissions = emissions_of(scene);
+  const std::vector<double> powers = sensor_weighted_powers(scene, emissions);
   std::vector<bool> traced(scene.lights.size(), false);
   std::vector<double> traced_powers(scene.lights.size(), 0.0);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -129,7 +156,7 @@ Plan make_plan(const Scene& scene) {
     if (traced[i]) traced_powers[i] = powers[i];
   }
   Plan plan{scene,
-            make_wavelengths(scene),
+            make_wavelengths(scene, emissions),
             LightPicker(powers),
             LightPicker(traced_powers),
             traced,
@@ -137,7 +164,7 @@ Plan make_plan(const Scene& scene) {
             !light_only,
             light_active,
             light_only,
-            nominal_value(scene)};
+            nominal_value(scene, emissions)};
   plan.light_active = light_active && !plan.traced_lights.empty();
   if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
   if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed);

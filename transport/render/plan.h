@@ -46,8 +46,4 @@ struct Plan {
 
 [[nodiscard]] Plan make_plan(const Scene& scene);
 
-/// The sensor-weighted power of each light: its largest channel's share of the spectral power.
-/// Order-of-magnitude weights for sampling.
-[[nodiscard]] std::vector<double> sensor_weighted_powers(const Scene& scene);
-
 }  // namespace abbe
