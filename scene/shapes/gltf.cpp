@@ -2,71 +2,240 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <map>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <ImathMatrix.h>
 #include <ImathQuat.h>
 #include <fmt/format.h>
+#include <tiny_gltf.h>
 
-#include "scene/shapes/gltf_buffers.h"
+#include "io/json.h"
+#include "io/text.h"
 #include "scene/shapes/mesh_formats.h"
 
 namespace abbe {
 namespace {
 
+std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+// The JSON of a .gltf or .glb. The library does not count the 8 bytes that head a GLB's second chunk, and
+// would read as many beyond its end.
+std::optional<std::string_view> json_of(std::string_view bytes) {
+  constexpr std::size_t kHeaders = 20;  // of the file and its first chunk
+  constexpr std::size_t kHeader = 8;
+  if (!bytes.starts_with("glTF")) return bytes;
+  if (bytes.size() < kHeaders || word_at(bytes, kHeader) < kHeaders || word_at(bytes, kHeader) > bytes.size())
+    return std::nullopt;
+  const std::string_view rest = bytes.substr(kHeaders, word_at(bytes, kHeader) - kHeaders);
+  const std::size_t json = word_at(bytes, 12);
+  if (json > rest.size()) return std::nullopt;
+  if (rest.size() >= json + kHeader && word_at(rest, json) > rest.size() - json - kHeader)
+    return std::nullopt;
+  return rest.substr(0, json);
+}
+
+// What the library takes for granted: JSON nested so little that its recursion ends, of a length that an int
+// holds, and, because each gets a copy, one buffer without a name at most.
+bool sound(std::string_view bytes, MeshReading& reading) {
+  const auto json = json_of(bytes);
+  if (!json) return reading.refuse("malformed or truncated GLB");
+  if (bytes.size() > std::numeric_limits<std::uint32_t>::max() ||
+      json->size() > std::numeric_limits<std::int32_t>::max())
+    return reading.refuse("file too large");
+  if (valid_prefix(*json) != json->size()) return reading.refuse("its JSON is no UTF-8 text");
+  Diagnostics diagnostics;
+  const auto root = parse_json(
+      std::make_shared<const SourceText>(SourceText{reading.path.string(), std::string(*json)}), diagnostics);
+  if (!root) return reading.refuse("malformed JSON: " + diagnostics.all()[0].message);
+  const JsonValue* list = root->find("buffers");
+  const auto* buffers = list ? std::get_if<JsonValue::Array>(&list->value) : nullptr;
+  if (buffers && std::count_if(buffers->begin(), buffers->end(),
+                               [](const JsonValue& buffer) { return !buffer.find("uri"); }) > 1)
+    return reading.refuse("more than one buffer has no uri");
+  return true;
+}
+
+/// What the library's callbacks know. It tries names as they are, for it has been given no folder.
+struct Files {
+  MeshReading& reading;
+  const tinygltf::Model& model;
+};
+// Buffers are read before anything else, images after views; images are not needed.
+bool file_wanted(const std::string& /*name*/, void* user) {
+  return static_cast<Files*>(user)->model.bufferViews.empty();
+}
+std::string same_name(const std::string& name, void* /*user*/) {
+  return name;
+}
+bool read_file(std::vector<unsigned char>* to, std::string* /*error*/, const std::string& name, void* user) {
+  std::string bytes;
+  if (!read_named_bytes(name, bytes, static_cast<Files*>(user)->reading)) return false;
+  to->assign(bytes.begin(), bytes.end());
+  return true;
+}
+bool ignore_image(tinygltf::Image* /*image*/, int /*number*/, std::string* /*error*/,
+                  std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* /*bytes*/,
+                  int /*size*/, void* /*user*/) {
+  return true;
+}
+
+bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading) {
+  if (!sound(bytes, reading)) return false;
+  Files files{reading, model};
+  tinygltf::TinyGLTF library;
+  library.SetFsCallbacks({file_wanted, same_name, read_file, nullptr, &files});
+  library.SetImageLoader(ignore_image, nullptr);
+  const auto size = static_cast<unsigned>(bytes.size());
+  std::string error;
+  std::string warning;
+  try {
+    if (bytes.starts_with("glTF"))
+      library.LoadBinaryFromMemory(&model, &error, &warning,
+                                   reinterpret_cast<const unsigned char*>(bytes.data()), size);
+    else
+      library.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+  } catch (const std::exception& fault) {  // of JSON, or an empty buffer
+    if (dynamic_cast<const std::bad_alloc*>(&fault)) throw;
+    error += fault.what();
+  }
+  if (!reading.fault.empty()) return false;
+  // It reads on after some complaints, of what is lost by then and, alone of them, of what the format allows.
+  constexpr std::string_view kAllowed = "'inverseBindMatrices' property is missing in Skin.\n";
+  for (std::size_t at = 0; (at = error.find(kAllowed)) != std::string::npos;)
+    error.erase(at, kAllowed.size());
+  constexpr std::size_t kLine = 200;  // it may repeat all of a buffer
+  error = error.substr(0, std::min(error.find('\n'), kLine));
+  if (!error.empty()) return reading.refuse(error.substr(0, valid_prefix(error)));
+  if (!model.asset.version.starts_with("2.")) return reading.refuse("no glTF 2.0 asset");
+  for (const std::string& extension : model.extensionsRequired)
+    if (!extension.starts_with("KHR_materials_"))
+      return reading.refuse(fmt::format("it requires the extension {}, which is not read", extension));
+  return true;
+}
+
+/// Numbers stored in a buffer, checked to lie within it: the library checks none.
+struct Numbers {
+  const unsigned char* first;
+  std::size_t count;
+  std::size_t stride;
+  int component_type;
+};
+
+template <typename T>
+const T* at(const std::vector<T>& list, int index) {
+  return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)]
+                                                                     : nullptr;
+}
+
+std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, int type, MeshReading& reading) {
+  const auto refuse = [&](const std::string& what) {
+    reading.refuse(fmt::format("accessor {}: {}", index, what));
+    return std::nullopt;
+  };
+  const auto* accessor = at(model.accessors, index);
+  if (!accessor) return refuse("there is none");
+  if (accessor->sparse.isSparse) return refuse("sparse accessors are not read");
+  if (accessor->type != type)
+    return refuse(fmt::format("wrong type (allowed {})", type == TINYGLTF_TYPE_VEC3 ? "VEC3" : "SCALAR"));
+  const auto* view = at(model.bufferViews, accessor->bufferView);
+  const auto* buffer = view ? at(model.buffers, view->buffer) : nullptr;
+  if (!buffer || view->byteOffset > buffer->data.size() ||
+      view->byteLength > buffer->data.size() - view->byteOffset)
+    return refuse("its view leaves the buffer, or there is none");
+  const int stride = accessor->ByteStride(*view);
+  const int width = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType)) *
+                    tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+  if (width <= 0) return refuse("unknown component type");
+  if (accessor->count == 0) return refuse("it is empty");
+  const std::size_t room = view->byteLength;
+  const Numbers numbers{buffer->data.data() + view->byteOffset + std::min(accessor->byteOffset, room),
+                        accessor->count, static_cast<std::size_t>(std::max(stride, 0)),
+                        accessor->componentType};
+  if (stride < width || accessor->byteOffset > room ||
+      static_cast<std::size_t>(width) > room - accessor->byteOffset ||
+      numbers.count - 1 > (room - accessor->byteOffset - static_cast<std::size_t>(width)) / numbers.stride)
+    return refuse("it promises more than the buffer holds");
+  return numbers;
+}
+
+template <typename T>
+T number_at(const Numbers& numbers, std::size_t i, std::size_t component = 0) {
+  T value;
+  std::memcpy(&value, numbers.first + i * numbers.stride + component * sizeof value, sizeof value);
+  return value;
+}
+std::uint32_t index_at(const Numbers& numbers, std::size_t i) {
+  if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+    return number_at<std::uint8_t>(numbers, i);
+  if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+    return number_at<std::uint16_t>(numbers, i);
+  return number_at<std::uint32_t>(numbers, i);
+}
+
 /// What nodes have put together so far, by material.
 using Parts = std::map<std::optional<std::size_t>, Mesh>;
 
-enum Mode : std::size_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
-
 // How a primitive's vertices follow each other in triangles; nothing for points and lines.
-std::vector<std::array<std::size_t, 3>> corners(std::size_t mode, std::size_t count) {
+std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
   std::vector<std::array<std::size_t, 3>> triangles;
-  if (mode == triangle_list)
+  if (mode == TINYGLTF_MODE_TRIANGLES)
     for (std::size_t i = 0; i + 2 < count; i += 3) triangles.push_back({i, i + 1, i + 2});
-  if (mode == triangle_strip)
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
     for (std::size_t i = 0; i + 2 < count; ++i) triangles.push_back({i, i + 1 + i % 2, i + 2 - i % 2});
-  if (mode == triangle_fan)
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
     for (std::size_t i = 1; i + 1 < count; ++i) triangles.push_back({i, i + 1, 0});
   return triangles;
 }
 
-bool add_primitive(const Gltf& gltf, const JsonValue& primitive, const Imath::M44d& map, Parts& parts,
-                   MeshReading& reading) {
-  const JsonValue* attributes = primitive.find("attributes");
-  const auto positions =
-      Accessor::open(gltf, attributes ? natural(*attributes, "POSITION") : std::nullopt, "VEC3", reading);
+bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
+                   Parts& parts, MeshReading& reading) {
+  const auto named = primitive.attributes.find("POSITION");
+  const auto positions = numbers_of(model, named == primitive.attributes.end() ? -1 : named->second,
+                                    TINYGLTF_TYPE_VEC3, reading);
   if (!positions) return false;
-  if (!positions->is_float()) return reading.refuse("positions must be floats");
-  std::optional<Accessor> indices;
-  if (primitive.find("indices")) {
-    indices = Accessor::open(gltf, natural(primitive, "indices"), "SCALAR", reading);
+  if (positions->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    return reading.refuse("positions must be floats");
+  std::optional<Numbers> indices;
+  if (primitive.indices >= 0) {
+    indices = numbers_of(model, primitive.indices, TINYGLTF_TYPE_SCALAR, reading);
     if (!indices) return false;
-    if (indices->is_float()) return reading.refuse("indices must be integers");
+    if (indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+      return reading.refuse("indices must be integers >= 0");
   }
-  const std::optional<std::size_t> material =
-      reading.materials == FileMaterials::wanted ? natural(primitive, "material") : std::nullopt;
+  std::optional<std::size_t> material;
+  if (reading.materials == FileMaterials::wanted && primitive.material >= 0)
+    material = static_cast<std::size_t>(primitive.material);
   Mesh& mesh = parts[material];
   const std::size_t base = mesh.vertices.size();
-  const auto triangles = corners(natural(primitive, "mode").value_or(triangle_list),
-                                 indices ? indices->count() : positions->count());
+  const auto triangles = corners(primitive.mode, indices ? indices->count : positions->count);
   if (static_cast<double>(mesh.triangles.size() + triangles.size()) > kMaxTriangles ||
-      static_cast<double>(base + positions->count()) > kMaxTriangles)
+      static_cast<double>(base + positions->count) > kMaxTriangles)
     return reading.refuse(fmt::format("too many triangles (allowed {})", kMaxTriangles));
-  for (std::size_t i = 0; i < positions->count(); ++i)
+  for (std::size_t i = 0; i < positions->count; ++i)
     mesh.vertices.push_back(
-        Imath::V3d(Imath::V3f(positions->real(i, 0), positions->real(i, 1), positions->real(i, 2))) * map);
+        Imath::V3d(Imath::V3f(number_at<float>(*positions, i, 0), number_at<float>(*positions, i, 1),
+                              number_at<float>(*positions, i, 2))) *
+        map);
   const bool mirror = map.determinant() < 0;
   for (std::array<std::size_t, 3> triangle : triangles) {
     for (std::size_t& corner : triangle) {
-      if (indices) corner = indices->integer(corner);
-      if (corner >= positions->count())
+      if (indices) corner = index_at(*indices, corner);
+      if (corner >= positions->count)
         return reading.refuse(
             fmt::format("an index names a vertex that does not exist (got {}, allowed [0, {}])", corner,
-                        positions->count() - 1));
+                        positions->count - 1));
       corner += base;
     }
     if (mirror) std::swap(triangle[1], triangle[2]);
@@ -78,136 +247,115 @@ bool add_primitive(const Gltf& gltf, const JsonValue& primitive, const Imath::M4
 }
 
 // For row vectors: scale, then rotation, then translation, or the matrix, whose columns the format lists.
-Imath::M44d local_map(const JsonValue& node) {
+Imath::M44d local_map(const tinygltf::Node& node) {
   Imath::M44d map;
-  if (const auto matrix = numbers(node, "matrix", 16)) {
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) map[i][j] = (*matrix)[static_cast<std::size_t>(4 * i + j)];
+  if (node.matrix.size() == 16) {
+    std::copy(node.matrix.begin(), node.matrix.end(), map.getValue());
     return map;
   }
-  if (const auto s = numbers(node, "scale", 3))
-    map = Imath::M44d().setScale(Imath::V3d((*s)[0], (*s)[1], (*s)[2]));
-  if (const auto q = numbers(node, "rotation", 4))
-    map = map * Imath::Quatd((*q)[3], (*q)[0], (*q)[1], (*q)[2]).normalized().toMatrix44();
-  if (const auto t = numbers(node, "translation", 3))
-    map = map * Imath::M44d().setTranslation(Imath::V3d((*t)[0], (*t)[1], (*t)[2]));
+  const std::vector<double>& s = node.scale;
+  const std::vector<double>& q = node.rotation;
+  const std::vector<double>& t = node.translation;
+  if (s.size() == 3) map = Imath::M44d().setScale(Imath::V3d(s[0], s[1], s[2]));
+  if (q.size() == 4) map = map * Imath::Quatd(q[3], q[0], q[1], q[2]).normalized().toMatrix44();
+  if (t.size() == 3) map = map * Imath::M44d().setTranslation(Imath::V3d(t[0], t[1], t[2]));
   return map;
-}
-
-const JsonValue::Array& list(const JsonValue* parent, std::string_view key) {
-  static const JsonValue::Array kEmpty;
-  const JsonValue* json = parent ? parent->find(key) : nullptr;
-  const auto* array = json ? std::get_if<JsonValue::Array>(&json->value) : nullptr;
-  return array ? *array : kEmpty;
-}
-
-struct Visit {
-  std::size_t node;
-  Imath::M44d parent;
-};
-void push_nodes(const JsonValue::Array& nodes, const Imath::M44d& parent, std::vector<Visit>& visits) {
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-    const auto* index = std::get_if<double>(&node->value);
-    visits.push_back(
-        {index && *index >= 0 && *index < 1e9 ? static_cast<std::size_t>(*index) : kNone, parent});
-  }
 }
 
 // Every mesh the scene's nodes place. Nodes form a tree: one reached twice would let a small file grow
 // without bound.
-bool walk(const Gltf& gltf, Parts& parts, MeshReading& reading) {
-  const JsonValue* scene = element(gltf, "scenes", natural(gltf.root, "scene").value_or(0));
+bool walk(const tinygltf::Model& model, Parts& parts, MeshReading& reading) {
+  const auto* scene = at(model.scenes, std::max(model.defaultScene, 0));
   if (!scene) return reading.refuse("it has no scene");
-  std::vector<bool> seen(list(&gltf.root, "nodes").size(), false);
+  struct Visit {
+    int node;
+    Imath::M44d parent;
+  };
   std::vector<Visit> visits;
-  push_nodes(list(scene, "nodes"), Imath::M44d(), visits);
+  const auto push = [&](const std::vector<int>& nodes, const Imath::M44d& parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) visits.push_back({*node, parent});
+  };
+  std::vector<bool> seen(model.nodes.size(), false);
+  push(scene->nodes, Imath::M44d());
   while (!visits.empty()) {
     const Visit visit = visits.back();
     visits.pop_back();
-    const JsonValue* node = element(gltf, "nodes", visit.node);
-    if (!node || seen[visit.node])
-      return reading.refuse(node ? fmt::format("node {} is reached twice", visit.node)
-                                 : "a node does not exist");
-    seen[visit.node] = true;
+    const auto* node = at(model.nodes, visit.node);
+    if (!node) return reading.refuse("a node does not exist");
+    if (seen[static_cast<std::size_t>(visit.node)])
+      return reading.refuse(fmt::format("node {} is reached twice", visit.node));
+    seen[static_cast<std::size_t>(visit.node)] = true;
     const Imath::M44d map = local_map(*node) * visit.parent;
-    if (node->find("mesh")) {
-      const JsonValue* mesh = element(gltf, "meshes", natural(*node, "mesh"));
+    if (node->mesh != -1) {
+      const auto* mesh = at(model.meshes, node->mesh);
       if (!mesh) return reading.refuse("a mesh does not exist");
-      for (const JsonValue& primitive : list(mesh, "primitives"))
-        if (!add_primitive(gltf, primitive, map, parts, reading)) return false;
+      for (const tinygltf::Primitive& primitive : mesh->primitives)
+        if (!add_primitive(model, primitive, map, parts, reading)) return false;
     }
-    push_nodes(list(node, "children"), map, visits);
+    push(node->children, map);
   }
   return true;
 }
 
-bool in_unit(double x) {
-  return x >= 0 && x <= 1;
+const tinygltf::Value* extension(const tinygltf::Material& from, const char* name) {
+  const auto found = from.extensions.find(name);
+  return found == from.extensions.end() ? nullptr : &found->second;
+}
+double number_or(const tinygltf::Value* object, const char* key, double otherwise) {
+  return object && object->Has(key) && object->Get(key).IsNumber() ? object->Get(key).GetNumberAsDouble()
+                                                                   : otherwise;
 }
 
 // What the file says beyond a colour or an index goes into `lost`, in its own words.
 void note(FileMaterial& material, const char* what, double value, double neutral) {
   if (value != neutral) material.lost.push_back(fmt::format("{} {:g}", what, value));
 }
-void note_textures(FileMaterial& material, const JsonValue* json) {
-  constexpr std::array<std::pair<const char*, const char*>, 5> kTextures{
-      {{"baseColorTexture", "base colour texture"},
-       {"metallicRoughnessTexture", "metallic-roughness texture"},
-       {"normalTexture", "normal texture"},
-       {"occlusionTexture", "occlusion texture"},
-       {"emissiveTexture", "emissive texture"}}};
-  for (const auto& [key, words] : kTextures)
-    if (json && json->find(key)) material.lost.emplace_back(words);
-}
-void note_extensions(FileMaterial& material, const JsonValue* extensions, bool clear) {
-  const auto* members = extensions ? std::get_if<JsonValue::Object>(&extensions->value) : nullptr;
-  if (!members) return;
-  for (const auto& [name, value] : *members)
-    if (!clear || (name != "KHR_materials_transmission" && name != "KHR_materials_ior"))
-      material.lost.push_back(name);
+void note_textures(FileMaterial& material, const tinygltf::Material& from) {
+  const std::pair<int, const char*> textures[] = {
+      {from.pbrMetallicRoughness.baseColorTexture.index, "base colour texture"},
+      {from.pbrMetallicRoughness.metallicRoughnessTexture.index, "metallic-roughness texture"},
+      {from.normalTexture.index, "normal texture"},
+      {from.occlusionTexture.index, "occlusion texture"},
+      {from.emissiveTexture.index, "emissive texture"}};
+  for (const auto& [index, words] : textures)
+    if (index != -1) material.lost.emplace_back(words);
 }
 
-bool read_material(const JsonValue& json, std::size_t number, MeshReading& reading) {
+// The index of a material that transmits, and what it loses by being as clear as glass.
+bool read_transmission(const tinygltf::Material& from, FileMaterial& material, MeshReading& reading) {
+  constexpr double kDefaultIndex = 1.5;
+  const tinygltf::Value* transmission = extension(from, "KHR_materials_transmission");
+  const double transmitted = number_or(transmission, "transmissionFactor", 0);
+  if (!(transmitted > 0)) return true;
+  material.index = number_or(extension(from, "KHR_materials_ior"), "ior", kDefaultIndex);
+  if (!(*material.index > 0 && *material.index <= 100))
+    return reading.refuse(
+        fmt::format("material \"{}\": ior (got {}, allowed (0, 100])", material.name, *material.index));
+  note(material, "transmission", transmitted, 1);
+  if (transmission->Has("transmissionTexture")) material.lost.emplace_back("transmission texture");
+  if (material.color != LinearRgb{1, 1, 1}) material.lost.emplace_back("base colour");
+  return true;
+}
+
+bool read_material(const tinygltf::Material& from, std::size_t number, MeshReading& reading) {
   FileMaterial material;
-  const JsonValue* name = json.find("name");
-  const auto* text = name ? std::get_if<std::string>(&name->value) : nullptr;
-  material.name = text ? *text : fmt::format("material {}", number);
-  const JsonValue none{};
-  const JsonValue* pbr = json.find("pbrMetallicRoughness");
-  const JsonValue& surface = pbr ? *pbr : none;
-  const std::vector<double> color =
-      numbers(surface, "baseColorFactor", 4).value_or(std::vector{1.0, 1.0, 1.0, 1.0});
-  if (!std::all_of(color.begin(), color.end(), in_unit))
+  material.name = from.name.empty() ? fmt::format("material {}", number) : from.name;
+  const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
+  const std::vector<double>& color = surface.baseColorFactor;
+  if (!std::all_of(color.begin(), color.end(), [](double x) { return x >= 0 && x <= 1; }))
     return reading.refuse(fmt::format("material \"{}\": baseColorFactor (got [{}], allowed [0, 1])",
                                       material.name, fmt::join(color, ", ")));
-  material.color = {color[0], color[1], color[2]};
-  const JsonValue* extensions = json.find("extensions");
-  const JsonValue* transmission = extensions ? extensions->find("KHR_materials_transmission") : nullptr;
-  const double transmitted = transmission ? number_or(*transmission, "transmissionFactor", 0) : 0;
-  const bool clear = transmitted > 0;
-  if (clear) {
-    constexpr double kDefaultIndex = 1.5;
-    const JsonValue* ior = extensions->find("KHR_materials_ior");
-    material.index = ior ? number_or(*ior, "ior", kDefaultIndex) : kDefaultIndex;
-    if (!(*material.index > 0 && *material.index <= 100))
-      return reading.refuse(
-          fmt::format("material \"{}\": ior (got {}, allowed (0, 100])", material.name, *material.index));
-    note(material, "transmission", transmitted, 1);
-    if (transmission->find("transmissionTexture")) material.lost.emplace_back("transmission texture");
-    if (material.color != LinearRgb{1, 1, 1}) material.lost.emplace_back("base colour");
-  }
-  note(material, "metallic", number_or(surface, "metallicFactor", 1), 0);
-  note(material, "roughness", number_or(surface, "roughnessFactor", 1), clear ? 0 : 1);
-  note_textures(material, pbr);
-  note_textures(material, &json);
-  if (const auto emissive = numbers(json, "emissiveFactor", 3);
-      emissive && *emissive != std::vector{0.0, 0.0, 0.0})
-    material.lost.emplace_back("emission");
-  if (const JsonValue* alpha = json.find("alphaMode"))
-    if (const auto* mode = std::get_if<std::string>(&alpha->value); mode && *mode != "OPAQUE")
-      material.lost.push_back("alpha mode " + *mode);
-  note_extensions(material, extensions, clear);
+  material.color = {color.at(0), color.at(1), color.at(2)};
+  if (!read_transmission(from, material, reading)) return false;
+  const bool clear = material.index.has_value();
+  note(material, "metallic", surface.metallicFactor, 0);
+  note(material, "roughness", surface.roughnessFactor, clear ? 0 : 1);
+  note_textures(material, from);
+  if (from.emissiveFactor != std::vector{0.0, 0.0, 0.0}) material.lost.emplace_back("emission");
+  if (from.alphaMode != "OPAQUE") material.lost.push_back("alpha mode " + from.alphaMode);
+  for (const auto& [name, value] : from.extensions)
+    if (!clear || (name != "KHR_materials_transmission" && name != "KHR_materials_ior"))
+      material.lost.push_back(name);
   reading.file.materials.push_back(std::move(material));
   return true;
 }
@@ -215,20 +363,14 @@ bool read_material(const JsonValue& json, std::size_t number, MeshReading& readi
 }  // namespace
 
 bool read_gltf(std::string&& bytes, MeshReading& reading) {
-  Gltf gltf;
-  if (!open_gltf(std::move(bytes), gltf, reading)) return false;
-  for (const JsonValue& name : list(&gltf.root, "extensionsRequired")) {
-    const auto* extension = std::get_if<std::string>(&name.value);
-    if (!extension || !extension->starts_with("KHR_materials_"))
-      return reading.refuse(
-          fmt::format("it requires the extension {}, which is not read", extension ? *extension : "?"));
-  }
+  tinygltf::Model model;
+  if (!load(bytes, model, reading)) return false;
+  bytes = {};
   Parts parts;
-  if (!walk(gltf, parts, reading)) return false;
+  if (!walk(model, parts, reading)) return false;
   if (reading.materials == FileMaterials::wanted) {
-    const JsonValue::Array& materials = list(&gltf.root, "materials");
-    for (std::size_t i = 0; i < materials.size(); ++i)
-      if (!read_material(materials[i], i, reading)) return false;
+    for (std::size_t i = 0; i < model.materials.size(); ++i)
+      if (!read_material(model.materials[i], i, reading)) return false;
     if (parts.contains(std::nullopt)) {  // what the format says then
       reading.file.materials.push_back({"default", {1, 1, 1}, std::nullopt, {"metallic 1"}});
     }

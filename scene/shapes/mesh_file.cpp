@@ -26,9 +26,9 @@ std::string extension_of(const std::filesystem::path& path) {
 
 bool read_format(std::string&& bytes, MeshReading& reading) {
   const std::string extension = extension_of(reading.path);
-  if (extension == ".obj") return read_obj(bytes, reading);
+  if (extension == ".obj") return read_obj(std::move(bytes), reading);
   if (extension == ".gltf" || extension == ".glb") return read_gltf(std::move(bytes), reading);
-  return read_ply(bytes, reading);
+  return read_ply(std::move(bytes), reading);
 }
 
 bool known_format(const std::filesystem::path& path) {
@@ -66,6 +66,11 @@ bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& 
     return reading.refuse(fmt::format("\"{}\", which it names: {}", name, *fault));
   reading.file.others.push_back(path);
   return true;
+}
+
+void add_fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles) {
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
 }
 
 std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMaterials materials,

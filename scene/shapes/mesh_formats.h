@@ -1,13 +1,18 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "scene/shapes/mesh_file.h"
 
 namespace abbe {
+
+using Triangle = std::array<std::uint32_t, 3>;
 
 /// One reader per format: the bytes of a file into `file`, or in `fault` what is wrong with them.
 struct MeshReading {
@@ -22,8 +27,8 @@ struct MeshReading {
     return false;
   }
 };
-[[nodiscard]] bool read_ply(std::string_view bytes, MeshReading& reading);
-[[nodiscard]] bool read_obj(std::string_view bytes, MeshReading& reading);
+[[nodiscard]] bool read_ply(std::string&& bytes, MeshReading& reading);
+[[nodiscard]] bool read_obj(std::string&& bytes, MeshReading& reading);
 /// glTF 2.0, as JSON or GLB. Node transforms are applied, a mirror turning the triangles round.
 [[nodiscard]] bool read_gltf(std::string&& bytes, MeshReading& reading);
 
@@ -32,6 +37,9 @@ struct MeshReading {
                                                          std::string& bytes);
 /// Bytes of a file that `reading`'s file names, which must lie beside it or below.
 [[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
+
+/// Cuts a convex polygon into the fan around its first corner.
+void add_fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles);
 
 /// The most triangles of a file, counted after nodes have been followed: a small file can name many.
 inline constexpr double kMaxTriangles = 67108864;

@@ -2,13 +2,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
+#include <tiny_obj_loader.h>
 
 #include "io/diagnostics.h"
 #include "io/text.h"
@@ -17,141 +19,170 @@
 namespace abbe {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+/// Thrown out of the library, which knows no other way to stop; the fault is in the reading.
+struct Refused {};
 
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
-  return word;
-}
+/// A file being read by the library, which calls back with what each line says.
+struct Obj {
+  MeshReading& reading;
+  std::istringstream stream;
+  std::vector<Imath::V3d> vertices;
+  std::map<std::optional<std::size_t>, std::vector<Triangle>> triangles;  // by material
+  std::optional<std::size_t> material;
 
-// The rest of a line, without blanks at its ends: names may hold blanks inside.
-std::string rest_of(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return std::string(line.substr(first, line.find_last_not_of(kBlanks) - first + 1));
-}
-
-// Calls take(key, rest of the line, number of the line) for each line that says something, while it returns
-// true.
-template <typename Take>
-bool each_line(std::string_view text, Take take) {
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const std::string_view key = take_word(line);
-    if (!key.empty() && key[0] != '#' && !take(key, line, number)) return false;
+  /// What has been read, up to the end of the line that is called about.
+  [[nodiscard]] std::string_view read() const {
+    const auto end = stream.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in);
+    const std::string_view text = stream.view().substr(0, static_cast<std::size_t>(end));
+    return text.substr(0, text.find_last_not_of("\r\n") + 1);
   }
-  return true;
-}
+  /// Its words behind the first.
+  [[nodiscard]] std::string rest() const {
+    std::string_view line = read();
+    line.remove_prefix(line.find_last_of("\r\n") + 1);
+    return split(line.substr(line.find_first_of(" \t", line.find_first_not_of(" \t"))), '\n')[0];
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    const std::string_view text = read();
+    reading.refuse(fmt::format("line {}: {}", std::count(text.begin(), text.end(), '\n') + 1, what));
+    throw Refused();
+  }
+};
 
-std::optional<std::array<double, 3>> take_three(std::string_view line) {
+// Three numbers at the start of a text. The library takes for 0 what is none.
+std::optional<std::array<double, 3>> three_numbers(const std::string& text) {
+  std::istringstream words(text);
   std::array<double, 3> v{};
   for (double& x : v) {
-    const auto number = parse_number(take_word(line));
+    std::string word;
+    words >> word;
+    const auto number = parse_number(word);
     if (!number) return std::nullopt;
     x = *number;
   }
   return v;
 }
 
-bool read_mtl(const std::string& name, MeshReading& reading) {
-  std::string text;
-  if (!read_named_bytes(name, text, reading)) return false;
-  std::vector<FileMaterial>& materials = reading.file.materials;
-  return each_line(text, [&](std::string_view key, std::string_view line, std::size_t number) {
-    if (key == "newmtl") {
-      materials.emplace_back().name = rest_of(line);
-      return true;
-    }
-    if (materials.empty()) return reading.refuse(fmt::format("\"{}\" line {}: no newmtl yet", name, number));
-    FileMaterial& material = materials.back();
-    if (key != "Kd") {
-      if (key != "illum" && std::find(material.lost.begin(), material.lost.end(), key) == material.lost.end())
-        material.lost.emplace_back(key);
-      return true;
-    }
-    const auto color = take_three(line);
-    if (!color || !std::all_of(color->begin(), color->end(), [](double x) { return x >= 0 && x <= 1; }))
-      return reading.refuse(
-          fmt::format("\"{}\" line {}: Kd (got {}, allowed three of [0, 1])", name, number, rest_of(line)));
-    material.color = *color;
-    return true;
-  });
+void take_vertex(void* user, double x, double y, double z, double /*w*/) {
+  Obj& obj = *static_cast<Obj*>(user);
+  const auto suspect = [](double v) { return v == 0 || !std::isfinite(v); };
+  if ((suspect(x) || suspect(y) || suspect(z)) && !three_numbers(obj.rest()))
+    obj.refuse(fmt::format("a vertex needs three finite numbers (got {})", obj.rest()));
+  obj.vertices.emplace_back(x, y, z);
 }
 
-/// The state of a file being read, line by line.
-struct Obj {
-  std::vector<Imath::V3d> vertices;
-  std::map<std::optional<std::size_t>, std::vector<std::array<std::uint32_t, 3>>> triangles;  // by material
-  std::optional<std::size_t> material;
-};
-
-// A corner "7", "7/1/2" or "-1//3": vertices count from 1, or back from the last.
-std::optional<std::uint32_t> vertex_of(std::string_view corner, std::size_t count) {
-  const auto number = parse_number(corner.substr(0, corner.find('/')));
-  if (!number || *number != std::floor(*number)) return std::nullopt;
-  const double index = *number > 0 ? *number - 1 : static_cast<double>(count) + *number;
-  if (*number == 0 || index < 0 || index >= static_cast<double>(count)) return std::nullopt;
-  return static_cast<std::uint32_t>(index);
-}
-
-bool take_face(std::string_view line, std::size_t number, Obj& obj, MeshReading& reading) {
-  auto& triangles = obj.triangles[obj.material];
-  std::uint32_t first = 0;
-  std::uint32_t last = 0;
-  for (int k = 0;; ++k) {
-    const std::string_view word = take_word(line);
-    if (word.empty() || word[0] == '#')
-      return k >= 3 ||
-             reading.refuse(fmt::format("line {}: a face of {} corners (allowed 3 or more)", number, k));
-    const auto corner = vertex_of(word, obj.vertices.size());
-    if (!corner)
-      return reading.refuse(fmt::format("line {}: no such vertex (got {}, allowed [1, {}])", number, word,
-                                        obj.vertices.size()));
-    if (k == 0) first = *corner;
-    if (k >= 2) triangles.push_back({first, last, *corner});
-    last = *corner;
+// Vertices count from 1, or back from the last.
+void take_face(void* user, tinyobj::index_t* indices, int count) {
+  Obj& obj = *static_cast<Obj*>(user);
+  if (count < 3) obj.refuse(fmt::format("a face of {} corners (allowed 3 or more)", count));
+  const auto last = static_cast<std::int64_t>(obj.vertices.size());
+  std::vector<std::uint32_t> polygon;
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t named = indices[i].vertex_index;
+    const std::int64_t vertex = named > 0 ? named : last + 1 + named;
+    if (named == 0 || vertex < 1 || vertex > last)
+      obj.refuse(fmt::format("no such vertex (got {}, allowed [1, {}])", named, last));
+    polygon.push_back(static_cast<std::uint32_t>(vertex - 1));
   }
+  add_fan(polygon, obj.triangles[obj.material]);
 }
 
-bool use_material(const std::string& name, std::size_t number, Obj& obj, MeshReading& reading) {
-  const std::vector<FileMaterial>& materials = reading.file.materials;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].name != name) continue;
-    obj.material = i;
-    return true;
+void use_material(void* user, const char* name, int number) {
+  Obj& obj = *static_cast<Obj*>(user);
+  if (number >= 0) {
+    obj.material = static_cast<std::size_t>(number);
+    return;
   }
   std::vector<std::string> names;
-  for (const FileMaterial& material : materials) names.push_back(material.name);
-  return reading.refuse(fmt::format("line {}: {}", number, unknown_name("material", name, names)));
+  for (const FileMaterial& material : obj.reading.file.materials) names.push_back(material.name);
+  obj.refuse(unknown_name("material", name, names));
 }
 
-bool take_line(std::string_view key, std::string_view line, std::size_t number, Obj& obj,
-               MeshReading& reading) {
-  if (key == "v") {
-    const auto v = take_three(line);
-    if (!v)
+// What a material says beyond its colour, in the words of the format.
+std::vector<std::string> lost(const tinyobj::material_t& m) {
+  const auto some = [](const double(&color)[3]) { return color[0] != 0 || color[1] != 0 || color[2] != 0; };
+  const std::pair<const char*, bool> known[] = {{"Ka", some(m.ambient)},
+                                                {"Ks", some(m.specular)},
+                                                {"Ke", some(m.emission)},
+                                                {"Tf", some(m.transmittance)},
+                                                {"Ns", m.shininess != 1},
+                                                {"Ni", m.ior != 1},
+                                                {"d", m.dissolve != 1},
+                                                {"Pr", m.roughness != 0},
+                                                {"Pm", m.metallic != 0},
+                                                {"Ps", m.sheen != 0},
+                                                {"Pc", m.clearcoat_thickness != 0},
+                                                {"Pcr", m.clearcoat_roughness != 0},
+                                                {"aniso", m.anisotropy != 0},
+                                                {"anisor", m.anisotropy_rotation != 0},
+                                                {"map_Ka", !m.ambient_texname.empty()},
+                                                {"map_Kd", !m.diffuse_texname.empty()},
+                                                {"map_Ks", !m.specular_texname.empty()},
+                                                {"map_Ns", !m.specular_highlight_texname.empty()},
+                                                {"bump", !m.bump_texname.empty()},
+                                                {"disp", !m.displacement_texname.empty()},
+                                                {"map_d", !m.alpha_texname.empty()},
+                                                {"refl", !m.reflection_texname.empty()},
+                                                {"map_Pr", !m.roughness_texname.empty()},
+                                                {"map_Pm", !m.metallic_texname.empty()},
+                                                {"map_Ps", !m.sheen_texname.empty()},
+                                                {"map_Ke", !m.emissive_texname.empty()},
+                                                {"norm", !m.normal_texname.empty()}};
+  std::vector<std::string> words;
+  for (const auto& [word, said] : known)
+    if (said) words.emplace_back(word);
+  for (const auto& [word, value] : m.unknown_parameter) words.push_back(word);
+  return words;
+}
+
+// Whether every Kd is a colour: the library takes for 0 what is no number.
+bool check_colors(const std::string& name, const std::string& text, MeshReading& reading) {
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
+    if (line.compare(key, 2, "Kd") != 0) continue;
+    const std::string rest = split(std::string_view(line).substr(key + 2), '\n')[0];
+    const auto color = three_numbers(rest);
+    if (!color || !std::all_of(color->begin(), color->end(), [](double x) { return x >= 0 && x <= 1; }))
       return reading.refuse(
-          fmt::format("line {}: a vertex needs three finite numbers (got {})", number, rest_of(line)));
-    obj.vertices.emplace_back((*v)[0], (*v)[1], (*v)[2]);
-    return obj.vertices.size() < std::numeric_limits<std::uint32_t>::max() ||
-           reading.refuse("too many vertices");
+          fmt::format("\"{}\" line {}: Kd (got {}, allowed three of [0, 1])", name, number, rest));
   }
-  if (key == "f") return take_face(line, number, obj, reading);
-  if (reading.materials == FileMaterials::ignored) return true;
-  if (key == "mtllib") return read_mtl(rest_of(line), reading);
-  if (key == "usemtl") return use_material(rest_of(line), number, obj, reading);
   return true;
 }
 
+/// Reads the .mtl files that an .obj names, through the check of their paths.
+class MaterialFiles : public tinyobj::MaterialReader {
+ public:
+  explicit MaterialFiles(const Obj& obj) : obj_(obj) {}
+  // The library cuts a name at its blanks, and asks for the pieces one by one.
+  bool operator()(const std::string& /*piece*/, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* numbers, std::string* warning, std::string* error) override {
+    MeshReading& reading = obj_.reading;
+    const std::string name = obj_.rest();
+    std::string text;
+    if (!read_named_bytes(name, text, reading) || !check_colors(name, text, reading)) throw Refused();
+    std::istringstream stream(std::move(text));
+    tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
+    for (std::size_t i = reading.file.materials.size(); i < materials->size(); ++i) {
+      const tinyobj::material_t& m = (*materials)[i];
+      if (m.name.empty()) obj_.refuse(fmt::format("\"{}\" has a material without a name", name));
+      reading.file.materials.push_back(
+          {m.name, {m.diffuse[0], m.diffuse[1], m.diffuse[2]}, std::nullopt, lost(m)});
+    }
+    return true;
+  }
+
+ private:
+  const Obj& obj_;
+};
+
 // The triangles with the vertices they name and no others.
-Mesh compact(const std::vector<Imath::V3d>& vertices, std::vector<std::array<std::uint32_t, 3>> triangles) {
+Mesh compact(const std::vector<Imath::V3d>& vertices, std::vector<Triangle> triangles) {
   Mesh mesh;
   std::unordered_map<std::uint32_t, std::uint32_t> renamed;
-  for (auto& triangle : triangles)
+  for (Triangle& triangle : triangles)
     for (std::uint32_t& corner : triangle) {
       const auto [at, added] = renamed.emplace(corner, static_cast<std::uint32_t>(mesh.vertices.size()));
       if (added) mesh.vertices.push_back(vertices[corner]);
@@ -163,13 +194,19 @@ Mesh compact(const std::vector<Imath::V3d>& vertices, std::vector<std::array<std
 
 }  // namespace
 
-bool read_obj(std::string_view bytes, MeshReading& reading) {
-  Obj obj;
-  if (!each_line(bytes, [&](std::string_view key, std::string_view line, std::size_t number) {
-        return take_line(key, line, number, obj, reading);
-      }))
+bool read_obj(std::string&& bytes, MeshReading& reading) {
+  Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}};
+  MaterialFiles files(obj);
+  const bool wanted = reading.materials == FileMaterials::wanted;
+  tinyobj::callback_t take;
+  take.vertex_cb = take_vertex;
+  take.index_cb = take_face;
+  if (wanted) take.usemtl_cb = use_material;
+  try {
+    tinyobj::LoadObjWithCallback(obj.stream, take, &obj, wanted ? &files : nullptr);
+  } catch (const Refused&) {
     return false;
-  std::erase_if(obj.triangles, [](const auto& group) { return group.second.empty(); });
+  }
   if (obj.triangles.size() == 1) {
     auto& [material, triangles] = *obj.triangles.begin();
     reading.file.parts.push_back({{std::move(obj.vertices), std::move(triangles)}, material});

@@ -109,7 +109,7 @@ TEST_F(MeshFileTest, ReadsObj) {
 
 TEST_F(MeshFileTest, ObjBringsItsMaterials) {
   write(folder_ / "a.mtl",
-        "newmtl red paint\nKd 0.8 0.1 0.05\nKs 1 1 1\nNs 10\nillum 2\nKs 0 0 0\n"
+        "newmtl red paint\nKd 0.8 0.1 0.05\nKs 1 1 1\nNs 10\nillum 2\nKs 0.5 0.5 0.5\n"
         "newmtl plain\nKd 0.5 0.5 0.5\n");
   write(folder_ / "a.obj", std::string("mtllib a.mtl\n") + kCorners +
                                "usemtl red paint\nf 1 2 3\nusemtl plain\nf 1 2 4\nf 1 3 4\n");
@@ -136,6 +136,10 @@ TEST_F(MeshFileTest, ObjBringsItsMaterials) {
       << loaded.text();
   EXPECT_EQ(loaded.text().find("\"plain\""), std::string::npos) << "nothing of it is lost";
 
+  write(folder_ / "two words.mtl", "newmtl plain\nKd 1 1 1\n");
+  write(folder_ / "b.obj", std::string("mtllib two words.mtl\n") + kCorners + "usemtl plain\nf 1 2 3\n");
+  EXPECT_TRUE(load(R"({"shapes": [{"mesh": "b.obj"}]})").scene);
+
   // The scene's hash knows the materials too.
   const std::string before = loaded->sha256;
   write(folder_ / "a.mtl", "newmtl red paint\nKd 0.8 0.1 0.06\nnewmtl plain\n");
@@ -153,6 +157,7 @@ TEST_F(MeshFileTest, ObjBringsItsMaterials) {
 TEST_F(MeshFileTest, RefusesBadObj) {
   const auto in = ErrorCode::input;
   write(folder_ / "bad.mtl", "newmtl a\nKd 0.1 2 0\n");
+  write(folder_ / "curve.mtl", "newmtl a\n  Kd spectral a.rfl\n");
   write(folder_ / "early.mtl", "Kd 0.1 0 0\n");
   expect_refused(
       "bad.obj",
@@ -160,7 +165,7 @@ TEST_F(MeshFileTest, RefusesBadObj) {
         "line 5: no such vertex (got 5, allowed [1, 4])"},
        {"an index before", std::string(kCorners) + "f 1 2 -5\n", in, "no such vertex (got -5"},
        {"zero", std::string(kCorners) + "f 1 2 0\n", in, "no such vertex (got 0"},
-       {"no number", std::string(kCorners) + "f 1 2 x\n", in, "no such vertex (got x"},
+       {"no number", std::string(kCorners) + "f 1 2 x\n", in, "no such vertex (got 0"},
        {"two corners", std::string(kCorners) + "f 1 2\n", in,
         "line 5: a face of 2 corners (allowed 3 or more)"},
        {"half a vertex", "v 1 2\nf 1 1 1\n", in, "line 1: a vertex needs three finite numbers (got 1 2)"},
@@ -172,7 +177,10 @@ TEST_F(MeshFileTest, RefusesBadObj) {
        {"absolute", "mtllib /etc/passwd\n", in, "beside it only (got \"/etc/passwd\")"},
        {"unknown material", "mtllib bad.mtl\n", in,
         "\"bad.mtl\" line 2: Kd (got 0.1 2 0, allowed three of [0, 1])"},
-       {"no newmtl", "mtllib early.mtl\n", in, "\"early.mtl\" line 1: no newmtl yet"},
+       {"a curve", "mtllib curve.mtl\n", in,
+        "\"curve.mtl\" line 2: Kd (got spectral a.rfl, allowed three of [0, 1])"},
+       {"a material without a name", "mtllib early.mtl\n", in,
+        "line 1: \"early.mtl\" has a material without a name"},
        {"unknown material", std::string(kCorners) + "usemtl wod\nf 1 2 3\n", in,
         "line 5: unknown material \"wod\""},
        {"no material", std::string(kCorners) + "f 1 2 3\n", ErrorCode::scene,
@@ -198,6 +206,14 @@ TEST_F(MeshFileTest, ReadsGltf) {
   ASSERT_EQ(file.others.size(), 1U);
   EXPECT_EQ(file.others[0], folder_ / "two words.bin");
 
+  Asset jointed = asset;
+  jointed.more = R"(, "skins": [{"joints": [0]}, {"joints": [0]}])";
+  EXPECT_EQ(mesh("a.gltf", jointed.text()).triangles, one);
+
+  Asset pictured = outside;
+  pictured.more = R"(, "images": [{"uri": "gone.png"}, {"uri": "two%20words.bin"}])";
+  EXPECT_EQ(read("a.gltf", pictured.text()).others, file.others) << "images are not read";
+
   Asset within = asset;
   within.buffer = R"({"byteLength": 44})";
   EXPECT_EQ(mesh("a.glb", glb(within.text(), triangle_bytes())).triangles, one);
@@ -206,7 +222,7 @@ TEST_F(MeshFileTest, ReadsGltf) {
   strip.primitive = R"("attributes": {"POSITION": 0}, "mode": 5)";
   strip.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}])";
   strip.views = R"([{"buffer": 0, "byteLength": 64, "byteStride": 16, "byteOffset": 4}])";
-  strip.buffer = R"({"byteLength": 68, "uri": "data:;base64,)" +
+  strip.buffer = R"({"byteLength": 68, "uri": "data:application/octet-stream;base64,)" +
                  base64(raw<float>({9, 0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9, 1, 1, 0, 9})) + "\"}";
   const Mesh square = mesh("a.gltf", strip.text());
   ASSERT_EQ(square.triangles.size(), 2U);
@@ -287,6 +303,11 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
         "[" + positions + R"(, {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}])");
   };
   const std::string whole = glb(Asset().text(), "");
+  Asset within;
+  within.buffer = R"({"byteLength": 52})";
+  std::string beyond_end = glb(within.text(), triangle_bytes());
+  beyond_end[beyond_end.size() - 52] = 52;  // the length of its last chunk
+  const std::string deep(300, '[');
   std::string chunky = whole;
   chunky[14] = '\x7F';
   expect_refused(
@@ -296,13 +317,19 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
        {"no scene", R"({"asset": {"version": "2.0"}})", in, "it has no scene"},
        {"a truncated GLB", whole.substr(0, whole.size() - 5), in, "malformed or truncated GLB"},
        {"only a magic", "glTF", in, "malformed or truncated GLB"},
+       {"a last chunk longer by its header", beyond_end, in, "malformed or truncated GLB"},
+       {"two buffers of one chunk", with(&Asset::buffer, R"({"byteLength": 1}, {"byteLength": 1})"), in,
+        "more than one buffer has no uri"},
+       {"deep", with(&Asset::more, ", \"extras\": " + deep + std::string(300, ']')), in, "nesting too deep"},
+       {"an empty buffer", glb(with(&Asset::buffer, R"({"byteLength": 0})"), "1234"), in,
+        "vector::_M_range_check"},
        {"a lying chunk", chunky, in, "malformed or truncated GLB"},
        {"a loop", with(&Asset::nodes, R"([{"mesh": 0, "children": [0]}])"), in, "node 0 is reached twice"},
        {"a child twice", with(&Asset::nodes, R"([{"children": [1, 1]}, {"mesh": 0}])"), in,
         "node 1 is reached twice"},
        {"no such node", with(&Asset::roots, "[7]"), in, "a node does not exist"},
        {"no such mesh", with(&Asset::nodes, R"([{"mesh": 1}])"), in, "a mesh does not exist"},
-       {"no positions", with(&Asset::primitive, R"("attributes": {})"), in, "accessor ?: there is none"},
+       {"no positions", with(&Asset::primitive, R"("attributes": {})"), in, "accessor -1: there is none"},
        {"a long accessor",
         accessor(R"({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"})"), in,
         "accessor 0: it promises more than the buffer holds"},
@@ -311,7 +338,7 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
         in, "promises more"},
        {"a negative count",
         accessor(R"({"bufferView": 0, "componentType": 5126, "count": -1, "type": "VEC3"})"), in,
-        "promises more"},
+        "'count' property is not a positive integer"},
        {"a far offset",
         accessor(
             R"({"bufferView": 0, "byteOffset": 9007199254740000, "componentType": 5126, "count": 3, "type": "VEC3"})"),
@@ -323,10 +350,15 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
        {"shorts", accessor(R"({"bufferView": 0, "componentType": 5123, "count": 3, "type": "VEC3"})"), in,
         "positions must be floats"},
        {"halves", accessor(R"({"bufferView": 0, "componentType": 5131, "count": 3, "type": "VEC3"})"), in,
-        "unknown component type"},
+        "Invalid `componentType` in accessor. Got 5131"},
+       {"signed indices",
+        with(&Asset::accessors, R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                                    {"bufferView": 1, "componentType": 5122, "count": 3, "type": "SCALAR"}])"),
+        in, "indices must be integers >= 0"},
        {"sparse",
-        accessor(R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {}})"), in,
-        "sparse accessors are not read"},
+        accessor(
+            R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}})"),
+        in, "sparse accessors are not read"},
        {"a narrow stride",
         with(
             &Asset::views,
@@ -337,16 +369,23 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
              R"([{"buffer": 0, "byteLength": 45}, {"buffer": 0, "byteOffset": 36, "byteLength": 8}])"),
         in, "its view leaves the buffer"},
        {"a far view",
-        with(&Asset::views, R"([{"buffer": 0, "byteOffset": 9007199254740992, "byteLength": 36}, {}])"), in,
+        with(
+            &Asset::views,
+            R"([{"buffer": 0, "byteOffset": 9007199254740992, "byteLength": 36}, {"buffer": 0, "byteLength": 8}])"),
+        in, "its view leaves the buffer"},
+       {"no such buffer",
+        with(&Asset::views, R"([{"buffer": 1, "byteLength": 36}, {"buffer": 0, "byteLength": 8}])"), in,
         "its view leaves the buffer"},
-       {"no such buffer", with(&Asset::views, R"([{"buffer": 1, "byteLength": 36}, {}])"), in,
-        "its view leaves the buffer"},
-       {"a long buffer", with(&Asset::buffer, R"({"byteLength": 44, "uri": "data:;base64,AAAA"})"), in,
-        "/buffers/0 promises more bytes than there are (got 44, allowed 3)"},
-       {"no length", with(&Asset::buffer, R"({"uri": "data:;base64,AAAA"})"), in, "(got no length"},
-       {"no base64", with(&Asset::buffer, R"({"byteLength": 1, "uri": "data:;base64,A*A"})"), in,
-        "/buffers/0 is no base64"},
-       {"no bytes", with(&Asset::buffer, R"({"byteLength": 1})"), in, "/buffers/0 has no bytes"},
+       {"a long buffer",
+        with(&Asset::buffer, R"({"byteLength": 44, "uri": "data:application/octet-stream;base64,AAAA"})"), in,
+        "Failed to decode 'uri' : data:application/octet-stream;base64,AAAA"},
+       {"no length", with(&Asset::buffer, R"({"uri": "data:application/octet-stream;base64,AAAA"})"), in,
+        "'byteLength' property is missing in Buffer"},
+       {"no base64",
+        with(&Asset::buffer, R"({"byteLength": 1, "uri": "data:application/octet-stream;base64,A*A"})"), in,
+        "Failed to decode 'uri' : data:application/octet-stream;base64,A*A"},
+       {"no bytes", with(&Asset::buffer, R"({"byteLength": 1})"), in,
+        "'uri' is missing from non binary glTF file buffer"},
        {"climbing out", with(&Asset::buffer, R"({"byteLength": 44, "uri": "a/../../secret"})"), in,
         "beside it only"},
        {"climbing in code", with(&Asset::buffer, R"({"byteLength": 44, "uri": "%2e%2E/secret"})"), in,
@@ -357,6 +396,8 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
         "beside it only"},
        {"missing", with(&Asset::buffer, R"({"byteLength": 44, "uri": "gone.bin"})"), in,
         "\"gone.bin\", which it names: no such file"},
+       {"a primitive of no attributes", with(&Asset::primitive, R"("attributes": 1)"), in,
+        "'attributes' property"},
        {"compressed", with(&Asset::more, R"(, "extensionsRequired": ["KHR_draco_mesh_compression"])"), in,
         "it requires the extension KHR_draco_mesh_compression"},
        {"too bright",
@@ -368,7 +409,7 @@ TEST_F(MeshFileTest, RefusesBadGltf) {
             R"(, "materials": [{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0}}}])"),
         in, "ior (got 0, allowed (0, 100])"}});
   Asset beyond;
-  beyond.buffer = R"({"byteLength": 44, "uri": "data:;base64,)" +
+  beyond.buffer = R"({"byteLength": 44, "uri": "data:application/octet-stream;base64,)" +
                   base64(raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) + raw<std::uint16_t>({0, 1, 3, 0})) + "\"}";
   expect_refused("bad.gltf", {{"an index beyond", beyond.text(), in,
                                "an index names a vertex that does not exist (got 3, allowed [0, 2])"}});

@@ -1,5 +1,6 @@
 #include <array>
 #include <cstdint>
+#include <locale>
 #include <string>
 #include <vector>
 
@@ -36,14 +37,29 @@ TEST_F(PlyTest, ReadsPly) {
   binary.append(reinterpret_cast<const char*>(indices), sizeof indices);
   write(folder_ / "binary.ply", binary);
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "binary.ply")")), 2);
+  std::string infinite = binary;
+  infinite[infinite.size() - 15] = '\x7F';  // the high bytes of the last z
+  infinite[infinite.size() - 16] = '\x80';
+  write(folder_ / "binary.ply", infinite);
+  EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("vertex 2 is not finite"), std::string::npos);
   write(folder_ / "binary.ply", binary.substr(0, binary.size() - 1));
   EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("promises more"), std::string::npos);
 }
 
+TEST_F(PlyTest, ReadsPlyWhateverTheLocale) {
+  struct Comma : std::numpunct<char> {
+    [[nodiscard]] char do_decimal_point() const override { return ','; }
+  };
+  write(folder_ / "half.ply", ply(3, 1, "0 0 0\n0.5 0 0\n0 0.5 0\n3 0 1 2\n"));
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
+  const double half = area(shape(R"("mesh": "half.ply")"));
+  std::locale::global(before);
+  EXPECT_DOUBLE_EQ(half, 0.125);
+}
+
 TEST_F(PlyTest, RefusesBadPly) {
   const std::vector<Fault> faults{
-      {"29 NaN", ply(4, 1, "0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ErrorCode::input,
-       "vertex 2 is not finite"},
+      {"29 NaN", ply(4, 1, "0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ErrorCode::input, "malformed PLY"},
       {"30 index", ply(4, 1, kSquare + "3 0 1 4\n"), ErrorCode::input,
        "triangle 0 names a vertex that does not exist (got 4, allowed [0, 3])"},
       {"30 index of a polygon", ply(4, 1, kSquare + "4 0 1 2 99\n"), ErrorCode::input,
@@ -52,7 +68,8 @@ TEST_F(PlyTest, RefusesBadPly) {
        "without a triangle of any area"},
       {"34 promises", ply(2147483647, 1, kSquare + "3 0 1 2\n"), ErrorCode::input,
        "the header promises more than the file holds"},
-      {"34 more than memory", "ply\nformat ascii 1.0\nelement vertex 1e15\nproperty float x\nend_header\n0\n",
+      {"34 more than memory",
+       "ply\nformat ascii 1.0\nelement vertex 1000000000000000\nproperty float x\nend_header\n0\n",
        ErrorCode::input, "promises more"},
       {"34 a long list", ply(4, 1, kSquare + "4000000000 0 1 2\n"), ErrorCode::input, "promises more"},
       {"truncated", ply(4, 2, kSquare + "3 0 1 2\n"), ErrorCode::input, "promises more"},
@@ -60,6 +77,25 @@ TEST_F(PlyTest, RefusesBadPly) {
       {"no PLY", "solid\n", ErrorCode::input, "malformed PLY header"},
       {"empty", "", ErrorCode::input, "malformed PLY header"},
       {"no end", "ply\nformat ascii 1.0\nelement vertex 3\n", ErrorCode::input, "malformed PLY header"},
+      {"vertices of nothing",
+       "ply\nformat ascii 1.0\nelement vertex 9\nelement face 1\nproperty list uchar int "
+       "vertex_indices\nend_header\n3 0 1 2\n",
+       ErrorCode::input, "malformed PLY header"},
+      {"a property of nothing", "ply\nformat ascii 1.0\nproperty float x\nend_header\n", ErrorCode::input,
+       "malformed PLY header"},
+      {"an unknown type", "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n",
+       ErrorCode::input, "malformed PLY header"},
+      {"lists of any length",
+       "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int "
+       "vertex_indices\nend_header\n1000000\n",
+       ErrorCode::input, "lists counted in 32 bits"},
+      {"a list of negative length",
+       "ply\nformat ascii 1.0\nelement face 1\nproperty list char int vertex_indices\nend_header\n-1\n",
+       ErrorCode::input, "malformed PLY"},
+      {"whole numbers for positions",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int "
+       "z\nend_header\n0 0 0\n",
+       ErrorCode::input, "malformed PLY"},
       {"no properties", "ply\nformat ascii 1.0\nelement vertex 9e300\nend_header\n", ErrorCode::input,
        "malformed PLY header"},
   };
