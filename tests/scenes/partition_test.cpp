@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <random>
 
@@ -97,30 +98,76 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Partition,
                            return std::string(info.param, std::strchr(info.param, '.'));
                          });
 
+RenderResult copy(const RenderResult& result) {
+  RenderResult same{*Film::from_bytes(result.film.shape(), result.film.bytes()), result.samples, result.stats,
+                    result.unfinished};
+  same.film.set_samples(count_per_replicate(same.samples, same.film.replicates()));
+  return same;
+}
+
 TEST(Resume, AStopByErrorFallsOnTheSameSample) {
   const Scene scene = small("cornell.json");
   RenderOptions to_error;
   to_error.target_error = 0.03;
   const RenderResult whole = render(scene, to_error);
-  std::vector<RenderResult> saved;  // every state a checkpoint could hold
-  RenderOptions saving = to_error;
-  saving.checkpoint_interval_s = 0;
-  std::vector<std::string> bytes;
-  std::vector<SampleRanges> samples;
-  saving.checkpoint = [&](const RenderResult& result) {
-    bytes.emplace_back(result.film.bytes());
-    samples.push_back(result.samples);
-  };
-  (void)render(scene, saving);
-  ASSERT_GT(bytes.size(), 0U);
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    RenderResult start{*Film::from_bytes(whole.film.shape(), bytes[i]), samples[i], {}};
-    start.film.set_samples(count_per_replicate(samples[i], start.film.replicates()));
-    start.stats.samples_per_pixel = count(samples[i]);
+  const auto goes_on_to_the_same = [&](RenderResult start) {
+    const std::string from = to_text(start.samples);
     const RenderResult end = render(scene, to_error, std::move(start));
-    EXPECT_EQ(end.samples, whole.samples) << "from " << to_text(samples[i]);
-    EXPECT_EQ(end.film.bytes(), whole.film.bytes());
-  }
+    EXPECT_EQ(end.samples, whole.samples) << "from " << from;
+    EXPECT_EQ(end.film.bytes(), whole.film.bytes()) << "from " << from;
+    EXPECT_EQ(end.stats.rays, whole.stats.rays) << "from " << from;
+  };
+  int amid = 0;
+  RenderOptions saving = to_error;
+  saving.checkpoint_interval_s = 0;  // every state a checkpoint could hold
+  saving.threads = 3;
+  saving.checkpoint = [&](const RenderResult& result) {
+    amid += result.unfinished ? 1 : 0;
+    goes_on_to_the_same(copy(result));
+  };
+  goes_on_to_the_same(render(scene, saving));
+  EXPECT_GT(amid, 0);
+  RenderOptions odd = to_error;  // no end of a pass
+  odd.samples = SampleRange{0, 100};
+  odd.target_error = {};
+  odd.time_limit_s = 1e9;
+  goes_on_to_the_same(render(scene, odd));
+}
+
+// However long the pass, what is done can be saved as soon as a stop is asked for; the pass then ends, so
+// that the film is a mean of whole samples.
+TEST(Resume, AStopIsSavedAtOnceAndEndsThePass) {
+  const Scene scene = small("glass_sphere.json");
+  RenderOptions options;
+  options.threads = 1;
+  options.samples = SampleRange{0, 500};
+  const std::atomic<bool> stop{true};
+  std::vector<RenderResult> saved;
+  options.stop = &stop;
+  options.checkpoint_interval_s = 1e9;
+  options.checkpoint = [&](const RenderResult& result) { saved.push_back(copy(result)); };
+  const RenderResult stopped = render(scene, options);
+  EXPECT_TRUE(stopped.stats.interrupted);
+  EXPECT_FALSE(stopped.unfinished);
+  const RenderResult whole = render(scene, {.samples = stopped.samples.front()});
+  EXPECT_EQ(stopped.film.bytes(), whole.film.bytes());
+  ASSERT_EQ(saved.size(), 1U);
+  ASSERT_TRUE(saved.front().unfinished);
+  EXPECT_EQ(saved.front().unfinished->items, 1U);  // a tile of a thread
+  EXPECT_TRUE(saved.front().samples.empty());
+
+  // Through a file, which is a checkpoint but no part.
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("abbe_unfinished_" + std::to_string(::getpid()) + ".abbepart");
+  write_part(path, {{"sensor_channels", "R,G,B"}}, saved.front());
+  EXPECT_THROW((void)read_part(path), Error);
+  RenderOptions rest;
+  rest.samples = SampleRange{0, 2};  // what was begun is ended whatever is wanted
+  const RenderResult end = render(scene, rest, read_checkpoint(path).result);
+  std::filesystem::remove(path);
+  EXPECT_EQ(end.samples, stopped.samples);
+  EXPECT_EQ(end.film.bytes(), whole.film.bytes());
+  EXPECT_EQ(end.stats.paths, whole.stats.paths);
 }
 
 TEST(Merge, RefusesWhatDoesNotBelongTogether) {
@@ -152,8 +199,11 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(refusal(sum, part(cropped, {2, 3})),
             "b.abbepart: is a part of another render: another crop (got 0,0,4,4, allowed none)");
   EXPECT_EQ(refusal(sum, part(own, {1, 3})), "b.abbepart: has samples that are there already (got 1:3)");
-  EXPECT_EQ(refusal(sum, part(renamed, {2, 3})), "");
+  RenderPart more = part(renamed, {2, 3});
+  more.result.stats.nonfinite_samples = 5;
+  EXPECT_EQ(refusal(sum, more), "");
   EXPECT_EQ(to_text(sum.result.samples), "0:3");
+  EXPECT_EQ(sum.result.stats.nonfinite_samples, 5U);
 }
 
 }  // namespace

@@ -127,6 +127,7 @@ TEST(Film, BytesMakeTheSameFilm) {
   EXPECT_EQ(back->shape(), film.shape());
   EXPECT_FALSE(Film::from_bytes(film.shape(), film.bytes().substr(1)));
   EXPECT_FALSE(Film::from_bytes(film.shape(), film.bytes().substr(16)));
+  EXPECT_FALSE(Film::from_bytes(film.shape(), std::string(film.bytes()) + "x"));
 }
 
 }  // namespace

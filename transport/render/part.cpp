@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
 constexpr const char* kCounts = "paths_rays_nonfinite";
+constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>
 std::optional<std::vector<Number>> parse_numbers(const std::string& text, std::size_t count) {
@@ -46,6 +48,23 @@ std::string take(FilmIdentity& header, const char* key) {
   return entry ? std::move(entry.mapped()) : "";
 }
 
+// Takes the samples of a film, and those of a pass that are not among them. False for what cannot be.
+bool take_samples(FilmIdentity& header, RenderResult& result) {
+  const std::string samples = take(header, kSamples);
+  const std::string unfinished = take(header, kUnfinished);
+  if (!samples.empty() || unfinished.empty()) {
+    auto ranges = parse_sample_ranges(samples);
+    if (!ranges) return false;
+    result.samples = *std::move(ranges);
+  }
+  if (unfinished.empty()) return true;
+  const auto n = parse_numbers<std::uint64_t>(unfinished, 3);
+  if (!n || (*n)[0] >= (*n)[1] || (*n)[2] > std::numeric_limits<std::uint32_t>::max()) return false;
+  result.unfinished = UnfinishedPass{{(*n)[0], (*n)[1]}, static_cast<std::uint32_t>((*n)[2])};
+  SampleRanges both = result.samples;
+  return add(both, result.unfinished->samples);
+}
+
 }  // namespace
 
 void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result) {
@@ -54,27 +73,36 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
   header[kShape] =
       fmt::format("{} {} {} {} {}", s.width, s.height, s.channels, s.replicates, s.unit_exponent);
   header[kSamples] = to_text(result.samples);
+  if (const auto& pass = result.unfinished)
+    header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);
   header[kCounts] =
       fmt::format("{} {} {}", result.stats.paths, result.stats.rays, result.stats.nonfinite_samples);
   write_part_file(path, header, result.film.bytes());
 }
 
-RenderPart read_part(const fs::path& path) {
+RenderPart read_checkpoint(const fs::path& path) {
   PartFile file = read_part_file(path);
   const auto shape = parse_shape(take(file.header, kShape));
-  const auto samples = parse_sample_ranges(take(file.header, kSamples));
   const auto counts = parse_numbers<std::uint64_t>(take(file.header, kCounts), 3);
   auto film = shape ? Film::from_bytes(*shape, file.bytes) : std::nullopt;
   const bool named = split(file.header["sensor_channels"], ',').size() ==
                      static_cast<std::size_t>(shape ? shape->channels : 0);
-  if (!film || !samples || !counts || !named)
-    throw Error(ErrorCode::input, path.string(), "holds no part of a render");
-  RenderPart part{std::move(file.header), {std::move(*film), *samples, {}}};
-  part.result.film.set_samples(count_per_replicate(*samples, shape->replicates));
-  part.result.stats.samples_per_pixel = count(*samples);
-  part.result.stats.paths = (*counts)[0];
-  part.result.stats.rays = (*counts)[1];
-  part.result.stats.nonfinite_samples = (*counts)[2];
+  const auto refuse = [&path] { throw Error(ErrorCode::input, path.string(), "holds no part of a render"); };
+  if (!film || !counts || !named) refuse();
+  RenderResult result{std::move(*film), {}, {}};
+  if (!take_samples(file.header, result)) refuse();
+  result.film.set_samples(count_per_replicate(result.samples, shape->replicates));
+  result.stats.samples_per_pixel = count(result.samples);
+  result.stats.paths = (*counts)[0];
+  result.stats.rays = (*counts)[1];
+  result.stats.nonfinite_samples = (*counts)[2];
+  return {std::move(file.header), std::move(result)};
+}
+
+RenderPart read_part(const fs::path& path) {
+  RenderPart part = read_checkpoint(path);
+  if (part.result.unfinished)
+    throw Error(ErrorCode::input, path.string(), "was saved amid a sample, which render --resume completes");
   return part;
 }
 

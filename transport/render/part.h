@@ -23,8 +23,10 @@ struct RenderPart {
 /// Writes the exact sums, atomically. Throws Error{output}.
 void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result);
 
-/// Throws Error{input} for a file that is missing, torn, damaged or no part.
+/// Throws Error{input} for a file that is missing, torn, damaged, no part, or saved amid a pass.
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
+/// The same, for a render to go on with: it may have been saved amid a pass.
+[[nodiscard]] RenderPart read_checkpoint(const std::filesystem::path& path);
 
 /// Throws Error{input} naming `path` and the first thing in which its film differs from the one wanted.
 void require_same_film(const std::filesystem::path& path, const FilmIdentity& identity,

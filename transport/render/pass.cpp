@@ -20,13 +20,15 @@ constexpr std::uint32_t pieces(std::uint32_t whole, std::uint32_t piece) {
 
 }  // namespace
 
-Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, std::uint64_t first, std::uint64_t last)
+Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
+           std::uint32_t done)
     : plan_(plan),
       scene_(plan.scene),
       film_(film),
       crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
-      first_(first),
-      last_(last) {
+      first_(samples.first),
+      last_(samples.last),
+      next_(done) {
   const auto width = static_cast<std::uint32_t>(film.width());
   const auto height = static_cast<std::uint32_t>(film.height());
   tiles_x_ = pieces(width, kTile);
@@ -35,13 +37,13 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, std::uint64_t
   batches_ = plan.light_active ? pieces(pixels_, kPhotonBatch) : 0;
 }
 
-PassCounts Pass::run(int threads) {
+PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
   PassCounts total;
   std::mutex mutex;
   std::exception_ptr failure;
   const auto task = [&] {
     try {
-      const PassCounts counts = work();
+      const PassCounts counts = work(pause);
       const std::scoped_lock lock(mutex);
       total.paths += counts.paths;
       total.rays += counts.rays;
@@ -59,7 +61,7 @@ PassCounts Pass::run(int threads) {
   return total;
 }
 
-PassCounts Pass::work() {
+PassCounts Pass::work(const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
   Worker worker(scene_);
@@ -69,6 +71,7 @@ PassCounts Pass::work() {
       render_tile(item, worker);
     else
       trace_batch(item - tiles_, worker);
+    if (pause()) break;
   }
   worker.counts.rays = worker.caster.rays();
   return worker.counts;

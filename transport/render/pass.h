@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "sensor/film/film.h"
@@ -20,13 +22,20 @@ struct PassCounts {
 
 /// Samples [first, last) of every pixel, and as many photons as that makes. Sample s belongs to replicate s
 /// mod R and is number s / R of that replicate's sequence. Work items are tiles, then batches of photons,
-/// taken by threads from one counter.
+/// taken by threads from one counter, so that those done are always the first ones.
 class Pass {
  public:
-  Pass(const Plan& plan, Film& film, std::optional<Crop> crop, std::uint64_t first, std::uint64_t last);
+  /// Of which the film has the first `done` items already.
+  Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
+       std::uint32_t done);
 
-  /// Runs on that many threads; exceptions of workers are rethrown here.
-  PassCounts run(int threads);
+  /// Runs on that many threads until all is done, or until `pause`, which any thread may ask after any item,
+  /// says so; exceptions of workers are rethrown here.
+  PassCounts run(int threads, const std::function<bool()>& pause);
+
+  /// How many items are done, and whether these are all. Not while it runs.
+  [[nodiscard]] std::uint32_t done() const { return std::min(next_.load(), tiles_ + batches_); }
+  [[nodiscard]] bool finished() const { return done() == tiles_ + batches_; }
 
  private:
   // What one thread keeps between items.
@@ -37,7 +46,7 @@ class Pass {
     PassCounts counts;
   };
 
-  PassCounts work();
+  PassCounts work(const std::function<bool()>& pause);
   void render_tile(std::uint32_t tile, Worker& worker);
   void sample_pixel(int x, int y, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
@@ -54,7 +63,7 @@ class Pass {
   std::uint32_t tiles_;
   std::uint32_t batches_;
   std::uint32_t pixels_;
-  std::atomic<std::uint32_t> next_{0};
+  std::atomic<std::uint32_t> next_;
 };
 
 }  // namespace abbe

@@ -53,14 +53,15 @@ class Rendering {
     stats.threads = options.threads > 0 ? options.threads
                                         : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     stats.relative_error = std::numeric_limits<double>::infinity();
-    look_at_error();
+    if (!result_.unfinished) look_at_error();
   }
 
   RenderResult run() {
+    if (result_.unfinished) run_pass(result_.unfinished->samples);
     for (auto next = first_missing(result_.samples, wanted_); next && !finished();
          next = first_missing(result_.samples, wanted_)) {
       run_pass({next->first, std::min(next->last, (next->first / step_ + 1) * step_)});
-      save();
+      if (save_is_due()) save();
     }
     RenderStats& stats = result_.stats;
     stats.wall_s = elapsed();
@@ -76,13 +77,19 @@ class Rendering {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
+  // A pass may be long, so checkpoints interrupt it.
   void run_pass(const SampleRange& range) {
-    const PassCounts counts =
-        Pass(plan_, result_.film, options_.crop, range.first, range.last).run(result_.stats.threads);
     RenderStats& stats = result_.stats;
-    stats.paths += counts.paths;
-    stats.rays += counts.rays;
-    stats.nonfinite_samples += counts.nonfinite;
+    Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0);
+    while (!pass.finished()) {
+      const PassCounts counts = pass.run(stats.threads, [this] { return save_is_due(); });
+      stats.paths += counts.paths;
+      stats.rays += counts.rays;
+      stats.nonfinite_samples += counts.nonfinite;
+      result_.unfinished = {range, pass.done()};
+      if (!pass.finished()) save();
+    }
+    result_.unfinished.reset();
     if (!add(result_.samples, range)) throw Error(ErrorCode::internal, "render", "a pass was done twice");
     stats.samples_per_pixel = count(result_.samples);
     result_.film.set_samples(count_per_replicate(result_.samples, result_.film.replicates()));
@@ -105,10 +112,16 @@ class Rendering {
       result_.stats.relative_error = result_.film.relative_error();
   }
 
+  [[nodiscard]] bool stop_asked() const { return options_.stop != nullptr && options_.stop->load(); }
+
+  [[nodiscard]] bool save_is_due() const {
+    const double pause = std::max(options_.checkpoint_interval_s, saving_s_ / kCheckpointShare);
+    return options_.checkpoint && (elapsed() - last_save_s_ >= pause || (stop_asked() && !saved_at_stop_));
+  }
+
   void save() {
     const double begin = elapsed();
-    const double pause = std::max(options_.checkpoint_interval_s, saving_s_ / kCheckpointShare);
-    if (!options_.checkpoint || begin - last_save_s_ < pause) return;
+    saved_at_stop_ = stop_asked();
     options_.checkpoint(result_);
     last_save_s_ = elapsed();
     saving_s_ = last_save_s_ - begin;
@@ -124,7 +137,7 @@ class Rendering {
   }
 
   [[nodiscard]] bool finished() {
-    result_.stats.interrupted = samples() > 0 && options_.stop != nullptr && options_.stop->load();
+    result_.stats.interrupted = samples() > 0 && stop_asked();
     if (result_.stats.interrupted) return true;
     if (options_.time_limit_s && samples() > 0 && elapsed() >= *options_.time_limit_s) return true;
     return options_.target_error && result_.stats.relative_error <= *options_.target_error;
@@ -141,6 +154,7 @@ class Rendering {
   RenderResult result_;
   double last_save_s_ = 0;
   double saving_s_ = 0;
+  bool saved_at_stop_ = false;
 };
 
 }  // namespace

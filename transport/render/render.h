@@ -26,6 +26,12 @@ struct Progress {
 
 struct RenderResult;
 
+/// A pass that is not finished: these samples of the first tiles and photons only.
+struct UnfinishedPass {
+  SampleRange samples;
+  std::uint32_t items;  ///< Tiles and photon batches done, in their order.
+};
+
 /// When to stop, and with what.
 struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
@@ -35,11 +41,12 @@ struct RenderOptions {
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
   std::optional<SampleRange> samples = {};  ///< Only these of the samples the scene asks for.
-  /// Called between passes, with what is finished, once `checkpoint_interval_s` has gone by since the last
-  /// call or since the start, and so seldom that the calls take no more than a hundredth of the time.
+  /// Called with what is done, maybe amid a pass, once `checkpoint_interval_s` has gone by since the last
+  /// call or since the start, and so seldom that the calls take no more than a hundredth of the time; and
+  /// once as soon as a stop is asked for.
   std::function<void(const RenderResult&)> checkpoint = {};
   double checkpoint_interval_s = 60;
-  const std::atomic<bool>* stop = nullptr;  ///< Checked after each pass; what is finished stays valid.
+  const std::atomic<bool>* stop = nullptr;  ///< Stops after the pass that runs, so that the mean is right.
   std::function<void(const Progress&)> progress = {};
 };
 
@@ -62,6 +69,7 @@ struct RenderResult {
   Film film;
   SampleRanges samples;
   RenderStats stats;
+  std::optional<UnfinishedPass> unfinished = {};  ///< Only in what a checkpoint gets.
 };
 
 /// Renders the scene, or those of its samples that `start` does not have. For fixed samples the film is a

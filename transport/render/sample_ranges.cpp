@@ -24,8 +24,8 @@ std::uint64_t count_before(std::uint64_t end, std::uint64_t replicate, std::uint
 }  // namespace
 
 bool add(SampleRanges& ranges, const SampleRange& more) {
-  const auto next = std::find_if(ranges.begin(), ranges.end(),
-                                 [&more](const SampleRange& r) { return r.last > more.first; });
+  const auto next = std::partition_point(ranges.begin(), ranges.end(),
+                                         [&more](const SampleRange& r) { return r.last <= more.first; });
   if (next != ranges.end() && next->first < more.last) return false;
   auto added = ranges.insert(next, more);
   if (added + 1 != ranges.end() && added[1].first == added->last) {
