@@ -81,9 +81,19 @@ struct Removal {
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,
+fs::path destination(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as the system follows
+  std::error_code ignored;
+  fs::path end = path;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(end, ignored); ++links)
+    end = folder_of(end) / fs::read_symlink(end, ignored);
+  return end;
+}
+
+void write_atomically(const fs::path& name, const std::function<void(const fs::path&)>& write,
                       const std::function<bool(const fs::path&)>& verify) {
-  require_writable(path);
+  require_writable(name);
+  const fs::path path = destination(name);
   const Removal temporary(temporary_for(path));
   try {
     write(temporary.path);
@@ -121,7 +131,8 @@ void write_atomically(const fs::path& path, std::string_view bytes) {
   write_atomically(path, std::span(&bytes, 1));
 }
 
-void remove_leftovers(const fs::path& path) {
+void remove_leftovers(const fs::path& name) {
+  const fs::path path = destination(name);
   const std::string prefix = temporary_prefix(path);
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), ignored)) {
@@ -133,14 +144,18 @@ void remove_leftovers(const fs::path& path) {
   }
 }
 
-void require_writable(const fs::path& path) {
+void require_writable(const fs::path& name) {
   std::error_code ignored;
+  const fs::path path = destination(name);
   const fs::path folder = folder_of(path);
   if (!path.has_filename()) fail(path, "no file name");
   if (!fs::is_directory(folder, ignored)) fail(path, fmt::format("no such folder \"{}\"", folder.string()));
   const fs::file_status status = fs::status(path, ignored);
   if (fs::is_directory(status)) fail(path, "is a folder");
+  if (fs::is_symlink(path, ignored)) fail(path, "is a circle of links");
   if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "is a device, not a regular file");
+  if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+    fail(path, fmt::format("may not be replaced ({})", reason()));
   const Removal probe(temporary_for(path));
   const int descriptor = ::open(probe.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) fail(path, fmt::format("cannot create a file there ({})", reason()));

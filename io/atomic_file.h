@@ -7,6 +7,9 @@
 
 namespace abbe {
 
+/// The file that writing to `path` replaces: `path`, or where its symbolic links lead.
+[[nodiscard]] std::filesystem::path destination(const std::filesystem::path& path);
+
 /// Makes `path` appear complete or not at all: `write` fills a temporary file in the same folder, which is
 /// flushed to disk, checked by `verify`, renamed to `path`, and its folder flushed. Throws Error{output},
 /// leaving any older file as it was.
@@ -23,7 +26,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
 void remove_leftovers(const std::filesystem::path& path);
 
 /// Throws Error{output} now if a file could not be created at `path` later: folder missing or read-only, or
-/// `path` a folder.
+/// `path` a folder or read-only.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace abbe

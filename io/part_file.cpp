@@ -4,6 +4,7 @@
 
 #include <array>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include "io/atomic_file.h"
@@ -23,9 +24,16 @@ constexpr std::string_view kHash = "sha256";
   throw Error(ErrorCode::input, path.string(), message);
 }
 
+// Of format and header. A longer one is no header and not worth the memory.
+constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 24;
+
 std::string header_text(const std::map<std::string, std::string>& header) {
   std::string text;
-  for (const auto& [key, value] : header) text += fmt::format("{}: {}\n", key, value);
+  for (const auto& [key, value] : header) {
+    if (key.find_first_of(":\n") != std::string::npos || value.find('\n') != std::string::npos)
+      throw Error(ErrorCode::internal, key, "a line break or colon in the header of a part file");
+    text += fmt::format("{}: {}\n", key, value);
+  }
   return text;
 }
 
@@ -35,11 +43,20 @@ std::string hash(const std::map<std::string, std::string>& header, std::string_v
 
 // The format's line, then `key: value` lines up to an empty one.
 std::map<std::string, std::string> read_header(std::istream& file, const fs::path& path) {
-  std::string line(kFormat.size() + 1, '\0');
-  file.read(line.data(), static_cast<std::streamsize>(line.size()));
-  if (line != fmt::format("{}\n", kFormat)) refuse(path, fmt::format("not a part file (\"{}\")", kFormat));
+  std::string text(kMaxHeaderBytes, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (!text.starts_with(fmt::format("{}\n", kFormat)))
+    refuse(path, fmt::format("not a part file (\"{}\")", kFormat));
+  const std::size_t end = text.find("\n\n");
+  if (end == std::string::npos) refuse(path, "damaged header");
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(end + 2));
   std::map<std::string, std::string> header;
-  while (std::getline(file, line) && !line.empty()) {
+  std::istringstream lines(text.substr(0, end));
+  std::string line;
+  std::getline(lines, line);  // the format
+  while (std::getline(lines, line)) {
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos) refuse(path, "damaged header");
     header[line.substr(0, colon)] = line.substr(colon + 2);

@@ -14,7 +14,8 @@ struct PartFile {
   std::string bytes;
 };
 
-/// Writes header and bytes to `path`, atomically. Throws Error{output}.
+/// Writes header and bytes to `path`, atomically. Throws Error{output}, and Error{internal} for a header that
+/// could not be read back.
 void write_part_file(const std::filesystem::path& path, const std::map<std::string, std::string>& header,
                      std::string_view bytes);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -49,6 +50,42 @@ TEST(AtomicFile, WritesThroughATemporaryOfTheSameKindBesideIt) {
   EXPECT_EQ(seen.extension(), ".png");
   EXPECT_NE(seen, path);
   EXPECT_EQ(files_in(path.parent_path()), 1U);
+}
+
+TEST(AtomicFile, WritesWhereLinksLead) {
+  const auto folder = test_folder();
+  fs::create_directory(folder / "far");
+  fs::create_symlink("far/link", folder / "link");
+  fs::create_symlink("out", folder / "far" / "link");  // to a file still missing
+  write_atomically(folder / "link", "new");
+  EXPECT_EQ(bytes_of(folder / "far" / "out"), "new");
+  EXPECT_EQ(destination(folder / "link"), folder / "far" / "out");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  fs::create_symlink("loop", folder / "loop");
+  EXPECT_EQ(output_error([&] { write_atomically(folder / "loop", "x"); }),
+            (folder / "loop").string() + ": is a circle of links");
+}
+
+// As an owner without the rights of root, who may do all.
+TEST(AtomicFile, AReadOnlyFileStays) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // threads of libraries do not survive a fork
+  const auto path = test_folder() / "out.txt";
+  put(path, "old");
+  fs::permissions(path, fs::perms::owner_read | fs::perms::others_read);
+  fs::permissions(path.parent_path(), fs::perms::all);
+  const auto write = [&] {
+    (void)!::seteuid(65534);
+    int code = 0;
+    try {
+      write_atomically(path, "new");
+    } catch (const Error& error) {
+      code = static_cast<int>(error.code);
+    }
+    (void)!::seteuid(::getuid());
+    std::exit(code);
+  };
+  EXPECT_EXIT(write(), testing::ExitedWithCode(5), "");
+  EXPECT_EQ(bytes_of(path), "old");
 }
 
 TEST(AtomicFile, AnyFailureLeavesTheOldFileAlone) {

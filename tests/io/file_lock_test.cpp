@@ -3,7 +3,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <functional>
+#include <thread>
+#include <vector>
 
 #include "io/error.h"
 #include "test_files.h"
@@ -56,6 +60,43 @@ TEST(FileLock, AKilledHolderHoldsNothing) {
   const auto path = test_folder() / "out.exr";
   while_locked_elsewhere(path, [&](pid_t) { EXPECT_FALSE(can_lock(path)); });
   EXPECT_TRUE(can_lock(path));
+}
+
+// Also while others take it, let it go and remove its file.
+TEST(FileLock, ManyWhoTryAreOneAtATime) {
+  const auto path = test_folder() / "out.exr";
+  std::atomic<int> inside{0};
+  std::atomic<int> most{0};
+  std::atomic<int> held{0};
+  const auto try_often = [&] {
+    for (int i = 0; i < 5000; ++i) try {
+        const FileLock lock(path);
+        most = std::max(most.load(), ++inside);
+        std::this_thread::yield();
+        --inside;
+        ++held;
+      } catch (const Error&) {
+      }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 4; ++t) threads.emplace_back(try_often);
+  }
+  EXPECT_EQ(most, 1);
+  EXPECT_GT(held, 100);
+}
+
+TEST(FileLock, ALinkAndWhatItLeadsToAreOneOutput) {
+  const auto path = test_folder() / "out.exr";
+  const auto link = path.parent_path() / "link.exr";
+  std::filesystem::create_symlink("out.exr", link);
+  const FileLock lock(path);
+  try {
+    const FileLock other(link);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), link.string() + ": another process is writing it");
+  }
 }
 
 TEST(FileLock, RemovesWhatTheDeadLeftHalfWritten) {

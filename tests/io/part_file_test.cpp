@@ -60,6 +60,26 @@ TEST(PartFile, AnyTornOrLongerFileIsRefused) {
   EXPECT_NE(complaint_about(path).find("it should hold 10 bytes of sums and holds 11"), std::string::npos);
 }
 
+TEST(PartFile, AHeaderThatCannotBeReadBackIsNotWritten) {
+  const auto path = test_folder() / "a.abbepart";
+  for (const auto& entry : std::map<std::string, std::string>{{"a", "b\nc"}, {"a\nb", "c"}, {"a:", "b"}})
+    EXPECT_THROW(write_part_file(path, {entry}, ""), Error) << entry.first;
+  EXPECT_FALSE(std::filesystem::exists(path));
+  const std::map<std::string, std::string> odd{{"a", " b: c "}, {"", ""}};
+  write_part_file(path, odd, "");
+  EXPECT_EQ(read_part_file(path).header, odd);
+}
+
+TEST(PartFile, AHugeHeaderIsRefused) {
+  const auto path = test_folder() / "a.abbepart";
+  for (const char* line : {"x", "x: y\n"}) {
+    std::string text = "abbepart 1\n";
+    while (text.size() < 20'000'000) text += line;
+    put(path, text + "\n\n");
+    EXPECT_NE(complaint_about(path).find("damaged header"), std::string::npos);
+  }
+}
+
 TEST(PartFile, OtherFilesAreRefusedByName) {
   const auto path = test_folder() / "a.abbepart";
   EXPECT_EQ(complaint_about(path), path.string() + ": no such file");
