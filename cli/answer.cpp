@@ -68,13 +68,18 @@ Json one_or_all(Json list) {
   return list.size() == 1 ? list.front() : list;
 }
 
+void tell(const std::string& text) {
+  (void)!std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 void say(const std::string& message) {
-  fmt::print(stderr, "abbe: {}\n", message);
+  tell(fmt::format("abbe: {}\n", message));
 }
 
 void check(const Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) {
-    fmt::print(stderr, "{}", diagnostics.text());
+    tell(diagnostics.text());
     return;
   }
   std::string all = diagnostics.text();

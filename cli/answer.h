@@ -24,7 +24,10 @@ void print(const Json& answer, bool as_json);
 /// several.
 [[nodiscard]] Json one_or_all(Json list);
 
-/// Prints one line on stderr, after "abbe: ".
+/// Writes to stderr. Nothing fails because nobody reads it.
+void tell(const std::string& text);
+
+/// Tells one line, after "abbe: ".
 void say(const std::string& message);
 
 /// Prints the warnings, if any; throws the errors as one Error when there are some. A name given on the

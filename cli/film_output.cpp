@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -11,18 +12,15 @@
 #include "io/exr.h"
 
 namespace abbe::cli {
-namespace {
-
-constexpr const char* kPartExtension = ".abbepart";
-
-}  // namespace
 
 FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
                          const abbe::RenderOptions& how) {
   constexpr std::array kIntegrators{"auto", "path", "light"};
+  std::string name = scene_file.filename().string();
+  std::replace(name.begin(), name.end(), '\n', '?');  // headers have a line per entry
   FilmIdentity identity{
       {"version", ABBE_VERSION},
-      {"scene", scene_file.filename().string()},
+      {"scene", name},
       {"scene_sha256", scene.sha256},
       {"data_sha256", data_sha256()},
       {"seed", fmt::format("{}", scene.render.seed)},
@@ -49,6 +47,17 @@ void require_extension(const std::filesystem::path& path, std::initializer_list<
     throw Error(
         ErrorCode::usage, path.string(),
         fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
+}
+
+void require_distinct(std::span<const std::filesystem::path> files) {
+  std::map<std::filesystem::path, std::filesystem::path> names;
+  for (const std::filesystem::path& file : files) {
+    if (file.empty()) continue;
+    const auto [there, added] = names.emplace(weakly_canonical(absolute(destination(file))), file);
+    if (!added)
+      throw Error(ErrorCode::usage, file.string(),
+                  fmt::format("is the same file as {}: each needs one of its own", there->second.string()));
+  }
 }
 
 void require_film_output(const std::filesystem::path& path) {

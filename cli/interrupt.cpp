@@ -19,6 +19,7 @@ void remember(int number) {
   signal_seen = number;
   stop_asked = true;
   use_default();
+  std::signal(SIGHUP, SIG_IGN);  // a closing terminal sends it once and its shell once more
 }
 
 }  // namespace
@@ -28,10 +29,12 @@ InterruptWatch::InterruptWatch() {
   stop_asked = false;
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  if (std::signal(SIGHUP, remember) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
 }
 
 InterruptWatch::~InterruptWatch() {
   use_default();
+  if (std::signal(SIGHUP, SIG_IGN) == remember) std::signal(SIGHUP, SIG_DFL);
 }
 
 const std::atomic<bool>& InterruptWatch::stop() const {

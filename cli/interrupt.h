@@ -4,7 +4,8 @@
 
 namespace abbe::cli {
 
-/// While it lives, the first SIGINT or SIGTERM is remembered and the second kills as usual. One at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is remembered, and another SIGINT or SIGTERM kills as
+/// usual. A SIGHUP that was ignored stays so. One at a time.
 class InterruptWatch {
  public:
   InterruptWatch();

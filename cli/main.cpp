@@ -1,4 +1,7 @@
+#include <fcntl.h>
+
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -15,6 +18,14 @@
 
 namespace abbe::cli {
 namespace {
+
+// A reader that leaves must not end a render that only tells its progress. And a closed standard stream must
+// not be the number of the next file opened: the stand-in gives an end of file or refuses what is written.
+void prepare_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) < 0) (void)!::open("/dev/null", O_RDONLY);
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"Abbe, a spectral renderer validated against measured colour science", "abbe"};
@@ -60,6 +71,7 @@ int guarded(int argc, char** argv) {
 }  // namespace abbe::cli
 
 int main(int argc, char** argv) {
+  abbe::cli::prepare_streams();
   const int code = abbe::cli::guarded(argc, argv);
   // An answer that did not reach its reader is no answer.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush()) {

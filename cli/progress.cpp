@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
+
+#include "cli/answer.h"
 
 namespace abbe::cli {
 namespace {
@@ -52,19 +53,18 @@ void ProgressDisplay::operator()(const Progress& progress) {
   const auto tenths = static_cast<int>(10 * progress.share);
   if (terminal_) {
     if (now - shown_ < kRedraw && tenths < 10) return;
-    fmt::print(stderr, "\r{}\x1b[K", progress_line(progress, true));
-    std::fflush(stderr);
+    tell(fmt::format("\r{}\x1b[K", progress_line(progress, true)));
     open_line_ = true;
   } else {
     if (tenths <= tenths_) return;
-    fmt::print(stderr, "abbe: {}\n", progress_line(progress, false));
+    say(progress_line(progress, false));
   }
   tenths_ = tenths;
   shown_ = now;
 }
 
 void ProgressDisplay::finish() {
-  if (open_line_) fmt::print(stderr, "\n");
+  if (open_line_) tell("\n");
   open_line_ = false;
 }
 

@@ -9,7 +9,7 @@
 namespace abbe::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kExitCodes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kExitCodes{{
     {"0", "all went well"},
     {"2", "the command line cannot be understood"},
     {"3", "the scene file is invalid"},
@@ -17,6 +17,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kExitCode
     {"5", "an output cannot be written"},
     {"6", "a limit on memory or size would be exceeded"},
     {"70", "a fault of Abbe, or with --strict a sample that was not finite"},
+    {"129", "the terminal was closed; what was rendered is written"},
     {"130", "interrupted from the keyboard; what was rendered is written"},
     {"143", "asked to end; what was rendered is written"},
 }};

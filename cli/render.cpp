@@ -1,5 +1,8 @@
 #include "cli/render.h"
 
+#include <array>
+#include <deque>
+#include <functional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -49,7 +52,12 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
     require_writable(outputs.display);
   }
   if (!outputs.stats.empty()) require_writable(outputs.stats);
-  if (!options.checkpoint.empty()) require_writable(options.checkpoint);
+  if (!options.checkpoint.empty()) {
+    require_extension(options.checkpoint, {kPartExtension});
+    require_writable(options.checkpoint);
+  }
+  require_distinct(
+      std::array{options.scene, outputs.film, outputs.display, outputs.stats, options.checkpoint});
   return outputs;
 }
 
@@ -88,10 +96,11 @@ std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIden
   }
   if (!options.resume)
     throw Error(ErrorCode::output, path.string(), "holds an earlier render: --resume goes on with it");
-  RenderPart part = read_part(path);
+  RenderPart part = read_checkpoint(path);
   require_same_film(path, part.identity, identity);
   if (!options.quiet)
-    say(fmt::format("{}: going on after samples {}", path.string(), to_text(part.result.samples)));
+    say(fmt::format("{}: going on after samples {}{}", path.string(), to_text(part.result.samples),
+                    part.result.unfinished ? " and a part of the next" : ""));
   return std::move(part.result);
 }
 
@@ -113,11 +122,27 @@ RenderPart develop(const Scene& scene, const RenderOptions& options, const Inter
   if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
   const fs::path& checkpoint = options.checkpoint;
   if (!checkpoint.empty())
-    how.checkpoint = [&](const RenderResult& result) { try_to_save(checkpoint, identity, result); };
+    how.checkpoint = [&](const RenderResult& result) {
+      try_to_save(checkpoint, identity, result);
+      if (watch.stop() && result.unfinished) say("ending with the sample begun; another signal ends at once");
+    };
   RenderPart part{identity, abbe::render(scene, how, earlier(options, identity))};
   display.finish();
-  if (!checkpoint.empty()) write_part(checkpoint, identity, part.result);
   return part;
+}
+
+// Tries them all, since one that fails is no reason to lose the others; throws the first failure in the end.
+void write_all(const std::vector<std::function<void()>>& writers) {
+  std::optional<Error> failure;
+  for (const auto& write : writers) try {
+      write();
+    } catch (const Error& error) {
+      if (failure)
+        say(error.what());
+      else
+        failure = error;
+    }
+  if (failure) throw *failure;
 }
 
 void write_stats(const fs::path& path, const Scene& scene, const RenderStats& stats) {
@@ -144,25 +169,30 @@ int render(const RenderOptions& options) {
   const Scene scene = load(options);
   const Outputs outputs = choose_outputs(options, scene);
   check_ranges(options, scene);
-  const FileLock film_lock(outputs.film);
-  std::optional<FileLock> checkpoint_lock;
-  if (!options.checkpoint.empty()) checkpoint_lock.emplace(options.checkpoint);
+  const InterruptWatch watch;
+  std::deque<FileLock> locks;
+  for (const fs::path& output : {outputs.film, outputs.display, outputs.stats, options.checkpoint})
+    if (!output.empty()) locks.emplace_back(output);
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty())
     display = make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission);
-  if (options.explain) fmt::print(stderr, "{}", describe(scene));
+  if (options.explain) tell(describe(scene));
   warn_about_polarisation(scene.needs);
 
-  const InterruptWatch watch;
   const RenderPart part = develop(scene, options, watch);
-  write_film(outputs.film, part);
-  if (display) {
+  const RenderStats& stats = part.result.stats;
+  const auto write_display = [&] {
     const std::optional<double> white = scene.output.display_exposure;
     write_picture(outputs.display,
                   (*display)(image_of(part), white ? std::optional(1 / *white) : std::nullopt).image);
-  }
-  const RenderStats& stats = part.result.stats;
-  if (!outputs.stats.empty()) write_stats(outputs.stats, scene, stats);
+  };
+  std::vector<std::function<void()>> writers;
+  if (!options.checkpoint.empty())
+    writers.emplace_back([&] { write_part(options.checkpoint, part.identity, part.result); });
+  writers.emplace_back([&] { write_film(outputs.film, part); });
+  if (display) writers.emplace_back(write_display);
+  if (!outputs.stats.empty()) writers.emplace_back([&] { write_stats(outputs.stats, scene, stats); });
+  write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.relative_error, ", relative ")));

@@ -253,9 +253,10 @@ Geometry::~Geometry() = default;
 
 void Geometry::open_device() {
   device_.reset(rtcNewDevice(kDeviceConfig));
-  if (!device_)
-    throw Error(ErrorCode::internal, "Embree",
-                "no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
+  if (!device_) {
+    failure_ = {rtcGetDeviceError(nullptr), "no device"};
+    check();
+  }
   rtcSetDeviceErrorFunction(
       device_.get(),
       [](void* failure, RTCError code, const char* text) {

@@ -1,5 +1,6 @@
 #include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/exr.h"
@@ -59,9 +60,14 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
   EXPECT_TRUE(names(refusal(part("path", "--integrator light --sample-range 2:4")), "another integrator"));
   EXPECT_TRUE(names(refusal(a), "has samples that are there already (got 0:2)"));
   PartFile older = read_part_file(part("old", "--sample-range 2:4"));
-  older.header["version"] = "0.0.9";
-  write_part_file(file("old.abbepart"), older.header, older.bytes);
-  EXPECT_TRUE(names(refusal(file("old.abbepart")), "another version (got 0.0.9"));
+  for (const char* key : {"version", "data_sha256", "exposure_s", "scene_sha256", "seed", "integrator",
+                          "replicates", "channel.Y"}) {
+    PartFile other = older;
+    ASSERT_TRUE(other.header.contains(key)) << key;
+    other.header[key] = "0.0.9";
+    write_part_file(file("other.abbepart"), other.header, other.bytes);
+    EXPECT_TRUE(names(refusal(file("other.abbepart")), fmt::format("another {} (got 0.0.9", key)));
+  }
   older.header.erase("samples");
   write_part_file(file("old.abbepart"), older.header, older.bytes);
   EXPECT_TRUE(names(refusal(file("old.abbepart")), "holds no part of a render"));
@@ -184,11 +190,20 @@ TEST_F(Checkpoint, OthersAreRefusedAndKept) {
   }
 }
 
+TEST_F(Checkpoint, TakesMoreSamplesAfterItsOwn) {
+  ASSERT_EQ(abbe(command("256 --sample-range 0:100")).code, 0);
+  ASSERT_EQ(abbe(command("128 --sample-range 110:120 --resume")).code, 0);  // as many replicates
+  EXPECT_EQ(read_part_file(checkpoint_).header.at("samples"), "0:100,110:120");
+  ASSERT_EQ(abbe(command("256 --resume")).code, 0);
+  ASSERT_EQ(abbe("render " + scene_ + " --spp 256 --quiet -o " + calm_).code, 0);
+  EXPECT_EQ(read_file(film_), read_file(calm_));
+}
+
 TEST_F(Checkpoint, OneThatCannotBeWrittenIsToldAndDoesNotStopTheRender) {
   const Outcome run = shell(ABBE_BINARY " " + command("10000000 & pid=$!; until [ -e ") + checkpoint_ +
                             " ]; do sleep 0.01; done; rm " + checkpoint_ + "; mkdir " + checkpoint_ +
                             "; until grep -q warning " + file("stderr") +
-                            "; do sleep 0.01; done; kill -TERM $pid; wait $pid");
+                            " || ! kill -0 $pid; do sleep 0.01; done; kill -TERM $pid; wait $pid");
   EXPECT_NE(run.err.find("warning: no checkpoint: "), std::string::npos) << run.err;
   EXPECT_EQ(run.code, 5) << run.err;  // the last one is not forgiven
 }

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/exr.h"
+#include "io/part_file.h"
+#include "io/picture.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// Signals while a render loads, runs and writes.
+
+namespace abbe::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ball() {
+  return scratch().write("ball.json", ball_scene()).string();
+}
+std::string file(const std::string& name) {
+  return (scratch() / name).string();
+}
+std::string until(const std::string& condition) {
+  return "; until " + condition + "; do sleep 0.01; done; ";
+}
+/// A render in the background, as $pid.
+std::string started(const std::string& options) {
+  return ABBE_BINARY " render " + ball() + " --quiet " + options + " & pid=$!";
+}
+
+TEST(Signals, AClosedTerminalLeavesAllAsARequestToEndDoes) {
+  const std::string film = file("hup.exr");
+  // Twice, as the terminal and its shell do; the second must not kill.
+  const Outcome run =
+      shell(started("--spp 10000000 -o " + film + " --checkpoint " + file("hup.abbepart") +
+                    " --checkpoint-every 0.01s") +
+            until("[ -e " + file("hup.abbepart") + " ]") + "kill -HUP $pid; kill -HUP $pid; wait $pid");
+  EXPECT_EQ(run.code, 129) << run.err;
+  const std::string samples = read_part_file(file("hup.abbepart")).header.at("samples");
+  EXPECT_EQ("0:" + read_exr(film).metadata.at("samples_per_pixel"), samples);
+}
+
+TEST(Signals, NohupIsHeard) {
+  const Outcome run = shell("trap '' HUP; " + started("--time 1s -o " + file("nohup.exr")) +
+                            until("[ -e " + file(".nohup.exr.lock") + " ]") + "kill -HUP $pid; wait $pid");
+  EXPECT_EQ(run.code, 0) << run.err;
+}
+
+// The pass over this film takes a second or more, and its checkpoint is there before.
+TEST(Signals, ALongPassIsSavedAtOnceAndTheNextSignalKills) {
+  const std::string film = file("long.exr");
+  const std::string saved = file("long.abbepart");
+  const std::string options = "--spp 2 --set /sensor/resolution=[1500,1000] -o " + film;
+  const Outcome run =
+      shell(started(options + " --checkpoint " + saved) + until("[ -e " + file(".long.exr.lock") + " ]") +
+            "kill -TERM $pid" + until("[ -e " + saved + " ]") + "kill -TERM $pid; wait $pid");
+  EXPECT_EQ(run.code, 143) << run.err;
+  EXPECT_FALSE(fs::exists(film));
+  EXPECT_TRUE(read_part_file(saved).header.contains("unfinished"));
+  const Outcome merged = abbe("merge " + saved + " -o " + film);
+  EXPECT_EQ(merged.code, 4);
+  EXPECT_NE(merged.err.find("was saved amid a sample"), std::string::npos) << merged.err;
+  const Outcome resumed = abbe("render " + ball() + " " + options + " --resume --checkpoint " + saved);
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  const std::string pieces = read_file(film);
+  ASSERT_EQ(abbe("render " + ball() + " --quiet " + options).code, 0);
+  EXPECT_TRUE(read_file(film) == pieces);
+}
+
+// Before there is anything to lose a signal ends the program as it ends any.
+TEST(Signals, WhileAMeshLoadsLeaveNothing) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 400000\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < 400000; ++i) ply += "3 0 1 2\n";
+  (void)scratch().write("mesh.ply", ply);
+  const auto scene = scratch().write("mesh.json", scene_text(R"("white": {"diffuse": {"reflectance": 0.8}})",
+                                                             R"({"mesh": "mesh.ply", "material": "white"})"));
+  const fs::path there = scratch() / "loading";
+  fs::create_directories(there);
+  const Outcome run =
+      shell("cd " + there.string() + "; " ABBE_BINARY " render " + scene.string() +
+            " --quiet --spp 10000000 -o a.exr --checkpoint a.abbepart & pid=$!" +
+            until("grep -q mesh.ply /proc/$pid/maps || ls -l /proc/$pid/fd 2>/dev/null | grep -q mesh.ply") +
+            "kill -TERM $pid; wait $pid; ls -A " + there.string());
+  EXPECT_EQ(run.out, "") << run.err;
+}
+
+TEST(Signals, WhileOutputsAreWrittenLoseNone) {
+  const std::string film = file("written.exr");
+  const std::string picture = file("written.png");
+  const Outcome run =
+      shell(started("--spp 1 --set /sensor/resolution=[1200,800] -o " + film + " --display " + picture) +
+            "; until [ -e " + film + " ]; do :; done; kill -TERM $pid; wait $pid");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(read_exr(film).width, 1200);
+  EXPECT_EQ(read_picture(picture).width, 1200);
+}
+
+}  // namespace
+}  // namespace abbe::test
