@@ -76,6 +76,8 @@ void write_part_file(const fs::path& path, const std::map<std::string, std::stri
                      std::string_view bytes) {
   const std::string start = fmt::format("{}\n{}{}: {}\n{}: {}\n\n", kFormat, header_text(header), kBytes,
                                         bytes.size(), kHash, hash(header, bytes));
+  if (start.size() > kMaxHeaderBytes)
+    throw Error(ErrorCode::internal, path.string(), "a header too long for a part file");
   write_atomically(path, std::array{std::string_view(start), bytes});
 }
 

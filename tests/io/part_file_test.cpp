@@ -64,6 +64,7 @@ TEST(PartFile, AHeaderThatCannotBeReadBackIsNotWritten) {
   const auto path = test_folder() / "a.abbepart";
   for (const auto& entry : std::map<std::string, std::string>{{"a", "b\nc"}, {"a\nb", "c"}, {"a:", "b"}})
     EXPECT_THROW(write_part_file(path, {entry}, ""), Error) << entry.first;
+  EXPECT_THROW(write_part_file(path, {{"a", std::string(17 << 20, 'x')}}, ""), Error);
   EXPECT_FALSE(std::filesystem::exists(path));
   const std::map<std::string, std::string> odd{{"a", " b: c "}, {"", ""}};
   write_part_file(path, odd, "");
