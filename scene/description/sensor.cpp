@@ -14,11 +14,14 @@ constexpr Range kPitch{0, 1e6, true, false};     // um
 constexpr Range kExposure{0, 1e9, true, false};  // s
 
 // Channels name the planes of an EXR, whose layers are separated by dots.
+// As EXR files can name channels and what is said of them.
+constexpr std::size_t kLongestName = 100;
+
 bool is_plain(std::string_view name) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
-  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
+  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), plain);
 }
 
 std::optional<ResponseKind> read_response(ObjectReader& reader, Reading& reading) {
@@ -54,7 +57,8 @@ std::optional<Channel> read_channel(const std::string& name, const JsonValue& js
                                     Reading& reading) {
   if (!is_plain(name)) {
     reading.diagnostics.error(
-        json.where, fmt::format("a channel's name has letters, digits, - and _ only (got \"{}\")", name));
+        json.where, fmt::format("a channel's name has up to {} letters, digits, - and _ only (got \"{}\")",
+                                kLongestName, name));
     return std::nullopt;
   }
   std::optional<Curve> curve = read_curve(json, {"filter"}, reading);

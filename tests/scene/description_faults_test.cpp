@@ -150,6 +150,9 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "quantum_efficiency goes with channels"},
       {"a name EXR cannot hold", sensed(R"("resolution": [1, 1], "channels": {"a.b": 1})"), ErrorCode::scene,
        "letters, digits, - and _ only (got \"a.b\")"},
+      {"a name too long for EXR",
+       sensed(R"("resolution": [1, 1], "channels": {")" + std::string(101, 'a') + R"(": 1})"),
+       ErrorCode::scene, "up to 100 letters"},
       {"unknown unit", R"({"units": "ft"})", ErrorCode::scene, "unknown unit of length \"ft\""},
   };
   for (const Fault& fault : faults) {
