@@ -209,12 +209,21 @@ TEST_F(Checkpoint, OneThatCannotBeWrittenIsToldAndDoesNotStopTheRender) {
 }
 
 TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
-  const Outcome run = shell(ABBE_BINARY " " +
-                            command("10000000 & pid=$!; until [ -e " + checkpoint_ +
-                                    " ]; do sleep 0.01; done; " ABBE_BINARY " render ") +
-                            scene_ + " --spp 1 --quiet -o " + film_ + "; echo $?; kill -9 $pid");
-  EXPECT_EQ(run.out, "5\n");
-  EXPECT_NE(run.err.find("film.exr: another process is writing it"), std::string::npos) << run.err;
+  const std::string picture = file("two.png");
+  const std::string stats = file("two.json");
+  const std::string second = "; " ABBE_BINARY " render " + scene_ + " --spp 1 --quiet -o ";
+  std::string writers;
+  for (const std::string& output :
+       {film_, file("own.exr") + " --display " + picture, file("own.exr") + " --stats " + stats,
+        file("own.exr") + " --resume --checkpoint " + checkpoint_})
+    writers += second + output + "; echo $?";
+  const Outcome run =
+      shell(ABBE_BINARY " " +
+            command("10000000 --display " + picture + " --stats " + stats + " & pid=$!; until [ -e ") +
+            checkpoint_ + " ]; do sleep 0.01; done" + writers + "; kill -9 $pid");
+  EXPECT_EQ(run.out, "5\n5\n5\n5\n") << run.err;
+  for (const std::string& output : {film_, picture, stats, checkpoint_})
+    EXPECT_NE(run.err.find(output + ": another process is writing it"), std::string::npos) << run.err;
 }
 
 }  // namespace

@@ -199,6 +199,10 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(refusal(sum, part(cropped, {2, 3})),
             "b.abbepart: is a part of another render: another crop (got 0,0,4,4, allowed none)");
   EXPECT_EQ(refusal(sum, part(own, {1, 3})), "b.abbepart: has samples that are there already (got 1:3)");
+  const Scene smaller = test::load("cornell.json", {{"/sensor/resolution", "[8, 8]"}});
+  const RenderPart misshapen{own, render(smaller, {.samples = SampleRange{2, 3}})};
+  EXPECT_EQ(refusal(sum, misshapen), "b.abbepart: has a film of another shape");
+  EXPECT_THROW((void)render(scene, {}, copy(misshapen.result)), Error);
   RenderPart more = part(renamed, {2, 3});
   more.result.stats.nonfinite_samples = 5;
   EXPECT_EQ(refusal(sum, more), "");
