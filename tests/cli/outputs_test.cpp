@@ -89,6 +89,14 @@ TEST(Outputs, UnwritablePlacesAreFoundBeforeRendering) {
   }
 }
 
+TEST(Outputs, ACheckpointThatIsAFolderIsNoCheckpoint) {
+  fs::create_directories(scratch() / "folder.abbepart");
+  const Outcome run =
+      here(ABBE_BINARY " render " + ball() + " --quiet -o a.exr --checkpoint folder.abbepart --resume");
+  EXPECT_EQ(run.code, 5);
+  EXPECT_NE(run.err.find("folder.abbepart: is a folder"), std::string::npos) << run.err;
+}
+
 TEST(Merge, MayReplaceAPartByTheSum) {
   const std::string part = ABBE_BINARY " render " + ball() + " --quiet --sample-range ";
   ASSERT_EQ(here(part + "0:4 -o one.abbepart").code, 0);
