@@ -306,10 +306,13 @@ const PrototypePart* Geometry::build_prototype(const std::shared_ptr<const Proto
   return built.get();
 }
 
+// What Embree calls unknown is an exception of its own within, such as a thread that could not be started;
+// what it calls invalid is a fault of ours.
 void Geometry::check() const {
   if (failure_.code == RTC_ERROR_NONE) return;
   const bool memory = failure_.code == RTC_ERROR_OUT_OF_MEMORY;
-  throw Error(memory ? ErrorCode::resource : ErrorCode::internal, "Embree",
+  const bool resource = memory || failure_.code == RTC_ERROR_UNKNOWN;
+  throw Error(resource ? ErrorCode::resource : ErrorCode::internal, "Embree",
               memory ? "out of memory while building the geometry" : failure_.message);
 }
 
