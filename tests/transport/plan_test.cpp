@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "transport/render/plan.h"
+#include "transport/sampling/sampler.h"
 
 namespace abbe {
 namespace {
@@ -46,6 +47,31 @@ TEST(Plan, EqualEmissionsCountOnce) {
   };
   EXPECT_DOUBLE_EQ(red_share(1000), red_share(1));
   EXPECT_GT(red_share(1), 0.003);
+}
+
+TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
+  const Scene scene = lamps_over_glass(2);
+  const Plan one = make_plan(scene, 1);
+  const Plan four = make_plan(scene, 4);
+  const Plan unlearned = [&] {
+    Plan plan = one;
+    for (Aim& aim : plan.aims) aim = Aim({0, 0, 2}, {0, 0, 4}, 0.35F);
+    return plan;
+  }();
+  int learned = 0;
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    const auto u = Sampler(2, Purpose::pilot, 0, 0, i).group(0);
+    for (std::size_t light = 0; light < 2; ++light) {
+      const EmissionPoint from = sample_emission_point(scene.lights[light], scene.shapes, {0, 0});
+      const auto aimed = [&](const Plan& plan) {
+        return plan.aims[light].sample(scene.lights[light], from, u[2], {u[0], u[1]});
+      };
+      ASSERT_EQ(aimed(one).wi, aimed(four).wi) << i;
+      ASSERT_EQ(aimed(one).pdf, aimed(four).pdf) << i;
+      learned += aimed(one).cell != aimed(unlearned).cell ? 1 : 0;
+    }
+  }
+  EXPECT_GT(learned, 4096) << "the aims have learned nothing that could differ";
 }
 
 TEST(LightPicker, PicksAsOftenAsItSays) {

@@ -1,11 +1,13 @@
 #include "transport/light/light_tracer.h"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
 #include "transport/path/packet.h"
 #include "transport/path/vertex.h"
+#include "transport/render/threads.h"
 
 namespace abbe {
 namespace {
@@ -105,6 +107,33 @@ class PhotonPath {
   Medium medium_;
 };
 
+// A photon that shows where to aim others, by what it adds to the film.
+struct Pilot {
+  PhotonStart start;
+  double worth = 0;
+};
+
+std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint32_t stage, int threads) {
+  constexpr std::uint32_t kPhotons = 1U << 17;
+  constexpr std::uint32_t kBatch = 1U << 11;
+  std::vector<Pilot> pilots(kPhotons);
+  std::atomic<std::uint32_t> next = 0;
+  run_on_threads(threads, [&] {
+    RayCaster caster(plan.scene);
+    PathExposure exposure(plan.scene.channels);
+    for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
+      for (std::uint32_t i = first; i < first + kBatch; ++i) {
+        double& worth = pilots[i].worth;
+        const Splat add = [&worth](int, int, std::span<const double> values) {
+          for (const double v : values) worth += std::abs(v);
+        };
+        const Sampler sampler(seed, Purpose::pilot, stage, 0, i);
+        pilots[i].start = trace_photon(plan, caster, sampler, 1, exposure, add);
+      }
+  });
+  return pilots;
+}
+
 }  // namespace
 
 PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sampler, double share,
@@ -129,27 +158,18 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
   return start;
 }
 
-void learn_aims(Plan& plan, std::uint64_t seed) {
-  constexpr std::uint32_t kPhotons = 1U << 17;
+void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
   // First where light passes at all, then, from photons aimed there, how much of it.
   constexpr std::array<int, 2> kReaches{4, 1};
   if (plan.traced_lights.empty()) return;
-  RayCaster caster(plan.scene);
-  PathExposure exposure(plan.scene.channels);
   for (std::uint32_t stage = 0; stage < kReaches.size(); ++stage) {
     std::vector<std::vector<double>> importance(plan.aims.size());
     for (std::size_t light = 0; light < plan.aims.size(); ++light)
       if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
-    for (std::uint32_t i = 0; i < kPhotons; ++i) {
-      double worth = 0;
-      const Splat add = [&worth](int, int, std::span<const double> values) {
-        for (const double v : values) worth += std::abs(v);
-      };
-      const PhotonStart start =
-          trace_photon(plan, caster, Sampler(seed, Purpose::pilot, stage, 0, i), 1, exposure, add);
+    // Added up in the order of the photons, whichever threads traced them.
+    for (const auto& [start, worth] : trace_pilots(plan, seed, stage, threads))
       if (start.cell >= 0 && std::isfinite(worth))
         importance[start.light][static_cast<std::size_t>(start.cell)] += worth;
-    }
     for (std::size_t light = 0; light < plan.aims.size(); ++light)
       plan.aims[light].learn(importance[light], kReaches[stage]);
   }

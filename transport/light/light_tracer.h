@@ -27,6 +27,6 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
                          PathExposure& exposure, const Splat& splat);
 
 /// Learns, from a few photons that depend on scene and seed alone, which parts of the targets reach the film.
-void learn_aims(Plan& plan, std::uint64_t seed);
+void learn_aims(Plan& plan, std::uint64_t seed, int threads);
 
 }  // namespace abbe

@@ -3,10 +3,9 @@
 #include <pmmintrin.h>
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
-#include <thread>
-#include <vector>
+
+#include "transport/render/threads.h"
 
 namespace abbe {
 namespace {
@@ -40,24 +39,13 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
 PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
   PassCounts total;
   std::mutex mutex;
-  std::exception_ptr failure;
-  const auto task = [&] {
-    try {
-      const PassCounts counts = work(pause);
-      const std::scoped_lock lock(mutex);
-      total.paths += counts.paths;
-      total.rays += counts.rays;
-      total.nonfinite += counts.nonfinite;
-    } catch (...) {
-      const std::scoped_lock lock(mutex);
-      failure = std::current_exception();
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int t = 0; t < threads; ++t) workers.emplace_back(task);
-  }
-  if (failure) std::rethrow_exception(failure);
+  run_on_threads(threads, [&] {
+    const PassCounts counts = work(pause);
+    const std::scoped_lock lock(mutex);
+    total.paths += counts.paths;
+    total.rays += counts.rays;
+    total.nonfinite += counts.nonfinite;
+  });
   return total;
 }
 
@@ -98,12 +86,13 @@ void Pass::render_tile(std::uint32_t tile, Worker& worker) {
 void Pass::sample_pixel(int x, int y, Worker& worker) {
   const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
   for (std::uint64_t s = first_; s < last_; ++s) {
+    const std::uint32_t r = replicate(s);
     const auto index = static_cast<std::uint32_t>(s / static_cast<std::uint64_t>(film_.replicates()));
-    const Sampler sampler(scene_.render.seed, Purpose::camera, replicate(s), pixel, index);
+    const Sampler sampler(scene_.render.seed, Purpose::camera, r, pixel, index);
     trace_camera_path(plan_, worker.caster, sampler, x, y, worker.exposure);
     ++worker.counts.paths;
     if (keeps(worker.exposure.values(), worker))
-      film_.add(pixel, static_cast<int>(replicate(s)), worker.exposure.values());
+      film_.add(pixel, static_cast<int>(r), worker.exposure.values());
   }
 }
 

@@ -142,7 +142,7 @@ LightPicker::Pick LightPicker::pick(float u) const {
   return {i, probability_[i]};
 }
 
-Plan make_plan(const Scene& scene) {
+Plan make_plan(const Scene& scene, int threads) {
   const bool light_only = scene.render.integrator == Integrator::light;
   const bool light_active =
       light_only || (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
@@ -167,7 +167,7 @@ Plan make_plan(const Scene& scene) {
             nominal_value(scene, emissions)};
   plan.light_active = light_active && !plan.traced_lights.empty();
   if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
-  if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed);
+  if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed, threads);
   return plan;
 }
 

@@ -44,6 +44,7 @@ struct Plan {
   double nominal_value;  ///< Order of magnitude of a film value.
 };
 
-[[nodiscard]] Plan make_plan(const Scene& scene);
+/// On that many threads, which change nothing but the time it takes.
+[[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
 
 }  // namespace abbe

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "transport/render/pass.h"
 #include "transport/render/plan.h"
 #include "transport/render/replay.h"
+#include "transport/render/threads.h"
 
 namespace abbe {
 namespace {
@@ -35,7 +35,8 @@ class Rendering {
   Rendering(const Scene& scene, const RenderOptions& options, std::optional<RenderResult> start)
       : scene_(scene),
         options_(options),
-        plan_(make_plan(scene)),
+        threads_(thread_count(options.threads)),
+        plan_(make_plan(scene, threads_)),
         wanted_(options.samples.value_or(SampleRange{
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
@@ -50,8 +51,7 @@ class Rendering {
       result_ = *std::move(start);
     }
     RenderStats& stats = result_.stats;
-    stats.threads = options.threads > 0 ? options.threads
-                                        : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    stats.threads = threads_;
     stats.relative_error = std::numeric_limits<double>::infinity();
     if (!result_.unfinished) look_at_error();
   }
@@ -82,7 +82,7 @@ class Rendering {
     RenderStats& stats = result_.stats;
     Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0);
     while (!pass.finished()) {
-      const PassCounts counts = pass.run(stats.threads, [this] { return save_is_due(); });
+      const PassCounts counts = pass.run(threads_, [this] { return save_is_due(); });
       stats.paths += counts.paths;
       stats.rays += counts.rays;
       stats.nonfinite_samples += counts.nonfinite;
@@ -147,6 +147,7 @@ class Rendering {
   const double cpu_start_ = process_cpu_seconds();
   const Scene& scene_;
   const RenderOptions& options_;
+  int threads_;
   Plan plan_;
   SampleRange wanted_;
   // Passes end at multiples of their size, whatever the film starts with.
