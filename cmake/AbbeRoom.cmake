@@ -8,12 +8,16 @@ function(abbe_room name)
   target_include_directories(abbe_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/abbe>)
   target_compile_features(abbe_${name} PUBLIC cxx_std_20)
+  # Headers pass packets of wavelengths as vectors of this family, so programs that link the installed room must be built for it.
+  target_compile_options(abbe_${name} INTERFACE $<INSTALL_INTERFACE:-march=x86-64-v3>)
   target_link_libraries(abbe_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_HIDES})
   abbe_compile_options(abbe_${name})
 endfunction()
 
 # Warnings and the CPU family for one target; every build of one machine family gives the same bits. GCC 12 warns of overlapping copies in
-# `"literal" + std::string` where there are none (GCC bug 105651), so -Wrestrict is off.
+# `"literal" + std::string` where there are none (GCC bug 105651), so -Wrestrict is off. Nothing traps floating-point exceptions or reads errno,
+# and saying so turns branches in loops over wavelengths into selections on whole vectors; values do not change.
 function(abbe_compile_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-restrict -march=x86-64-v3 -fno-math-errno)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-restrict -march=x86-64-v3 -fno-math-errno
+    -fno-trapping-math)
 endfunction()

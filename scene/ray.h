@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <ImathVec.h>
@@ -20,5 +22,27 @@ struct LoggedRay {
   Ray ray;
   bool shadow;
 };
+
+/// The point of a surface with outward `normal`, moved by a few representable floats to the side `direction`
+/// leaves on, so that a ray from there cannot meet the surface it starts from, whatever the scale of the
+/// scene. After [Wachter2019], but with steps of the largest coordinate and no fixed length, since
+/// Scene::intersect is exact about sides.
+[[nodiscard]] inline Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal,
+                                             const Imath::V3f& direction) {
+  // A point on a surface is off it by rounding, at most half a float step along each axis; so is the point
+  // moved. Four steps of the largest coordinate clear both, and intersection decides the rest in double. Near
+  // the origin steps vanish, and the floor takes over: the size of an atom.
+  constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
+  constexpr float kLeastOffset_m = 1e-10F;
+  const float largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  const float distance = std::max(kOffsetSteps * largest, kLeastOffset_m);
+  return point + normal * std::copysign(distance, normal.dot(direction));
+}
+
+/// A ray that starts there into `direction`.
+[[nodiscard]] inline Ray spawn(const Imath::V3f& point, const Imath::V3f& normal,
+                               const Imath::V3f& direction) {
+  return {offset_point(point, normal, direction), direction};
+}
 
 }  // namespace abbe

@@ -1,22 +1,11 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe {
-namespace {
-
-// A point on a surface is off it by rounding, at most half a float step along each axis; so is the point
-// moved. Four steps of the largest coordinate clear both, and intersection decides the rest in double. Near
-// the origin steps vanish, and the floor takes over: the size of an atom.
-constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
-constexpr float kLeastOffset_m = 1e-10F;
-
-}  // namespace
 
 std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
   return geometry_->intersect(ray);
@@ -46,8 +35,7 @@ void Scene::commit() {
     if (emitter == nullptr) continue;
     ShapeInstance& instance = shapes[emitter->shape];
     instance.light = static_cast<std::int32_t>(i);
-    emitter->area = area(instance.shape);
-    emitter->triangle_cdf = triangle_cdf(instance.shape);
+    emitter->measure(instance.shape);
   }
   geometry_ = std::make_shared<const Geometry>(shapes);
   needs = analyse(*this);
@@ -72,16 +60,6 @@ std::size_t Scene::memory_bytes() const {
     bytes += sizeof(Placement);
   }
   return bytes;
-}
-
-Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction) {
-  const float largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-  const float distance = std::max(kOffsetSteps * largest, kLeastOffset_m);
-  return point + normal * std::copysign(distance, normal.dot(direction));
-}
-
-Ray spawn(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction) {
-  return {offset_point(point, normal, direction), direction};
 }
 
 std::optional<ExactHit> intersect_exact(const Scene& scene, const BasicRay<double>& ray, double t_min) {

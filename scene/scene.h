@@ -104,14 +104,6 @@ class Scene {
   std::int32_t environment_ = -1;
 };
 
-/// A ray leaving `point` with outward surface normal `normal` into `direction`, its origin moved by a few
-/// representable floats to the side it leaves on, so that it cannot meet the surface it starts from, whatever
-/// the scale of the scene. After [Wachter2019], but with steps of the largest coordinate and no fixed length,
-/// since Scene::intersect is exact about sides.
-[[nodiscard]] Ray spawn(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction);
-[[nodiscard]] Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal,
-                                      const Imath::V3f& direction);
-
 /// Nearest hit at t in (t_min, ray.t_max) in double precision by each shape's own code, without Embree: for
 /// `abbe trace`.
 struct ExactHit {

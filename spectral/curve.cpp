@@ -13,6 +13,8 @@ namespace abbe {
 namespace {
 
 constexpr int kCells = kMaxWavelengthNm - kMinWavelengthNm;
+constexpr float kLow = kMinWavelengthNm;
+constexpr float kHigh = kMaxWavelengthNm;
 
 struct ByWavelength {
   bool operator()(const Knot& knot, double wavelength_nm) const { return knot.wavelength_nm < wavelength_nm; }
@@ -87,18 +89,23 @@ Curve::Curve(double value) : Curve(std::vector<Knot>{{kMinWavelengthNm, value}})
 Curve::Curve(std::vector<Knot> knots) {
   require_valid(knots);
   knots_ = cut_to_range(knots);
-  constant_ = min() == max();
-  cells_.resize(kCells + 1);
+  const auto [low, high] = std::minmax_element(
+      knots_.begin(), knots_.end(), [](const Knot& a, const Knot& b) { return a.value < b.value; });
+  min_ = low->value;
+  max_ = high->value;
+  cells_.reserve(kCells + 1);
+  packet_cells_.reserve(kCells + 1);
   std::size_t next = 0;  // first knot beyond the left end of the cell
   for (int i = 0; i <= kCells; ++i) {
     const double left = kMinWavelengthNm + i;
     while (next < knots_.size() && knots_[next].wavelength_nm <= left) ++next;
-    const double value = right_limit(knots_, left);
     const bool last = i == kCells;
-    cells_[static_cast<std::size_t>(i)] = {.value = value,
-                                           .slope = last ? 0 : left_limit(knots_, left + 1) - value,
-                                           .first = static_cast<std::uint32_t>(next - 1),
-                                           .searched = !last && knots_[next].wavelength_nm < left + 1};
+    const double value = right_limit(knots_, left);
+    const double slope = last ? 0 : left_limit(knots_, left + 1) - value;
+    const bool searched = !last && knots_[next].wavelength_nm < left + 1;
+    cells_.push_back({value, slope, static_cast<std::uint32_t>(next - 1), searched});
+    packet_cells_.push_back({searched ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value),
+                             static_cast<float>(slope)});
   }
 }
 
@@ -116,9 +123,27 @@ double Curve::operator()(double wavelength_nm) const {
 }
 
 SampledSpectrum Curve::operator()(const SampledSpectrum& wavelengths_nm) const {
-  if (constant_) return SampledSpectrum(static_cast<float>(knots_.front().value));
-  return SampledSpectrum::map(
-      wavelengths_nm, [this](float wavelength_nm) { return static_cast<float>((*this)(wavelength_nm)); });
+  if (is_constant()) return SampledSpectrum(static_cast<float>(knots_.front().value));
+  // In loops of which all but the look-up itself are done on whole vectors.
+  const SampledSpectrum::Values offset = SampledSpectrum::map(wavelengths_nm, [](float nm) {
+                                           return std::max(kLow, std::min(kHigh, nm)) - kLow;
+                                         }).values();
+  std::array<std::int32_t, kLanes> index;
+  SampledSpectrum::Values value;
+  SampledSpectrum::Values slope;
+  SampledSpectrum::Values within;
+  for (std::size_t i = 0; i < kLanes; ++i) index[i] = static_cast<std::int32_t>(offset[i]);
+  for (std::size_t i = 0; i < kLanes; ++i) within[i] = offset[i] - static_cast<float>(index[i]);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const PacketCell& cell = packet_cells_[static_cast<std::size_t>(index[i])];
+    value[i] = cell.value;
+    slope[i] = cell.slope;
+  }
+  const SampledSpectrum values = SampledSpectrum(value) + SampledSpectrum(slope) * SampledSpectrum(within);
+  if (!std::isnan(values.sum())) return values;
+  return SampledSpectrum::map(values, wavelengths_nm, [this](float value, float nm) {
+    return std::isnan(value) ? static_cast<float>((*this)(static_cast<double>(nm))) : value;
+  });
 }
 
 double Curve::integral(double low_nm, double high_nm) const {
@@ -131,18 +156,6 @@ double Curve::integral(double low_nm, double high_nm) const {
     if (from < to) total += (to - from) * between(knots_[i - 1], knots_[i], 0.5 * (from + to));
   }
   return total;
-}
-
-double Curve::max() const {
-  return std::max_element(knots_.begin(), knots_.end(),
-                          [](const Knot& a, const Knot& b) { return a.value < b.value; })
-      ->value;
-}
-
-double Curve::min() const {
-  return std::min_element(knots_.begin(), knots_.end(),
-                          [](const Knot& a, const Knot& b) { return a.value < b.value; })
-      ->value;
 }
 
 double integral_of_product(const Curve& a, const Curve& b) {

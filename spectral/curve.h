@@ -34,14 +34,15 @@ class Curve {
 
   /// Value at a wavelength [nm]; a wavelength outside [300, 1100] takes the value at the nearer end.
   [[nodiscard]] double operator()(double wavelength_nm) const;
+  /// The same to a few float steps of the larger end of a cell.
   [[nodiscard]] SampledSpectrum operator()(const SampledSpectrum& wavelengths_nm) const;
 
   [[nodiscard]] std::span<const Knot> knots() const { return knots_; }
   /// Exact integral over [low_nm, high_nm] (cut to the range).
   [[nodiscard]] double integral(double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm) const;
-  [[nodiscard]] double max() const;
-  [[nodiscard]] double min() const;
-  [[nodiscard]] bool is_constant() const { return constant_; }
+  [[nodiscard]] double max() const { return max_; }
+  [[nodiscard]] double min() const { return min_; }
+  [[nodiscard]] bool is_constant() const { return min_ == max_; }
 
  private:
   // A cell [i, i+1) nm without an inner knot is value + slope (lambda - i); one with inner knots is searched
@@ -52,9 +53,16 @@ class Curve {
     std::uint32_t first;
     bool searched;
   };
+  // The same for packets, in float; NaN for a cell that is searched.
+  struct PacketCell {
+    float value;
+    float slope;
+  };
   std::vector<Knot> knots_;
   std::vector<Cell> cells_;
-  bool constant_;
+  std::vector<PacketCell> packet_cells_;
+  double min_;
+  double max_;
 };
 
 /// Exact integral of the product over [300, 1100] nm.

@@ -1,67 +1,119 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
 
 namespace abbe {
 
-/// How many wavelengths one path carries.
+/// How many wavelengths one path carries, a power of two.
 inline constexpr int kLanes = 8;
+static_assert((kLanes & (kLanes - 1)) == 0);
 
-/// One value per wavelength of a packet.
-struct SampledSpectrum {
-  alignas(32) std::array<float, kLanes> values{};
+/// One value per wavelength of a packet, held as one vector of the machine: an array would be copied in
+/// pieces, and loading the whole after storing its pieces waits for memory.
+class SampledSpectrum {
+ public:
+  using Values = std::array<float, kLanes>;
 
   SampledSpectrum() = default;
-  explicit SampledSpectrum(float value) { values.fill(value); }
-
-  [[nodiscard]] float operator[](int lane) const { return values[static_cast<std::size_t>(lane)]; }
-  [[nodiscard]] float& operator[](int lane) { return values[static_cast<std::size_t>(lane)]; }
-
-  SampledSpectrum& operator+=(const SampledSpectrum& o) {
-    return *this = map(*this, o, [](float a, float b) { return a + b; });
+  explicit SampledSpectrum(float value) : lanes_(value - Lanes{}) {}
+  explicit SampledSpectrum(const Values& values) : lanes_(std::bit_cast<Lanes>(values)) {}
+  /// `value` in one lane, 0 in the others.
+  [[nodiscard]] static SampledSpectrum only(int lane, float value) {
+    Values values{};
+    values[static_cast<std::size_t>(lane)] = value;
+    return SampledSpectrum(values);
   }
-  SampledSpectrum& operator*=(const SampledSpectrum& o) {
-    return *this = map(*this, o, [](float a, float b) { return a * b; });
+
+  [[nodiscard]] float operator[](int lane) const { return lanes_[lane]; }
+  [[nodiscard]] Values values() const { return std::bit_cast<Values>(lanes_); }
+
+  SampledSpectrum& operator+=(const SampledSpectrum& o) { return *this = *this + o; }
+  SampledSpectrum& operator*=(const SampledSpectrum& o) { return *this = *this * o; }
+  SampledSpectrum& operator*=(float s) { return *this = *this * s; }
+  friend SampledSpectrum operator+(const SampledSpectrum& a, const SampledSpectrum& b) {
+    return SampledSpectrum(a.lanes_ + b.lanes_);
   }
-  SampledSpectrum& operator*=(float s) { return *this *= SampledSpectrum(s); }
-  friend SampledSpectrum operator+(SampledSpectrum a, const SampledSpectrum& b) { return a += b; }
-  friend SampledSpectrum operator*(SampledSpectrum a, const SampledSpectrum& b) { return a *= b; }
-  friend SampledSpectrum operator*(SampledSpectrum a, float s) { return a *= s; }
-  friend SampledSpectrum operator*(float s, SampledSpectrum a) { return a *= s; }
   friend SampledSpectrum operator-(const SampledSpectrum& a, const SampledSpectrum& b) {
-    return map(a, b, [](float x, float y) { return x - y; });
+    return SampledSpectrum(a.lanes_ - b.lanes_);
+  }
+  friend SampledSpectrum operator*(const SampledSpectrum& a, const SampledSpectrum& b) {
+    return SampledSpectrum(a.lanes_ * b.lanes_);
   }
   friend SampledSpectrum operator/(const SampledSpectrum& a, const SampledSpectrum& b) {
-    return map(a, b, [](float x, float y) { return x / y; });
+    return SampledSpectrum(a.lanes_ / b.lanes_);
   }
+  friend SampledSpectrum operator*(const SampledSpectrum& a, float s) {
+    return SampledSpectrum(a.lanes_ * s);
+  }
+  friend SampledSpectrum operator*(float s, const SampledSpectrum& a) { return a * s; }
 
   [[nodiscard]] float sum() const {
-    float total = 0;
-    for (float v : values) total += v;
-    return total;
+    return fold([](float a, float b) { return a + b; });
   }
   [[nodiscard]] float mean() const { return sum() / kLanes; }
-  [[nodiscard]] float max() const { return *std::max_element(values.begin(), values.end()); }
+  [[nodiscard]] float max() const {
+    return fold([](float a, float b) { return a < b ? b : a; });
+  }
   [[nodiscard]] bool is_zero() const {
-    return std::all_of(values.begin(), values.end(), [](float v) { return v == 0.0F; });
+    return fold([](float a, float b) { return std::abs(a) + std::abs(b); }) == 0;
   }
 
   /// `f` applied lane by lane.
   template <typename F>
   [[nodiscard]] static SampledSpectrum map(const SampledSpectrum& a, const SampledSpectrum& b, F f) {
-    SampledSpectrum r;
-    for (std::size_t i = 0; i < kLanes; ++i) r.values[i] = f(a.values[i], b.values[i]);
-    return r;
+    const Values x = a.values();
+    const Values y = b.values();
+    Values r;
+    for (std::size_t i = 0; i < kLanes; ++i) r[i] = f(x[i], y[i]);
+    return SampledSpectrum(r);
   }
   template <typename F>
   [[nodiscard]] static SampledSpectrum map(const SampledSpectrum& a, F f) {
-    SampledSpectrum r;
-    for (std::size_t i = 0; i < kLanes; ++i) r.values[i] = f(a.values[i]);
-    return r;
+    const Values x = a.values();
+    Values r;
+    for (std::size_t i = 0; i < kLanes; ++i) r[i] = f(x[i]);
+    return SampledSpectrum(r);
   }
+
+ private:
+  using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+
+  explicit SampledSpectrum(const Lanes& lanes) : lanes_(lanes) {}
+
+  // `f` over all lanes, halves upon halves: three steps that each wait for the one before, instead of seven.
+  template <typename F>
+  [[nodiscard]] float fold(F f) const {
+    Values v = values();
+    for (std::size_t half = kLanes / 2; half > 0; half /= 2)
+      for (std::size_t i = 0; i < half; ++i) v[i] = f(v[i], v[i + half]);
+    return v[0];
+  }
+
+  Lanes lanes_{};
 };
+
+/// e^x lane by lane for x <= 0, to a few float steps; 0 where that is below the least normal float. With n
+/// the integer nearest to x/ln 2, e^x = 2^n e^r, the latter by its series.
+[[nodiscard]] inline SampledSpectrum exp_of_negative(const SampledSpectrum& x) {
+  return SampledSpectrum::map(x, [](float v) {
+    constexpr float kLeast = -87;
+    constexpr float kLog2e = std::numbers::log2e_v<float>;
+    constexpr float kLn2Head = 0x1.62e4p-1F;  // short enough for n times it to be exact
+    constexpr auto kLn2Tail = static_cast<float>(std::numbers::ln2 - static_cast<double>(kLn2Head));
+    const float bounded = v > kLeast ? v : kLeast;
+    const auto n = static_cast<std::int32_t>(bounded * kLog2e - 0.5F);
+    const auto whole = static_cast<float>(n);
+    const float r = bounded - whole * kLn2Head - whole * kLn2Tail;
+    const float series =
+        1 + r * (1 + r * (1.0F / 2 + r * (1.0F / 6 + r * (1.0F / 24 + r * (1.0F / 120 + r * (1.0F / 720))))));
+    return v > kLeast ? series * std::bit_cast<float>((n + 127) << 23) : 0.0F;
+  });
+}
 
 /// The wavelengths a path carries, each with the density it was drawn from.
 struct SampledWavelengths {

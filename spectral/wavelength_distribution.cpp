@@ -131,10 +131,11 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
   const double share = overlap ? kUniformShare : 1;
   double cdf = 0;
   for (std::size_t i = first; i < last; ++i) {
-    cells_.push_back({cells.edges[i], cdf, (1 - share) * mixture[i] + share * support[i]});
-    cdf += cells_.back().density * cells.width(i);
+    const double density = (1 - share) * mixture[i] + share * support[i];
+    cells_.push_back({cells.edges[i], cdf, density, 1 / density});
+    cdf += density * cells.width(i);
   }
-  cells_.push_back({cells.edges[last], 1, 0});
+  cells_.push_back({cells.edges[last], 1, 0, 0});
 
   const std::size_t size = kGuideFineness * (last - first);
   std::size_t cell = 0;
@@ -145,17 +146,18 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
 }
 
 SampledWavelengths WavelengthDistribution::sample(float u) const {
-  SampledWavelengths result;
-  for (int lane = 0; lane < kLanes; ++lane) {
+  SampledSpectrum::Values lambda_nm;
+  SampledSpectrum::Values pdf;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
     double v = static_cast<double>(u) + static_cast<double>(lane) / kLanes;
     if (v >= 1) v -= 1;
     std::size_t cell = guide_[static_cast<std::size_t>(v * static_cast<double>(guide_.size()))];
     while (cells_[cell + 1].cdf <= v) ++cell;
-    const auto [low, cdf, density] = cells_[cell];
-    result.lambda_nm[lane] = float_inside(low + (v - cdf) / density, low, cells_[cell + 1].low_nm);
-    result.pdf[lane] = static_cast<float>(density);
+    const auto [low, cdf, density, nm_per_cdf] = cells_[cell];
+    lambda_nm[lane] = float_inside(low + (v - cdf) * nm_per_cdf, low, cells_[cell + 1].low_nm);
+    pdf[lane] = static_cast<float>(density);
   }
-  return result;
+  return {SampledSpectrum(lambda_nm), SampledSpectrum(pdf)};
 }
 
 double WavelengthDistribution::pdf(double wavelength_nm) const {

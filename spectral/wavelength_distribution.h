@@ -39,6 +39,7 @@ class WavelengthDistribution {
     double low_nm;
     double cdf;  // at low_nm
     double density;
+    double nm_per_cdf;  // 1/density
   };
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> guide_;  // per i of its size: the cell that holds a cdf of i/size

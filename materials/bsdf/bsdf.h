@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <variant>
 
 #include <ImathVec.h>
 
+#include "materials/bsdf/warp.h"
 #include "spectral/packet.h"
 
 namespace abbe {
@@ -84,5 +87,50 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf>;
 [[nodiscard]] bool is_delta(const Bsdf& bsdf);
 /// Whether nothing leaves, whatever arrives.
 [[nodiscard]] bool is_black(const Bsdf& bsdf);
+
+// In line, as scattering off the commonest matter costs less than the calls would.
+
+// f = reflectance/pi, drawn with density cos/pi: the weight is the reflectance for every direction.
+
+inline std::optional<BsdfSample> DiffuseBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                                     TransportMode /*mode*/) const {
+  Imath::V3f wi = cosine_hemisphere(u.direction);
+  if (wo.z == 0 || wi.z == 0) return std::nullopt;
+  const float pdf = wi.z * std::numbers::inv_pi_v<float>;
+  wi.z = std::copysign(wi.z, wo.z);
+  return BsdfSample{.wi = wi, .weight = reflectance, .pdf = pdf};
+}
+
+inline SampledSpectrum DiffuseBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi,
+                                         TransportMode /*mode*/) const {
+  return wo.z * wi.z > 0 ? reflectance * std::numbers::inv_pi_v<float> : SampledSpectrum();
+}
+
+inline SampledSpectrum DiffuseBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
+  return SampledSpectrum(wo.z * wi.z > 0 ? std::abs(wi.z) * std::numbers::inv_pi_v<float> : 0.0F);
+}
+
+inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                        TransportMode mode) {
+  return std::visit([&](const auto& model) { return model.sample(wo, u, hero, mode); }, bsdf);
+}
+
+inline SampledSpectrum eval(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi,
+                            TransportMode mode) {
+  return std::visit([&](const auto& model) { return model.eval(wo, wi, mode); }, bsdf);
+}
+
+inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi) {
+  return std::visit([&](const auto& model) { return model.pdf(wo, wi); }, bsdf);
+}
+
+inline bool is_delta(const Bsdf& bsdf) {
+  return std::visit([](const auto& model) { return model.delta(); }, bsdf);
+}
+
+inline bool is_black(const Bsdf& bsdf) {
+  const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf);
+  return diffuse != nullptr && diffuse->reflectance.is_zero();
+}
 
 }  // namespace abbe

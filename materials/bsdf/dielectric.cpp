@@ -26,10 +26,8 @@ BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float e
 }
 
 BsdfSample only_lane(BsdfSample s, int hero) {
-  const float weight = s.weight[hero];
-  s.weight = s.lane_pdf = SampledSpectrum();
-  s.weight[hero] = weight;
-  s.lane_pdf[hero] = 1;
+  s.weight = SampledSpectrum::only(hero, s.weight[hero]);
+  s.lane_pdf = SampledSpectrum::only(hero, 1);
   s.dispersive = true;
   return s;
 }

@@ -8,17 +8,27 @@
 
 namespace abbe {
 
+/// Sine and cosine of an angle within an eighth of a turn either way, by their series to float precision.
+struct SineCosine {
+  float sine, cosine;
+};
+[[nodiscard]] inline SineCosine sine_cosine_of_eighth(float angle) {
+  const float x = angle * angle;
+  return {angle * (1 + x * (-1.0F / 6 + x * (1.0F / 120 + x * (-1.0F / 5040 + x * (1.0F / 362880))))),
+          1 + x * (-0.5F + x * (1.0F / 24 + x * (-1.0F / 720 + x * (1.0F / 40320))))};
+}
+
 /// Uniform on the unit disc from `u` in [0, 1)^2, keeping neighbours together: squares go to rings.
 /// [Shirley1997]
 [[nodiscard]] inline Imath::V2f concentric_disc(const Imath::V2f& u) {
-  constexpr float kQuarter = std::numbers::pi_v<float> / 4;
   const float a = 2 * u.x - 1;
   const float b = 2 * u.y - 1;
-  if (a == 0 && b == 0) return {0, 0};
   const bool along_x = std::abs(a) > std::abs(b);
   const float radius = along_x ? a : b;
-  const float angle = along_x ? kQuarter * (b / a) : kQuarter * (2 - a / b);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  if (radius == 0) return {0, 0};
+  const auto [sine, cosine] =
+      sine_cosine_of_eighth(std::numbers::pi_v<float> / 4 * ((along_x ? b : a) / radius));  // from that axis
+  return {radius * (along_x ? cosine : sine), radius * (along_x ? sine : cosine)};
 }
 
 /// Direction with z >= 0 and density cos/pi [1/sr] about z.

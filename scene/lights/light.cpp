@@ -6,10 +6,8 @@
 #include <numbers>
 
 #include "io/error.h"
-#include "scene/lights/spherical_rectangle.h"
 #include "scene/scene.h"
 #include "scene/shapes/basis.h"
-#include "scene/shapes/quad.h"
 #include "scene/shapes/sphere.h"
 
 namespace abbe {
@@ -17,17 +15,17 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A direction with its density per solid angle and where it meets the light.
+// A point of a light, with its density per solid angle where it was not drawn by area.
 struct AreaSample {
   SurfacePoint at;
-  double pdf;
+  std::optional<double> pdf = {};
 };
 
-double density_by_area(const AreaLight& light, const Imath::V3d& point, const Imath::V3d& on_light,
+// `d` is the way from the point to the light, `distance` its length.
+double density_by_area(const AreaLight& light, const Imath::V3d& d, double distance,
                        const Imath::V3d& normal) {
-  const Imath::V3d d = on_light - point;
-  const double cosine = std::abs(d.dot(normal)) / d.length();
-  return cosine > 0 ? d.length2() / (cosine * light.area) : 0;
+  const double facing = std::abs(d.dot(normal));
+  return facing > 0 ? distance * distance * distance / (facing * light.area) : 0;
 }
 
 // 1 - cos of the half angle a sphere is seen under from outside. A point on the sphere itself, up to
@@ -57,10 +55,9 @@ AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& po
 }
 
 // How a point sees a light whose shape allows better than sampling by area.
-std::optional<SphericalRectangle> wide_rectangle(const Shape& shape, const Imath::V3d& point) {
-  const auto* quad = std::get_if<Quad>(&shape);
-  if (quad == nullptr) return std::nullopt;
-  return SphericalRectangle::seen_from(*quad, point);
+std::optional<SphericalRectangle> wide_rectangle(const AreaLight& light, const Imath::V3d& point) {
+  if (!light.rectangle) return std::nullopt;
+  return SphericalRectangle::seen_from(*light.rectangle, point);
 }
 std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
   const auto* sphere = std::get_if<Sphere>(&shape);
@@ -68,28 +65,31 @@ std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
   return cone_height(*sphere, point);
 }
 
+SurfacePoint sample_area(const AreaLight& light, const Shape& shape, Imath::V2f u) {
+  return light.quad ? sample_area(*light.quad, u) : sample_area(shape, light.triangle_cdf, u);
+}
+
 AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const Imath::V3d& point,
                              Imath::V2f u) {
   if (const auto height = wide_cone(shape, point))
     return sample_cone(std::get<Sphere>(shape), *height, point, u);
-  if (const auto rectangle = wide_rectangle(shape, point)) {
-    const auto& quad = std::get<Quad>(shape);
+  if (const auto rectangle = wide_rectangle(light, point)) {
     const Imath::V2d uv = rectangle->sample(u);
-    return {{Imath::V3f(point_at(quad, uv.x, uv.y)), Imath::V3f(normal_of(quad))},
-            1 / rectangle->solid_angle()};
+    return {{Imath::V3f(light.quad->at(uv.x, uv.y)), light.quad->normal()}, 1 / rectangle->solid_angle()};
   }
-  const SurfacePoint at = sample_area(shape, light.triangle_cdf, u);
-  return {at, density_by_area(light, point, Imath::V3d(at.point), Imath::V3d(at.normal))};
+  return {sample_area(light, shape, u)};
 }
 
 std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emitter,
                                        const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
                                        Imath::V2f u) {
-  const auto [at, pdf] = sample_area_light(emitter, shapes[emitter.shape].shape, Imath::V3d(point), u);
+  const auto [at, drawn] = sample_area_light(emitter, shapes[emitter.shape].shape, Imath::V3d(point), u);
   const Imath::V3d d = Imath::V3d(at.point) - Imath::V3d(point);
-  const Imath::V3f wi(d.normalized());
+  const double distance = d.length();
+  const double pdf = drawn ? *drawn : density_by_area(emitter, d, distance, Imath::V3d(at.normal));
+  const Imath::V3f wi(d * (1 / distance));
   if (!(pdf > 0) || !emits_towards(light, at.normal, -wi)) return std::nullopt;
-  return LightSample{wi, static_cast<float>(d.length()), 1, static_cast<float>(pdf),
+  return LightSample{wi, static_cast<float>(distance), 1, static_cast<float>(pdf),
                      offset_point(at.point, at.normal, -wi)};
 }
 
@@ -132,6 +132,15 @@ std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& env
 
 }  // namespace
 
+void AreaLight::measure(const Shape& of) {
+  area = abbe::area(of);
+  triangle_cdf = abbe::triangle_cdf(of);
+  if (const auto* flat = std::get_if<Quad>(&of)) {
+    quad.emplace(*flat);
+    rectangle = Rectangle::of(*flat);
+  }
+}
+
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                               const SampledSpectrum& wavelengths_nm) {
   const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
@@ -153,9 +162,10 @@ float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, co
   const Shape& shape = shapes[emitter.shape].shape;
   const Imath::V3d from(point);
   if (const auto height = wide_cone(shape, from)) return static_cast<float>(1 / (2 * kPi * *height));
-  if (const auto rectangle = wide_rectangle(shape, from))
+  if (const auto rectangle = wide_rectangle(emitter, from))
     return static_cast<float>(1 / rectangle->solid_angle());
-  return static_cast<float>(density_by_area(emitter, from, Imath::V3d(hit_point), Imath::V3d(hit_normal)));
+  const Imath::V3d d = Imath::V3d(hit_point) - from;
+  return static_cast<float>(density_by_area(emitter, d, d.length(), Imath::V3d(hit_normal)));
 }
 
 bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo) {
@@ -171,7 +181,7 @@ EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeI
   if (emitter == nullptr)
     throw Error(ErrorCode::internal, "light \"" + light.name + "\"",
                 "an environment has no point to emit from");
-  const SurfacePoint at = sample_area(shapes[emitter->shape].shape, emitter->triangle_cdf, u);
+  const SurfacePoint at = sample_area(*emitter, shapes[emitter->shape].shape, u);
   return {at.point, at.normal, static_cast<float>(1 / emitter->area)};
 }
 

@@ -10,7 +10,9 @@
 #include <ImathVec.h>
 
 #include "scene/lights/environment_image.h"
+#include "scene/lights/spherical_rectangle.h"
 #include "scene/ray.h"
+#include "scene/shapes/quad.h"
 #include "scene/shapes/shape.h"
 #include "spectral/curve.h"
 
@@ -20,8 +22,13 @@ namespace abbe {
 struct AreaLight {
   std::uint32_t shape = 0;  ///< Index into `Scene::shapes`.
   bool two_sided = false;
-  double area = 0;                       ///< Of one side [m^2]; `Scene::commit` works out this and the next.
-  std::vector<float> triangle_cdf = {};  ///< For meshes: cumulative share of area.
+  double area = 0;                          ///< Of one side [m^2]; `measure` works out this and the next.
+  std::vector<float> triangle_cdf = {};     ///< For meshes: cumulative share of area.
+  std::optional<RenderedQuad> quad = {};    ///< For quads,
+  std::optional<Rectangle> rectangle = {};  ///< and for those with right angles.
+
+  /// Works out what depends on the shape.
+  void measure(const Shape& of);
 };
 /// Emits equally in all directions from one point.
 struct PointLight {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace abbe {
 namespace {
@@ -15,16 +14,24 @@ constexpr double kEdgeOn = 1e-4;
 
 }  // namespace
 
-std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Quad& quad, const Imath::V3d& point) {
-  const Imath::V3d to_corner = quad.corner - point;
+std::optional<Rectangle> Rectangle::of(const Quad& quad) {
   const double size_u = quad.edge_u.length();
   const double size_v = quad.edge_v.length();
-  const double distance2 = (to_corner + (quad.edge_u + quad.edge_v) * 0.5).length2();
-  if (size_u * size_v < kSmall * distance2) return std::nullopt;
   if (std::abs(quad.edge_u.dot(quad.edge_v)) > 1e-9 * size_u * size_v) return std::nullopt;
-  const Imath::V3d x = quad.edge_u / size_u;
-  const Imath::V3d y = quad.edge_v / size_v;
+  return Rectangle{quad.corner,
+                   quad.corner + (quad.edge_u + quad.edge_v) * 0.5,
+                   quad.edge_u / size_u,
+                   quad.edge_v / size_v,
+                   size_u,
+                   size_v};
+}
 
+std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Rectangle& rectangle,
+                                                                const Imath::V3d& point) {
+  const auto& [corner, center, x, y, size_u, size_v] = rectangle;
+  const double distance2 = (center - point).length2();
+  if (size_u * size_v < kSmall * distance2) return std::nullopt;
+  const Imath::V3d to_corner = corner - point;
   SphericalRectangle r;
   r.height_ = std::abs(to_corner.dot(x.cross(y)));
   if (r.height_ < kEdgeOn * std::max({size_u, size_v, std::sqrt(distance2)})) return std::nullopt;
@@ -32,22 +39,28 @@ std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Quad& quad
   r.x1_ = r.x0_ + size_u;
   r.y0_ = to_corner.dot(y);
   r.y1_ = r.y0_ + size_v;
-  const auto tilt = [&r](double edge) { return edge / std::sqrt(r.height_ * r.height_ + edge * edge); };
-  // Normals of the planes through the edges, going round; only their z enters the angles between neighbours.
-  r.b0_ = -tilt(r.y0_);
-  const double right = tilt(r.x1_);
-  r.b1_ = tilt(r.y1_);
-  const double left = -tilt(r.x0_);
-  r.k_ = 2 * std::numbers::pi - std::acos(-r.b1_ * left) - std::acos(-left * r.b0_);
-  r.solid_angle_ = std::acos(-r.b0_ * right) + std::acos(-right * r.b1_) - r.k_;
+  r.start_ = r.angle_at(r.x0_);
+  r.solid_angle_ = r.angle_at(r.x1_) - r.start_;
   return r;
 }
 
+// The solid angle between (0, 0) and (x, y) in a plane at height h is atan(x y/(h r)), r the distance of that
+// corner; the difference for y1 and y0 is the argument of (h r1 + i x y1)(h r0 - i x y0).
+double SphericalRectangle::angle_at(double x) const {
+  const double d2 = x * x + height_ * height_;
+  const double r0 = std::sqrt(d2 + y0_ * y0_);
+  const double r1 = std::sqrt(d2 + y1_ * y1_);
+  return std::atan2(x * height_ * (y1_ * r0 - y0_ * r1), height_ * height_ * r0 * r1 + x * x * y0_ * y1_);
+}
+
 Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
+  // Normals of the planes through the point and the edges y = y0 and y = y1, by their z.
+  const double b0 = -y0_ / std::sqrt(height_ * height_ + y0_ * y0_);
+  const double b1 = y1_ / std::sqrt(height_ * height_ + y1_ * y1_);
   // The plane x = const through the point that has the share u.x of the solid angle on its left.
-  const double angle = static_cast<double>(u.x) * solid_angle_ + k_;
-  const double f = (std::cos(angle) * b0_ - b1_) / std::sin(angle);
-  const double c = std::clamp(std::copysign(1 / std::sqrt(f * f + b0_ * b0_), f), -1.0, 1.0);
+  const double angle = static_cast<double>(u.x) * solid_angle_ + start_;
+  const double f = (std::cos(angle) * b0 + b1) / std::sin(angle);
+  const double c = std::clamp(std::copysign(1 / std::sqrt(f * f + b0 * b0), f), -1.0, 1.0);
   const double x = std::clamp(c * height_ / std::sqrt(std::max((1 - c) * (1 + c), 1e-300)), x0_, x1_);
   // On that line equal steps of sine are equal solid angles.
   const double d2 = x * x + height_ * height_;

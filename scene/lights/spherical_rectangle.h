@@ -8,12 +8,24 @@
 
 namespace abbe {
 
+/// A rectangle by its local axes, worked out once.
+struct Rectangle {
+  Imath::V3d corner;
+  Imath::V3d center;
+  Imath::V3d x, y;  ///< Along the edges, of unit length.
+  double size_u, size_v;
+
+  /// Nothing for a parallelogram that is no rectangle.
+  [[nodiscard]] static std::optional<Rectangle> of(const Quad& quad);
+};
+
 /// A rectangle projected onto the unit sphere around a point, sampled uniformly by solid angle. [Urena2013]
 class SphericalRectangle {
  public:
-  /// Nothing for a parallelogram that is no rectangle, and for one that looks small or is seen edge-on: there
-  /// sampling by area is as good and loses no digits.
-  [[nodiscard]] static std::optional<SphericalRectangle> seen_from(const Quad& quad, const Imath::V3d& point);
+  /// Nothing for one that looks small or is seen edge-on: there sampling by area is as good and loses no
+  /// digits.
+  [[nodiscard]] static std::optional<SphericalRectangle> seen_from(const Rectangle& rectangle,
+                                                                   const Imath::V3d& point);
 
   [[nodiscard]] double solid_angle() const { return solid_angle_; }
   /// Parameters (u, v) of the quad at a direction uniform in the solid angle.
@@ -21,13 +33,14 @@ class SphericalRectangle {
 
  private:
   SphericalRectangle() = default;
+  // Seen along the line x = const between the edges y0_ and y1_, so that those of two lines differ by the
+  // solid angle between them.
+  [[nodiscard]] double angle_at(double x) const;
 
   // Local axes along the edges, origin at the point: the rectangle is [x0_, x1_] x [y0_, y1_] at distance
   // height_.
   double x0_, x1_, y0_, y1_, height_;
-  // z components of the normals of the planes through the point and the edges y = y0 and y = y1.
-  double b0_, b1_;
-  double k_;  // 2 pi minus the two corner angles at x = x0
+  double start_;  // angle_at(x0_)
   double solid_angle_;
 };
 

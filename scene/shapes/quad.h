@@ -32,19 +32,37 @@ template <typename T>
 /// The two triangles a quad is rendered as, in indices of `corners`.
 inline constexpr std::array<std::array<std::uint32_t, 3>, 2> kQuadTriangles{{{0, 1, 2}, {3, 2, 1}}};
 
-/// The point at (u, v) on those triangles.
-[[nodiscard]] inline Imath::V3d point_at(const Quad& quad, double u, double v) {
-  const std::array<Imath::V3f, 4> c = corners(quad);
-  const bool first = u + v <= 1;
-  const Imath::V3d origin(first ? c[0] : c[3]);
-  const Imath::V3d along_u = Imath::V3d(first ? c[1] : c[2]) - origin;
-  const Imath::V3d along_v = Imath::V3d(first ? c[2] : c[1]) - origin;
-  return origin + along_u * (first ? u : 1 - u) + along_v * (first ? v : 1 - v);
-}
-
 [[nodiscard]] inline Imath::V3d normal_of(const Quad& quad) {
   return quad.edge_u.cross(quad.edge_v).normalized();
 }
+
+/// A quad as points are drawn on it, worked out once: the halves are those triangles.
+class RenderedQuad {
+ public:
+  explicit RenderedQuad(const Quad& quad) : normal_(normal_of(quad)) {
+    const std::array<Imath::V3f, 4> c = corners(quad);
+    const auto half = [&c](std::size_t at, std::size_t along_u, std::size_t along_v) {
+      const Imath::V3d origin(c[at]);
+      return Half{origin, Imath::V3d(c[along_u]) - origin, Imath::V3d(c[along_v]) - origin};
+    };
+    halves_ = {half(0, 1, 2), half(3, 2, 1)};
+  }
+
+  /// The point at (u, v).
+  [[nodiscard]] Imath::V3d at(double u, double v) const {
+    const bool first = u + v <= 1;
+    const Half& half = halves_[first ? 0 : 1];
+    return half.origin + half.along_u * (first ? u : 1 - u) + half.along_v * (first ? v : 1 - v);
+  }
+  [[nodiscard]] const Imath::V3f& normal() const { return normal_; }
+
+ private:
+  struct Half {
+    Imath::V3d origin, along_u, along_v;
+  };
+  std::array<Half, 2> halves_;
+  Imath::V3f normal_;
+};
 
 [[nodiscard]] inline double area(const Quad& quad) {
   return quad.edge_u.cross(quad.edge_v).length();
@@ -56,9 +74,11 @@ inline constexpr std::array<std::array<std::uint32_t, 3>, 2> kQuadTriangles{{{0,
   return box;
 }
 
+[[nodiscard]] inline SurfacePoint sample_area(const RenderedQuad& quad, Imath::V2f u) {
+  return {Imath::V3f(quad.at(static_cast<double>(u.x), static_cast<double>(u.y))), quad.normal()};
+}
 [[nodiscard]] inline SurfacePoint sample_area(const Quad& quad, Imath::V2f u) {
-  return {Imath::V3f(point_at(quad, static_cast<double>(u.x), static_cast<double>(u.y))),
-          Imath::V3f(normal_of(quad))};
+  return sample_area(RenderedQuad(quad), u);
 }
 
 }  // namespace abbe

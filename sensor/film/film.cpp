@@ -24,10 +24,12 @@ std::size_t sums_of(const FilmShape& shape) {
 }  // namespace
 
 Int128 to_fixed(double value, int unit_exponent) {
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  const int shift = exponent - 53 - unit_exponent;
+  // value = mantissa 2^exponent, read from its bits; subnormal numbers have no leading 1.
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto field = static_cast<int>(bits >> 52) & 0x7ff;
+  const std::uint64_t digits = (bits & 0xfffffffffffffU) | (field > 0 ? 0x10000000000000U : 0U);
+  const auto mantissa = static_cast<std::int64_t>(bits >> 63 ? -digits : digits);
+  const int shift = std::max(field, 1) - 1075 - unit_exponent;
   if (shift >= 0) return static_cast<Int128>(mantissa) * (static_cast<Int128>(1) << shift);
   if (shift < -62) return 0;
   const std::int64_t half = std::int64_t{1} << (-shift - 1);
@@ -45,6 +47,7 @@ Film::Film(int width, int height, int channels, int replicates, double nominal)
 Film::Film(const FilmShape& shape)
     : shape_(shape),
       samples_(static_cast<std::size_t>(shape.replicates), 0),
+      limit_(std::ldexp(1.0, shape.unit_exponent + kFractionBits + kHeadroomBits)),
       locks_(std::make_unique<std::atomic_flag[]>(kLocks)) {
   try {
     sums_.assign(sums_of(shape), 0);
@@ -68,10 +71,6 @@ void Film::add(std::size_t pixel, int replicate, std::span<const double> values)
     ++sum;
   }
   lock.clear(std::memory_order_release);
-}
-
-bool Film::holds(double value) const {
-  return std::abs(value) < std::ldexp(1.0, shape_.unit_exponent + kFractionBits + kHeadroomBits);
 }
 
 void Film::set_samples(std::vector<std::uint64_t> per_replicate) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -47,7 +48,7 @@ class Film {
   /// Adds one sample's or splat's values; any thread may, at any time.
   void add(std::size_t pixel, int replicate, std::span<const double> values);
   /// Whether a value is finite and within what the film can hold.
-  [[nodiscard]] bool holds(double value) const;
+  [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
 
   /// Sets how many samples per pixel each replicate has received.
   void set_samples(std::vector<std::uint64_t> per_replicate);
@@ -81,6 +82,7 @@ class Film {
   FilmShape shape_;
   std::vector<Int128> sums_;  // pixel-major, then replicate, then channel
   std::vector<std::uint64_t> samples_;
+  double limit_;  // of what a sum holds
   static constexpr std::size_t kLocks = 4096;
   std::unique_ptr<std::atomic_flag[]> locks_;  // pixels share locks by remainder
 };

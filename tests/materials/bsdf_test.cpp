@@ -16,9 +16,10 @@ using Imath::V3f;
 constexpr TransportMode kModes[] = {TransportMode::radiance, TransportMode::power};
 
 SampledSpectrum ramp(float first, float last) {
-  SampledSpectrum s;
-  for (int j = 0; j < kLanes; ++j) s[j] = first + (last - first) * static_cast<float>(j) / (kLanes - 1);
-  return s;
+  SampledSpectrum::Values s;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    s[j] = first + (last - first) * static_cast<float>(j) / (kLanes - 1);
+  return SampledSpectrum(s);
 }
 
 template <typename Model>
@@ -147,7 +148,7 @@ TYPED_TEST(BsdfLaws, LightMayBeReversed) {
         continue;
       }
       const float lobe = there->transmitted ? 0x1.fffffep-1F : 0.0F;
-      const auto back = sample(bsdf, there->wi, {lobe, {}}, hero, TransportMode::power);
+      const auto back = sample(bsdf, there->wi, {lobe, {0, 0}}, hero, TransportMode::power);
       ASSERT_TRUE(back);
       EXPECT_LT((back->wi - wo).length(), 1e-5);
       EXPECT_NEAR(back->pdf * back->weight[hero], there->pdf * there->weight[hero], 2e-5);

@@ -14,10 +14,11 @@ using Imath::V3f;
 const BsdfRandom kReflect{0, {}};
 const BsdfRandom kRefract{0x1.fffffep-1F, {}};
 
-DielectricBsdf glass() {
-  DielectricBsdf bsdf{{}, true};
-  for (int j = 0; j < kLanes; ++j) bsdf.n[j] = 1.5F + 0.02F * static_cast<float>(j);
-  return bsdf;
+// The index of lane 0, then those of dispersive glass.
+DielectricBsdf glass(float first = 1.5F) {
+  SampledSpectrum::Values n{first};
+  for (std::size_t j = 1; j < kLanes; ++j) n[j] = 1.5F + 0.02F * static_cast<float>(j);
+  return {SampledSpectrum(n), true};
 }
 
 TEST(DielectricBsdf, ReflectionKeepsEveryLane) {
@@ -38,8 +39,7 @@ TEST(DielectricBsdf, ReflectionKeepsEveryLane) {
 }
 
 TEST(DielectricBsdf, TotalReflectionIsCertainOnlyForItsLanes) {
-  DielectricBsdf bsdf = glass();
-  bsdf.n[0] = 1.2F;  // critical angle 56.4 degrees; 41.8 and less for the others
+  const DielectricBsdf bsdf = glass(1.2F);  // critical angle 56.4 degrees; 41.8 and less for the others
   const V3f wo = direction(-std::sqrt(0.5), 0);
   const auto total = bsdf.sample(wo, kRefract, 4, TransportMode::radiance);
   ASSERT_TRUE(total);
@@ -96,8 +96,9 @@ TEST(DielectricBsdf, BothLobesTogetherLoseNothing) {
       const auto reflected = bsdf.sample(wo, kReflect, hero, TransportMode::power).value();
       const auto other = bsdf.sample(wo, kRefract, hero, TransportMode::power).value();
       for (std::size_t j = 0; j < kLanes; ++j) {
-        energy[j] += reflected.pdf * reflected.weight.values[j] / reflected.lane_pdf.sum();
-        if (other.transmitted) energy[j] += other.pdf * other.weight.values[j] / other.lane_pdf.sum();
+        energy[j] += reflected.pdf * reflected.weight[static_cast<int>(j)] / reflected.lane_pdf.sum();
+        if (other.transmitted)
+          energy[j] += other.pdf * other.weight[static_cast<int>(j)] / other.lane_pdf.sum();
       }
     }
     for (const double e : energy) EXPECT_NEAR(e, 1, 2e-6) << cos_theta;

@@ -8,9 +8,9 @@ namespace abbe {
 namespace {
 
 SampledSpectrum visible() {
-  SampledSpectrum nm;
-  for (int j = 0; j < kLanes; ++j) nm[j] = 400.0F + 40.0F * static_cast<float>(j);
-  return nm;
+  SampledSpectrum::Values nm;
+  for (std::size_t j = 0; j < kLanes; ++j) nm[j] = 400.0F + 40.0F * static_cast<float>(j);
+  return SampledSpectrum(nm);
 }
 
 TEST(Material, DiffuseTakesItsReflectanceAtThePacket) {

@@ -16,9 +16,10 @@ const DispersionFormula kBk7{
     .terms = 7};
 
 SampledSpectrum packet(double low_nm, double high_nm) {
-  SampledSpectrum nm;
-  for (int j = 0; j < kLanes; ++j) nm[j] = static_cast<float>(low_nm + (high_nm - low_nm) * j / (kLanes - 1));
-  return nm;
+  SampledSpectrum::Values nm;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    nm[j] = static_cast<float>(low_nm + (high_nm - low_nm) * static_cast<double>(j) / (kLanes - 1));
+  return SampledSpectrum(nm);
 }
 
 TEST(RefractiveIndex, PacketsAgreeWithDoubles) {

@@ -209,7 +209,7 @@ TEST(AreaLights, DensityIntegratesToOne) {
 TEST(SphericalRectangle, IsUniformInSolidAngle) {
   const Quad quad{{-1, -0.5, 0.3}, {3, 0, 0}, {0, 2, 0}};
   const V3d from(0.4, 0.1, 0);
-  const auto rectangle = SphericalRectangle::seen_from(quad, from);
+  const auto rectangle = SphericalRectangle::seen_from(Rectangle::of(quad).value(), from);
   ASSERT_TRUE(rectangle);
   EXPECT_NEAR(rectangle->solid_angle(), solid_angle(quad, from), 1e-12);
   const Quad part{quad.corner, quad.edge_u * 0.3, quad.edge_v * 0.6};
@@ -225,12 +225,11 @@ TEST(SphericalRectangle, IsUniformInSolidAngle) {
 }
 
 TEST(SphericalRectangle, LeavesTheRestToArea) {
-  const Quad quad{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
-  EXPECT_TRUE(SphericalRectangle::seen_from(quad, {0, 0, 0}));
-  EXPECT_FALSE(SphericalRectangle::seen_from(quad, {0, 0, -30})) << "small";
-  EXPECT_FALSE(SphericalRectangle::seen_from(quad, {0.5, 0.5, 1})) << "inside its plane";
-  EXPECT_FALSE(SphericalRectangle::seen_from({{0, 0, 1}, {1, 0.1, 0}, {0, 1, 0}}, {0, 0, 0}))
-      << "no rectangle";
+  const Rectangle square = Rectangle::of({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}).value();
+  EXPECT_TRUE(SphericalRectangle::seen_from(square, {0, 0, 0}));
+  EXPECT_FALSE(SphericalRectangle::seen_from(square, {0, 0, -30})) << "small";
+  EXPECT_FALSE(SphericalRectangle::seen_from(square, {0.5, 0.5, 1})) << "inside its plane";
+  EXPECT_FALSE(Rectangle::of({{0, 0, 1}, {1, 0.1, 0}, {0, 1, 0}})) << "no rectangle";
 }
 
 TEST(DeltaLights, FallOffWithTheSquareOfDistance) {

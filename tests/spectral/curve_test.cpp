@@ -106,12 +106,13 @@ TEST(Curve, is_cut_at_the_range) {
 }
 
 TEST(Curve, packet_matches_scalar) {
-  const Curve curve(std::vector<Knot>{{400, 0}, {400.3, 1}, {555, 0.25}, {555, 0.5}, {800, 0}});
-  SampledSpectrum nm;
-  for (int lane = 0; lane < kLanes; ++lane) nm[lane] = 400.1F + 57.7F * static_cast<float>(lane);
-  const SampledSpectrum values = curve(nm);
-  for (int lane = 0; lane < kLanes; ++lane) {
-    EXPECT_EQ(values[lane], static_cast<float>(curve(static_cast<double>(nm[lane]))));
+  const Curve curve(std::vector<Knot>{{400, 0}, {400.3, 1}, {555, 0.25}, {555, 0.5}, {800, 0}, {1090, 0.3}});
+  for (float first = 290; first < 1110; first += 0.97F) {
+    SampledSpectrum::Values at;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) at[lane] = first + 0.11F * static_cast<float>(lane);
+    const SampledSpectrum values = curve(SampledSpectrum(at));
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      ASSERT_NEAR(values[static_cast<int>(lane)], curve(static_cast<double>(at[lane])), 2e-7) << at[lane];
   }
 }
 

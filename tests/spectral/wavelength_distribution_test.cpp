@@ -95,7 +95,7 @@ TEST(WavelengthDistribution, samples_follow_the_density) {
     }
     for (int i = 0; i < kPackets; ++i) {
       const SampledWavelengths packet = distribution.sample((static_cast<float>(i) + 0.5F) / kPackets);
-      for (const float nm : packet.lambda_nm.values) ++counts[static_cast<std::size_t>(nm - 300)];
+      for (const float nm : packet.lambda_nm.values()) ++counts[static_cast<std::size_t>(nm - 300)];
     }
     // The packets are stratified, so the counts must lie far closer than chance would have them.
     double chi_squared = 0;
@@ -184,7 +184,7 @@ TEST(WavelengthDistribution, narrow_lines_hand_out_wavelengths_inside) {
   int inside = 0;
   for (int i = 0; i < 4096; ++i) {
     const SampledWavelengths packet = distribution.sample((static_cast<float>(i) + 0.5F) / 4096);
-    for (const float nm : packet.lambda_nm.values) inside += emissions[0](nm) > 0 ? 1 : 0;
+    for (const float nm : packet.lambda_nm.values()) inside += emissions[0](nm) > 0 ? 1 : 0;
   }
   EXPECT_NEAR(inside / 32768.0, 0.95, 1e-3);
 }

@@ -89,8 +89,7 @@ TEST(Lanes, ADenominatorWithWavelengthDensitiesWouldBeBiased) {
 TEST(Lanes, SurvivalIsTheSameWhicheverLaneIsTheHero) {
   // Seen from another hero, throughputs and lane densities are divided by a common factor.
   PathPacket packet;
-  packet.throughput = SampledSpectrum(0.3F);
-  packet.throughput[2] = 0.5F;
+  packet.throughput = SampledSpectrum(0.3F) + SampledSpectrum::only(2, 0.2F);
   packet.lane_pdf = SampledSpectrum(0.8F);
   const float q = survival(packet, 1);
   packet.throughput *= 1.7F;

@@ -9,9 +9,10 @@ namespace abbe {
 namespace {
 
 Medium medium() {
-  Medium m{true, SampledSpectrum(2.0F)};
-  m.absorption_per_m[3] = 0;
-  return m;
+  SampledSpectrum::Values absorption;
+  absorption.fill(2);
+  absorption[3] = 0;
+  return {true, SampledSpectrum(absorption)};
 }
 
 TEST(Medium, AttenuatesByBeersLaw) {
@@ -19,6 +20,18 @@ TEST(Medium, AttenuatesByBeersLaw) {
   medium().attenuate(lanes, 0.25F);
   EXPECT_FLOAT_EQ(lanes[0], 0.5F * std::exp(-0.5F));
   EXPECT_EQ(lanes[3], 0.5F);
+}
+
+TEST(Medium, AttenuatesPreciselyAtAnyDepth) {
+  for (float depth = 0; depth < 87; depth += 0.0137F) {
+    SampledSpectrum lanes(1.0F);
+    Medium{true, SampledSpectrum(1.0F)}.attenuate(lanes, depth);
+    const double expected = std::exp(-static_cast<double>(depth));
+    ASSERT_NEAR(lanes[5], expected, 3e-7 * expected) << depth;
+  }
+  SampledSpectrum lanes(1.0F);
+  Medium{true, SampledSpectrum(1.0F)}.attenuate(lanes, 88);
+  EXPECT_EQ(lanes[5], 0);
 }
 
 TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {

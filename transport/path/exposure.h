@@ -39,8 +39,9 @@ class PathExposure {
 
  private:
   void weigh() {
+    const SampledSpectrum share = SampledSpectrum(scale_) / wavelengths_.pdf;
     for (std::size_t k = 0; k < weights_.size(); ++k)
-      weights_[k] = scale_ * channels_[k].weight(wavelengths_.lambda_nm) / wavelengths_.pdf;
+      weights_[k] = share * channels_[k].weight(wavelengths_.lambda_nm);
     weighed_ = true;
   }
 

@@ -44,8 +44,9 @@ struct Medium {
   /// Attenuates the lanes over a distance [m], perhaps an infinite one, by Beer's law.
   void attenuate(SampledSpectrum& throughput, float distance) const {
     if (!absorbing) return;
-    throughput *= SampledSpectrum::map(absorption_per_m,
-                                       [distance](float a) { return a > 0 ? std::exp(-a * distance) : 1; });
+    // Where nothing is absorbed an infinite distance makes no difference.
+    throughput *= exp_of_negative(
+        SampledSpectrum::map(absorption_per_m, [distance](float a) { return a > 0 ? -a * distance : 0; }));
   }
 };
 

@@ -27,10 +27,10 @@ class Stream {
   }
   /// Eight wavelengths across the visible, 40 nm apart.
   [[nodiscard]] SampledSpectrum packet() {
-    SampledSpectrum nm;
+    SampledSpectrum::Values nm;
     const float first = 390 + 40 * next();
-    for (int lane = 0; lane < kLanes; ++lane) nm[lane] = first + 40.0F * static_cast<float>(lane);
-    return nm;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) nm[lane] = first + 40.0F * static_cast<float>(lane);
+    return SampledSpectrum(nm);
   }
 
  private:
