@@ -37,6 +37,29 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, testing::Values("prism.json", "cornel
                            return std::string(info.param, std::strchr(info.param, '.'));
                          });
 
+// Needs only skip what would add nothing. The technique of tracing light takes over paths from another, so
+// that with it the film is the same in expectation.
+TEST(Needs, ForcedOnLeaveTheFilm) {
+  const std::vector<Override> small{{"/sensor/resolution", "[32, 32]"}, {"/render/samples", "64"}};
+  const Scene plain = test::load("cornell.json", small);
+  const RenderResult expected = render(plain, {});
+  for (const NeedName& need : need_names()) {
+    Scene scene = test::load("cornell.json", small);
+    ASSERT_FALSE(scene.needs.*need.member) << need.key;
+    scene.needs.*need.member = true;
+    scene.needs.light_is_traced.assign(scene.lights.size(), need.member == &Needs::light_tracing);
+    const RenderResult forced = render(scene, {});
+    if (need.member != &Needs::light_tracing) {
+      EXPECT_TRUE(same_film(expected.film, forced.film)) << need.key;
+      continue;
+    }
+    EXPECT_GT(forced.stats.paths, expected.stats.paths) << "no photon was traced";
+    const test::Comparison c = test::compare_regions(expected.film, forced.film, 4);
+    EXPECT_LT(c.largest_z, 5.6) << need.key;
+    EXPECT_NEAR(c.ratio, 1, 0.01) << need.key;
+  }
+}
+
 TEST(Crop, PixelsInsideAreThoseOfTheWholeFilm) {
   const Scene scene =
       test::load("cornell.json", {{"/sensor/resolution", "[64, 64]"}, {"/render/samples", "4"}});
