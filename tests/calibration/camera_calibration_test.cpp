@@ -1,6 +1,7 @@
 #include "calibration/camera_calibration.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -40,7 +41,8 @@ TEST(CameraCalibration, CoarserCodesCostColour) {
 }
 
 TEST(CameraCalibration, WritesConfigAndReport) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "abbe_calibration_test";
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("abbe_calibration_test_" + std::to_string(::getpid()));
   CalibrationSetup named = setup("gamma:2.2");
   named.camera = "a \"quoted\\ name";
   const CameraCalibration calibration = calibrate_camera(named);

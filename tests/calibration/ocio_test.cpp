@@ -2,6 +2,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -57,9 +58,10 @@ class WrittenConfig : public testing::Test {
     write_ocio_config(folder_, profile());
     config_ = OCIO::Config::CreateFromFile((folder_ / "config.ocio").c_str());
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_.parent_path()); }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "abbe_ocio_test" / "nested";
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("abbe_ocio_test_" + std::to_string(::getpid())) / "nested";
   OCIO::ConstConfigRcPtr config_;
 };
 
@@ -112,7 +114,8 @@ TEST(OcioConfig, RefusesUnequalCurves) {
 }
 
 TEST(OcioConfig, RefusesAFileInPlaceOfTheFolder) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "abbe_ocio_file";
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("abbe_ocio_file_" + std::to_string(::getpid()));
   std::ofstream(file) << "taken";
   test::expect_error([&] { write_ocio_config(file, profile()); }, ErrorCode::output, file.string());
   std::filesystem::remove(file);
