@@ -79,7 +79,7 @@ std::optional<Mesh> read_prism(const JsonValue& json, const Reading& reading) {
 template <typename S>
 std::optional<PlainShape> as_shape(std::optional<S> shape) {
   if (!shape) return std::nullopt;
-  return PlainShape(std::move(*shape));
+  return std::make_optional<PlainShape>(std::move(*shape));
 }
 
 std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
