@@ -326,7 +326,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (const auto hit = decide(query.hit, context)) return hit;
+    if (auto hit = decide(query.hit, context)) return hit;
     // The plane the ray has just left, mistaken by rounding: rare enough to ask again with every candidate
     // looked at in double.
     context.filter = reject_behind;

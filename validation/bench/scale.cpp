@@ -46,9 +46,9 @@ std::string grid(std::uint64_t count,
   const auto side = static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   const double step = 40.0 / static_cast<double>(side);
   std::string all;
+  const auto middle = [step](std::uint64_t cell) { return (static_cast<double>(cell) + 0.5) * step - 20; };
   for (std::uint64_t i = 0; i < count; ++i)
-    all += (i == 0 ? "" : ",\n") + entry((static_cast<double>(i % side) + 0.5) * step - 20,
-                                         (static_cast<double>(i / side) + 0.5) * step - 20, step);
+    all += (i == 0 ? "" : ",\n") + entry(middle(i % side), middle(i / side), step);
   return all;
 }
 
