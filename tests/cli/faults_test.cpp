@@ -14,12 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ball() {
-  return scratch().write("ball.json", ball_scene()).string();
-}
-std::string file(const std::string& name) {
-  return (scratch() / name).string();
-}
 /// An emptied folder for the outputs of a test.
 fs::path folder(const std::string& name) {
   fs::remove_all(scratch() / name);

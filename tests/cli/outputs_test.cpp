@@ -13,12 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ball() {
-  return scratch().write("ball.json", ball_scene()).string();
-}
-std::string file(const std::string& name) {
-  return (scratch() / name).string();
-}
 Outcome here(const std::string& command) {
   return shell("cd " + file("") + "; " + command);
 }

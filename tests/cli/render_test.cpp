@@ -12,31 +12,24 @@
 namespace abbe::test {
 namespace {
 
-std::string ball() {
-  return scratch().write("ball.json", ball_scene()).string();
-}
-std::string out(const std::string& name) {
-  return (scratch() / name).string();
-}
-
 TEST(Render, WritesImagePictureAndStats) {
-  const Outcome run = abbe("render " + ball() + " -o " + out("a.exr") + " --display " + out("a.png") +
-                           " --stats " + out("a.stats") + " --seed 7 --threads 2 --explain");
+  const Outcome run = abbe("render " + ball() + " -o " + file("a.exr") + " --display " + file("a.png") +
+                           " --stats " + file("a.stats") + " --seed 7 --threads 2 --explain");
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(run.out.empty());
   EXPECT_NE(run.err.find("100 %"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("techniques"), std::string::npos) << run.err;
 
-  const Image image = read_exr(out("a.exr"));
+  const Image image = read_exr(file("a.exr"));
   EXPECT_EQ(image.width, 24);
   EXPECT_EQ(image.height, 16);
   for (const char* name : {"X", "Y", "Z", "Variance.Y"}) EXPECT_NE(image.find(name), nullptr) << name;
   EXPECT_EQ(image.metadata.at("samples_per_pixel"), "8");
   EXPECT_EQ(image.metadata.at("seed"), "7");
   EXPECT_EQ(image.metadata.at("version"), ABBE_VERSION);
-  EXPECT_EQ(read_picture(out("a.png")).width, 24);
+  EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
-  const nlohmann::json stats = nlohmann::json::parse(read_file(out("a.stats")));
+  const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
   EXPECT_EQ(stats.size(), 13U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
@@ -55,49 +48,49 @@ TEST(Render, WritesImagePictureAndStats) {
 
 TEST(Render, SameBitsAndOptionsThatChangeThem) {
   const std::string render = "render " + ball() + " --quiet -o ";
-  ASSERT_EQ(abbe(render + out("one.exr") + " --threads 1").code, 0);
-  ASSERT_EQ(abbe(render + out("two.exr") + " --threads 3").code, 0);
-  ASSERT_EQ(abbe(render + out("seed.exr") + " --seed 1").code, 0);
-  ASSERT_EQ(abbe(render + out("set.exr") + " --set /render/samples=16").code, 0);
-  ASSERT_EQ(abbe(render + out("spp.exr") + " --spp 16").code, 0);
-  EXPECT_EQ(read_exr(out("one.exr")).find("Y")->values, read_exr(out("two.exr")).find("Y")->values);
-  EXPECT_NE(read_exr(out("one.exr")).find("Y")->values, read_exr(out("seed.exr")).find("Y")->values);
-  EXPECT_EQ(read_exr(out("set.exr")).metadata.at("samples_per_pixel"), "16");
-  EXPECT_EQ(read_exr(out("set.exr")).find("Y")->values, read_exr(out("spp.exr")).find("Y")->values);
-  const Outcome same = abbe("compare " + out("one.exr") + " " + out("two.exr") + " --json");
+  ASSERT_EQ(abbe(render + file("one.exr") + " --threads 1").code, 0);
+  ASSERT_EQ(abbe(render + file("two.exr") + " --threads 3").code, 0);
+  ASSERT_EQ(abbe(render + file("seed.exr") + " --seed 1").code, 0);
+  ASSERT_EQ(abbe(render + file("set.exr") + " --set /render/samples=16").code, 0);
+  ASSERT_EQ(abbe(render + file("spp.exr") + " --spp 16").code, 0);
+  EXPECT_EQ(read_exr(file("one.exr")).find("Y")->values, read_exr(file("two.exr")).find("Y")->values);
+  EXPECT_NE(read_exr(file("one.exr")).find("Y")->values, read_exr(file("seed.exr")).find("Y")->values);
+  EXPECT_EQ(read_exr(file("set.exr")).metadata.at("samples_per_pixel"), "16");
+  EXPECT_EQ(read_exr(file("set.exr")).find("Y")->values, read_exr(file("spp.exr")).find("Y")->values);
+  const Outcome same = abbe("compare " + file("one.exr") + " " + file("two.exr") + " --json");
   EXPECT_EQ(same.json()["relMSE"], 0);
   EXPECT_EQ(same.json()["mean_ratio"], 1);
   EXPECT_EQ(same.json()["dE00_max"], 0);
-  const Outcome other = abbe("compare " + out("seed.exr") + " " + out("two.exr") + " --json");
+  const Outcome other = abbe("compare " + file("seed.exr") + " " + file("two.exr") + " --json");
   EXPECT_GT(other.json()["relMSE"], 0);
   EXPECT_GT(other.json()["dE00_mean"], 0);
   EXPECT_GE(other.json()["dE00_max"], other.json()["dE00_p95"]);
 }
 
 TEST(Render, CropLeavesTheRestBlack) {
-  ASSERT_EQ(abbe("render " + ball() + " --quiet --crop 4,2,20,14 -o " + out("crop.exr")).code, 0);
-  const Image image = read_exr(out("crop.exr"));
+  ASSERT_EQ(abbe("render " + ball() + " --quiet --crop 4,2,20,14 -o " + file("crop.exr")).code, 0);
+  const Image image = read_exr(file("crop.exr"));
   EXPECT_EQ(image.find("Y")->values[0], 0);
   EXPECT_GT(image.find("Y")->values[24 * 8 + 12], 0);
   EXPECT_EQ(image.metadata.at("crop"), "4,2,20,14");
 }
 
 TEST(Render, TimeAndErrorStopTheRender) {
-  ASSERT_EQ(abbe("render " + ball() + " --quiet --error 5% -o " + out("error.exr")).code, 0);
-  EXPECT_LE(std::stod(read_exr(out("error.exr")).metadata.at("relative_error")), 0.05);
-  ASSERT_EQ(abbe("render " + ball() + " --quiet --time 0.3s -o " + out("time.exr")).code, 0);
-  EXPECT_GT(std::stoi(read_exr(out("time.exr")).metadata.at("samples_per_pixel")), 8);
+  ASSERT_EQ(abbe("render " + ball() + " --quiet --error 5% -o " + file("error.exr")).code, 0);
+  EXPECT_LE(std::stod(read_exr(file("error.exr")).metadata.at("relative_error")), 0.05);
+  ASSERT_EQ(abbe("render " + ball() + " --quiet --time 0.3s -o " + file("time.exr")).code, 0);
+  EXPECT_GT(std::stoi(read_exr(file("time.exr")).metadata.at("samples_per_pixel")), 8);
 }
 
 // `timeout` sends the signal; one that comes before the render watches for it just kills, so the render has a
 // second.
 TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {
   for (const auto& [name, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
-    const std::string file = out(std::string(name) + ".exr");
-    const Outcome run = shell(ABBE_BINARY " render " + ball() + " --quiet --spp 10000000 -o " + file +
+    const std::string film = file(std::string(name) + ".exr");
+    const Outcome run = shell(ABBE_BINARY " render " + ball() + " --quiet --spp 10000000 -o " + film +
                               " & pid=$!; sleep 1.5; kill -" + name + " $pid; wait $pid");
     EXPECT_EQ(run.code, code) << run.err;
-    const Image image = read_exr(file);
+    const Image image = read_exr(film);
     const int samples = std::stoi(image.metadata.at("samples_per_pixel"));
     EXPECT_GT(samples, 0);
     EXPECT_LT(samples, 10000000);

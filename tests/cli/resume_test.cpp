@@ -13,12 +13,6 @@
 namespace abbe::test {
 namespace {
 
-std::string ball() {
-  return scratch().write("ball.json", ball_scene()).string();
-}
-std::string file(const std::string& name) {
-  return (scratch() / name).string();
-}
 std::string part(const std::string& name, const std::string& options) {
   const std::string path = file(name + ".abbepart");
   const Outcome run = abbe("render " + ball() + " --quiet -o " + path + " " + options);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "tests/cli/program.h"
+
 namespace abbe::test {
 
 /// Scene files for the program, around some shapes and materials.
@@ -31,6 +33,14 @@ inline std::string ball_scene() {
   return scene_text(
       R"("white": {"diffuse": {"reflectance": 0.8}})",
       R"({"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 50}, "material": "white"})");
+}
+
+/// Files of this process's own: that scene, and any other by name.
+inline std::string ball() {
+  return scratch().write("ball.json", ball_scene()).string();
+}
+inline std::string file(const std::string& name) {
+  return (scratch() / name).string();
 }
 
 }  // namespace abbe::test

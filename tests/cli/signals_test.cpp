@@ -14,12 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ball() {
-  return scratch().write("ball.json", ball_scene()).string();
-}
-std::string file(const std::string& name) {
-  return (scratch() / name).string();
-}
 std::string until(const std::string& condition) {
   return "; until " + condition + "; do sleep 0.01; done; ";
 }
