@@ -125,6 +125,18 @@ TEST(Memory, TooLittleExitsWith6) {
   EXPECT_GT(refusals, 0);
 }
 
+// Of memory for the film, and of address space for the stacks of so many threads.
+TEST(Memory, TooLargeDemandsExitWith6) {
+  fs::remove(file("a.exr"));
+  const std::string render =
+      "ulimit -v 1000000; " ABBE_BINARY " render " + ball() + " --quiet -o " + file("a.exr");
+  for (const char* options : {" --set /sensor/resolution=[8000,8000]", " --threads 500"}) {
+    const Outcome run = shell(render + options);
+    EXPECT_EQ(run.code, 6) << options << '\n' << run.err;
+    EXPECT_FALSE(fs::exists(file("a.exr")));
+  }
+}
+
 TEST(Threads, AnyNumberGivesTheSameFile) {
   const auto sums = [](const std::string& threads) {
     const Outcome run =

@@ -86,18 +86,6 @@ TEST(Program, TooLargeAFilmExitsWith6) {
   EXPECT_EQ(abbe("render " + path + " --set /sensor/resolution=[1000000,1000000]").code, 6);
 }
 
-// Of memory for the film, and of address space for the stacks of so many threads.
-TEST(Program, LackOfResourcesExitsWith6) {
-  const auto path = scratch().write("ball.json", ball_scene()).string();
-  const std::string render =
-      "ulimit -v 1000000; " ABBE_BINARY " render " + path + " --quiet -o " + (scratch() / "a.exr").string();
-  for (const char* options : {" --set /sensor/resolution=[8000,8000]", " --threads 500"}) {
-    const Outcome run = shell(render + options);
-    EXPECT_EQ(run.code, 6) << options << '\n' << run.err;
-    EXPECT_FALSE(std::filesystem::exists(scratch() / "a.exr"));
-  }
-}
-
 TEST(Program, AnswersThatCannotBeWrittenExitWith5) {
   for (const char* text : {"query ior N-BK7 --at 550", "query --list"}) {
     const Outcome run = abbe(std::string(text) + " >/dev/full");
