@@ -18,6 +18,7 @@
 #include "scene/ray.h"
 #include "scene/shapes/shape.h"
 #include "sensor/response/channel.h"
+#include "sensor/response/mosaic.h"
 
 namespace abbe {
 
@@ -69,7 +70,10 @@ class Scene {
   std::vector<Light> lights;
   Camera camera;
   std::vector<Channel> channels;
+  std::optional<Mosaic> mosaic;  ///< Which channel each pixel has; without one every pixel has them all.
   double exposure_s = 1;
+  double fill_factor = 1;  ///< Share of a pixel that takes light: a pixel counts its film value times
+                           ///< pixel pitch^2 times this.
   RenderSettings render;
   OutputSettings output;
   Needs needs;
