@@ -17,6 +17,7 @@
 #include "scene/needs/needs.h"
 #include "scene/ray.h"
 #include "scene/shapes/shape.h"
+#include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"
 #include "sensor/response/mosaic.h"
 
@@ -74,6 +75,8 @@ class Scene {
   double exposure_s = 1;
   double fill_factor = 1;  ///< Share of a pixel that takes light: a pixel counts its film value times
                            ///< pixel pitch^2 times this.
+  /// What makes digital numbers of the film, if the scene says.
+  std::optional<Readout> readout;
   RenderSettings render;
   OutputSettings output;
   Needs needs;

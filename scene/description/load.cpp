@@ -126,6 +126,7 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   if (const JsonValue* json = reader.require("sensor"))
     sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), reading);
   scene.exposure_s = sensor.exposure_s;
+  scene.readout = sensor.readout;
   scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
   if (materials) read_materials(*materials, reading, scene);
   if (const JsonValue* json = reader.find("objects")) read_objects(*json, reading, scene);

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -149,9 +150,14 @@ struct Sensor {
   double pixel_pitch = 4.5e-6;  ///< [m]
   double exposure_s = 1;
   std::vector<Channel> channels;
+  std::optional<Readout> readout;
 };
 /// `probe`: the sensor of an irradiance probe has one pixel unless it says otherwise.
 [[nodiscard]] Sensor read_sensor(const JsonValue& json, bool probe, Reading& reading);
+
+/// The electronics behind channels, which must count electrons.
+[[nodiscard]] std::optional<Readout> read_readout(const JsonValue& json, std::span<const Channel> channels,
+                                                  Reading& reading);
 
 [[nodiscard]] std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor,
                                                 Reading& reading);

@@ -148,6 +148,8 @@ Sensor read_sensor(const JsonValue& json, bool probe, Reading& reading) {
   sensor.pixel_pitch = reader.number_or("pixel_pitch_um", sensor.pixel_pitch * 1e6, kPitch) * 1e-6;
   sensor.exposure_s = reader.number_or("exposure_s", sensor.exposure_s, kExposure);
   sensor.channels = read_what_it_counts(reader, reading);
+  if (const JsonValue* readout = reader.find("readout"))
+    sensor.readout = read_readout(*readout, sensor.channels, reading);
   reader.finish();
   return sensor;
 }

@@ -1,0 +1,70 @@
+#include "sensor/readout/demosaic.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+struct Neighbour {
+  int dx;
+  int dy;
+  float weight;
+};
+
+// Where a channel's pixels lie around the pixel (x, y) of the pattern; the pixel alone if it is one.
+std::vector<Neighbour> neighbours(const Mosaic& mosaic, int x, int y, int channel) {
+  if (mosaic.at(x, y) == channel) return {{0, 0, 1}};
+  std::vector<Neighbour> found;
+  const int w = mosaic.width;
+  const int h = mosaic.height;
+  for (int dy = 1 - h; dy < h; ++dy)
+    for (int dx = 1 - w; dx < w; ++dx)
+      if (mosaic.at(x + dx + w, y + dy + h) == channel)
+        found.push_back({dx, dy, static_cast<float>((w - std::abs(dx)) * (h - std::abs(dy)))});
+  return found;
+}
+
+float weighted_mean(const Image& image, const std::vector<float>& raw, int x, int y,
+                    const std::vector<Neighbour>& around) {
+  float sum = 0;
+  float weights = 0;
+  for (const Neighbour& n : around) {
+    const int u = x + n.dx;
+    const int v = y + n.dy;
+    if (u < 0 || v < 0 || u >= image.width || v >= image.height) continue;
+    sum += n.weight * raw[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(u)];
+    weights += n.weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+}  // namespace
+
+Image demosaic(const Image& image, const std::string& raw, const Mosaic& mosaic,
+               std::span<const std::string> channels) {
+  const ImageChannel* plane = image.find(raw);
+  if (plane == nullptr) throw Error(ErrorCode::input, "film", "has no plane " + raw);
+  Image planes{image.width, image.height, {}, image.metadata};
+  for (std::size_t channel = 0; channel < channels.size(); ++channel) {
+    std::vector<std::vector<Neighbour>> around;  // of each pixel of the pattern
+    for (int y = 0; y < mosaic.height; ++y)
+      for (int x = 0; x < mosaic.width; ++x)
+        around.push_back(neighbours(mosaic, x, y, static_cast<int>(channel)));
+    std::vector<float> values;
+    values.reserve(image.pixels());
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        values.push_back(weighted_mean(
+            image, plane->values, x, y,
+            around[static_cast<std::size_t>(y % mosaic.height * mosaic.width + x % mosaic.width)]));
+    planes.channels.push_back({channels[channel], std::move(values)});
+  }
+  return planes;
+}
+
+}  // namespace abbe

@@ -1,0 +1,126 @@
+#include "sensor/readout/photon_transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kRoundingVariance = 1.0 / 12;  // DN^2
+constexpr double kFitted = 0.7;                 // of the signal at saturation
+constexpr double kPatternsAt = 0.5;
+
+[[noreturn]] void refuse(const char* what) {
+  throw Error(ErrorCode::usage, "photon transfer", what);
+}
+
+// Of a pair [DN, DN^2]: mean, variance from one exposure to the next, and variance over the pixels without
+// it.
+struct Moments {
+  double exposure_s;
+  double mean;
+  double temporal;
+  double spatial;
+};
+
+Moments moments(const FlatPair& pair) {
+  const auto n = static_cast<double>(pair.first.size());
+  if (pair.first.size() < 2 || pair.first.size() != pair.second.size()) refuse("a pair of unequal frames");
+  double sum = 0;
+  double difference = 0;
+  double squares = 0;
+  double difference_squares = 0;
+  for (std::size_t i = 0; i < pair.first.size(); ++i) {
+    const double s = static_cast<double>(pair.first[i]) + pair.second[i];
+    const double d = static_cast<double>(pair.first[i]) - pair.second[i];
+    sum += s;
+    difference += d;
+    squares += s * s;
+    difference_squares += d * d;
+  }
+  const double temporal = (difference_squares - difference * difference / n) / (n - 1) / 2;
+  const double of_means = (squares - sum * sum / n) / (n - 1) / 4;
+  return {pair.exposure_s, sum / n / 2, temporal, of_means - temporal / 2};
+}
+
+std::vector<Moments> all_moments(std::span<const FlatPair> pairs) {
+  std::vector<Moments> all;
+  std::transform(pairs.begin(), pairs.end(), std::back_inserter(all), moments);
+  return all;
+}
+
+// Least squares of a moment over the exposure time.
+struct Line {
+  double at_zero;
+  double slope;
+  [[nodiscard]] double at(double x) const { return at_zero + slope * x; }
+};
+Line fitted(const std::vector<Moments>& points, double Moments::*value) {
+  const auto n = static_cast<double>(points.size());
+  double x = 0;
+  double y = 0;
+  double xx = 0;
+  double xy = 0;
+  for (const Moments& p : points) {
+    x += p.exposure_s;
+    y += p.*value;
+    xx += p.exposure_s * p.exposure_s;
+    xy += p.exposure_s * p.*value;
+  }
+  const double spread = n * xx - x * x;
+  if (!(spread > 0)) refuse("dark pairs of one exposure time only");
+  const double slope = (n * xy - x * y) / spread;
+  return {(y - slope * x) / n, slope};
+}
+
+}  // namespace
+
+PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs,
+                               int bits) {
+  const std::vector<Moments> dark = all_moments(dark_pairs);
+  const std::vector<Moments> lit = all_moments(lit_pairs);
+  if (dark.empty() || lit.empty()) refuse("no dark or no lit pairs");
+  const Line dark_mean = fitted(dark, &Moments::mean);
+  const Line dark_variance = fitted(dark, &Moments::temporal);
+  const auto signal = [&](const Moments& m) { return m.mean - dark_mean.at(m.exposure_s); };
+
+  // Saturation is where the variance is largest.
+  const auto by = [](auto value) {
+    return [value](const Moments& a, const Moments& b) { return value(a) < value(b); };
+  };
+  const auto variance = [](const Moments& m) { return m.temporal; };
+  const double saturation = signal(*std::max_element(lit.begin(), lit.end(), by(variance)));
+  double products = 0;
+  double squares = 0;
+  for (const Moments& m : lit)
+    if (signal(m) <= kFitted * saturation) {
+      products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
+      squares += signal(m) * signal(m);
+    }
+  if (!(products > 0)) refuse("no lit pair below saturation");
+  const double gain = squares / products;
+
+  const auto from_half = [&](const Moments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
+  const Moments& half = *std::min_element(lit.begin(), lit.end(), by(from_half));
+  const Moments& shortest =
+      *std::min_element(dark.begin(), dark.end(), by([](const Moments& m) { return m.exposure_s; }));
+  const Moments& brightest = *std::max_element(lit.begin(), lit.end(), by(signal));
+  const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
+  const double highest_code = static_cast<double>((1U << bits) - 1);
+  // In a full well all pixels hold the same, so that the variance is far below that of the light.
+  const bool full =
+      brightest.temporal - dark_variance.at(brightest.exposure_s) < signal(brightest) / gain / 2;
+  std::optional<double> full_well;
+  if (full && brightest.mean < highest_code - 1) full_well = (brightest.mean - dark_mean.at_zero) * gain;
+  return {gain,
+          root(dark_variance.at_zero - kRoundingVariance) * gain,
+          dark_mean.slope * gain,
+          100 * root(half.spatial - shortest.spatial) / signal(half),
+          root(shortest.spatial) * gain,
+          full_well};
+}
+
+}  // namespace abbe

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace abbe {
+
+/// Two exposures of one evenly lit (or dark) sensor, taken one after the other: all they differ in is
+/// temporal noise. Their codes, of equally many pixels.
+struct FlatPair {
+  double exposure_s;
+  std::span<const std::uint16_t> first;
+  std::span<const std::uint16_t> second;
+};
+
+/// What measurements say of a sensor with a linear response, in the terms of `Readout`.
+struct PhotonTransfer {
+  double gain_e_per_dn;
+  double read_noise_e;
+  double dark_e_per_s;
+  double prnu_percent;
+  double dsnu_e;
+  std::optional<double> full_well_e;  ///< Nothing where no pair fills it before the codes end.
+};
+
+/// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, grows
+/// with the mean by 1/K DN per DN, the 1/12 DN^2 of rounding and the read noise being what darkness leaves;
+/// fixed patterns are the rest of the variance over pixels. `dark` holds pairs of two or more exposure times,
+/// `lit` pairs from weak light to light beyond saturation: K is fitted up to 70 % of saturation, PRNU taken
+/// nearest to 50 %, the full well from the brightest pair. `bits`: of the codes. Throws Error{usage} for
+/// pairs that do not determine this.
+[[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark, std::span<const FlatPair> lit,
+                                             int bits);
+
+}  // namespace abbe

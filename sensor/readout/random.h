@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace abbe {
+
+/// What the random numbers of a read-out are for; those of different purposes are independent.
+enum class ReadoutPurpose : std::uint64_t { fixed_pattern = 1, noise = 2 };
+
+/// A generator for the distributions of Boost or the standard library: SplitMix64 [Steele2014], which walks
+/// through the 64-bit numbers in steps of the golden ratio and mixes each.
+class SplitMix64 {
+ public:
+  using result_type = std::uint64_t;
+
+  constexpr explicit SplitMix64(std::uint64_t state) : state_(state) {}
+  /// A sequence of its own for each purpose, key and pixel: nothing is consumed, so no pixel depends on
+  /// another, on the order in which they are read or on who reads them.
+  constexpr SplitMix64(ReadoutPurpose purpose, std::uint64_t key, std::size_t pixel)
+      : state_(mixed(mixed(mixed(static_cast<std::uint64_t>(purpose)) + key) + pixel)) {}
+
+  constexpr std::uint64_t operator()() {
+    state_ += kStep;
+    return mixed(state_);
+  }
+  static constexpr std::uint64_t min() { return 0; }
+  static constexpr std::uint64_t max() { return std::numeric_limits<std::uint64_t>::max(); }
+
+ private:
+  static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15U;
+  static constexpr std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
+
+}  // namespace abbe

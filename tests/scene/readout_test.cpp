@@ -1,0 +1,95 @@
+#include "scene/description/readout.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using ReadoutDescription = testing::DescriptionTest;
+using testing::Loaded;
+
+std::string sensor(const std::string& readout, const std::string& response = "quantum") {
+  return fmt::format(
+      R"({{"sensor": {{"resolution": [4, 3], "channels": {{"all": 1}}, "response": "{}", "readout": {}}}}})",
+      response, readout);
+}
+
+TEST_F(ReadoutDescription, EveryKeyArrives) {
+  const Loaded loaded = load(sensor(
+      R"({"gain_e_per_dn": 1.5, "bits": 14, "offset_dn": 200.5, "full_well_e": 20000, "read_noise_e": 9,
+          "dark_e_per_s": 2, "prnu_percent": 1.25, "dsnu_e": 3, "serial": 41,
+          "response_curve": [[0, 0], [0.5, 0.75], [1, 1]]})"));
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  ASSERT_TRUE(loaded->readout);
+  const Readout& readout = *loaded->readout;
+  EXPECT_EQ(readout.gain_e_per_dn, 1.5);
+  EXPECT_EQ(readout.bits, 14);
+  EXPECT_EQ(readout.highest_code(), 16383);
+  EXPECT_EQ(readout.offset_dn, 200.5);
+  EXPECT_EQ(readout.full_well_e, 20000);
+  EXPECT_EQ(readout.read_noise_e, 9);
+  EXPECT_EQ(readout.dark_e_per_s, 2);
+  EXPECT_EQ(readout.prnu_percent, 1.25);
+  EXPECT_EQ(readout.dsnu_e, 3);
+  EXPECT_EQ(readout.serial, 41U);
+  ASSERT_TRUE(readout.response_curve);
+  EXPECT_EQ((*readout.response_curve)(0.25), 0.375);
+}
+
+TEST_F(ReadoutDescription, WhatIsNotSaidIsIdeal) {
+  const Loaded loaded = load(sensor(R"({"gain_e_per_dn": 2, "bits": 12})"));
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const Readout& readout = *loaded->readout;
+  EXPECT_GT(readout.full_well_e, 1e300);
+  for (const double zero :
+       {readout.offset_dn, readout.read_noise_e, readout.dark_e_per_s, readout.prnu_percent, readout.dsnu_e})
+    EXPECT_EQ(zero, 0);
+  EXPECT_FALSE(readout.response_curve);
+  EXPECT_FALSE(load("{}")->readout);
+}
+
+TEST_F(ReadoutDescription, ItNeedsChannelsThatCountElectrons) {
+  const Loaded loaded = load(sensor(R"({"gain_e_per_dn": 2, "bits": 12})", "energy"));
+  EXPECT_FALSE(loaded.scene);
+  EXPECT_NE(loaded.text().find("/sensor/readout: error: a read-out needs channels that count electrons (got "
+                               "\"all\", whose response is energy, allowed quantum)"),
+            std::string::npos)
+      << loaded.text();
+}
+
+TEST_F(ReadoutDescription, FaultsAreNamed) {
+  for (const auto& [readout, message] :
+       {std::pair{R"({"bits": 12})", "/sensor/readout: error: missing key \"gain_e_per_dn\""},
+        std::pair{R"({"gain_e_per_dn": 1})", "missing key \"bits\""},
+        std::pair{R"({"gain_e_per_dn": 0, "bits": 12})",
+                  "expected a number (got 0, allowed (0, 1000000000])"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 17})", "expected an integer (got 17, allowed [1, 16])"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "offset_dn": 255})", "(got 255, allowed [0, 255))"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "full_well_e": 0})", "full_well_e: error: expected"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "read_noise_e": -1})", "read_noise_e: error: expected"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "dark_e_per_s": -1})", "dark_e_per_s: error: expected"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "prnu_percent": 101})", "(got 101, allowed [0, 100])"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "dsnu_e": -1})", "dsnu_e: error: expected"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "serial": 1.5})", "serial: error: expected an integer"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "gian": 1})", "unknown key \"gian\""},
+        std::pair{
+            R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0], [0.5, 0.5], [0.5, 0.7], [1, 1]]})",
+            "response_curve: error: expected points [in, out] that increase in both"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0], [1, 0.9]]})",
+                  "from [0, 0] to [1, 1]"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0]]})", "expected points"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": 2})", "expected points"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0], [1, 1, 1]]})",
+                  "wrong number of elements"},
+        std::pair{R"(3)", "/sensor/readout: error: expected an object"}}) {
+    const Loaded loaded = load(sensor(readout));
+    EXPECT_FALSE(loaded.scene) << readout;
+    EXPECT_NE(loaded.text().find(message), std::string::npos) << readout << '\n' << loaded.text();
+  }
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,93 @@
+#include "sensor/readout/demosaic.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+const std::array<std::string, 3> kRgb{"R", "G", "B"};
+const Mosaic kBayer{2, 2, {0, 1, 1, 2}};
+// A pattern of 3 x 2 with a channel that stands in one row only.
+const Mosaic kOdd{3, 2, {0, 1, 1, 2, 1, 0}};
+
+using Planes = std::function<float(int channel, int x, int y)>;
+
+Image mosaicked(const Mosaic& mosaic, int width, int height, const Planes& scene) {
+  Image image{width, height, {{"raw", {}}}, {{"seed", "7"}}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.channels[0].values.push_back(scene(mosaic.at(x, y), x, y));
+  return image;
+}
+float value(const Image& image, int channel, int x, int y) {
+  return image.channels[static_cast<std::size_t>(channel)]
+      .values[static_cast<std::size_t>(y * image.width + x)];
+}
+
+TEST(Demosaic, ConstantPlanesStayConstantToTheBorders) {
+  for (const Mosaic& mosaic : {kBayer, kOdd}) {
+    const Planes scene = [](int channel, int, int) { return static_cast<float>(channel + 1); };
+    const Image planes = demosaic(mosaicked(mosaic, 7, 6, scene), "raw", mosaic, kRgb);
+    ASSERT_EQ(planes.channels.size(), 3U);
+    EXPECT_EQ(planes.channels[2].name, "B");
+    EXPECT_EQ(planes.metadata.at("seed"), "7");
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_EQ(planes.channels[static_cast<std::size_t>(channel)].values,
+                std::vector<float>(42, static_cast<float>(channel + 1)));
+  }
+}
+
+TEST(Demosaic, RampsOverABayerPatternComeBackExactly) {
+  const Planes scene = [](int channel, int x, int y) {
+    return static_cast<float>(10 * channel + (channel + 1) * x - 2 * y);
+  };
+  const Image planes = demosaic(mosaicked(kBayer, 8, 8, scene), "raw", kBayer, kRgb);
+  for (int channel = 0; channel < 3; ++channel)
+    for (int y = 1; y < 7; ++y)
+      for (int x = 1; x < 7; ++x)
+        EXPECT_FLOAT_EQ(value(planes, channel, x, y), scene(channel, x, y)) << channel << x << y;
+}
+
+TEST(Demosaic, AnImpulseSpreadsToTheNeighboursInTheirShares) {
+  const Planes red = [](int, int x, int y) { return x == 2 && y == 2 ? 4.0F : 0.0F; };
+  const Image planes = demosaic(mosaicked(kBayer, 6, 6, red), "raw", kBayer, kRgb);
+  EXPECT_EQ(value(planes, 0, 2, 2), 4);
+  EXPECT_EQ(value(planes, 0, 3, 2), 2);
+  EXPECT_EQ(value(planes, 0, 2, 1), 2);
+  EXPECT_EQ(value(planes, 0, 3, 3), 1);
+  EXPECT_EQ(value(planes, 0, 4, 2), 0);
+  EXPECT_EQ(value(planes, 1, 2, 2), 0);
+}
+
+TEST(Demosaic, APixelKeepsTheValueOfItsOwnFilter) {
+  const Planes green = [](int, int x, int y) { return x == 3 && y == 2 ? 4.0F : 0.0F; };
+  const Image planes = demosaic(mosaicked(kBayer, 6, 6, green), "raw", kBayer, kRgb);
+  EXPECT_EQ(value(planes, 1, 3, 2), 4);
+  EXPECT_EQ(value(planes, 1, 2, 3), 0);
+  EXPECT_EQ(value(planes, 1, 2, 2), 1);
+}
+
+TEST(Demosaic, FarPixelsWeighLess) {
+  const Mosaic sparse{4, 1, {0, 1, 1, 2}};
+  const Planes steps = [](int, int x, int) { return x < 4 ? 0.0F : 8.0F; };
+  const Image planes = demosaic(mosaicked(sparse, 8, 1, steps), "raw", sparse, kRgb);
+  for (int x = 0; x <= 4; ++x) EXPECT_FLOAT_EQ(value(planes, 0, x, 0), static_cast<float>(2 * x)) << x;
+}
+
+TEST(Demosaic, AFilmWithoutTheRawPlaneIsAnInputError) {
+  const Image film{1, 1, {{"R", {1}}}, {}};
+  try {
+    (void)demosaic(film, "raw", kBayer, kRgb);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::input);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
