@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "description.h"
+#include "mesh_files.h"
 
 namespace abbe {
 namespace {
@@ -28,13 +28,7 @@ TEST_F(PlyTest, ReadsPly) {
   EXPECT_EQ(square.triangles, fan) << "a polygon is cut into triangles";
   EXPECT_DOUBLE_EQ(area(square), 1);
 
-  std::string binary =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-      "property float z\nelement face 1\nproperty list ushort int vertex_indices\nend_header\n";
-  const float positions[9] = {0, 0, 0, 2, 0, 0, 0, 2, 0};
-  const std::int32_t indices[3] = {0, 1, 2};
-  binary.append(reinterpret_cast<const char*>(positions), sizeof positions).append(1, '\3').append(1, '\0');
-  binary.append(reinterpret_cast<const char*>(indices), sizeof indices);
+  const std::string binary = testing::binary_ply();
   write(folder_ / "binary.ply", binary);
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "binary.ply")")), 2);
   std::string infinite = binary;

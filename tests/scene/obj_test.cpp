@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include "mesh_files.h"
+#include "scene/shapes/mesh.h"
+#include "spectral/rgb.h"
+
+namespace abbe {
+namespace {
+
+using testing::Fault;
+using testing::Loaded;
+using testing::shaped;
+using testing::write;
+
+class ObjTest : public testing::MeshFileTest {};
+
+constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
+TEST_F(ObjTest, ReadsFaces) {
+  const Mesh cut =
+      mesh("a.obj", std::string("# a comment\r\n") + kCorners +
+                        "vn 0 0 1\nvt 0 0\ng part\nf 1/1/1 2/1/1 3/1/1\nf -4//1 -2//1 -1//1 2\n");
+  const std::vector<std::array<std::uint32_t, 3>> expected{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
+  EXPECT_EQ(cut.triangles, expected);
+  EXPECT_EQ(cut.vertices.size(), 4U);
+}
+
+TEST_F(ObjTest, BringsItsMaterials) {
+  write(folder_ / "a.mtl",
+        "newmtl red paint\nKd 0.8 0.1 0.05\nKs 1 1 1\nNs 10\nillum 2\nKs 0.5 0.5 0.5\n"
+        "newmtl plain\nKd 0.5 0.5 0.5\n");
+  write(folder_ / "a.obj", std::string("mtllib a.mtl\n") + kCorners +
+                               "usemtl red paint\nf 1 2 3\nusemtl plain\nf 1 2 4\nf 1 3 4\n");
+  const Loaded loaded =
+      load(R"({"units": "cm", "shapes": [{"mesh": "a.obj", "name": "thing", "transform": {"scale": 2}}]})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  ASSERT_EQ(loaded->shapes.size(), 2U);
+  EXPECT_EQ(loaded->shapes[0].name, "thing/red paint");
+  const auto& second = std::get<Mesh>(loaded->shapes[1].shape);
+  EXPECT_EQ(second.vertices.size(), 4U);
+  EXPECT_NEAR(area(second), 4e-4, 1e-12) << "two halves of a square of 2 cm";
+  const auto& [from, along, up] = second.triangles.at(0);
+  EXPECT_LT((second.vertices[up] - second.vertices[from] - Imath::V3d(0, 0, 0.02)).length(), 1e-12);
+  EXPECT_LT((second.vertices[along] - second.vertices[from] - Imath::V3d(0.02, 0, 0)).length(), 1e-12);
+  const Material& red = loaded->materials[loaded->shapes[0].material];
+  EXPECT_EQ(red.name, "a.obj:red paint");
+  const LinearRgb color = linear_rgb(std::get<DiffuseMaterial>(red.model).reflectance);
+  EXPECT_NEAR(color[0], 0.8, 1e-3);
+  EXPECT_NEAR(color[1], 0.1, 1e-3);
+  EXPECT_NEAR(color[2], 0.05, 1e-3);
+  EXPECT_NE(loaded.text().find(
+                "/shapes/0/mesh: warning: material \"red paint\" of \"a.obj\": Ks, Ns are not represented"),
+            std::string::npos)
+      << loaded.text();
+  EXPECT_EQ(loaded.text().find("\"plain\""), std::string::npos) << "nothing of it is lost";
+
+  write(folder_ / "two words.mtl", "newmtl plain\nKd 1 1 1\n");
+  write(folder_ / "b.obj", std::string("mtllib two words.mtl\n") + kCorners + "usemtl plain\nf 1 2 3\n");
+  EXPECT_TRUE(load(R"({"shapes": [{"mesh": "b.obj"}]})").scene);
+
+  // The scene's hash knows the materials too.
+  const std::string before = loaded->sha256;
+  write(folder_ / "a.mtl", "newmtl red paint\nKd 0.8 0.1 0.06\nnewmtl plain\n");
+  EXPECT_NE(
+      load(R"({"units": "cm", "shapes": [{"mesh": "a.obj", "name": "thing", "transform": {"scale": 2}}]})")
+          ->sha256,
+      before);
+
+  const Loaded own = load(shaped(R"("mesh": "a.obj")"));
+  ASSERT_TRUE(own.scene) << own.text();
+  EXPECT_EQ(own->shapes.size(), 1U) << "one material for all";
+  EXPECT_EQ(own->materials.size(), 1U);
+}
+
+TEST_F(ObjTest, RefusesBadFiles) {
+  const auto in = ErrorCode::input;
+  write(folder_ / "bad.mtl", "newmtl a\nKd 0.1 2 0\n");
+  write(folder_ / "curve.mtl", "newmtl a\n  Kd spectral a.rfl\n");
+  write(folder_ / "early.mtl", "Kd 0.1 0 0\n");
+  expect_refused(
+      "bad.obj",
+      {{"an index beyond", std::string(kCorners) + "f 1 2 5\n", in,
+        "line 5: no such vertex (got 5, allowed [1, 4])"},
+       {"an index before", std::string(kCorners) + "f 1 2 -5\n", in, "no such vertex (got -5"},
+       {"zero", std::string(kCorners) + "f 1 2 0\n", in, "no such vertex (got 0"},
+       {"no number", std::string(kCorners) + "f 1 2 x\n", in, "no such vertex (got 0"},
+       {"two corners", std::string(kCorners) + "f 1 2\n", in,
+        "line 5: a face of 2 corners (allowed 3 or more)"},
+       {"half a vertex", "v 1 2\nf 1 1 1\n", in, "line 1: a vertex needs three finite numbers (got 1 2)"},
+       {"infinite", "v 1 2 inf\n", in, "three finite numbers"},
+       {"empty", "", in, "no faces"},
+       {"no area", std::string(kCorners) + "f 1 1 2\n", in, "a mesh without a triangle of any area"},
+       {"missing library", "mtllib gone.mtl\n", in, "\"gone.mtl\", which it names: no such file"},
+       {"climbing out", "mtllib ../a.mtl\n", in, "it may name files beside it only (got \"../a.mtl\")"},
+       {"absolute", "mtllib /etc/passwd\n", in, "beside it only (got \"/etc/passwd\")"},
+       {"unknown material", "mtllib bad.mtl\n", in,
+        "\"bad.mtl\" line 2: Kd (got 0.1 2 0, allowed three of [0, 1])"},
+       {"a curve", "mtllib curve.mtl\n", in,
+        "\"curve.mtl\" line 2: Kd (got spectral a.rfl, allowed three of [0, 1])"},
+       {"a material without a name", "mtllib early.mtl\n", in,
+        "line 1: \"early.mtl\" has a material without a name"},
+       {"unknown material", std::string(kCorners) + "usemtl wod\nf 1 2 3\n", in,
+        "line 5: unknown material \"wod\""},
+       {"no material", std::string(kCorners) + "f 1 2 3\n", ErrorCode::scene,
+        "triangles without a material"}});
+  write(folder_ / "bad.stl", "solid");
+  EXPECT_NE(load(shaped(R"("mesh": "bad.stl")"))
+                .text()
+                .find("unknown format (got \".stl\", allowed .ply, .obj, .gltf, .glb)"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe
