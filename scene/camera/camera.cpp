@@ -38,9 +38,10 @@ double cosine(const Plane& slope) {
   return 1 / std::sqrt(1 + slope.dot(slope));
 }
 
-// The real image is upside down, so a ray in the camera runs from -film to the lens.
-float film_cosine(const LensCamera& camera, const Plane& film, const Plane& lens) {
-  return static_cast<float>(cosine((film + lens) / camera.image_distance));
+// The real image is upside down, so a ray in the camera runs from -film to the lens. Through a pinhole it
+// goes straight on, at the angle whose cosine is `cos_theta`.
+float film_cosine(const LensCamera& camera, const Plane& film, const Plane& lens, double cos_theta) {
+  return static_cast<float>(camera.pinhole ? cos_theta : cosine((film + lens) / camera.image_distance));
 }
 
 double aperture_area(const LensCamera& camera) {
@@ -61,7 +62,7 @@ CameraRay lens_ray(const Camera& camera, const LensCamera& lens_camera, Imath::V
   const Imath::V3d direction = (frame.forward + in_scene(frame, tangent)) * cos_theta;
   return {{Imath::V3f(frame.position + in_scene(frame, on_lens)), Imath::V3f(direction)},
           static_cast<float>(weight),
-          film_cosine(lens_camera, on_film, on_lens)};
+          film_cosine(lens_camera, on_film, on_lens, cos_theta)};
 }
 
 CameraRay probe_ray(const Camera& camera, const IrradianceProbe& probe, Imath::V2f film, Imath::V2f lens) {
@@ -103,7 +104,7 @@ std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath
   const double distance = depth / cos_theta;
   const double weight = aperture_area(*lens_camera) * cos_theta / (distance * distance * pitch * pitch);
   return CameraConnection{film, Imath::V3f(frame.position + in_scene(frame, on_lens)),
-                          static_cast<float>(weight), film_cosine(*lens_camera, on_film, on_lens)};
+                          static_cast<float>(weight), film_cosine(*lens_camera, on_film, on_lens, cos_theta)};
 }
 
 }  // namespace abbe

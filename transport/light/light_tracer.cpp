@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-constexpr std::uint32_t kAimGroup = 0;
+constexpr std::uint32_t kAimGroup = 0;  // its fourth number is kept for the time within the exposure
 constexpr std::uint32_t kStartGroup = 1;
 constexpr std::uint32_t scatter_group(int depth) {
   return 2 + 2 * static_cast<std::uint32_t>(depth);

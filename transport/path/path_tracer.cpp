@@ -13,8 +13,8 @@ namespace {
 // Groups of random numbers: the film position shares its group with the wavelength, since a spectrum on the
 // film is a function of both.
 constexpr std::uint32_t kFilmGroup = 0;
-constexpr std::uint32_t kLensGroup = 1;
-constexpr int kMeterDepth = -1;  // a meter scatters before the first surface does
+constexpr std::uint32_t kLensGroup = 1;  // its third number is kept for the time within the exposure
+constexpr int kMeterDepth = -1;          // a meter scatters before the first surface does
 constexpr std::uint32_t scatter_group(int depth) {
   return 2 + 2 * static_cast<std::uint32_t>(depth - kMeterDepth);
 }
@@ -36,9 +36,9 @@ class CameraPath {
     exposure_.begin(wavelengths, start.weight * static_cast<float>(scene_.exposure_s));
   }
 
-  /// From a meter: what lights it directly, then what a cosine-distributed ray finds.
-  void trace_from_meter(const Imath::V3f& point, const Imath::V3f& normal) {
-    if (scatter(Vertex::meter(point, normal), kMeterDepth)) trace();
+  /// At a meter: adds what lights it directly. Whether a ray is left to find the rest.
+  bool leave_meter(const Imath::V3f& point, const Imath::V3f& normal) {
+    return scatter(Vertex::meter(point, normal), kMeterDepth);
   }
 
   void trace() {
@@ -95,7 +95,9 @@ class CameraPath {
     exposure_.deposit(packet_.throughput * light.emission(lambda()) * (1 / balance(pdf)));
   }
 
-  bool scatter(const Vertex& vertex, int depth) {
+  // In line in the loop of `trace`: left to itself the compiler makes it a call, for the meter's sake, which
+  // costs every path more than all else it does not need.
+  [[gnu::always_inline]] bool scatter(const Vertex& vertex, int depth) {
     if (!is_delta(vertex.bsdf)) add_direct(vertex, depth);
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
     const std::optional<BsdfSample> sampled =
@@ -183,10 +185,8 @@ void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampl
   const Imath::V2f position(static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]);
   const CameraRay start = sample_ray(camera, position, {lens[0], lens[1]});
   CameraPath path(plan, caster, sampler, plan.wavelengths.sample(film[2]), start, exposure);
-  if (const auto* meter = std::get_if<IrradianceProbe>(&camera.kind))
-    path.trace_from_meter(start.ray.origin, Imath::V3f(meter->normal));
-  else
-    path.trace();
+  const auto* meter = std::get_if<IrradianceProbe>(&camera.kind);
+  if (meter == nullptr || path.leave_meter(start.ray.origin, Imath::V3f(meter->normal))) path.trace();
 }
 
 }  // namespace abbe
