@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "cli/prism.h"
 #include "cli/query.h"
 #include "materials/index/library.h"
 #include "materials/interface/fresnel.h"
+#include "materials/interface/prism.h"
 
 namespace abbe::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "cli/ray_trace.h"
 #include "scene/description/load.h"
+#include "transport/path/ray_trace.h"
 
 namespace abbe::cli {
 namespace {

@@ -1,34 +1,16 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "io/diagnostics.h"
 #include "sensor/response/channel.h"
+#include "spectral/chart.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
 
 namespace abbe {
-
-/// One patch of a colour chart.
-struct Patch {
-  std::string name;
-  Curve reflectance;
-};
-
-/// A chart: named patches in the order of its table.
-struct Chart {
-  std::string name;
-  std::vector<Patch> patches;
-};
-
-/// The chart of one table of `data/reflectance` (or of a user's file), one patch per column, e.g.
-/// "colorchecker24_babelcolor_average".
-[[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
-                                              Diagnostics& diagnostics);
 
 /// Raw values of a reflectance under an illuminant in channel order: 1 nm sums over 380-780 nm, divided by
 /// the value of the perfect diffuser in the channel named G, else Y, else the first. Throws Error{input} when

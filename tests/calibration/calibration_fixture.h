@@ -1,16 +1,13 @@
 #pragma once
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "calibration/chart/patches.h"
 #include "io/error.h"
 #include "spectral/library.h"
-#include "tests/reference/reference_table.h"
 
 namespace abbe::test {
 
@@ -33,13 +30,6 @@ inline std::vector<Channel> camera(const std::string& name = "Nikon_D5100") {
   auto loaded = load_camera(name, {}, diagnostics);
   EXPECT_TRUE(loaded.has_value()) << diagnostics.text();
   return loaded.value_or(std::vector<Channel>{});
-}
-
-/// The nine entries m11 ... m33 of a row of known answers.
-inline void expect_matrix(const Matrix3& m, const ReferenceTable& table, std::size_t row, double margin) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      EXPECT_NEAR(m[i][j], table.number(row, fmt::format("m{}{}", i + 1, j + 1)), margin) << "row " << row;
 }
 
 /// The Error that `f` throws must have this code and contain this text.

@@ -16,21 +16,6 @@ void expect_white_kept(const PatchColors& colors, const Matrix3& m) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(white[i], colors.white[i], 4e-16);
 }
 
-TEST(LeastSquaresMatrix, ReproducesTheReference) {
-  const test::ReferenceTable table("camera_least_squares_matrix");
-  ASSERT_EQ(table.rows(), 6U);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const PatchColors colors =
-        integrate(test::chart(table.text(row, "spectra")), test::camera(table.text(row, "camera")),
-                  test::illuminant(table.text(row, "illuminant")));
-    const Matrix3 m = least_squares_matrix(colors);
-    test::expect_matrix(m, table, row, 1e-6);
-    const PatchErrors errors = patch_errors(colors, m);
-    EXPECT_NEAR(errors.mean, table.number(row, "dE00_mean"), 5.1e-5);
-    EXPECT_NEAR(errors.max, table.number(row, "dE00_max"), 5.1e-5);
-  }
-}
-
 TEST(MatrixFit, ImprovesOnItsStartAndKeepsTheWhite) {
   for (const char* light : {"A", "D65", "FL11"}) {
     const PatchColors colors = nikon(light);

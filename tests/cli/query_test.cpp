@@ -8,8 +8,8 @@
 
 #include "cli/query.h"
 
+#include "io/reference_table.h"
 #include "tests/cli/ask.h"
-#include "tests/reference/reference_table.h"
 
 namespace abbe::test {
 namespace {

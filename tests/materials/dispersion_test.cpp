@@ -5,12 +5,8 @@
 
 #include <cmath>
 
-#include "tests/materials/reference.h"
-
 namespace abbe {
 namespace {
-
-constexpr double kLineC = 656.2725, kLineD = 587.5618, kLineF = 486.1327;
 
 DispersionFormula formula(int id, std::initializer_list<double> c) {
   DispersionFormula f{.id = id, .c = {}, .terms = static_cast<int>(c.size())};
@@ -102,40 +98,6 @@ TEST(Dispersion, FindsIndicesBelowOne) {
   const auto fault = dispersion_fault(formula(5, {0.9, 0.05, -2}), 400, 1000);
   ASSERT_TRUE(fault);
   EXPECT_EQ(*fault, "dispersion formula 5 gives n = 0.999748 at 708 nm (allowed above 1)");
-}
-
-TEST(Dispersion, ReproducesTheReferenceLines) {
-  const Reference lines("refractive_index_lines.csv");
-  const std::pair<const char*, double> columns[] = {
-      {"n_h", 404.6561}, {"n_g", 435.8343}, {"n_Fprime", 479.9914}, {"n_F", kLineF}, {"n_e", 546.0740},
-      {"n_d", kLineD},   {"n_D", 589.2938}, {"n_Cprime", 643.8469}, {"n_C", kLineC}, {"n_r", 706.5188}};
-  ASSERT_GE(lines.rows(), 30U);
-  for (std::size_t row = 0; row < lines.rows(); ++row) {
-    const std::string& id = lines.text(row, "id");
-    const RefractiveIndex index = index_of(id);
-    for (const auto& [column, nm] : columns) {
-      if (lines.text(row, column).empty()) continue;
-      EXPECT_NEAR(index.catalogued_n(nm), lines.number(row, column), 0.5001e-7) << id << " " << column;
-    }
-    if (lines.text(row, "nd_catalog").empty()) continue;
-    EXPECT_NEAR(index.catalogued_n(kLineD), lines.number(row, "nd_catalog"), 1e-5) << id;
-  }
-}
-
-TEST(Dispersion, ReproducesPublishedIndices) {
-  const struct {
-    const char* name;
-    double C, d, F;
-  } published[] = {{"N-BK7", 1.514322, 1.516800, 1.522376},
-                   {"F2", 1.615032, 1.620040, 1.632081},
-                   {"fused_silica", 1.456367, 1.458464, 1.463126},
-                   {"water_20.0C", 1.331513, 1.333403, 1.337492}};
-  for (const auto& p : published) {
-    const RefractiveIndex index = index_of(p.name);
-    EXPECT_NEAR(index.catalogued_n(kLineC), p.C, 0.51e-6) << p.name;
-    EXPECT_NEAR(index.catalogued_n(kLineD), p.d, 0.51e-6) << p.name;
-    EXPECT_NEAR(index.catalogued_n(kLineF), p.F, 0.51e-6) << p.name;
-  }
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/materials/reference.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {
@@ -15,57 +15,6 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 double cosine(double degrees) {
   return degrees == 90 ? 0 : std::cos(degrees * kDegree);
-}
-
-TEST(Fresnel, ReproducesTheReferenceMetals) {
-  const Reference metals("metal_reflectance.csv");
-  ASSERT_GE(metals.rows(), 150U);
-  std::string loaded;
-  RefractiveIndex index(1.0);
-  for (std::size_t row = 0; row < metals.rows(); ++row) {
-    if (metals.text(row, "name") != loaded) index = index_of(loaded = metals.text(row, "name"));
-    const double nm = metals.number(row, "wavelength_nm");
-    EXPECT_NEAR(index.catalogued_n(nm), metals.number(row, "n"), 5e-6 * metals.number(row, "n"))
-        << loaded << " " << nm;
-    EXPECT_NEAR(index.k(nm), metals.number(row, "k"), 5e-6 * metals.number(row, "k")) << loaded << " " << nm;
-    const auto f =
-        fresnel_conductor(cosine(metals.number(row, "theta_deg")), index.catalogued_n(nm), index.k(nm));
-    EXPECT_NEAR(f.Rs, metals.number(row, "Rs"), 0.5001e-8) << loaded << " " << nm;
-    EXPECT_NEAR(f.Rp, metals.number(row, "Rp"), 0.5001e-8) << loaded << " " << nm;
-    EXPECT_NEAR(f.R(), metals.number(row, "R_unpol"), 0.5001e-8) << loaded << " " << nm;
-  }
-}
-
-TEST(Fresnel, ReproducesTheReferenceDielectrics) {
-  const Reference glasses("critical_brewster_fresnel.csv");
-  ASSERT_GE(glasses.rows(), 20U);
-  for (std::size_t row = 0; row < glasses.rows(); ++row) {
-    const double n = index_of(glasses.text(row, "id")).catalogued_n(glasses.number(row, "wavelength_nm"));
-    for (const char* angle : {"0", "30", "45", "60", "75", "85"}) {
-      const auto f = fresnel_dielectric(cosine(std::atof(angle)), n);
-      EXPECT_NEAR(f.Rs, glasses.number(row, std::string("Rs_") + angle), 0.5001e-8);
-      EXPECT_NEAR(f.Rp, glasses.number(row, std::string("Rp_") + angle), 0.5001e-8);
-    }
-    EXPECT_NEAR(fresnel_dielectric(cosine(glasses.number(row, "brewster_outside_deg")), n).Rp, 0, 1e-14);
-    EXPECT_NEAR(fresnel_dielectric(cosine(glasses.number(row, "brewster_inside_deg")), 1 / n).Rp, 0, 1e-14);
-    const double critical = glasses.number(row, "critical_deg");
-    EXPECT_EQ(fresnel_dielectric(cosine(critical + 1e-6), 1 / n).Ts, 0);
-    EXPECT_GT(fresnel_dielectric(cosine(critical - 1e-6), 1 / n).Ts, 0);
-  }
-}
-
-TEST(Fresnel, MetalsAtThreeAngles) {
-  const RefractiveIndex aluminium(1.0152, 6.6273);
-  const RefractiveIndex silver = index_of("Ag_Johnson");
-  const struct {
-    double n, k, at0, at60, at80;
-  } metals[] = {{1.0152, 6.6273, .915369, .900335, .859760},
-                {silver.catalogued_n(550), silver.k(550), .983054, .981033, .983150}};
-  for (const auto& m : metals) {
-    EXPECT_NEAR(fresnel_conductor(1.0, m.n, m.k).R(), m.at0, 1e-6);
-    EXPECT_NEAR(fresnel_conductor(cosine(60), m.n, m.k).R(), m.at60, 1e-6);
-    EXPECT_NEAR(fresnel_conductor(cosine(80), m.n, m.k).R(), m.at80, 1e-6);
-  }
 }
 
 TEST(Fresnel, GlassAtNormalIncidenceAndSchlick) {
@@ -90,17 +39,6 @@ TEST(Fresnel, SchlickIsNoSubstitute) {
   EXPECT_NEAR(worst(1.333, 0).first, 0.0591, 1e-4);
   const RefractiveIndex aluminium = index_of("Al_Rakic");
   EXPECT_NEAR(worst(aluminium.n(650), aluminium.k(650)).first, 0.1296, 0.51e-4);
-}
-
-TEST(Fresnel, PrismThroughputWithPolarisationKept) {
-  const double n = index_of("N-BK7").catalogued_n(587.5618);
-  const double incidence = std::asin(n / 2);
-  const auto in = fresnel_dielectric(std::cos(incidence), n);
-  const auto out = fresnel_dielectric(in.cos_t, 1 / n);
-  EXPECT_NEAR(in.Ts * out.Ts, .786084, 1e-6);
-  EXPECT_NEAR(in.Tp * out.Tp, .991278, 1e-6);
-  EXPECT_NEAR((in.Ts * out.Ts + in.Tp * out.Tp) / 2, .888681, 1e-6);
-  EXPECT_NEAR(in.transmitted() * out.transmitted(), .885710, 1e-6);
 }
 
 TEST(Fresnel, LosesNothing) {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/materials/reference.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {

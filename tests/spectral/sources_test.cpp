@@ -7,7 +7,6 @@
 
 #include "io/error.h"
 #include "spectral/library.h"
-#include "tests/reference/reference_table.h"
 
 namespace abbe {
 namespace {
@@ -24,19 +23,6 @@ TEST(Quantities, spectral_densities) {
   EXPECT_NEAR(band(400, 800, 0.25).integral(), 100, 1e-12);
 }
 
-TEST(Planck, spectral_radiance) {
-  const test::ReferenceTable table("planckian");
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double kelvin = table.number(row, "T_K");
-    const Curve curve = planck(kelvin);
-    for (const int nm : {400, 500, 550, 600, 700}) {
-      const double expected = table.number(row, "L_" + std::to_string(nm));
-      EXPECT_NEAR(planck_radiance(kelvin, nm), expected, 1e-7 * expected) << kelvin << " K, " << nm << " nm";
-      EXPECT_EQ(curve(nm), planck_radiance(kelvin, nm));
-    }
-  }
-}
-
 TEST(Planck, stefan_boltzmann_law) {
   // pi times the integral over all wavelengths is 5.670374e-8 T^4; the long tail in steps of 0.1 %.
   const double kelvin = 6000;
@@ -48,20 +34,6 @@ TEST(Planck, stefan_boltzmann_law) {
 TEST(Planck, does_not_overflow) {
   EXPECT_EQ(planck_radiance(1, 300), 0);
   EXPECT_GT(planck_radiance(1e6, 1100), 0);
-}
-
-TEST(Daylight, reproduces_the_cie_series) {
-  const test::ReferenceTable table("cie_D_series_from_components");
-  for (const std::string name : {"D50", "D55", "D65", "D75"}) {
-    // The nominal temperature in the scale of c2 = 1.4388e-2 m K.
-    const Curve curve = daylight(100 * std::stod(name.substr(1)) * 1.4388 / 1.4380);
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      const double expected = table.number(row, name);
-      EXPECT_NEAR(curve(table.number(row, "wavelength_nm")), expected, 1e-5 * expected + 1e-9);
-    }
-    EXPECT_EQ(curve(831), 0);
-    EXPECT_GT(curve(830), 0);
-  }
 }
 
 TEST(Daylight, agrees_with_the_tabulated_illuminants) {

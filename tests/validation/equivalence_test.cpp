@@ -23,25 +23,38 @@ TEST(Equivalence, NoNumberFails) {
 
 // The closed forms themselves, against published or independently computed figures.
 TEST(Cases, ExpectedValuesAreTheKnownFigures) {
-  const auto expected = [](const std::string& title) {
-    for (const Case& item : radiometry_cases())
-      if (item.title.find(title) != std::string::npos) return item.expected;
+  const auto expected = [](const std::string& id) {
+    for (const Case& item : all_cases())
+      if (const auto* film = std::get_if<FilmMean>(&item.method); film && item.id == id)
+        return film->expected;
+    ADD_FAILURE() << id;
     return 0.0;
   };
-  EXPECT_NEAR(expected("reflectance 0.5: mean"), 104.16667 * 2, 1e-4);
-  EXPECT_NEAR(expected("centre of a wall"), 198.94368, 1e-5);
-  EXPECT_NEAR(expected("at a corner"), 38.28673, 1e-5);
   const double pi = 3.14159265358979;
-  EXPECT_NEAR(expected("under its corner") / pi, 0.13853161, 1e-8);
-  EXPECT_NEAR(expected("under its centre") / pi, 0.23945647, 1e-8);
-  EXPECT_NEAR(expected("above the receiver's horizon") / pi, 0.05573420, 1e-8);
-  EXPECT_NEAR(expected("on its axis") / pi, 0.5, 1e-12);
-  EXPECT_NEAR(expected("off its axis") / pi, 0.06587843, 1e-8);
-  EXPECT_NEAR(expected("at most 4 vertices") / pi, 0.5904, 1e-12);
-  EXPECT_NEAR(expected("plate along its normal") * 4 / pi, 0.92307692, 1e-5);
-  EXPECT_NEAR(expected("plate at 60 degrees") * 4 / pi, 0.836232, 1e-5);
-  EXPECT_NEAR(expected("absorbing plate, transmitted") * 4 / pi, 0.33911112, 1e-5);
-  EXPECT_NEAR(expected("absorbing plate, reflected") * 4 / pi, 0.04499008, 1e-5);
+  const std::vector<std::pair<const char*, double>> known{{"T1-0.5", 104.16667 * 2},
+                                                          {"T2-centre", 198.94368},
+                                                          {"T2-corner", 38.28673},
+                                                          {"T3-corner", .13853161 * pi},
+                                                          {"T3-centre", .23945647 * pi},
+                                                          {"T4", .05573420 * pi},
+                                                          {"T5-axis", .5 * pi},
+                                                          {"T5-off", .06587843 * pi},
+                                                          {"T6-adjacent", .20004378 * pi},
+                                                          {"T8", 100 / (4 * pi) * 32.885906 / .98},
+                                                          {"T9-outer", .4},
+                                                          {"T9-inner", .2},
+                                                          {"T10-upper", 4.0 / 3},
+                                                          {"T10-lower", 2.0 / 3},
+                                                          {"T11-4", .5904 * pi},
+                                                          {"T13-0", .92307692 * pi / 4},
+                                                          {"T13-60", .836232 * pi / 4},
+                                                          {"T14-2", .85714286 * pi / 4},
+                                                          {"T14-3", .8 * pi / 4},
+                                                          {"T15-T", .33911112 * pi / 4},
+                                                          {"T15-R", .04499008 * pi / 4}};
+  for (const auto& [id, value] : known) EXPECT_NEAR(expected(id), value, 1e-5 * value) << id;
+  EXPECT_NEAR(expected("T17-60") / expected("T17-0"), 0.60899778, 1e-8);
+  EXPECT_NEAR(expected("T17-90") / expected("T17-0"), 0.31830989, 1e-8);
 }
 
 }  // namespace

@@ -1,40 +1,100 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "io/image.h"
 #include "scene/description/load.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {
 
-/// A scene whose answer is known in closed form.
-struct Case {
-  std::string id;
-  std::string title;
-  std::string source;              ///< Formula and key of the reference.
+/// One figure of the program beside what it should be.
+struct Figure {
+  std::string what;  ///< Which of a case's figures; empty where it has one.
+  double reference;
+  Estimate measured;  ///< Its standard error is 0 where nothing is sampled.
+
+  /// Measured minus reference.
+  [[nodiscard]] double deviation() const { return measured.mean - reference; }
+};
+
+/// The largest deviation that passes.
+struct Margin {
+  enum class Kind { absolute, relative };
+  double value;
+  Kind kind = Kind::absolute;
+
+  /// For one reference value, in its unit.
+  [[nodiscard]] double of(double reference) const;
+};
+
+/// Figures that follow from formulas and tables alone.
+struct Computed {
+  std::function<std::vector<Figure>()> figures;
+};
+
+/// The mean of a rendered film's channel, which closed forms tell.
+struct FilmMean {
   std::string scene;               ///< Relative to `data/scenes/validation`.
   std::vector<Override> settings;  ///< Applied to the scene.
-  std::string channel;             ///< Film channel that is compared.
-  double expected;                 ///< Mean film value of that channel.
-  int samples;                     ///< Per pixel, for the default margin.
-  double margin = 0.01;            ///< Relative.
-  double nightly_margin = 0.002;
+  std::string channel;
+  double expected;
+  int samples;         ///< Per pixel, for the margin of the case.
+  double fine_margin;  ///< Relative; for a thorough run.
+};
+
+/// A unit of the report.
+enum class Suite { optics, radiometry, colour, camera, sensor };
+inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor"};
+
+/// Something whose answer is known.
+struct Case {
+  Suite suite;
+  std::string id;  ///< Unique.
+  std::string title;
+  std::string source;  ///< Formula or measurement, with its key in `docs/references.bib`.
+  std::string unit;    ///< Of the figures; empty for pure numbers.
+  Margin margin;
+  std::variant<Computed, FilmMean> method;
+};
+
+/// How carefully to measure.
+struct CaseSettings {
+  bool thorough = false;  ///< Films at their fine margins.
+  int threads = 0;        ///< 0: one per processor.
 };
 
 /// What a case measured.
 struct CaseResult {
-  Estimate measured;
-  Verdict verdict;
-  int samples;
+  std::vector<Figure> figures;
+  Margin margin;      ///< Of this run.
+  Verdict verdict;    ///< An inconclusive end counts as a failure.
+  std::size_t worst;  ///< Of the figures, the one furthest from its reference in margins.
+  int samples;        ///< Per pixel; 0 where nothing was rendered.
   double cpu_s;
+  std::optional<Image> picture;  ///< The film, where one was rendered.
+
+  [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
 
-/// Renders the case, with up to 4 doublings of the samples while the verdict is open. An inconclusive end
-/// counts as a failure. Throws Error{internal} when the scene does not load.
-[[nodiscard]] CaseResult run_case(const Case& item, double margin);
+/// Measures one case. A film gets up to 4 doublings of its samples while the verdict is open. Throws
+/// Error{internal} when its scene does not load, and as its tables' loaders do.
+[[nodiscard]] CaseResult run_case(const Case& item, const CaseSettings& settings = {});
 
-/// Radiometric closed forms: rooms, form factors, integrating spheres, furnaces, slabs.
-[[nodiscard]] std::vector<Case> radiometry_cases();
+/// All cases, suite by suite.
+[[nodiscard]] const std::vector<Case>& all_cases();
+
+/// Something of the trade that a validation should know and Abbe cannot do yet.
+struct Uncovered {
+  Suite suite;
+  std::string what;
+  std::string reason;
+};
+[[nodiscard]] const std::vector<Uncovered>& uncovered();
 
 }  // namespace abbe

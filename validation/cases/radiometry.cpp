@@ -5,8 +5,9 @@
 
 #include "materials/interface/fresnel.h"
 #include "spectral/colorimetry.h"
-#include "spectral/library.h"
-#include "validation/cases/case.h"
+#include "validation/cases/film_case.h"
+#include "validation/cases/suites.h"
+#include "validation/cases/tables.h"
 
 namespace abbe {
 namespace {
@@ -67,147 +68,94 @@ Plate plate(double angle_deg, double n, double internal) {
   return {(1 - r) * (1 - r) * internal / loop, r + (1 - r) * (1 - r) * r * internal * internal / loop};
 }
 
+// From one face of a cube to the one opposite.
+constexpr double kOppositeFaces = 0.19982490;
+
+// N plates one after the other, all reflections between them counted: (1 - R)/(1 + (2N - 1) R).
+double pile_transmittance(int plates, double n) {
+  const double r = fresnel_dielectric(1.0, n).R();
+  return (1 - r) / (1 + (2 * plates - 1) * r);
+}
+
+// Plates of glass 1 m thick and 1 m apart, as shapes of `slab.json`.
+Override plates(int count) {
+  std::string shapes;
+  for (int face = 0; face < 2 * count; ++face)
+    shapes += fmt::format(
+        R"({}{{"quad": {{"corner": [-1000, -1000, {}], "edge_u": {}, "edge_v": {}}}, "material": "glass"}})",
+        face == 0 ? "" : ", ", face, face % 2 == 0 ? "[0, 2000, 0]" : "[2000, 0, 0]",
+        face % 2 == 0 ? "[2000, 0, 0]" : "[0, 2000, 0]");
+  return {"/shapes", "[" + shapes + "]"};
+}
+
 std::vector<Case> room_cases() {
   std::vector<Case> cases;
   for (const double reflectance : {0.0, 0.2, 0.5, 0.8, 0.95})
-    cases.push_back({"T1",
-                     fmt::format("cubic room, reflectance {}: mean irradiance of a wall", reflectance),
-                     "closed-enclosure balance [CIE171, 5.8]",
-                     "room.json",
-                     {{"/materials/wall/diffuse/reflectance", fmt::format("{}", reflectance)}},
-                     "Y",
-                     room_irradiance(10000, 4, reflectance),
-                     reflectance > 0.9 ? 256 : 64});
-  const auto direct_at = [](const char* where, const char* at, double expected) {
-    return Case{
-        "T2",
-        fmt::format("cubic room, direct light at {}", where),
-        "inverse square and cosine laws",
-        "room.json",
-        {{"/materials/wall/diffuse/reflectance", "0"},
-         {"/camera", fmt::format(R"({{"irradiance_probe": {{"at": {}, "normal": [0, 0, 1]}}}})", at)}},
-        "Y",
-        expected,
-        4};
+    cases.push_back(
+        film_case(fmt::format("T1-{}", reflectance),
+                  fmt::format("cubic room, reflectance {}: mean irradiance of a wall", reflectance),
+                  "balance of a closed enclosure [CIE171, 5.8]", "room.json",
+                  {{"/materials/wall/diffuse/reflectance", fmt::format("{}", reflectance)}},
+                  room_irradiance(10000, 4, reflectance), reflectance > 0.9 ? 256 : 64));
+  const auto direct_at = [](const char* id, const char* where, const char* at, double expected) {
+    return film_case(id, fmt::format("cubic room, direct light at {}", where),
+                     "inverse square and cosine laws [Lambert1760]", "room.json",
+                     {{"/materials/wall/diffuse/reflectance", "0"}, probe_at(at, "[0, 0, 1]")}, expected, 4);
   };
   const double intensity = 10000 / (4 * kPi);
-  cases.push_back(direct_at("the centre of a wall", "[0, 0, -2]", intensity / 4));
-  cases.push_back(direct_at("a corner", "[1.999999, 1.999999, -2]", intensity / 12 / std::sqrt(3.0)));
+  cases.push_back(direct_at("T2-centre", "the centre of a wall", "[0, 0, -2]", intensity / 4));
+  cases.push_back(
+      direct_at("T2-corner", "a corner", "[1.999999, 1.999999, -2]", intensity / 12 / std::sqrt(3.0)));
   return cases;
 }
 
 std::vector<Case> form_factor_cases() {
-  const auto probe = [](const char* at, const char* normal) {
-    return Override{"/camera",
-                    fmt::format(R"({{"irradiance_probe": {{"at": {}, "normal": {}}}}})", at, normal)};
-  };
   return {
-      {"T3",
-       "square emitter, under its corner",
-       "configuration factor [Howell2010, B-4]",
-       "rectangle.json",
-       {},
-       "Y",
-       kPi * corner_factor(1, 1),
-       64},
-      {"T3",
-       "square emitter, under its centre",
-       "four corner factors",
-       "rectangle.json",
-       {probe("[0.5, 0.5, 0]", "[0, 0, 1]")},
-       "Y",
-       kPi * 4 * corner_factor(0.5, 0.5),
-       64},
-      {"T3",
-       "square emitter facing along x",
-       "configuration factor [Howell2010, B-4]",
-       "rectangle.json",
-       {probe("[0, 0, 0]", "[1, 0, 0]"),
-        {"/lights/0/quad/corner", "[1, 0, 0]"},
-        {"/lights/0/quad/edge_u", "[0, 0, 1]"},
-        {"/lights/0/quad/edge_v", "[0, 1, 0]"}},
-       "Y",
-       kPi * corner_factor(1, 1),
-       64},
-      {"T4",
-       "square emitter above the receiver's horizon",
-       "configuration factor [Howell2010, B-3]",
-       "rectangle.json",
-       {probe("[0, 0, 0]", "[1, 0, 0]")},
-       "Y",
-       kPi * perpendicular_factor(1, 1),
-       64},
-      {"T5",
-       "disc emitter, on its axis",
-       "configuration factor [Howell2010, B-12]",
-       "disc.json",
-       {},
-       "Y",
-       kPi * disc_factor(1, 1, 0),
-       64},
-      {"T5",
-       "disc emitter, off its axis",
-       "configuration factor [Howell2010, B-13]",
-       "disc.json",
-       {probe("[1, 0, 0]", "[0, 0, 1]"), {"/lights/0/disc/radius", "0.5"}},
-       "Y",
-       kPi * disc_factor(0.5, 1, 1),
-       64},
-  };
-}
-
-std::vector<Case> enclosure_cases() {
-  const double offset = 0.3;
-  const double distance2 = 1 + offset * offset;
-  const double direct = 100 / (4 * kPi * distance2) / std::sqrt(distance2);
-  const auto truncated = [](int vertices) {
-    return Case{"T11",
-                fmt::format("furnace, paths of at most {} vertices", vertices),
-                "geometric series",
-                "furnace.json",
-                {{"/render/max_depth", fmt::format("{}", vertices - 1)}},
-                "Y",
-                kPi * (1 - std::pow(0.8, vertices)),
-                16};
-  };
-  return {
-      {"T7",
-       "integrating sphere, lamp off centre",
-       "sphere multiplier",
-       "integrating_sphere.json",
-       {},
-       "Y",
-       direct + 100 / (4 * kPi) * 0.5 / (1 - 0.5),
-       64},
-      {"T11", "furnace: emission 0.2, reflectance 0.8", "geometric series", "furnace.json", {}, "Y", kPi, 64},
-      truncated(4),
-      truncated(16),
+      film_case("T3-corner", "square emitter, under its corner", "configuration factor [Howell2010, B-4]",
+                "rectangle.json", {}, kPi * corner_factor(1, 1), 64),
+      film_case("T3-centre", "square emitter, under its centre", "four corner factors [Howell2010, B-4]",
+                "rectangle.json", {probe_at("[0.5, 0.5, 0]", "[0, 0, 1]")}, kPi * 4 * corner_factor(0.5, 0.5),
+                64),
+      film_case("T3-x", "square emitter facing along x", "configuration factor [Howell2010, B-4]",
+                "rectangle.json",
+                {probe_at("[0, 0, 0]", "[1, 0, 0]"),
+                 {"/lights/0/quad/corner", "[1, 0, 0]"},
+                 {"/lights/0/quad/edge_u", "[0, 0, 1]"},
+                 {"/lights/0/quad/edge_v", "[0, 1, 0]"}},
+                kPi * corner_factor(1, 1), 64),
+      film_case("T4", "square emitter above the receiver's horizon", "configuration factor [Howell2010, B-3]",
+                "rectangle.json", {probe_at("[0, 0, 0]", "[1, 0, 0]")}, kPi * perpendicular_factor(1, 1), 64),
+      film_case("T5-axis", "disc emitter, on its axis", "configuration factor [Howell2010, B-12]",
+                "disc.json", {}, kPi * disc_factor(1, 1, 0), 64),
+      film_case("T5-off", "disc emitter, off its axis", "configuration factor [Howell2010, B-13]",
+                "disc.json", {probe_at("[1, 0, 0]", "[0, 0, 1]"), {"/lights/0/disc/radius", "0.5"}},
+                kPi * disc_factor(0.5, 1, 1), 64),
+      film_case("T6-opposite", "opposite faces of a cube", "view factor [Howell2010, C-11]",
+                "cube_faces.json", {}, kPi * kOppositeFaces, 64),
+      film_case("T6-adjacent", "adjacent faces of a cube", "view factors add up to 1 [Howell2010, C-14]",
+                "cube_faces.json",
+                {{"/camera/irradiance_probe/quad",
+                  R"({"corner": [0, 0, 0], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]})"}},
+                kPi * (1 - kOppositeFaces) / 4, 64),
   };
 }
 
 std::vector<Case> dome_cases() {
-  const auto sphere_of = [](const char* material, const char* what) {
-    return Case{"T12",
-                fmt::format("{} sphere under a uniform dome", what),
-                "energy conservation",
-                "dome.json",
-                {{"/shapes/0/material", material}},
-                "Y",
-                pinhole_exposure(12),
-                256};
+  const auto sphere_of = [](const std::string& material, const std::string& what) {
+    return film_case("T12-" + material, what + " sphere under a uniform dome",
+                     "nothing is lost [Pharr2023, sec. 13.3]", "dome.json",
+                     {{"/shapes/0/material", material}}, pinhole_exposure(12), 256);
   };
   std::vector<Case> cases{sphere_of("glass", "glass"), sphere_of("diamond", "diamond"),
                           sphere_of("mirror", "mirror"), sphere_of("white", "white Lambertian")};
-  Case lamp = sphere_of("diamond", "diamond");
-  lamp.title += " of a fluorescent lamp, blue channel";
-  lamp.settings.push_back({"/lights/0/emission/illuminant", "FL11"});
-  lamp.channel = "Z";
   // FL11's Z per unit luminance, by the tables themselves.
-  Diagnostics diagnostics;
-  const std::optional<NamedCurve> fl11 = load_illuminant("FL11", {}, diagnostics);
+  const Curve fl11 = shipped_illuminant("FL11");
   const ColorMatching& cmf = color_matching(Observer::cie1931);
-  lamp.expected *= product(fl11->curve, cmf.z).integral() / product(fl11->curve, cmf.y).integral();
-  cases.push_back(lamp);
+  const double blue = product(fl11, cmf.z).integral() / product(fl11, cmf.y).integral();
+  cases.push_back(film_case("T12-FL11", "diamond sphere under a dome of a fluorescent lamp, blue channel",
+                            "nothing is lost [Pharr2023, sec. 13.3]", "dome.json",
+                            {{"/shapes/0/material", "diamond"}, {"/lights/0/emission/illuminant", "FL11"}},
+                            pinhole_exposure(12) * blue, 256, "Z"));
   return cases;
 }
 
@@ -215,52 +163,62 @@ std::vector<Case> slab_cases() {
   const double unit = pinhole_exposure(0.2);
   const Override oblique{"/camera/from", "[-34.64101615137755, 0, -20]"};
   const Override absorbing{"/materials/glass/dielectric/absorption_per_m", "1"};
+  const std::string bounces = "all internal bounces [Born1999, sec. 7.6]";
   return {
-      {"T13",
-       "plate along its normal",
-       "all internal bounces",
-       "slab.json",
-       {},
-       "Y",
-       unit * plate(0, 1.5, 1).transmittance,
-       64},
-      {"T13",
-       "plate at 60 degrees, polarisation not carried",
-       "unpolarised reflectance chained",
-       "slab.json",
-       {oblique},
-       "Y",
-       unit * plate(60, 1.5, 1).transmittance,
-       256},
-      {"T15",
-       "absorbing plate, transmitted",
-       "Beer and all internal bounces",
-       "slab.json",
-       {absorbing},
-       "Y",
-       unit * plate(0, 1.5, std::exp(-1.0)).transmittance,
-       256},
-      {"T15",
-       "absorbing plate, reflected",
-       "Beer and all internal bounces",
-       "slab.json",
-       {absorbing,
-        {"/lights/0/quad/corner", "[-1000, -1000, -50]"},
-        {"/lights/0/quad/edge_u", "[2000, 0, 0]"},
-        {"/lights/0/quad/edge_v", "[0, 2000, 0]"}},
-       "Y",
-       unit * plate(0, 1.5, std::exp(-1.0)).reflectance,
-       1024},
+      film_case("T13-0", "plate along its normal", bounces, "slab.json", {},
+                unit * plate(0, 1.5, 1).transmittance, 64),
+      film_case("T13-60", "plate at 60°, polarisation not carried",
+                "chained unpolarised reflectances, " + bounces, "slab.json", {oblique},
+                unit * plate(60, 1.5, 1).transmittance, 256),
+      film_case("T14-2", "two plates along their normal", "pile of plates [Stokes1862]", "slab.json",
+                {plates(2)}, unit * pile_transmittance(2, 1.5), 64),
+      film_case("T14-3", "three plates along their normal", "pile of plates [Stokes1862]", "slab.json",
+                {plates(3)}, unit * pile_transmittance(3, 1.5), 64),
+      film_case("T15-T", "absorbing plate, transmitted", "Beer's law and " + bounces, "slab.json",
+                {absorbing}, unit * plate(0, 1.5, std::exp(-1.0)).transmittance, 256),
+      film_case("T15-R", "absorbing plate, reflected", "Beer's law and " + bounces, "slab.json",
+                {absorbing,
+                 {"/lights/0/quad/corner", "[-1000, -1000, -50]"},
+                 {"/lights/0/quad/edge_u", "[2000, 0, 0]"},
+                 {"/lights/0/quad/edge_v", "[0, 2000, 0]"}},
+                unit * plate(0, 1.5, std::exp(-1.0)).reflectance, 1024),
+      film_case("T16-outside", "glass in diffuse light, seen from outside",
+                "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json", {},
+                kPi * 0.09177796, 256),
+      film_case("T16-inside", "glass in diffuse light, as seen from inside",
+                "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json",
+                {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}}, kPi * 0.59634576, 64),
   };
+}
+
+// A Lambertian sphere of radius 1 m, its lamp (1 lx there) and the camera both 10 km away, at a phase angle.
+Case phase_case(double phase_deg) {
+  constexpr double kDistance = 1e4;
+  constexpr double kFovDeg = 0.0126;
+  const double phase = phase_deg * kPi / 180;
+  const double intensity = 2.0 / 3 / kPi * (std::sin(phase) + (kPi - phase) * std::cos(phase));
+  const double width = 2 * kDistance * std::tan(kFovDeg / 2 * kPi / 180);
+  return film_case(
+      fmt::format("T17-{}", phase_deg), fmt::format("Lambertian sphere at a phase angle of {}°", phase_deg),
+      "sin α + (π - α) cos α [Lambert1760]", "phase.json",
+      {{"/camera/pinhole/fov_deg", fmt::format("{}", kFovDeg)},
+       {"/lights/0/point/at",
+        fmt::format("[{}, 0, {}]", kDistance * std::sin(phase), kDistance * std::cos(phase))},
+       {"/lights/0/emission/luminous_flux_lm", fmt::format("{}", 4 * kPi * kDistance * kDistance)}},
+      kPi / 4 * intensity / (width * width), 64);
 }
 
 }  // namespace
 
+Override probe_at(const std::string& point, const std::string& normal) {
+  return {"/camera", fmt::format(R"({{"irradiance_probe": {{"at": {}, "normal": {}}}}})", point, normal)};
+}
+
 std::vector<Case> radiometry_cases() {
   std::vector<Case> all;
-  for (std::vector<Case> (*group)() :
-       {room_cases, form_factor_cases, enclosure_cases, dome_cases, slab_cases})
+  for (std::vector<Case> (*group)() : {room_cases, form_factor_cases, dome_cases, slab_cases})
     for (Case& item : group()) all.push_back(std::move(item));
+  for (const double phase : {0.0, 60.0, 90.0}) all.push_back(phase_case(phase));
   return all;
 }
 

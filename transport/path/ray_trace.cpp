@@ -1,4 +1,4 @@
-#include "cli/ray_trace.h"
+#include "transport/path/ray_trace.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,7 @@
 #include "materials/interface/fresnel.h"
 #include "materials/interface/snell.h"
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 using Kind = TraceEvent::Kind;
@@ -91,4 +91,4 @@ RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavel
   return trace;
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

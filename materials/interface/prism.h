@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace abbe::cli {
+namespace abbe {
 
 /// The straight way of a ray through a prism in its principal section: refracted at two faces, without
 /// reflections between them.
@@ -21,4 +21,4 @@ struct PrismPassage {
 /// sec. 4.7.2]. Nothing when n sin(A/2) >= 1.
 [[nodiscard]] std::optional<PrismPassage> prism_minimum(double n, double apex_deg);
 
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 /// What a smooth surface does to a ray. Indices are relative to air; n_to is that of the other side, which a
 /// reflected ray does not enter.
@@ -41,4 +41,4 @@ struct RayTrace {
 /// Angle between two directions of any length, accurate for small angles too [degrees].
 [[nodiscard]] double angle_deg(const Imath::V3d& a, const Imath::V3d& b);
 
-}  // namespace abbe::cli
+}  // namespace abbe

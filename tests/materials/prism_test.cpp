@@ -1,21 +1,13 @@
-#include "cli/prism.h"
+#include "materials/interface/prism.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 constexpr double kNbk7 = 1.5168000345005885;  // N-BK7 at 587.5618 nm
-
-TEST(Prism, MinimumDeviationAndThroughputOfTheKnownPrism) {
-  const auto passage = prism_minimum(kNbk7, 60);
-  ASSERT_TRUE(passage);
-  EXPECT_NEAR(passage->deviation_deg, 38.64670, 1e-5);
-  EXPECT_NEAR(passage->Ts, 0.786084, 1e-6);
-  EXPECT_NEAR(passage->Tp, 0.991278, 1e-6);
-}
 
 TEST(Prism, TwoRefractionsMeetTheClosedFormAtTheMinimum) {
   for (const double n : {1.3, kNbk7, 1.9}) {
@@ -50,4 +42,4 @@ TEST(Prism, TotalReflectionLetsNothingThrough) {
 }
 
 }  // namespace
-}  // namespace abbe::cli
+}  // namespace abbe

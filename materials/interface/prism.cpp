@@ -1,11 +1,11 @@
-#include "cli/prism.h"
+#include "materials/interface/prism.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "materials/interface/fresnel.h"
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -33,4 +33,4 @@ std::optional<PrismPassage> prism_minimum(double n, double apex_deg) {
                       face.Tp * face.Tp};
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

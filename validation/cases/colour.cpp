@@ -1,0 +1,228 @@
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/delta_e.h"
+#include "calibration/output/color_spaces.h"
+#include "io/reference_table.h"
+#include "spectral/sources.h"
+#include "validation/cases/figures.h"
+#include "validation/cases/suites.h"
+#include "validation/cases/tables.h"
+
+namespace abbe {
+namespace {
+
+constexpr SumRange kWholeObserver{360, 830};
+// The nominal temperatures of daylight are in the scale of c2 = 1.4380e-2 m K.
+constexpr double kDaylightScale = 1.4388 / 1.4380;
+
+std::vector<Figure> observer_sums() {
+  const auto add = [](std::vector<Figure>& figures, const char* name, const ColorMatching& cmf,
+                      const std::array<double, 3>& expected) {
+    const std::array<const Curve*, 3> curves{&cmf.x, &cmf.y, &cmf.z};
+    for (std::size_t i = 0; i < 3; ++i)
+      figures.push_back(exact_figure(fmt::format("{} {}", name, "xyz"[i]), expected[i],
+                                     sum_product(*curves[i], Curve(1), kWholeObserver)));
+  };
+  std::vector<Figure> figures;
+  add(figures, "1931", color_matching(Observer::cie1931), {106.865469, 106.856917, 106.892251});
+  add(figures, "1964", color_matching(Observer::cie1964), {116.648519, 116.661877, 116.673981});
+  return figures;
+}
+
+Observer observer(const std::string& degrees) {
+  return degrees == "2" ? Observer::cie1931 : Observer::cie1964;
+}
+
+void add_chromaticity(std::vector<Figure>& figures, const std::string& name,
+                      const std::array<double, 2>& reference, const XYZ& measured) {
+  const std::array<double, 2> xy = chromaticity(measured);
+  figures.push_back(exact_figure(name + " x", reference[0], xy[0]));
+  figures.push_back(exact_figure(name + " y", reference[1], xy[1]));
+}
+
+// Chromaticities of the white points in the columns x_`kind` and y_`kind`, where the table has them.
+std::vector<Figure> white_points(const std::string& kind, SumRange range,
+                                 Curve (*illuminant)(const std::string&)) {
+  const ReferenceTable table("white_points");
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "x_" + kind).empty()) continue;
+    const std::string& degrees = table.text(row, "observer");
+    add_chromaticity(
+        figures, fmt::format("{} {}°", table.text(row, "illuminant"), degrees),
+        {table.number(row, "x_" + kind), table.number(row, "y_" + kind)},
+        tristimulus(illuminant(table.text(row, "illuminant")), Curve(1), observer(degrees), range));
+  }
+  return figures;
+}
+
+// An illuminant beyond its table: D by its components, A by its definition as the Planckian radiator of
+// 2848 K in the scale of c2 = 1.435e-2 m K.
+Curve by_definition(const std::string& name) {
+  if (name == "A") return planck(2848 * photon_energy(1) / kBoltzmann / 1.435e7);
+  if (name[0] == 'D') return daylight(100 * std::stod(name.substr(1)) * kDaylightScale);
+  return shipped_illuminant(name);
+}
+
+std::vector<Figure> summed_whites() {
+  return white_points("1nm", {}, shipped_illuminant);
+}
+std::vector<Figure> defined_whites() {
+  return white_points("full", kWholeObserver, by_definition);
+}
+std::vector<Figure> printed_whites() {
+  return white_points("pub", {}, shipped_illuminant);
+}
+
+std::vector<Figure> planckian_locus() {
+  const ReferenceTable table("planckian");
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double kelvin = table.number(row, "T_K");
+    add_chromaticity(figures, fmt::format("{} K", kelvin), {table.number(row, "x"), table.number(row, "y")},
+                     tristimulus(planck(kelvin), Curve(1), Observer::cie1931, kWholeObserver));
+  }
+  return figures;
+}
+
+std::vector<Figure> planckian_radiance() {
+  const ReferenceTable table("planckian");
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    for (const int nm : {400, 500, 550, 600, 700}) {
+      const double kelvin = table.number(row, "T_K");
+      figures.push_back(exact_figure(fmt::format("{} K {} nm", kelvin, nm),
+                                     table.number(row, fmt::format("L_{}", nm)), planck(kelvin)(nm)));
+    }
+  return figures;
+}
+
+std::vector<Figure> daylight_series() {
+  const ReferenceTable table("cie_D_series_from_components");
+  std::vector<Figure> figures;
+  for (const std::string name : {"D50", "D55", "D65", "D75"}) {
+    const Curve curve = by_definition(name);
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      const double nm = table.number(row, "wavelength_nm");
+      figures.push_back(exact_figure(fmt::format("{} {} nm", name, nm), table.number(row, name), curve(nm)));
+    }
+  }
+  return figures;
+}
+
+std::vector<Figure> luminous_efficacies() {
+  const ReferenceTable table("illuminant_cct_ler");
+  const Curve& v = color_matching(Observer::cie1931).y;
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const Curve light = shipped_illuminant(table.text(row, "illuminant"));
+    figures.push_back(exact_figure(table.text(row, "illuminant"), table.number(row, "LER_lm_per_W"),
+                                   kLuminousEfficacy * sum_product(light, v) / sum_product(light, Curve(1))));
+  }
+  return figures;
+}
+
+// The published pairs, each both ways round; `formula` of the two colours against a column.
+std::vector<Figure> sharma_pairs(const char* column, double (*formula)(const Lab&, const Lab&)) {
+  const ReferenceTable table("ciede2000_sharma2005");
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto lab = [&](int which) {
+      return Lab{table.number(row, fmt::format("L{}", which)), table.number(row, fmt::format("a{}", which)),
+                 table.number(row, fmt::format("b{}", which))};
+    };
+    const std::string pair = "pair " + table.text(row, "pair");
+    figures.push_back(exact_figure(pair, table.number(row, column), formula(lab(1), lab(2))));
+    figures.push_back(exact_figure(pair + " reversed", table.number(row, column), formula(lab(2), lab(1))));
+  }
+  return figures;
+}
+std::vector<Figure> pairs_2000() {
+  return sharma_pairs("dE00", delta_e_2000<double>);
+}
+std::vector<Figure> pairs_76() {
+  return sharma_pairs("dE76", delta_e_76<double>);
+}
+
+void add_matrix(std::vector<Figure>& figures, const ReferenceTable& table, const std::string& name,
+                const Matrix3& m) {
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (!table.text(row, "name").starts_with(name)) continue;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const std::string entry = fmt::format("m{}{}", i + 1, j + 1);
+        figures.push_back(exact_figure(name + " " + entry, table.number(row, entry), m[i][j]));
+      }
+    return;
+  }
+  throw Error(ErrorCode::internal, name, "no such reference matrix");
+}
+
+std::vector<Figure> colour_matrices() {
+  const ReferenceTable table("colour_matrices");
+  std::vector<Figure> figures;
+  add_matrix(figures, table, "RGB_to_XYZ sRGB", rgb_to_xyz(kRec709));
+  add_matrix(figures, table, "XYZ_to_RGB sRGB", rgb_to_xyz(kRec709).inverse());
+  add_matrix(figures, table, "RGB_to_XYZ ACES2065-1", rgb_to_xyz(kAces2065));
+  const XYZ a = unit_xyz({0.44758, 0.40745});
+  const XYZ d50 = unit_xyz({0.3457, 0.3585});
+  const XYZ d65 = unit_xyz(kD65);
+  add_matrix(figures, table, "Bradford adaptation A to D65", bradford(a, d65).value());
+  add_matrix(figures, table, "Bradford adaptation D50 to D65", bradford(d50, d65).value());
+  add_matrix(figures, table, "Bradford adaptation D65 to D50", bradford(d65, d50).value());
+  return figures;
+}
+
+// Lamp and white wall of the Cornell box as Cornell measured them, and means over bands 10 nm wide.
+std::vector<Figure> cornell_box() {
+  const Curve lamp = shipped_illuminant("cornell_box_light");
+  const Curve lit = product(lamp, shipped_curve("reflectance", "cornell_box_walls:white"));
+  const auto band_mean = [&](double nm) { return lit.integral(nm - 5, nm + 5) / 10; };
+  return {exact_figure("lamp", 3280, lamp.integral(400, 700)),
+          exact_figure("lit white", 2412.5634, lit.integral(400, 700)),
+          exact_figure("450 nm", 3.0273770, band_mean(450)),
+          exact_figure("550 nm", 8.6850874, band_mean(550)),
+          exact_figure("650 nm", 12.3558600, band_mean(650))};
+}
+
+}  // namespace
+
+std::vector<Case> colour_cases() {
+  const auto computed = [](std::string id, std::string title, std::string source, std::string unit,
+                           Margin margin, std::vector<Figure> (*figures)()) {
+    return computed_case(Suite::colour, std::move(id), std::move(title), std::move(source), std::move(unit),
+                         margin, figures);
+  };
+  const Margin millionth{1e-6};
+  return {
+      computed("observers", "column sums of the standard observers, 360-830 nm", "tables of [CIE15]", "",
+               {0.51e-6}, observer_sums),
+      computed("whites", "white points of 50 illuminants for both observers, 1 nm sums", "[CIE15, sec. 7.1]",
+               "", millionth, summed_whites),
+      computed("whites-defined", "white points over the whole observer, A and D by definition",
+               "[CIE15, sec. 3]", "", millionth, defined_whites),
+      computed("whites-printed", "white points as printed, from rounded tables", "[CIE15, tables]", "",
+               {3.5e-4}, printed_whites),
+      computed("locus", "chromaticities of black bodies", "Planck's law [Planck1901] and [CIE15]", "",
+               millionth, planckian_locus),
+      computed("planck", "spectral radiance of black bodies", "Planck's law [Planck1901]", "W/(m² sr nm)",
+               {1e-7, Margin::Kind::relative}, planckian_radiance),
+      computed("daylight", "CIE daylight from its components", "[CIE15, eq. 3.3]", "", {5.1e-6},
+               daylight_series),
+      computed("efficacy", "luminous efficacy of illuminants", "683.002 lm/W at 540 THz [CIE15]", "lm/W",
+               {1e-4}, luminous_efficacies),
+      computed("dE00", "the 34 published pairs of CIEDE2000", "[Sharma2005, table 1]", "ΔE", {5.1e-5},
+               pairs_2000),
+      computed("dE76", "the same pairs in L*a*b*", "[Sharma2005, table 1], [CIE15, sec. 8.2.1]", "ΔE",
+               {5.1e-5}, pairs_76),
+      computed("matrices", "RGB spaces and chromatic adaptation", "primaries of [BT709]; [Lam1985]", "",
+               {1e-9}, colour_matrices),
+      computed("cornell", "lamp and white wall of the Cornell box", "measured spectra [CornellBox1998]", "",
+               {1e-5, Margin::Kind::relative}, cornell_box),
+  };
+}
+
+}  // namespace abbe

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/error.h"
+#include "materials/index/library.h"
+#include "sensor/response/channel.h"
+#include "spectral/chart.h"
+#include "spectral/library.h"
+
+namespace abbe {
+
+/// What a loader of shipped data gave. Throws Error{input} with its complaints when it gave nothing.
+template <typename T>
+[[nodiscard]] T shipped(std::optional<T> value, const Diagnostics& diagnostics) {
+  if (!value) throw Error(ErrorCode::input, "", diagnostics.text());
+  return *std::move(value);
+}
+
+/// Shipped data by name. Each throws Error{input} where there is none.
+[[nodiscard]] inline RefractiveIndex shipped_index(const std::string& name) {
+  Diagnostics diagnostics;
+  return shipped(load_index(name, {}, diagnostics), diagnostics).index;
+}
+[[nodiscard]] inline Curve shipped_illuminant(const std::string& name) {
+  Diagnostics diagnostics;
+  return shipped(load_illuminant(name, {}, diagnostics), diagnostics).curve;
+}
+[[nodiscard]] inline Curve shipped_curve(const std::string& folder, const std::string& name) {
+  Diagnostics diagnostics;
+  return shipped(load_curve(folder, name, {}, diagnostics), diagnostics).curve;
+}
+[[nodiscard]] inline Chart shipped_chart(const std::string& name) {
+  Diagnostics diagnostics;
+  return shipped(load_chart(name, {}, diagnostics), diagnostics);
+}
+[[nodiscard]] inline std::vector<Channel> shipped_camera(const std::string& name) {
+  Diagnostics diagnostics;
+  return shipped(load_camera(name, {}, diagnostics), diagnostics);
+}
+
+}  // namespace abbe
