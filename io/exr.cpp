@@ -1,31 +1,63 @@
 #include "io/exr.h"
 
 #include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfOutputFile.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStringAttribute.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <utility>
 
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
 
-Imf::Header header_of(const Image& image) {
+// Attributes that OpenEXR defines as numbers.
+bool is_number(std::string_view key) {
+  constexpr std::array kNumbers{"EV", "aperture", "expTime", "isoSpeed", "whiteLuminance"};
+  return std::find(kNumbers.begin(), kNumbers.end(), key) != kNumbers.end();
+}
+
+std::string number_text(float number) {
+  return fmt::format("{}", number);
+}
+
+// As it reads back: a number loses the digits that a float does not have.
+std::string stored_text(const std::string& key, const std::string& value) {
+  const auto number = is_number(key) ? parse_number(value) : std::nullopt;
+  return number ? number_text(static_cast<float>(*number)) : value;
+}
+
+Imf::Header header_of(const ImagePart& part) {
+  const Image& image = part.image;
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  header.setType(Imf::SCANLINEIMAGE);
+  if (!part.name.empty()) header.setName(part.name);
   for (const ImageChannel& channel : image.channels) {
     if (channel.values.size() != image.pixels() || header.channels().findChannel(channel.name))
       throw Error(ErrorCode::internal, channel.name, "channel of a wrong size or a repeated name");
     header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
   }
-  for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
+  for (const auto& [key, value] : image.metadata) {
+    const auto number = is_number(key) ? parse_number(value) : std::nullopt;
+    if (number)
+      header.insert(key, Imf::FloatAttribute(static_cast<float>(*number)));
+    else
+      header.insert(key, Imf::StringAttribute(value));
+  }
   return header;
 }
 
@@ -37,8 +69,16 @@ Imf::FrameBuffer frame_buffer(const Image& image, const Imath::Box2i& window) {
 }
 
 /// Compares bytes, not values: a NaN must survive, and -0 is not 0.
-bool same_bits(const Image& a, const Image& b) {
-  return a.width == b.width && a.height == b.height && a.metadata == b.metadata &&
+bool same_bits(const ImagePart& written, const ImagePart& read) {
+  const Image& a = written.image;
+  const Image& b = read.image;
+  const bool same_metadata =
+      a.metadata.size() == b.metadata.size() &&
+      std::all_of(a.metadata.begin(), a.metadata.end(), [&b](const auto& entry) {
+        const auto other = b.metadata.find(entry.first);
+        return other != b.metadata.end() && other->second == stored_text(entry.first, entry.second);
+      });
+  return written.name == read.name && a.width == b.width && a.height == b.height && same_metadata &&
          a.channels.size() == b.channels.size() &&
          std::all_of(a.channels.begin(), a.channels.end(), [&b](const ImageChannel& channel) {
            const ImageChannel* other = b.find(channel.name);
@@ -60,44 +100,71 @@ Image announced(const Imf::Header& header, const std::string& name) {
   }
   require_image_size(name, width, height, image.channels.size());
   for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+    const std::string key = attribute.name();
     const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
-    const bool structural = std::string_view(attribute.name()) == "type";  // the library adds it on reading
-    if (text && !structural) image.metadata[attribute.name()] = text->value();
+    const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute.attribute());
+    // What says how the file is laid out is no metadata.
+    if (text && key != "type" && key != "name") image.metadata[key] = text->value();
+    if (number && is_number(key)) image.metadata[key] = number_text(number->value());
   }
   return image;
 }
 
-Image read(const std::filesystem::path& path) {
+std::vector<ImagePart> read(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (!std::filesystem::is_regular_file(path)) throw Error(ErrorCode::input, name, "no such regular file");
   Imf::MultiPartInputFile file(name.c_str());
-  if (file.parts() != 1)
-    throw Error(ErrorCode::input, name, "has " + std::to_string(file.parts()) + " parts (allowed 1)");
-  const Imf::Header& header = file.header(0);
-  Image image = announced(header, name);
-  if (!file.partComplete(0)) throw Error(ErrorCode::input, name, "truncated");
-  for (ImageChannel& channel : image.channels) channel.values.resize(image.pixels());
-  Imf::InputPart part(file, 0);
-  part.setFrameBuffer(frame_buffer(image, header.dataWindow()));
-  part.readPixels(header.dataWindow().min.y, header.dataWindow().max.y);
-  return image;
+  std::vector<ImagePart> parts;
+  std::size_t bytes = 0;
+  for (int i = 0; i < file.parts(); ++i) {
+    const Imf::Header& header = file.header(i);
+    ImagePart& part = parts.emplace_back(header.hasName() ? header.name() : "", announced(header, name));
+    bytes += part.image.pixels() * part.image.channels.size() * sizeof(float);
+    if (bytes > kMaxImageBytes)
+      throw Error(ErrorCode::resource, name,
+                  fmt::format("image too large (got {} parts of more than {} bytes in all)", file.parts(),
+                              kMaxImageBytes));
+  }
+  for (int i = 0; i < file.parts(); ++i) {
+    if (!file.partComplete(i)) throw Error(ErrorCode::input, name, "truncated");
+    Image& image = parts[static_cast<std::size_t>(i)].image;
+    for (ImageChannel& channel : image.channels) channel.values.resize(image.pixels());
+    const Imath::Box2i& window = file.header(i).dataWindow();
+    Imf::InputPart part(file, i);
+    part.setFrameBuffer(frame_buffer(image, window));
+    part.readPixels(window.min.y, window.max.y);
+  }
+  return parts;
+}
+
+void write(const std::filesystem::path& path, std::span<const ImagePart> parts) {
+  std::vector<Imf::Header> headers;
+  for (const ImagePart& part : parts) headers.push_back(header_of(part));
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Imf::OutputPart output(file, static_cast<int>(i));
+    output.setFrameBuffer(frame_buffer(parts[i].image, headers[i].dataWindow()));
+    output.writePixels(parts[i].image.height);
+  }
 }
 
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const Image& image) {
-  write_atomically(
-      path,
-      [&image](const std::filesystem::path& temporary) {
-        const Imf::Header header = header_of(image);
-        Imf::OutputFile file(temporary.c_str(), header);
-        file.setFrameBuffer(frame_buffer(image, header.dataWindow()));
-        file.writePixels(image.height);
-      },
-      [&image](const std::filesystem::path& temporary) { return same_bits(image, read_exr(temporary)); });
+  const ImagePart part{"", image};
+  write_exr(path, std::span(&part, 1));
 }
 
-Image read_exr(const std::filesystem::path& path) {
+void write_exr(const std::filesystem::path& path, std::span<const ImagePart> parts) {
+  write_atomically(
+      path, [parts](const std::filesystem::path& temporary) { write(temporary, parts); },
+      [parts](const std::filesystem::path& temporary) {
+        const std::vector<ImagePart> read = read_exr_parts(temporary);
+        return std::equal(parts.begin(), parts.end(), read.begin(), read.end(), same_bits);
+      });
+}
+
+std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path) {
   try {
     return read(path);
   } catch (const Error&) {
@@ -105,6 +172,13 @@ Image read_exr(const std::filesystem::path& path) {
   } catch (const std::exception& error) {
     throw Error(ErrorCode::input, path.string(), error.what());
   }
+}
+
+Image read_exr(const std::filesystem::path& path) {
+  std::vector<ImagePart> parts = read_exr_parts(path);
+  if (parts.size() != 1)
+    throw Error(ErrorCode::input, path.string(), fmt::format("has {} parts (allowed 1)", parts.size()));
+  return std::move(parts.front().image);
 }
 
 }  // namespace abbe

@@ -1,18 +1,33 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "io/image.h"
 
 namespace abbe {
 
-/// Writes every channel as 32-bit float, ZIP compressed, metadata as string attributes; atomically, and
-/// re-read before it appears. Throws Error{output}.
-void write_exr(const std::filesystem::path& path, const Image& image);
+/// One of several images in a file.
+struct ImagePart {
+  std::string name;
+  Image image;
+};
 
-/// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes as metadata. Throws
-/// Error{input} for a missing, truncated or malformed file and Error{resource} for one beyond the limits of
-/// `io/image.h`.
+/// Writes every channel as 32-bit float, ZIP compressed, metadata as string attributes, but numbers under the
+/// names that OpenEXR defines so (EV, aperture, expTime, isoSpeed, whiteLuminance) as 32-bit float;
+/// atomically, and re-read before it appears. Throws Error{output}.
+void write_exr(const std::filesystem::path& path, const Image& image);
+/// The same for several images of one size, each under a name of its own.
+void write_exr(const std::filesystem::path& path, std::span<const ImagePart> parts);
+
+/// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes and those numbers as
+/// metadata. Throws Error{input} for a missing, truncated or malformed file and Error{resource} for one
+/// beyond the limits of `io/image.h`.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path);
+/// The same for a file of one part or more, which together keep within the limits; a single part may have no
+/// name.
+[[nodiscard]] std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path);
 
 }  // namespace abbe

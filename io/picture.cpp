@@ -18,24 +18,30 @@ std::uint8_t code_value(float x) {
   return x > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(x, 1.0F))) : std::uint8_t{0};
 }
 
-std::vector<std::uint8_t> interleaved(const Image& image, std::size_t channels) {
-  std::vector<std::uint8_t> values;
+std::uint16_t whole_number(float x) {
+  if (!(x >= 0 && x <= 65535 && x == std::floor(x)))
+    throw Error(ErrorCode::internal, "raw picture", "a code that is no 16-bit number");
+  return static_cast<std::uint16_t>(x);
+}
+
+template <typename Code>
+std::vector<Code> interleaved(const Image& image, std::size_t channels, Code (*code)(float)) {
+  std::vector<Code> values;
   values.reserve(image.pixels() * channels);
   for (std::size_t i = 0; i < image.pixels(); ++i)
-    for (std::size_t c = 0; c < channels; ++c) values.push_back(code_value(image.channels[c].values[i]));
+    for (std::size_t c = 0; c < channels; ++c) values.push_back(code(image.channels[c].values[i]));
   return values;
 }
 
 /// The bytes of the file, checked to be one. Encoded in memory, since on a full disk some of the library's
 /// writers say nothing and one exits.
-std::string encoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-                    const std::vector<std::uint8_t>& pixels) {
+std::string encoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const void* pixels) {
   const auto output = OIIO::ImageOutput::create(path.string());
   if (!output) throw Error(ErrorCode::output, path.string(), OIIO::geterror());
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close())
+      !output->write_image(spec.format, pixels) || !output->close())
     throw Error(ErrorCode::output, path.string(), output->geterror());
 
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
@@ -45,6 +51,25 @@ std::string encoded(const std::filesystem::path& path, const OIIO::ImageSpec& sp
     throw Error(ErrorCode::output, path.string(),
                 "the encoded picture does not read back " + OIIO::geterror());
   return {bytes.begin(), bytes.end()};
+}
+
+bool is_tiff(const std::filesystem::path& path) {
+  return path.extension() == ".tif" || path.extension() == ".tiff";
+}
+
+OIIO::ImageSpec described(const std::filesystem::path& path, const Image& image, std::size_t channels,
+                          OIIO::TypeDesc format) {
+  if (image.channels.empty() || image.pixels() == 0)
+    throw Error(ErrorCode::internal, path.string(), "a picture without pixels");
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels), format);
+  std::string lines;
+  for (const auto& [key, value] : image.metadata) {
+    spec.attribute(key, value);
+    lines += key + ": " + value + "\n";
+  }
+  if (is_tiff(path))
+    spec.attribute("ImageDescription", lines);  // which has no names for what it does not know
+  return spec;
 }
 
 std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
@@ -64,14 +89,22 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
 
 void write_picture(const std::filesystem::path& path, const Image& image) {
   const std::size_t channels = image.channels.size() < 3 ? 1 : 3;
-  if (image.channels.empty() || image.pixels() == 0)
-    throw Error(ErrorCode::internal, path.string(), "a picture without pixels");
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels), OIIO::TypeDesc::UINT8);
+  OIIO::ImageSpec spec = described(path, image, channels, OIIO::TypeDesc::UINT8);
   // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
   // memory.
-  if (path.extension() != ".tif" && path.extension() != ".tiff") spec.attribute("oiio:ColorSpace", "sRGB");
-  for (const auto& [key, value] : image.metadata) spec.attribute(key, value);
-  write_atomically(path, encoded(path, spec, interleaved(image, channels)));
+  if (!is_tiff(path)) spec.attribute("oiio:ColorSpace", "sRGB");
+  write_atomically(path, encoded(path, spec, interleaved(image, channels, code_value).data()));
+}
+
+void write_raw_picture(const std::filesystem::path& path, const Image& image) {
+  const std::size_t channels = image.channels.size();
+  if (!is_tiff(path) && channels != 1 && channels != 3)
+    throw Error(ErrorCode::output, path.string(),
+                "a file of this kind holds one plane or three (got " + std::to_string(channels) +
+                    ", allowed any number in a .tif)");
+  OIIO::ImageSpec spec = described(path, image, channels, OIIO::TypeDesc::UINT16);
+  if (!is_tiff(path)) spec.attribute("oiio:ColorSpace", "Linear");  // without which PNG means sRGB
+  write_atomically(path, encoded(path, spec, interleaved(image, channels, whole_number).data()));
 }
 
 Image read_picture(const std::filesystem::path& path) {

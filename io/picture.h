@@ -11,6 +11,10 @@ namespace abbe {
 /// Atomic; throws Error{output}.
 void write_picture(const std::filesystem::path& path, const Image& image);
 
+/// Writes whole numbers from 0 to 65535, such as the codes of a sensor, as a linear 16-bit file: one channel
+/// or three as .png, any number as .tif. Throws Error{output}, Error{internal} for other values.
+void write_raw_picture(const std::filesystem::path& path, const Image& image);
+
 /// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files. Throws
 /// Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& path);

@@ -1,9 +1,13 @@
 #include "io/exr.h"
 
 #include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfPartType.h>
 #include <ImfStringAttribute.h>
 #include <gtest/gtest.h>
 #include <half.h>
@@ -140,6 +144,95 @@ TEST(Exr, UnwritablePlacesAreOutputErrors) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::output);
+  }
+}
+
+TEST(Exr, PartsKeepTheirNamesPixelsAndMetadata) {
+  const auto path = test_folder() / "parts.exr";
+  const std::vector<ImagePart> parts{
+      {"exposure", sample_image()},
+      {"dn", {3, 2, {{"R", {12, 65535, 0, 1, 2, 3}}}, {{"comments", "codes"}}}}};
+  write_exr(path, parts);
+  const std::vector<ImagePart> read = read_exr_parts(path);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].name, "exposure");
+  EXPECT_EQ(read[0].image.metadata, parts[0].image.metadata);
+  EXPECT_EQ(read[0].image.find("R")->values, parts[0].image.find("R")->values);
+  EXPECT_EQ(read[1].name, "dn");
+  EXPECT_EQ(read[1].image.height, 2);
+  EXPECT_EQ(read[1].image.metadata.at("comments"), "codes");
+  EXPECT_EQ(read[1].image.find("R")->values, (std::vector<float>{12, 65535, 0, 1, 2, 3}));
+  std::string message;
+  EXPECT_EQ(reading_error(path, &message), ErrorCode::input);
+  EXPECT_EQ(message, path.string() + ": has 2 parts (allowed 1)");
+}
+
+TEST(Exr, EveryTruncationOfPartsIsAnInputError) {
+  const auto path = test_folder() / "a.exr";
+  write_exr(path, std::vector<ImagePart>{{"a", sample_image()}, {"b", sample_image()}});
+  const std::string bytes = bytes_of(path);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    put(path, bytes.substr(0, size));
+    try {
+      (void)read_exr_parts(path);
+      ADD_FAILURE() << size;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::input) << size;
+    }
+  }
+}
+
+TEST(Exr, ASinglePartReadsAsPartsToo) {
+  const auto path = test_folder() / "a.exr";
+  write_exr(path, sample_image());
+  const std::vector<ImagePart> read = read_exr_parts(path);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].image.channels.size(), 2U);
+}
+
+TEST(Exr, PartsOfOneNameAreAnOutputError) {
+  const auto path = test_folder() / "a.exr";
+  try {
+    write_exr(path, std::vector<ImagePart>{{"a", sample_image()}, {"a", sample_image()}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::output);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+// OpenEXR defines expTime as a number; what is no number stays text.
+TEST(Exr, StandardAttributesAreNumbers) {
+  const auto path = test_folder() / "a.exr";
+  Image image{1, 1, {{"Y", {1}}}, {}};
+  image.metadata = {
+      {"expTime", "0.02"}, {"aperture", "3.3333333333333335"}, {"isoSpeed", "unknown"}, {"exposure", "0.02"}};
+  write_exr(path, image);
+  const Image read = read_exr(path);
+  EXPECT_EQ(
+      read.metadata,
+      (std::map<std::string, std::string>{
+          {"aperture", "3.3333333"}, {"expTime", "0.02"}, {"exposure", "0.02"}, {"isoSpeed", "unknown"}}));
+  const Imf::InputFile file(path.c_str());
+  ASSERT_NE(file.header().findTypedAttribute<Imf::FloatAttribute>("expTime"), nullptr);
+  EXPECT_EQ(file.header().typedAttribute<Imf::FloatAttribute>("expTime").value(), 0.02F);
+  EXPECT_NE(file.header().findTypedAttribute<Imf::StringAttribute>("exposure"), nullptr);
+}
+
+TEST(Exr, PartsShareTheLimit) {
+  const auto path = test_folder() / "large.exr";
+  std::vector<Imf::Header> headers(9, Imf::Header(16384, 16384));
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    headers[i].setName(std::to_string(i));
+    headers[i].setType(Imf::SCANLINEIMAGE);
+    headers[i].channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  }
+  { const Imf::MultiPartOutputFile file(path.c_str(), headers.data(), 9); }
+  try {
+    (void)read_exr_parts(path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::resource) << error.what();
   }
 }
 

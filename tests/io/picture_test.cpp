@@ -1,7 +1,9 @@
 #include "io/picture.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "io/error.h"
@@ -106,6 +108,60 @@ TEST(Picture, LimitsHoldBeforeAllocation) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::resource) << error.what();
   }
+}
+
+TEST(Picture, RawCodesComeBackExactly) {
+  const auto folder = test_folder();
+  Image raw{4, 2, {}, {{"seed", "7"}, {"data_sha256", "ab"}}};
+  raw.channels.push_back({"R", {0, 1, 2, 255, 256, 4095, 65534, 65535}});
+  raw.channels.push_back({"G", {7, 6, 5, 4, 3, 2, 1, 0}});
+  raw.channels.push_back({"B", {1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000}});
+  for (const char* name : {"a.tif", "a.png"}) {
+    write_raw_picture(folder / name, raw);
+    const auto input = OIIO::ImageInput::open((folder / name).string());
+    ASSERT_TRUE(input) << name;
+    EXPECT_EQ(input->spec().format, OIIO::TypeDesc::UINT16) << name;
+    EXPECT_NE(input->spec().get_string_attribute("oiio:ColorSpace"), "sRGB") << name;
+    std::vector<std::uint16_t> codes(24);
+    ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT16, codes.data()));
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_EQ(codes[3 * i + c], raw.channels[c].values[i]) << name << c << i;
+  }
+  EXPECT_EQ(read_picture(folder / "a.png").metadata.at("seed"), "7");
+  EXPECT_EQ(read_picture(folder / "a.tif").metadata.at("ImageDescription"), "data_sha256: ab\nseed: 7\n");
+}
+
+TEST(Picture, ARawTiffHoldsAnyNumberOfPlanes) {
+  const auto folder = test_folder();
+  for (const std::size_t planes : {1U, 2U, 4U, 7U}) {
+    Image raw{2, 1, {}, {}};
+    for (std::size_t c = 0; c < planes; ++c)
+      raw.channels.push_back({"c" + std::to_string(c), {static_cast<float>(10 * c), 60000}});
+    write_raw_picture(folder / "a.tif", raw);
+    const Image read = read_picture(folder / "a.tif");
+    ASSERT_EQ(read.channels.size(), planes);
+    for (std::size_t c = 0; c < planes; ++c)
+      EXPECT_EQ(std::lround(65535 * read.channels[c].values[0]), 10 * static_cast<long>(c)) << planes;
+    if (planes == 1) continue;
+    try {
+      write_raw_picture(folder / "a.png", raw);
+      ADD_FAILURE() << planes;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::output);
+      EXPECT_NE(std::string(error.what()).find("allowed any number in a .tif"), std::string::npos);
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST(Picture, ARawCodeThatIsNoWholeNumberIsABug) {
+  for (const float bad : {-1.0F, 0.5F, 65536.0F, std::numeric_limits<float>::quiet_NaN()}) try {
+      write_raw_picture(test_folder() / "a.tif", {1, 1, {{"raw", {bad}}}, {}});
+      ADD_FAILURE() << bad;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::internal);
+    }
 }
 
 }  // namespace

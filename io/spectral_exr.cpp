@@ -1,0 +1,155 @@
+#include "io/spectral_exr.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <regex>
+#include <utility>
+
+#include "io/error.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+constexpr const char* kVersionKey = "spectralLayoutVersion";
+constexpr const char* kVersion = "1.0";
+constexpr const char* kUnitsKey = "emissiveUnits";
+constexpr const char* kUnits = "W.m^-2.sr^-1";
+constexpr const char* kHandednessKey = "polarisationHandedness";
+constexpr double kLightSpeed = 299792458;  // m/s
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+  throw Error(ErrorCode::input, where, what);
+}
+
+// What begins and ends as the name of a spectral channel.
+bool looks_spectral(const std::string& name) {
+  static const std::regex kLook(R"(^(S[0-3]|T)\..*(m|Hz)$)");
+  return std::regex_match(name, kLook);
+}
+
+int power_of_ten(const std::string& prefix) {
+  static const std::map<std::string, int> kPowers{
+      {"Y", 24}, {"Z", 21}, {"E", 18}, {"P", 15}, {"T", 12}, {"G", 9},  {"M", 6},  {"k", 3},  {"h", 2},
+      {"da", 1}, {"", 0},   {"d", -1}, {"c", -2}, {"m", -3}, {"u", -6}, {"n", -9}, {"p", -12}};
+  return kPowers.at(prefix);
+}
+
+void require_attribute(const Image& image, const std::string& key, const std::string& allowed,
+                       const std::string& where) {
+  const auto found = image.metadata.find(key);
+  if (found == image.metadata.end())
+    refuse(where, fmt::format("no attribute \"{}\" (allowed \"{}\")", key, allowed));
+  if (found->second != allowed)
+    refuse(where, fmt::format("another {} (got \"{}\", allowed \"{}\")", key, found->second, allowed));
+}
+
+using Component = std::vector<SpectralBand>;
+
+void sort_by_wavelength(Component& bands, const std::string& where) {
+  std::sort(bands.begin(), bands.end(),
+            [](const SpectralBand& a, const SpectralBand& b) { return a.center_nm < b.center_nm; });
+  const auto twice = std::adjacent_find(
+      bands.begin(), bands.end(),
+      [](const SpectralBand& a, const SpectralBand& b) { return a.center_nm == b.center_nm; });
+  if (twice != bands.end()) refuse(where, fmt::format("two channels at {} nm", twice->center_nm));
+}
+
+void check_polarisation(const Image& image, const std::array<Component, 4>& stokes,
+                        const std::string& where) {
+  if (std::all_of(stokes.begin() + 1, stokes.end(), [](const Component& c) { return c.empty(); })) return;
+  const auto handedness = image.metadata.find(kHandednessKey);
+  if (handedness == image.metadata.end() || (handedness->second != "left" && handedness->second != "right"))
+    refuse(where,
+           fmt::format("polarised, but no attribute \"{}\" (allowed \"left\", \"right\")", kHandednessKey));
+  const auto same_center = [](const SpectralBand& a, const SpectralBand& b) {
+    return a.center_nm == b.center_nm;
+  };
+  for (std::size_t i = 1; i < stokes.size(); ++i)
+    if (!std::equal(stokes[0].begin(), stokes[0].end(), stokes[i].begin(), stokes[i].end(), same_center))
+      refuse(where, fmt::format("S{} has other wavelengths than S0", i));
+}
+
+}  // namespace
+
+std::string spectral_channel(double center_nm) {
+  std::string name = fmt::format("S0.{:.6f}nm", center_nm);
+  name[name.rfind('.')] = ',';
+  return name;
+}
+
+std::optional<SpectralName> parse_spectral_channel(std::string_view name, const std::string& where) {
+  static const std::regex kGrammar(
+      R"(^(?:S([0-3])|(T))\.(\d*,?\d*)([Ee][+-]?\d+)?(da|[YZEPTGMkhdcmunp])?(m|Hz)$)");
+  const std::string text(name);
+  if (!looks_spectral(text)) return std::nullopt;
+  std::smatch parts;
+  if (!std::regex_match(text, parts, kGrammar))
+    refuse(where, fmt::format("channel \"{}\" is not named as a spectral one (as S0.550,5nm)", name));
+  std::string digits = parts[3].str() + parts[4].str();
+  std::replace(digits.begin(), digits.end(), ',', '.');
+  if (digits.starts_with('.')) digits.insert(0, "0");
+  const double number = parse_number(digits).value_or(0);
+  const int power = power_of_ten(parts[5].str());
+  const double center_nm = parts[6] == "Hz" ? kLightSpeed / (number * std::pow(10.0, power)) * 1e9
+                                            : number * std::pow(10.0, power + 9);
+  if (!(number > 0) || !std::isfinite(center_nm) || !(center_nm > 0))
+    refuse(where, fmt::format("channel \"{}\" names no wavelength", name));
+  return SpectralName{parts[2].matched ? 'T' : parts[1].str().front(), center_nm};
+}
+
+bool is_spectral(const Image& image) {
+  return image.metadata.contains(kVersionKey) ||
+         std::any_of(image.channels.begin(), image.channels.end(),
+                     [](const ImageChannel& channel) { return looks_spectral(channel.name); });
+}
+
+std::vector<double> band_edges(const std::vector<SpectralBand>& bands) {
+  std::vector<double> edges{0};
+  for (std::size_t i = 0; i + 1 < bands.size(); ++i)
+    edges.push_back((bands[i].center_nm + bands[i + 1].center_nm) / 2);
+  edges.front() = 2 * bands.front().center_nm - edges[1];
+  edges.push_back(2 * bands.back().center_nm - edges.back());
+  return edges;
+}
+
+Image spectral_layout(const SpectralImage& image) {
+  Image layout{image.width, image.height, image.others, image.metadata};
+  for (const SpectralBand& band : image.bands)
+    layout.channels.push_back({spectral_channel(band.center_nm), band.radiance});
+  layout.metadata[kVersionKey] = kVersion;
+  layout.metadata[kUnitsKey] = kUnits;
+  return layout;
+}
+
+SpectralImage spectral_image(Image image, const std::string& where) {
+  require_attribute(image, kVersionKey, kVersion, where);
+  SpectralImage result{image.width, image.height, {}, {}, {}};
+  std::array<Component, 4> stokes;
+  for (ImageChannel& channel : image.channels) {
+    const auto name = parse_spectral_channel(channel.name, where);
+    if (!name) {
+      result.others.push_back(std::move(channel));
+      continue;
+    }
+    if (name->kind == 'T')
+      refuse(where, fmt::format("channel \"{}\" is a reflectance (allowed radiances, S0)", channel.name));
+    stokes.at(static_cast<std::size_t>(name->kind - '0'))
+        .push_back({name->center_nm, std::move(channel.values)});
+  }
+  for (Component& component : stokes) sort_by_wavelength(component, where);
+  if (stokes[0].size() < 2)
+    refuse(where, fmt::format("too few bands of radiance to tell their widths (got {}, allowed 2 or more)",
+                              stokes[0].size()));
+  require_attribute(image, kUnitsKey, kUnits, where);
+  check_polarisation(image, stokes, where);
+  result.bands = std::move(stokes[0]);
+  result.metadata = std::move(image.metadata);
+  return result;
+}
+
+}  // namespace abbe
