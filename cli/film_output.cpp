@@ -31,11 +31,17 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
   std::vector<std::string> names;
   for (const Channel& channel : scene.channels) {
     names.push_back(channel.name);
+    if (channel.exposure_ratio != 1)
+      identity["exposure_s." + channel.name] = fmt::format("{}", scene.exposure_s * channel.exposure_ratio);
     identity["channel." + channel.name] = channel.kind == ResponseKind::quantum
                                               ? "quantum, electrons per m^2"
                                               : "energy, response-weighted J per m^2";
   }
-  identity["sensor_channels"] = fmt::format("{}", fmt::join(names, ","));
+  identity["sensor_channels"] = fmt::format("{}", fmt::join(scene.film_planes(), ","));
+  if (scene.mosaic) {
+    identity["mosaic"] = to_text(*scene.mosaic, names);
+    identity["mosaic_channels"] = fmt::format("{}", fmt::join(names, ","));
+  }
   if (how.crop)
     identity["crop"] = fmt::format("{},{},{},{}", how.crop->x0, how.crop->y0, how.crop->x1, how.crop->y1);
   return identity;

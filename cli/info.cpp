@@ -13,7 +13,14 @@ namespace {
 
 std::size_t film_bytes(const Scene& scene) {
   return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
-         scene.channels.size() * static_cast<std::size_t>(replicate_count(scene, {})) * sizeof(Int128);
+         scene.film_planes().size() * static_cast<std::size_t>(replicate_count(scene, {})) * sizeof(Int128);
+}
+
+// The channels of a mosaic by name, rows from the top.
+std::string pattern(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Channel& channel : scene.channels) names.push_back(channel.name);
+  return to_text(*scene.mosaic, names);
 }
 
 Json answer_for(const Scene& scene) {
@@ -29,6 +36,7 @@ Json answer_for(const Scene& scene) {
   if (plan.path_active) answer["techniques"].push_back("path");
   if (plan.light_active) answer["techniques"].push_back("light");
   answer["unreached"] = unreached(scene, scene.needs, plan.light_active);
+  if (scene.mosaic) answer["mosaic"] = pattern(scene);
   answer["wavelength_range_nm"] = {plan.wavelengths.low_nm(), plan.wavelengths.high_nm()};
   answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene);
   return answer;
@@ -47,6 +55,7 @@ std::string describe(const Scene& scene) {
       answer["shapes"].get<int>(), answer["triangles"].get<std::size_t>(), answer["lights"].get<int>(),
       answer["materials"].get<int>(), scene.camera.width, scene.camera.height);
   for (const Channel& channel : scene.channels) lines += channel.name + " ";
+  if (scene.mosaic) lines += fmt::format("in a mosaic {}", pattern(scene));
   lines += fmt::format("\nneeds\n");
   for (const NeedName& need : need_names())
     if (scene.needs.*need.member)

@@ -48,6 +48,9 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
   if (outputs.display.empty()) outputs.display = scene.output.display;
   require_film_output(outputs.film);
   if (!outputs.display.empty()) {
+    if (scene.mosaic)
+      throw Error(ErrorCode::usage, outputs.display.string(),
+                  "a mosaic's film has one colour a pixel and makes no picture");
     require_extension(outputs.display, {".png", ".jpg", ".tif"});
     require_writable(outputs.display);
   }

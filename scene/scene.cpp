@@ -7,6 +7,13 @@
 
 namespace abbe {
 
+std::vector<std::string> Scene::film_planes() const {
+  if (mosaic) return {kRawPlane};
+  std::vector<std::string> names;
+  for (const Channel& channel : channels) names.push_back(channel.name);
+  return names;
+}
+
 std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
   return geometry_->intersect(ray);
 }

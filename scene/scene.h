@@ -85,6 +85,9 @@ class Scene {
   Imath::Box3d bounds;  ///< Of the shapes.
   std::string sha256;   ///< Of the scene file after overrides, and of every file it names.
 
+  /// Names of the film's planes: the channels, or the one plane of a mosaic.
+  [[nodiscard]] std::vector<std::string> film_planes() const;
+
   /// Nearest hit at t in (0, ray.t_max). Rays start where `spawn` put them, so no epsilon is needed.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
   /// Whether anything stands between two points that `offset_point` put beside their surfaces. Exact at both

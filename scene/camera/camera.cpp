@@ -44,8 +44,9 @@ float film_cosine(const LensCamera& camera, const Plane& film, const Plane& lens
   return static_cast<float>(camera.pinhole ? cos_theta : cosine((film + lens) / camera.image_distance));
 }
 
+// Of an opening that passes all light and exposes as much.
 double aperture_area(const LensCamera& camera) {
-  return std::numbers::pi * camera.aperture_radius * camera.aperture_radius;
+  return std::numbers::pi * camera.aperture_radius * camera.aperture_radius * camera.transmittance;
 }
 
 // A film element dA sees through the lens element the solid angle dA cos^3/v^2 of the scene, v the image
@@ -80,6 +81,15 @@ CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens) {
   if (const auto* probe = std::get_if<IrradianceProbe>(&camera.kind))
     return probe_ray(camera, *probe, film, lens);
   return lens_ray(camera, std::get<LensCamera>(camera.kind), film, lens);
+}
+
+double least_film_cosine(const Camera& camera) {
+  const auto* lens = std::get_if<LensCamera>(&camera.kind);
+  if (lens == nullptr) return 0;
+  constexpr double kRounding = 1e-6;  // of cosines kept as floats
+  const double corner = std::hypot(camera.width, camera.height) / 2 * camera.pixel_pitch;
+  const double opening = lens->pinhole ? 0 : lens->aperture_radius;
+  return cosine(Plane((corner + opening) / lens->image_distance, 0)) * (1 - kRounding);
 }
 
 std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point,

@@ -25,6 +25,7 @@ struct LensCamera {
   double aperture_radius = 0;  ///< Radius of the lens opening [m]; a pinhole's is its nominal one, for
                                ///< exposure only.
   bool pinhole = true;
+  double transmittance = 1;  ///< Share of the light that the lens passes, at all wavelengths.
 };
 
 /// A meter of irradiance over a parallelogram (or a point, with zero edges), one patch per pixel: film x runs
@@ -58,6 +59,9 @@ struct CameraRay {
 /// `film` is a position in [0, width] x [0, height], `lens` picks the lens point (or the probe's direction)
 /// uniformly by area.
 [[nodiscard]] CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens);
+
+/// The least cosine of an angle of incidence on the film that its rays and connections may report.
+[[nodiscard]] double least_film_cosine(const Camera& camera);
 
 /// A connection from a scene point through the lens to the film. Intensity I [W/sr] leaving the point towards
 /// `lens_point` adds `weight` I to the irradiance of the pixel at `film`. Nothing if the point is behind the

@@ -13,6 +13,34 @@ namespace {
 constexpr Range kFNumber{0, 1e6, true, false};
 constexpr double kDefaultFNumber = 4;
 
+/// An opening, and what share of the light the lens passes.
+struct Aperture {
+  double f_number;
+  double transmittance;
+};
+
+// T = N/sqrt(tau): a T-stop exposes as a lens without losses of that f-number does. Without an f-number the
+// lens is taken for one.
+std::optional<Aperture> read_aperture(ObjectReader& reader, std::optional<double> otherwise,
+                                      const Reading& reading) {
+  const JsonValue* stop = reader.find("t_stop");
+  const auto t_stop = reader.number("t_stop", kFNumber);
+  if (stop && !t_stop) return std::nullopt;
+  const bool named = reader.find("f_number") != nullptr;
+  const auto f_number = named || (!stop && !otherwise) ? reader.require_number("f_number", kFNumber)
+                        : stop                         ? t_stop
+                                                       : otherwise;
+  if (!f_number) return std::nullopt;
+  if (!t_stop) return Aperture{*f_number, 1};
+  if (*t_stop < *f_number) {
+    reading.diagnostics.error(
+        stop->where, fmt::format("a T-stop is no faster than its f-number (got {}, allowed [{}, inf))",
+                                 *t_stop, *f_number));
+    return std::nullopt;
+  }
+  return Aperture{*f_number, std::pow(*f_number / *t_stop, 2)};
+}
+
 struct Placed {
   CameraFrame frame;
   double distance;  ///< From the camera to what it looks at [m].
@@ -51,11 +79,15 @@ std::optional<LensCamera> read_pinhole(const JsonValue& json, const Placed* plac
     if (const auto fov = reader.number(*key, {0, 180, true, true}))
       image_distance = half_film / std::tan(*fov * std::numbers::pi / 360);
   }
-  const double f_number = reader.number_or("f_number", kDefaultFNumber, kFNumber);
+  const auto aperture = read_aperture(reader, kDefaultFNumber, reading);
   reader.finish();
-  if (!placed || !image_distance) return std::nullopt;
-  return LensCamera{placed->frame, *image_distance, std::numeric_limits<double>::infinity(),
-                    *image_distance / (2 * f_number), true};
+  if (!placed || !image_distance || !aperture) return std::nullopt;
+  return LensCamera{placed->frame,
+                    *image_distance,
+                    std::numeric_limits<double>::infinity(),
+                    *image_distance / (2 * aperture->f_number),
+                    true,
+                    aperture->transmittance};
 }
 
 // The distance in focus: a length, the word "infinity", or that of what the camera looks at [m].
@@ -72,10 +104,10 @@ std::optional<LensCamera> read_thin_lens(const JsonValue& json, const Placed* pl
                                          const Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   const auto length = reader.require_number("focal_length", kLength);
-  const auto f_number = reader.require_number("f_number", kFNumber);
+  const auto aperture = read_aperture(reader, std::nullopt, reading);
   const auto focus = read_focus(reader, placed, reading);
   reader.finish();
-  if (!placed || !length || !f_number || !focus) return std::nullopt;
+  if (!placed || !length || !aperture || !focus) return std::nullopt;
   const double f = *length * reading.unit_m;
   if (*focus <= f) {
     reading.diagnostics.error(
@@ -85,7 +117,8 @@ std::optional<LensCamera> read_thin_lens(const JsonValue& json, const Placed* pl
     return std::nullopt;
   }
   // 1/v = 1/f - 1/s, in the form that holds for s = infinity.
-  return LensCamera{placed->frame, f / (1 - f / *focus), *focus, f / (2 * *f_number), false};
+  return LensCamera{placed->frame, f / (1 - f / *focus),   *focus, f / (2 * aperture->f_number),
+                    false,         aperture->transmittance};
 }
 
 std::optional<IrradianceProbe> read_probe(const JsonValue& json, const Reading& reading) {

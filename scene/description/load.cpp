@@ -125,15 +125,18 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   Sensor sensor;
   if (const JsonValue* json = reader.require("sensor"))
     sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), reading);
+  if (camera)
+    if (const auto found = read_camera(*camera, sensor, reading)) scene.camera = *found;
   scene.exposure_s = sensor.exposure_s;
   scene.readout = sensor.readout;
+  scene.fill_factor = sensor.fill_factor;
+  scene.mosaic = std::move(sensor.mosaic);
   scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
+  for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
   if (materials) read_materials(*materials, reading, scene);
   if (const JsonValue* json = reader.find("objects")) read_objects(*json, reading, scene);
   if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, reading, scene);
   if (const JsonValue* json = reader.find("lights")) read_lights(*json, reading, scene);
-  if (camera)
-    if (const auto found = read_camera(*camera, sensor, reading)) scene.camera = *found;
   if (const JsonValue* json = reader.find("render")) scene.render = read_render(*json, reading);
   if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, reading);
   reader.finish();

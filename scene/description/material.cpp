@@ -180,7 +180,7 @@ std::uint32_t black_material(Reading& reading, Scene& scene) {
 
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene) {
   Support sensor;
-  for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
+  for (const Channel& channel : scene.channels) extend(sensor, reach(channel));
   for (const Material& material : scene.materials) {
     const RefractiveIndex* index = nullptr;
     std::string name;

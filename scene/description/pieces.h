@@ -66,6 +66,7 @@ inline constexpr Range kLength{0, kMaxLength, true, false};
 /// Values of curves and powers, safely inside float.
 inline constexpr Range kValue{-1e30, 1e30};
 inline constexpr Range kPower{0, 1e30};
+inline constexpr Range kExposure{0, 1e9, true, false};  ///< [s]
 inline constexpr Range kWavelength{kMinWavelengthNm, kMaxWavelengthNm};
 
 /// The `least` or more elements of an array; anything else is reported, `what` naming them.
@@ -148,9 +149,11 @@ struct Sensor {
   int width = 1;
   int height = 1;
   double pixel_pitch = 4.5e-6;  ///< [m]
+  double fill_factor = 1;
   double exposure_s = 1;
   std::vector<Channel> channels;
   std::optional<Readout> readout;
+  std::optional<Mosaic> mosaic;
 };
 /// `probe`: the sensor of an irradiance probe has one pixel unless it says otherwise.
 [[nodiscard]] Sensor read_sensor(const JsonValue& json, bool probe, Reading& reading);
@@ -158,6 +161,10 @@ struct Sensor {
 /// The electronics behind channels, which must count electrons.
 [[nodiscard]] std::optional<Readout> read_readout(const JsonValue& json, std::span<const Channel> channels,
                                                   Reading& reading);
+
+/// What the pixels of a sensor count, with its filters; an `exposure_s` is that of channels without their
+/// own.
+[[nodiscard]] std::vector<Channel> read_channels(ObjectReader& reader, double exposure_s, Reading& reading);
 
 [[nodiscard]] std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor,
                                                 Reading& reading);

@@ -25,7 +25,7 @@ bool emits(const Light& light) {
   return light.emission.max() > 0;
 }
 
-constexpr std::array<NeedName, 9> kNeeds{{
+constexpr std::array<NeedName, 10> kNeeds{{
     {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
     {"media", &Needs::media, "matter absorbs along the path"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
@@ -37,6 +37,7 @@ constexpr std::array<NeedName, 9> kNeeds{{
     {"polarisation_matters", &Needs::polarisation_matters,
      "interfaces may follow each other at oblique angles"},
     {"depth_of_field", &Needs::depth_of_field, "a lens of finite aperture"},
+    {"angular_response", &Needs::angular_response, "a filter shifts with the angle of incidence on the film"},
 }};
 
 // Remembers the first thing that asks for a need.
@@ -180,8 +181,10 @@ Needs analyse(const Scene& scene) {
   Needs needs;
   analyse_matter(scene, needs);
   analyse_lights(scene, needs);
-  for (const Channel& channel : scene.channels)
+  for (const Channel& channel : scene.channels) {
     require(needs, &Needs::narrow_bands, has_narrow_feature(channel.weight), "channel", channel.name);
+    require(needs, &Needs::angular_response, channel.angular.has_value(), "channel", channel.name);
+  }
   const bool lens = !scene.camera.is_probe() && !scene.camera.is_pinhole();
   require(needs, &Needs::depth_of_field, lens, "camera", "");
   return needs;

@@ -25,14 +25,47 @@ Channel quantum_channel(std::string name, const Curve& response) {
   return {std::move(name), ResponseKind::quantum, product(response, photons_per_joule())};
 }
 
+Channel behind(Channel channel, const FilterStack& filters) {
+  channel.weight = product(channel.weight, filters.fixed);
+  if (channel.angular)
+    channel.angular->filters.fixed = product(channel.angular->filters.fixed, filters.fixed);
+  if (filters.shifting.empty()) return channel;
+  if (!channel.angular) channel.angular = AngularResponse{{channel.weight}, {}};
+  for (const InterferenceFilter& filter : filters.shifting) {
+    channel.weight = product(channel.weight, filter.transmittance);
+    channel.angular->filters.shifting.push_back(filter);
+  }
+  return channel;
+}
+
+Channel exposed(Channel channel, double ratio) {
+  channel.exposure_ratio *= ratio;
+  channel.weight = scaled(channel.weight, ratio);
+  if (channel.angular) channel.angular->filters.fixed = scaled(channel.angular->filters.fixed, ratio);
+  return channel;
+}
+
+void limit_angles(Channel& channel, double least_cosine) {
+  if (!channel.angular) return;
+  AngularResponse& angular = *channel.angular;
+  angular.reach = angular.filters.fixed;
+  for (const InterferenceFilter& filter : angular.filters.shifting)
+    angular.reach = product(angular.reach, reach(filter, least_cosine));
+}
+
 std::optional<std::vector<Channel>> load_camera(const std::string& name, const SourcePosition& where,
-                                                Diagnostics& diagnostics) {
+                                                Diagnostics& diagnostics, std::optional<ResponseKind> kind) {
   const std::optional<TableColumn> found = find_table("camera", name, where, diagnostics);
   if (!found) return std::nullopt;
+  const auto channel = [kind](const std::string& label, const Curve& curve) {
+    const ResponseKind own = label == "QE" ? ResponseKind::quantum : ResponseKind::energy;
+    return kind.value_or(own) == ResponseKind::quantum ? quantum_channel(label, curve)
+                                                       : energy_channel(label, curve);
+  };
   if (!found->column.empty()) {
     const std::optional<NamedCurve> curve = load_curve("camera", name, where, diagnostics);
     if (!curve) return std::nullopt;
-    return std::vector{quantum_channel(found->column, curve->curve)};
+    return std::vector{channel(found->column, curve->curve)};
   }
   const bool shipped = name.find(".csv") == std::string::npos;
   const std::optional<Table> table =
@@ -43,7 +76,7 @@ std::optional<std::vector<Channel>> load_camera(const std::string& name, const S
     const std::string& label = table->columns[column];
     const std::optional<NamedCurve> curve = load_curve("camera", name + ":" + label, where, diagnostics);
     if (!curve) return std::nullopt;
-    channels.push_back(energy_channel(label, curve->curve));
+    channels.push_back(channel(label, curve->curve));
   }
   return channels;
 }

@@ -5,22 +5,49 @@
 #include <vector>
 
 #include "io/diagnostics.h"
+#include "sensor/response/filter.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
+#include "spectral/packet.h"
 
 namespace abbe {
 
 /// What a response multiplies: the energy that arrives, or the photons that arrive.
 enum class ResponseKind { energy, quantum };
 
-/// One channel of a sensor. Its film value for a spectral irradiance E over an exposure t is t times the
-/// integral of E(lambda) weight(lambda): J/m^2 weighted by the response for an energy channel, electrons per
-/// m^2 for a quantum channel.
+/// How the weight of a channel depends on the angle of incidence.
+struct AngularResponse {
+  FilterStack filters;  ///< Of which `fixed` is all of the weight that does not depend on the angle.
+  Curve reach;          ///< Nowhere less than the weight at any angle that occurs.
+};
+
+/// One channel of a sensor. Its film value for a spectral irradiance E over the sensor's exposure t is t
+/// times the integral of E(lambda) weight(lambda): J/m^2 weighted by the response for an energy channel,
+/// electrons per m^2 for a quantum channel.
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;
-  Curve weight;
+  Curve weight;               ///< For light along the normal of its filters.
+  double exposure_ratio = 1;  ///< Of its own exposure time to the sensor's; the weight contains it.
+  std::optional<AngularResponse> angular = {};  ///< When some filter of it shifts with the angle.
 };
+
+/// The weight for light that arrives under an angle of this cosine.
+[[nodiscard]] inline SampledSpectrum weight_at(const Channel& channel, const SampledSpectrum& wavelengths_nm,
+                                               float cos_film) {
+  if (!channel.angular) return channel.weight(wavelengths_nm);
+  SampledSpectrum weight = channel.angular->filters.fixed(wavelengths_nm);
+  for (const InterferenceFilter& filter : channel.angular->filters.shifting)
+    weight *= filter.transmittance(wavelengths_nm *
+                                   (1 / blue_shift(cos_film, static_cast<float>(filter.effective_index))));
+  return weight;
+}
+
+/// Nowhere less in magnitude than the weight at any angle that occurs: by it lights and wavelengths are
+/// drawn.
+[[nodiscard]] inline const Curve& reach(const Channel& channel) {
+  return channel.angular ? channel.angular->reach : channel.weight;
+}
 
 /// A channel whose response multiplies energy.
 [[nodiscard]] Channel energy_channel(std::string name, Curve response);
@@ -29,12 +56,20 @@ struct Channel {
 /// weight = response lambda/(hc).
 [[nodiscard]] Channel quantum_channel(std::string name, const Curve& response);
 
+/// The channel behind filters, reached by light from all sides.
+[[nodiscard]] Channel behind(Channel channel, const FilterStack& filters);
+/// The channel with an exposure of its own, `ratio` times the sensor's.
+[[nodiscard]] Channel exposed(Channel channel, double ratio);
+/// Tells the channel that the cosines of the angles of incidence are at least this.
+void limit_angles(Channel& channel, double least_cosine);
+
 /// The channels of a measured camera or detector in `data/camera`, one per column (R, G, B or QE), or of a
-/// user's table. Colour cameras are tabulated as energy responses ("to be multiplied by spectral power"),
-/// columns named QE as quantum efficiencies.
+/// user's table. Without a `kind`, colour cameras are energy responses ("to be multiplied by spectral
+/// power"), as they are tabulated, and columns named QE quantum efficiencies.
 [[nodiscard]] std::optional<std::vector<Channel>> load_camera(const std::string& name,
                                                               const SourcePosition& where,
-                                                              Diagnostics& diagnostics);
+                                                              Diagnostics& diagnostics,
+                                                              std::optional<ResponseKind> kind = {});
 
 /// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so Y
 /// is in lx s.

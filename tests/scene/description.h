@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -48,6 +49,13 @@ struct Loaded {
 
   [[nodiscard]] std::string text() const { return diagnostics.text(); }
   const Scene* operator->() const { return &scene.value(); }
+};
+
+struct Fault {
+  const char* what;
+  std::string fragment;
+  ErrorCode code;
+  const char* message;
 };
 
 class DescriptionTest : public ::testing::Test {
@@ -116,14 +124,25 @@ class DescriptionTest : public ::testing::Test {
     return loaded.scene ? loaded->shapes.at(0).shape : Shape(Sphere{{0, 0, 0}, 0});
   }
 
-  fs::path folder_;
-};
+  // Each fault is refused with its one message.
+  void expect_refused(const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) {
+      SCOPED_TRACE(fault.what);
+      const Loaded loaded = load(fault.fragment);
+      EXPECT_FALSE(loaded.scene);
+      ASSERT_TRUE(loaded.diagnostics.has_errors());
+      EXPECT_EQ(loaded.diagnostics.code(), fault.code) << loaded.text();
+      EXPECT_NE(loaded.text().find(fault.message), std::string::npos)
+          << loaded.text() << "lacks " << fault.message;
+      EXPECT_EQ(std::ranges::count_if(
+                    loaded.diagnostics.all(),
+                    [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; }),
+                1)
+          << loaded.text();
+    }
+  }
 
-struct Fault {
-  const char* what;
-  std::string fragment;
-  ErrorCode code;
-  const char* message;
+  fs::path folder_;
 };
 
 inline std::string painted(const std::string& reflectance) {

@@ -155,20 +155,7 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "up to 100 letters"},
       {"unknown unit", R"({"units": "ft"})", ErrorCode::scene, "unknown unit of length \"ft\""},
   };
-  for (const Fault& fault : faults) {
-    SCOPED_TRACE(fault.what);
-    const Loaded loaded = load(fault.fragment);
-    EXPECT_FALSE(loaded.scene);
-    ASSERT_TRUE(loaded.diagnostics.has_errors());
-    EXPECT_EQ(loaded.diagnostics.code(), fault.code) << loaded.text();
-    EXPECT_NE(loaded.text().find(fault.message), std::string::npos)
-        << loaded.text() << "lacks " << fault.message;
-    EXPECT_EQ(
-        std::ranges::count_if(loaded.diagnostics.all(),
-                              [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; }),
-        1)
-        << loaded.text();
-  }
+  expect_refused(faults);
 }
 
 TEST_F(DescriptionFaultsTest, NamesThePlaceAndTheKeysThatAreMissing) {

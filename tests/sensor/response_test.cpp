@@ -39,6 +39,18 @@ TEST(Response, ADetectorIsAQuantumEfficiency) {
   EXPECT_EQ(detector->front().kind, ResponseKind::quantum);
 }
 
+TEST(Response, ACamerasCurvesAreReadAsAsked) {
+  Diagnostics diagnostics;
+  const auto read = [&](const char* name, std::optional<ResponseKind> kind) {
+    return load_camera(name, {}, diagnostics, kind).value().front();
+  };
+  const Channel counts = read("Nikon_D5100", ResponseKind::quantum);
+  EXPECT_EQ(counts.kind, ResponseKind::quantum);
+  EXPECT_NEAR(counts.weight(380) * photon_energy(380), 0.001563843, 1e-12);
+  EXPECT_EQ(read("Nikon_D5100:R", {}).kind, ResponseKind::energy);
+  EXPECT_EQ(read("kodak_kaf-3200me", ResponseKind::energy).weight(300), 0.05);
+}
+
 TEST(Response, AnUnknownCameraIsReportedWithTheNearestName) {
   Diagnostics diagnostics;
   EXPECT_FALSE(load_camera("Nikon_D5101", {}, diagnostics).has_value());

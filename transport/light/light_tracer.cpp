@@ -69,9 +69,13 @@ class PhotonPath {
     const Imath::V3f from = offset_point(vertex.hit.point, vertex.hit.normal, towards);
     if (caster_.occluded(from, lens->lens_point)) return;
     contribution *= packet_.throughput * (std::abs(wi.z) * lens->weight / packet_.lane_pdf.sum());
+    const auto x = static_cast<int>(lens->film.x);
+    const auto y = static_cast<int>(lens->film.y);
     exposure_.clear();
+    exposure_.at_pixel(x, y);
+    exposure_.at_angle(lens->cos_film);
     exposure_.deposit(contribution);
-    splat_(static_cast<int>(lens->film.x), static_cast<int>(lens->film.y), exposure_.values());
+    splat_(x, y, exposure_.values());
   }
 
   bool scatter(const Vertex& vertex, int depth) {
@@ -120,7 +124,7 @@ std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint3
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
-    PathExposure exposure(plan.scene.channels);
+    PathExposure exposure = exposure_of(plan.scene);
     for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
       for (std::uint32_t i = first; i < first + kBatch; ++i) {
         double& worth = pilots[i].worth;

@@ -4,17 +4,24 @@
 #include <span>
 #include <vector>
 
-#include "sensor/response/channel.h"
+#include "scene/scene.h"
 #include "spectral/packet.h"
 
 namespace abbe {
 
 /// What the path in hand adds to a film value, channel by channel: a contribution c exposes channel k by
-/// sum_j c_j weight_k(lambda_j) / p(lambda_j). One of these serves all paths of a thread.
+/// sum_j c_j weight_k(lambda_j) / p(lambda_j). With a mosaic there is one value, that of the pixel's own
+/// channel. One of these serves all paths of a thread.
 class PathExposure {
  public:
-  explicit PathExposure(std::span<const Channel> channels)
-      : channels_(channels), weights_(channels.size()), values_(channels.size()) {}
+  explicit PathExposure(std::span<const Channel> channels, const Mosaic* mosaic = nullptr)
+      : sensor_(channels),
+        mosaic_(mosaic),
+        angular_(std::any_of(channels.begin(), channels.end(),
+                             [](const Channel& channel) { return channel.angular.has_value(); })),
+        channels_(mosaic == nullptr ? channels : channels.first(1)),
+        weights_(channels_.size()),
+        values_(channels_.size()) {}
 
   /// Starts a path: nothing exposed yet. `scale` multiplies everything, exposure time and what the camera
   /// asks.
@@ -23,6 +30,19 @@ class PathExposure {
     scale_ = scale;
     weighed_ = false;
     clear();
+  }
+  /// What is deposited from now on arrives at this pixel: before the first deposit of a path, and wherever
+  /// the path reaches the film elsewhere.
+  void at_pixel(int x, int y) {
+    if (mosaic_ == nullptr) return;
+    channels_ = sensor_.subspan(static_cast<std::size_t>(mosaic_->at(x, y)), 1);
+    weighed_ = false;
+  }
+  /// What is deposited from now on arrives under an angle of this cosine; at the same moments.
+  void at_angle(float cos_film) {
+    if (!angular_) return;
+    cos_film_ = cos_film;
+    weighed_ = false;
   }
   /// Forgets what was exposed, within the same path.
   void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
@@ -40,17 +60,33 @@ class PathExposure {
  private:
   void weigh() {
     const SampledSpectrum share = SampledSpectrum(scale_) / wavelengths_.pdf;
-    for (std::size_t k = 0; k < weights_.size(); ++k)
-      weights_[k] = share * channels_[k].weight(wavelengths_.lambda_nm);
+    if (angular_)
+      weigh_by_angle(share);
+    else
+      for (std::size_t k = 0; k < weights_.size(); ++k)
+        weights_[k] = share * channels_[k].weight(wavelengths_.lambda_nm);
     weighed_ = true;
   }
+  [[gnu::noinline]] void weigh_by_angle(const SampledSpectrum& share) {  // out of the way of the others
+    for (std::size_t k = 0; k < weights_.size(); ++k)
+      weights_[k] = share * weight_at(channels_[k], wavelengths_.lambda_nm, cos_film_);
+  }
 
-  std::span<const Channel> channels_;
+  std::span<const Channel> sensor_;
+  const Mosaic* mosaic_;
+  bool angular_;
+  std::span<const Channel> channels_;  // of the pixel
   std::vector<SampledSpectrum> weights_;
   std::vector<double> values_;
   SampledWavelengths wavelengths_;
   float scale_ = 1;
+  float cos_film_ = 1;
   bool weighed_ = false;
 };
+
+/// That of the scene's sensor.
+[[nodiscard]] inline PathExposure exposure_of(const Scene& scene) {
+  return PathExposure(scene.channels, scene.mosaic ? &*scene.mosaic : nullptr);
+}
 
 }  // namespace abbe

@@ -38,7 +38,9 @@ class CameraPath {
 
   /// At a meter: adds what lights it directly. Whether a ray is left to find the rest.
   bool leave_meter(const Imath::V3f& point, const Imath::V3f& normal) {
-    return scatter(Vertex::meter(point, normal), kMeterDepth);
+    const bool leaves = scatter(Vertex::meter(point, normal), kMeterDepth);
+    exposure_.at_angle(ray_.direction.dot(normal));
+    return leaves;
   }
 
   void trace() {
@@ -150,6 +152,7 @@ class CameraPath {
     const float balance = (packet_.lane_pdf * (SampledSpectrum(light_density) + scatter_density)).sum();
     if (!(balance > 0) || blocked(vertex, *towards)) return;
     medium_.attenuate(contribution, towards->distance);
+    if (depth == kMeterDepth) exposure_.at_angle(wi.z);
     exposure_.deposit(contribution * (1 / balance));
   }
 
@@ -184,7 +187,10 @@ void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampl
   const std::array<float, 4> lens = camera.is_pinhole() ? std::array<float, 4>{} : sampler.group(kLensGroup);
   const Imath::V2f position(static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]);
   const CameraRay start = sample_ray(camera, position, {lens[0], lens[1]});
-  CameraPath path(plan, caster, sampler, plan.wavelengths.sample(film[2]), start, exposure);
+  const SampledWavelengths wavelengths = plan.wavelengths_at(x, y).sample(film[2]);
+  CameraPath path(plan, caster, sampler, wavelengths, start, exposure);
+  exposure.at_pixel(x, y);
+  exposure.at_angle(start.cos_film);
   const auto* meter = std::get_if<IrradianceProbe>(&camera.kind);
   if (meter == nullptr || path.leave_meter(start.ray.origin, Imath::V3f(meter->normal))) path.trace();
 }

@@ -40,7 +40,7 @@ class Pass {
  private:
   // What one thread keeps between items.
   struct Worker {
-    explicit Worker(const Scene& scene) : caster(scene), exposure(scene.channels) {}
+    explicit Worker(const Scene& scene) : caster(scene), exposure(exposure_of(scene)) {}
     RayCaster caster;
     PathExposure exposure;
     PassCounts counts;

@@ -84,7 +84,7 @@ Emissions emissions_of(const Scene& scene) {
     emissions.of_light.push_back(found == known.end() ? emissions.distinct.size() : found->second);
     if (found != known.end()) continue;
     double& seen = emissions.seen.emplace_back(0);
-    for (const Channel& channel : scene.channels) seen = std::max(seen, weighed(emission, channel.weight));
+    for (const Channel& channel : scene.channels) seen = std::max(seen, weighed(emission, reach(channel)));
     emissions.distinct.push_back(std::move(emission));
     known.emplace(&emissions.distinct.back(), emissions.distinct.size() - 1);
   }
@@ -115,8 +115,16 @@ std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& 
 
 WavelengthDistribution make_wavelengths(const Scene& scene, const Emissions& emissions) {
   std::vector<Curve> responses;
-  for (const Channel& channel : scene.channels) responses.push_back(channel.weight);
+  for (const Channel& channel : scene.channels) responses.push_back(reach(channel));
   return {emissions.distinct, responses};
+}
+
+std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, const Emissions& emissions) {
+  std::vector<WavelengthDistribution> own;
+  if (scene.mosaic)
+    for (const Channel& channel : scene.channels)
+      own.emplace_back(emissions.distinct, std::span(&reach(channel), 1));
+  return own;
 }
 
 }  // namespace
@@ -164,7 +172,8 @@ Plan make_plan(const Scene& scene, int threads) {
             !light_only,
             light_active,
             light_only,
-            nominal_value(scene, emissions)};
+            nominal_value(scene, emissions),
+            make_own_wavelengths(scene, emissions)};
   plan.light_active = light_active && !plan.traced_lights.empty();
   if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
   if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed, threads);

@@ -40,8 +40,16 @@ struct Plan {
   std::vector<Aim> aims;      ///< Per light.
   bool path_active;
   bool light_active;
-  bool light_owns_all;   ///< The light tracer alone renders the scene.
-  double nominal_value;  ///< Order of magnitude of a film value.
+  bool light_owns_all;                                  ///< The light tracer alone renders the scene.
+  double nominal_value;                                 ///< Order of magnitude of a film value.
+  std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
+
+  /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
+  /// `wavelengths`.
+  [[nodiscard]] const WavelengthDistribution& wavelengths_at(int x, int y) const {
+    return own_wavelengths.empty() ? wavelengths
+                                   : own_wavelengths[static_cast<std::size_t>(scene.mosaic->at(x, y))];
+  }
 };
 
 /// On that many threads, which change nothing but the time it takes.

@@ -41,7 +41,7 @@ class Rendering {
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
                                                        static_cast<std::uint64_t>(scene.camera.height)))),
-        result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.channels.size()),
+        result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
                      replicate_count(scene, options), plan_.nominal_value),
                 {},
                 {}} {

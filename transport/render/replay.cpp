@@ -24,7 +24,7 @@ void trace_some(const Plan& plan, RayCaster& caster) {
   const Scene& scene = plan.scene;
   const auto width = static_cast<std::uint32_t>(scene.camera.width);
   const std::uint32_t pixels = width * static_cast<std::uint32_t>(scene.camera.height);
-  PathExposure exposure(scene.channels);
+  PathExposure exposure = exposure_of(scene);
   const Splat dropped = [](int, int, std::span<const double>) {};
   for (std::uint32_t i = 0; i < kPaths; ++i) {
     const auto pixel = static_cast<std::uint32_t>(std::uint64_t{i} * pixels / kPaths);

@@ -20,19 +20,13 @@ namespace fs = std::filesystem;
 
 constexpr std::array kRgb{"R", "G", "B"};
 
-std::vector<std::string> names_of(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Channel& channel : scene.channels) names.push_back(channel.name);
-  return names;
-}
-
 Image render_reference(Scene scene, std::uint64_t seed, int samples, int threads) {
   expose_in_srgb(scene);
   scene.render.seed = seed;
   scene.render.samples = samples;
   RenderOptions how;
   how.threads = threads;
-  return render(scene, how).film.image(names_of(scene));
+  return render(scene, how).film.image(scene.film_planes());
 }
 
 }  // namespace

@@ -31,9 +31,7 @@ BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_
   how.measure_replay = with_replay;
   const RenderResult result = render(scene, how);
   const RenderStats& stats = result.stats;
-  std::vector<std::string> names;
-  for (const Channel& channel : scene.channels) names.push_back(channel.name);
-  const Image image = linear_srgb(result.film.image(names));
+  const Image image = linear_srgb(result.film.image(scene.film_planes()));
   const auto error = [&](ErrorMeasure measure) {
     measure.subtract_variance = true;
     return rel_mse(image, reference, measure);

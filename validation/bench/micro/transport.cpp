@@ -20,7 +20,7 @@ void camera_path(benchmark::State& state) {
   const Scene scene = load_suite(choose_suites({"cornell"}).front(), "", false);
   const Plan plan = make_plan(scene);
   RayCaster caster(scene);
-  PathExposure exposure(scene.channels);
+  PathExposure exposure = exposure_of(scene);
   const auto width = static_cast<std::uint32_t>(scene.camera.width);
   std::uint32_t i = 0;
   for (auto _ : state) {

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+namespace {
+
+// Above 1 by what a measurement may err, far below a percentage.
+constexpr Range kTransmittance{0, 1.05};
+constexpr Range kEffectiveIndex{1, 10};
+
+// As EXR files can name channels and what is said of them.
+constexpr std::size_t kLongestName = 100;
+
+// Channels name the planes of an EXR, whose layers are separated by dots.
+bool is_plain(std::string_view name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), plain);
+}
+
+std::optional<ResponseKind> read_response(ObjectReader& reader, Reading& reading) {
+  const JsonValue* json = reader.find("response");
+  if (!json) return std::nullopt;
+  const auto choice = read_choice(*json, "response", {"energy", "quantum"}, reading.diagnostics);
+  if (!choice) return std::nullopt;
+  return *choice == 0 ? ResponseKind::energy : ResponseKind::quantum;
+}
+
+/// What all channels of a sensor share.
+struct Detector {
+  std::optional<ResponseKind> response;
+  std::optional<Curve> quantum_efficiency;
+  std::optional<FilterStack> filters;  ///< Before all channels: the lens, and what lies over the sensor.
+  double exposure_s = 1;
+};
+
+// Puts one more filter into the stack: a curve, or one that shifts with the angle.
+bool read_filter(const JsonValue& json, FilterStack& stack, Reading& reading) {
+  if (!json.find("effective_index")) {
+    const auto curve = read_curve(json, {"filter", kTransmittance}, reading);
+    if (curve) stack.fixed = product(stack.fixed, *curve);
+    return curve.has_value();
+  }
+  ObjectReader reader(json, reading.diagnostics);
+  const auto index = reader.require_number("effective_index", kEffectiveIndex);
+  const JsonValue* transmittance = reader.require("transmittance");
+  reader.finish();
+  if (!index || !transmittance) return false;
+  auto curve = read_curve(*transmittance, {"filter", kTransmittance}, reading);
+  if (!curve) return false;
+  stack.shifting.push_back({*std::move(curve), *index});
+  return true;
+}
+
+std::optional<FilterStack> read_filters(const JsonValue& json, Reading& reading) {
+  const JsonValue::Array* list = read_array(json, "filters", 0, reading);
+  if (!list) return std::nullopt;
+  FilterStack stack;
+  bool complete = true;
+  for (const JsonValue& entry : *list) complete = read_filter(entry, stack, reading) && complete;
+  return complete ? std::optional(std::move(stack)) : std::nullopt;
+}
+
+// Nothing after an error.
+std::optional<Detector> read_detector(ObjectReader& reader, double exposure_s, Reading& reading) {
+  Detector detector{read_response(reader, reading), {}, {}, exposure_s};
+  const JsonValue* efficiency = reader.find("quantum_efficiency");
+  const JsonValue* filters = reader.find("filters");
+  const JsonValue* lens = reader.find("lens_transmission");
+  if (efficiency && detector.response == ResponseKind::energy)
+    reading.diagnostics.error(efficiency->where,
+                              "a quantum_efficiency makes the response quantum (got \"energy\")");
+  if (efficiency)
+    detector.quantum_efficiency = read_curve(*efficiency, {"camera", Range::non_negative()}, reading);
+  if (filters) detector.filters = read_filters(*filters, reading);
+  const auto transmission =
+      lens ? read_curve(*lens, {"filter", kTransmittance}, reading) : std::optional<Curve>();
+  if ((efficiency && !detector.quantum_efficiency) || (filters && !detector.filters) ||
+      (lens && !transmission))
+    return std::nullopt;
+  if (transmission) {
+    if (!detector.filters) detector.filters.emplace();
+    detector.filters->fixed = product(detector.filters->fixed, *transmission);
+  }
+  return detector;
+}
+
+/// What is said of a channel alone.
+struct Own {
+  Curve curve = Curve(1.0);
+  FilterStack filters = {};
+  double exposure_s;
+};
+
+// Either a curve, or filters perhaps with an exposure time.
+std::optional<Own> read_own(const JsonValue& json, const Detector& detector, Reading& reading) {
+  Own own{.exposure_s = detector.exposure_s};
+  const JsonValue* filters = json.find("filters");
+  if (!filters) {
+    auto curve = read_curve(json, {"filter"}, reading);
+    if (!curve) return std::nullopt;
+    own.curve = *std::move(curve);
+    return own;
+  }
+  ObjectReader reader(json, reading.diagnostics);
+  auto stack = read_filters(*reader.find("filters"), reading);
+  own.exposure_s = reader.number_or("exposure_s", own.exposure_s, kExposure);
+  reader.finish();
+  if (!stack) return std::nullopt;
+  own.curve = std::exchange(stack->fixed, Curve(1.0));
+  own.filters = *std::move(stack);
+  return own;
+}
+
+std::optional<Channel> read_channel(const std::string& name, const JsonValue& json, const Detector& detector,
+                                    Reading& reading) {
+  if (!is_plain(name)) {
+    reading.diagnostics.error(
+        json.where, fmt::format("a channel's name has up to {} letters, digits, - and _ only (got \"{}\")",
+                                kLongestName, name));
+    return std::nullopt;
+  }
+  std::optional<Own> own = read_own(json, detector, reading);
+  if (!own) return std::nullopt;
+  Curve& curve = own->curve;
+  if (detector.quantum_efficiency) curve = product(curve, *detector.quantum_efficiency);
+  const bool quantum = detector.quantum_efficiency || detector.response == ResponseKind::quantum;
+  Channel channel = quantum ? quantum_channel(name, curve) : energy_channel(name, std::move(curve));
+  if (!own->filters.shifting.empty()) channel = behind(std::move(channel), own->filters);
+  if (own->exposure_s != detector.exposure_s)
+    channel = exposed(std::move(channel), own->exposure_s / detector.exposure_s);
+  return channel;
+}
+
+std::vector<Channel> read_named(const JsonValue& json, const std::optional<Detector>& detector,
+                                Reading& reading) {
+  const auto* members = std::get_if<JsonValue::Object>(&json.value);
+  if (!members || members->empty()) {
+    reading.diagnostics.error(
+        json.where, fmt::format("expected channels by name (got {})", members ? "none" : json.kind()));
+    return {};
+  }
+  std::vector<Channel> channels;
+  if (!detector) return channels;
+  for (const auto& [name, value] : *members)
+    if (auto channel = read_channel(name, value, *detector, reading)) channels.push_back(std::move(*channel));
+  return channels;
+}
+
+std::vector<Channel> read_observer(const JsonValue& json, Reading& reading) {
+  const auto* year = std::get_if<double>(&json.value);
+  const auto name = year ? std::optional(fmt::format("{}", *year)) : read_string(json, reading.diagnostics);
+  if (!name) return {};
+  if (*name == "1931") return observer_channels(Observer::cie1931);
+  if (*name == "1964") return observer_channels(Observer::cie1964);
+  reading.diagnostics.error(json.where,
+                            unknown_name("observer", *name, std::vector<std::string>{"1931", "1964"}));
+  return {};
+}
+
+std::vector<Channel> read_camera_channels(const JsonValue& json, const std::optional<Detector>& detector,
+                                          Reading& reading) {
+  const std::optional<std::string> name = reading.table(json);
+  if (!name || !detector) return {};
+  return load_camera(*name, json.where, reading.diagnostics, detector->response)
+      .value_or(std::vector<Channel>{});
+}
+
+// Responses that others have themselves.
+void refuse(ObjectReader& reader, std::initializer_list<const char*> keys, const std::string& instead,
+            Reading& reading) {
+  for (const char* key : keys)
+    if (const JsonValue* at = reader.find(key))
+      reading.diagnostics.error(
+          at->where, fmt::format("{} goes with channels (got {}, which has its own)", key, instead));
+}
+
+void require_response(const Channel& channel, const SourcePosition& where, Reading& reading) {
+  if (reach(channel).max() == 0 && reach(channel).min() == 0)
+    reading.diagnostics.error(where, fmt::format("channel \"{}\" responds to no wavelength in [{}, {}] nm",
+                                                 channel.name, kMinWavelengthNm, kMaxWavelengthNm));
+}
+
+}  // namespace
+
+std::vector<Channel> read_channels(ObjectReader& reader, double exposure_s, Reading& reading) {
+  const auto key = reader.exactly_one({"channels", "camera", "observer"});
+  const std::optional<Detector> detector = read_detector(reader, exposure_s, reading);
+  if (!key) return {};
+  const JsonValue& json = *reader.find(*key);
+  std::vector<Channel> channels;
+  if (*key == "channels") {
+    channels = read_named(json, detector, reading);
+  } else if (*key == "camera") {
+    refuse(reader, {"quantum_efficiency"}, *key, reading);
+    channels = read_camera_channels(json, detector, reading);
+  } else {
+    refuse(reader, {"response", "quantum_efficiency"}, *key, reading);
+    channels = read_observer(json, reading);
+  }
+  for (Channel& channel : channels) {
+    if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
+    limit_angles(channel, 0);
+    const JsonValue* own = json.find(channel.name);
+    require_response(channel, own ? own->where : json.where, reading);
+  }
+  return channels;
+}
+
+}  // namespace abbe::description

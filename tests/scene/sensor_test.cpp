@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "description.h"
+#include "spectral/library.h"
+#include "spectral/sources.h"
+#include "tests/reference/reference_table.h"
+
+namespace abbe {
+namespace {
+
+using testing::Fault;
+using testing::Loaded;
+using testing::sensed;
+using SensorTest = testing::DescriptionTest;
+
+Channel only_channel(const Loaded& loaded) {
+  EXPECT_TRUE(loaded.scene) << loaded.text();
+  return loaded.scene ? loaded->channels.at(0) : energy_channel("none", Curve(1.0));
+}
+
+TEST_F(SensorTest, FilteredCcdsCountTheElectronsOfPlanckianSources) {
+  const test::ReferenceTable counts("ccd_bandpass_counts");
+  ASSERT_EQ(counts.rows(), 24U);
+  for (std::size_t row = 0; row < counts.rows(); ++row) {
+    const std::string& efficiency = counts.text(row, "ccd_qe");
+    const Channel channel = only_channel(load(sensed(fmt::format(
+        R"("resolution": [1, 1], "quantum_efficiency": {}, "channels": {{"band": {{"filters": ["{}"]}}}})",
+        efficiency == "none" ? "1" : '"' + efficiency + '"', counts.text(row, "passband")))));
+    EXPECT_EQ(channel.kind, ResponseKind::quantum);
+    const double expected = counts.number(row, "N");
+    EXPECT_NEAR(sum_product(planck(counts.number(row, "T_K")), channel.weight, {300, 1050}), expected,
+                1e-6 * expected)
+        << counts.text(row, "passband") << ' ' << efficiency;
+  }
+}
+
+TEST_F(SensorTest, FiltersMultiplyOneBehindTheOther) {
+  const std::string stack = R"("filters": [0.5, {"band": [500, 600]}], "lens_transmission": 0.8)";
+  const Channel channel = only_channel(load(
+      sensed(R"("resolution": [1, 1], "quantum_efficiency": 0.6, )" + stack +
+             R"(, "channels": {"a": {"filters": [{"band": [400, 550], "value": 0.9}, "filter.csv:T"]}})")));
+  EXPECT_NEAR(channel.weight(520) * photon_energy(520), 0.6 * 0.5 * 0.8 * 0.9 * 0.24, 1e-12);
+  EXPECT_EQ(channel.weight(450), 0);
+  EXPECT_EQ(channel.weight(560), 0);
+  EXPECT_FALSE(channel.angular);
+
+  const Channel camera = only_channel(
+      load(sensed(R"("resolution": [1, 1], "camera": "Nikon_D5100", "response": "quantum", )" + stack)));
+  Diagnostics diagnostics;
+  const auto red = load_curve("camera", "Nikon_D5100:R", {}, diagnostics);
+  EXPECT_NEAR(camera.weight(520) * photon_energy(520), 0.4 * red->curve(520), 1e-9);
+  const Loaded observer = load(sensed(R"("resolution": [1, 1], "observer": "1931", )" + stack));
+  EXPECT_NEAR(observer->channels.at(1).weight(555), 0.4 * 683.002, 0.01);
+
+  const Channel clear =
+      only_channel(load(sensed(R"("resolution": [1, 1], "channels": {"L": {"filters": []}})")));
+  EXPECT_EQ(clear.weight(700), 1);
+}
+
+TEST_F(SensorTest, AFilterWheelExposesEveryFilterForItsOwnTime) {
+  const Loaded wheel = load(sensed(
+      R"("resolution": [1, 1], "exposure_s": 0.5, "channels": {"R": {"filters": ["W25"], "exposure_s": 2},
+         "clear": {"filters": [0.5]}, "plain": 0.5})"));
+  ASSERT_TRUE(wheel.scene) << wheel.text();
+  EXPECT_EQ(wheel->exposure_s, 0.5);
+  Diagnostics diagnostics;
+  const auto red = load_curve("filter", "W25", {}, diagnostics);
+  EXPECT_EQ(wheel->channels[0].exposure_ratio, 4);
+  EXPECT_NEAR(wheel->channels[0].weight(650), 4 * red->curve(650), 1e-12);
+  EXPECT_EQ(wheel->channels[1].exposure_ratio, 1);
+  EXPECT_EQ(wheel->channels[1].weight(650), 0.5);
+  EXPECT_EQ(wheel->channels[2].weight(650), 0.5);
+}
+
+TEST_F(SensorTest, AnInterferenceFilterReachesAsFarAsTheCameraLetsIt) {
+  const auto line = [this](const std::string& camera) {
+    return load(fmt::format(
+        R"({{"camera": {}, "sensor": {{"resolution": [40, 30], "pixel_pitch_um": 100, "fill_factor": 0.25,
+            "channels": {{"line": {{"filters": [{{"transmittance": {{"band": [645, 655]}}, "effective_index": 2}}]}}}}}}}})",
+        camera));
+  };
+  const std::string at = R"("from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]})";
+  const Loaded lens =
+      line(R"({"thin_lens": {"focal_length": 0.01, "f_number": 2, "focus_distance": "infinity"}, )" + at);
+  ASSERT_TRUE(lens.scene) << lens.text();
+  EXPECT_EQ(lens->fill_factor, 0.25);
+  EXPECT_TRUE(lens->needs.angular_response);
+  EXPECT_EQ(lens->needs.because.at("angular_response"), "channel \"line\"");
+  // The far corner, 2.5 mm from the axis, through the far edge of the opening of 2.5 mm radius.
+  const double edge = 645 * blue_shift(std::cos(std::atan(0.5)), 2.0);
+  const auto ends_at = [](const Loaded& loaded, double nm) {
+    const Curve& reached = reach(loaded->channels.at(0));
+    EXPECT_EQ(reached(nm - 0.01), 0) << nm;
+    EXPECT_EQ(reached(nm + 0.01), 1) << nm;
+    EXPECT_EQ(reached(654.9), 1);
+    EXPECT_EQ(reached(655.1), 0);
+  };
+  ends_at(lens, edge);
+  ends_at(line(R"({"pinhole": {"focal_length": 0.01}, )" + at),
+          645 * blue_shift(std::cos(std::atan(0.25)), 2.0));
+  ends_at(line(R"({"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}})"), 645 * std::sqrt(0.75));
+  EXPECT_FALSE(load("{}")->needs.angular_response);
+}
+
+TEST_F(SensorTest, MosaicsNameTheirChannels) {
+  const Loaded bayer =
+      load(sensed(R"("resolution": [5, 3], "camera": "Nikon_D5100", "mosaic": [["R", "G"], ["G", "B"]])"));
+  ASSERT_TRUE(bayer.scene) << bayer.text();
+  EXPECT_EQ(bayer->mosaic, (Mosaic{2, 2, {0, 1, 1, 2}}));
+  EXPECT_EQ(bayer->film_planes(), std::vector<std::string>{"raw"});
+  const Loaded stripes =
+      load(sensed(R"("resolution": [5, 3], "channels": {"a": 1, "b": 2}, "mosaic": [["b", "a", "b"]])"));
+  EXPECT_EQ(stripes->mosaic, (Mosaic{3, 1, {1, 0, 1}}));
+  EXPECT_FALSE(load("{}")->mosaic);
+  EXPECT_EQ(load("{}")->film_planes(), std::vector<std::string>{"all"});
+}
+
+TEST_F(SensorTest, ATStopExposesAsALensWithoutLosses) {
+  const auto lens = [this](const std::string& members) {
+    const Loaded loaded = load(fmt::format(
+        R"({{"camera": {{{}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}}}})", members));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return std::get<LensCamera>(loaded->camera.kind);
+  };
+  const LensCamera both = lens(R"("thin_lens": {"focal_length": 0.05, "f_number": 2, "t_stop": 2.5})");
+  EXPECT_DOUBLE_EQ(both.aperture_radius, 0.0125);
+  EXPECT_DOUBLE_EQ(both.transmittance, 0.64);
+  const LensCamera alone = lens(R"("thin_lens": {"focal_length": 0.05, "t_stop": 2.5})");
+  EXPECT_DOUBLE_EQ(alone.aperture_radius, 0.01);
+  EXPECT_EQ(alone.transmittance, 1);
+  const LensCamera pinhole = lens(R"("pinhole": {"focal_length": 0.05, "t_stop": 2.5})");
+  EXPECT_DOUBLE_EQ(pinhole.aperture_radius, 0.01);
+  EXPECT_EQ(lens(R"("pinhole": {"focal_length": 0.05})").aperture_radius, 0.05 / 8);
+}
+
+TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
+  const std::string pixel = R"("resolution": [1, 1], )";
+  const auto behind = [&](const std::string& filter) {
+    return sensed(pixel + R"("channels": {"a": {"filters": [)" + filter + "]}}");
+  };
+  const std::string at = R"("from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]})";
+  const auto mosaic = [&](const std::string& pattern) {
+    return sensed(pixel + R"("channels": {"a": 1, "b": 1}, "mosaic": )" + pattern);
+  };
+  const std::vector<Fault> faults{
+      {"14 no camera", R"({"camera": {}})", ErrorCode::scene,
+       "expected exactly one key (got none, allowed pinhole, thin_lens, irradiance_probe)"},
+      {"16 no pitch", sensed(pixel + R"("observer": 1931, "pixel_pitch_um": 0)"), ErrorCode::scene,
+       "/sensor/pixel_pitch_um: error: expected a number (got 0, allowed (0, 1000000])"},
+      {"16 no area", sensed(pixel + R"("observer": 1931, "fill_factor": 0)"), ErrorCode::scene,
+       "/sensor/fill_factor: error: expected a number (got 0, allowed (0, 1])"},
+      {"16 more than all", sensed(pixel + R"("observer": 1931, "fill_factor": 1.5)"), ErrorCode::scene,
+       "(got 1.5, allowed (0, 1])"},
+      {"17 no time", sensed(pixel + R"("channels": {"a": {"filters": [], "exposure_s": 0}})"),
+       ErrorCode::scene,
+       "/sensor/channels/a/exposure_s: error: expected a number (got 0, allowed (0, 1000000000])"},
+      {"18 no stop", R"({"camera": {"pinhole": {"fov_deg": 9, "t_stop": 0}, )" + at + "}", ErrorCode::scene,
+       "/camera/pinhole/t_stop: error: expected a number (got 0, allowed (0, 1000000])"},
+      {"18 a lens that amplifies",
+       R"({"camera": {"thin_lens": {"focal_length": 0.1, "f_number": 4, "t_stop": 3.9}, )" + at + "}",
+       ErrorCode::scene, "a T-stop is no faster than its f-number (got 3.9, allowed [4, inf))"},
+      {"18 no stop at all", R"({"camera": {"thin_lens": {"focal_length": 0.1}, )" + at + "}",
+       ErrorCode::scene, "missing key \"f_number\""},
+      {"27 empty band", behind(R"({"band": [600, 600]})"), ErrorCode::scene,
+       "/sensor/channels/a/filters/0/band: error: an empty band"},
+      {"27 opaque", behind("0"), ErrorCode::scene,
+       "/sensor/channels/a: error: channel \"a\" responds to no wavelength in [300, 1100] nm"},
+      {"27 nothing in common", behind(R"({"band": [400, 500]}, {"band": [600, 700]})"), ErrorCode::scene,
+       "responds to no wavelength"},
+      {"27 nothing in common at any angle",
+       behind(R"({"transmittance": {"band": [400, 500]}, "effective_index": 2}, {"band": [600, 700]})"),
+       ErrorCode::scene, "responds to no wavelength"},
+      {"27 nothing passes the sensor's filter",
+       sensed(pixel + R"("filters": [0], "camera": "Nikon_D5100:R")"), ErrorCode::scene,
+       "/sensor/camera: error: channel \"R\" responds to no wavelength"},
+      {"27 nothing passes the lens",
+       sensed(pixel + R"("lens_transmission": {"band": [900, 950]}, "camera": "Nikon_D5100:R")"),
+       ErrorCode::scene, "/sensor/camera: error: channel \"R\" responds to no wavelength"},
+      {"percent", behind("92"), ErrorCode::scene, "(got 92, allowed [0, 1.05])"},
+      {"negative", behind(R"({"transmittance": -0.1, "effective_index": 2})"), ErrorCode::scene,
+       "/sensor/channels/a/filters/0/transmittance: error: curve out of range at 300 nm (got -0.1"},
+      {"percent of the lens", sensed(pixel + R"("observer": 1931, "lens_transmission": 80)"),
+       ErrorCode::scene, "/sensor/lens_transmission: error: curve out of range"},
+      {"an index below air's", behind(R"({"transmittance": 1, "effective_index": 0.9})"), ErrorCode::scene,
+       "/sensor/channels/a/filters/0/effective_index: error: expected a number (got 0.9, allowed [1, 10])"},
+      {"no transmittance", behind(R"({"effective_index": 2})"), ErrorCode::scene,
+       "missing key \"transmittance\""},
+      {"unknown filter", behind(R"("bessel_V")"), ErrorCode::scene, "did you mean \"bessell_V\"?"},
+      {"not a list", sensed(pixel + R"("channels": {"a": {"filters": "bessell_V"}})"), ErrorCode::scene,
+       "expected an array of filters (got a string)"},
+      {"unknown key", sensed(pixel + R"("channels": {"a": {"filters": [], "exposure": 1}})"),
+       ErrorCode::scene, "did you mean \"exposure_s\"?"},
+      {"an efficiency for a camera", sensed(pixel + R"("camera": "Nikon_D5100", "quantum_efficiency": 0.5)"),
+       ErrorCode::scene, "quantum_efficiency goes with channels (got camera, which has its own)"},
+      {"a response for an observer", sensed(pixel + R"("observer": 1931, "response": "quantum")"),
+       ErrorCode::scene, "response goes with channels (got observer, which has its own)"},
+      {"an empty mosaic", mosaic("[]"), ErrorCode::scene,
+       "expected an array of rows (got 0 of them, allowed [1, inf))"},
+      {"an empty row", mosaic("[[]]"), ErrorCode::scene, "/sensor/mosaic/0: error: expected an array"},
+      {"a ragged mosaic", mosaic(R"([["a", "b"], ["a"]])"), ErrorCode::scene,
+       "/sensor/mosaic/1: error: rows of a mosaic have one length (got 1, allowed 2)"},
+      {"an unknown channel", mosaic(R"([["a", "c"]])"), ErrorCode::scene,
+       "/sensor/mosaic/0/1: error: unknown channel \"c\""},
+      {"a channel without pixels", mosaic(R"([["b"]])"), ErrorCode::scene,
+       "/sensor/mosaic: error: has no place for channel \"a\""},
+      {"no names", mosaic("[[1]]"), ErrorCode::scene, "expected a string (got 1"},
+  };
+  expect_refused(faults);
+}
+
+}  // namespace
+}  // namespace abbe

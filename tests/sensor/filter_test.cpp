@@ -1,0 +1,98 @@
+#include "sensor/response/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sensor/response/channel.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+double cosine(double deg) {
+  return std::cos(deg * std::numbers::pi / 180);
+}
+
+SampledSpectrum at(double nm) {
+  return SampledSpectrum(static_cast<float>(nm));
+}
+
+TEST(InterferenceFilter, ShiftsByTheRefractedCosine) {
+  EXPECT_EQ(blue_shift(1.0, 2.0), 1);
+  for (const double deg : {5.0, 20.0, 60.0}) {
+    // sqrt(1 - sin^2/n^2) is the cosine inside a layer of that index.
+    const double inside = std::asin(std::sin(deg * std::numbers::pi / 180) / 2.05);
+    EXPECT_NEAR(blue_shift(cosine(deg), 2.05), std::cos(inside), 1e-14) << deg;
+  }
+}
+
+TEST(InterferenceFilter, MovesTheBandOfAChannel) {
+  const FilterStack stack{Curve(0.5), {{band(645, 655), 2.0}}};
+  const Channel channel = behind(energy_channel("line", Curve(0.8)), stack);
+  EXPECT_NEAR(channel.weight(650), 0.4, 1e-12);
+  const auto cos_film = static_cast<float>(cosine(25));
+  const double shift = blue_shift(cosine(25), 2.0);
+  EXPECT_EQ(weight_at(channel, at(650), 1)[0], 0.4F);
+  EXPECT_EQ(weight_at(channel, at(645 * shift + 0.01), cos_film)[0], 0.4F);
+  EXPECT_EQ(weight_at(channel, at(645 * shift - 0.01), cos_film)[0], 0);
+  EXPECT_EQ(weight_at(channel, at(655 * shift - 0.01), cos_film)[0], 0.4F);
+  EXPECT_EQ(weight_at(channel, at(655 * shift + 0.01), cos_film)[0], 0);
+}
+
+// A stack over another filter that shifts too, an exposure of its own, seen up to 40 degrees.
+Channel stacked() {
+  Channel channel = behind(quantum_channel("a", Curve({{400, 0.2}, {700, 0.7}})),
+                           {band(500, 690), {{gaussian(600, 30), 1.6}, {band(560, 640.3), 2.1}}});
+  channel = exposed(behind(std::move(channel), {Curve(0.9), {}}), 3);
+  limit_angles(channel, cosine(40));
+  return channel;
+}
+
+TEST(InterferenceFilter, AStackWeighsByTheProductOfAll) {
+  const Channel channel = stacked();
+  EXPECT_EQ(channel.exposure_ratio, 3);
+  for (const double deg : {0.0, 17.0, 40.0})
+    for (double nm = 520.3; nm < 680; nm += 7) {
+      const double a = nm / blue_shift(cosine(deg), 1.6);
+      const double b = nm / blue_shift(cosine(deg), 2.1);
+      const double expected = (0.2 + 0.5 * (nm - 400) / 300) / photon_energy(nm) * 0.9 * 3 *
+                              gaussian(600, 30)(a) * band(560, 640.3)(b);
+      EXPECT_NEAR(static_cast<double>(weight_at(channel, at(nm), static_cast<float>(cosine(deg)))[0]),
+                  expected, 1e-4 * expected)
+          << nm << ' ' << deg;
+      if (deg > 0) continue;
+      EXPECT_NEAR(channel.weight(nm), expected, 1e-4 * expected);
+    }
+}
+
+TEST(InterferenceFilter, NothingExceedsItsReachAndTheReachIsNoWider) {
+  const Channel channel = stacked();
+  double low = 1100;
+  double high = 300;
+  for (double deg = 0; deg <= 40; deg += 2.5)
+    for (double nm = 400.05; nm < 700; nm += 0.1) {
+      const auto weight = static_cast<double>(weight_at(channel, at(nm), static_cast<float>(cosine(deg)))[0]);
+      EXPECT_LE(weight, reach(channel)(nm) * (1 + 1e-4)) << nm << ' ' << deg;
+      if (weight == 0) continue;
+      low = std::min(low, nm);
+      high = std::max(high, nm);
+    }
+  EXPECT_NEAR(low, 560 * blue_shift(cosine(40), 2.1), 0.11);
+  EXPECT_EQ(reach(channel)(low - 0.3), 0);
+  EXPECT_GT(reach(channel)(low), 0);
+  EXPECT_NEAR(high, 640.3, 0.11);
+  EXPECT_EQ(reach(channel)(high + 0.3), 0);
+}
+
+TEST(InterferenceFilter, ChannelsWithoutOneReachTheirWeight) {
+  Channel channel = behind(energy_channel("plain", band(400, 500)), {Curve(0.5), {}});
+  limit_angles(channel, 0.5);
+  EXPECT_FALSE(channel.angular);
+  EXPECT_EQ(&reach(channel), &channel.weight);
+  EXPECT_EQ(weight_at(channel, at(450), 0.1F)[0], 0.5F);
+}
+
+}  // namespace
+}  // namespace abbe
