@@ -1,0 +1,95 @@
+#include "transport/path/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "spectral/sources.h"
+#include "transport/render/plan.h"
+
+namespace abbe {
+namespace {
+
+SampledWavelengths all_at(double nm) {
+  return {SampledSpectrum(static_cast<float>(nm)), SampledSpectrum(0.5F)};
+}
+
+const std::vector<Channel> kChannels{energy_channel("a", Curve(1.0)), energy_channel("b", Curve(3.0))};
+
+TEST(PathExposure, AMosaicExposesThePixelsOwnChannel) {
+  const Mosaic mosaic{2, 1, {1, 0}};
+  PathExposure exposure(kChannels, &mosaic);
+  exposure.begin(all_at(500), 2);
+  exposure.at_pixel(4, 7);
+  exposure.deposit(SampledSpectrum(0.25F));
+  ASSERT_EQ(exposure.values().size(), 1U);
+  EXPECT_EQ(exposure.values()[0], 8 * 0.25 * 2 / 0.5 * 3);
+  exposure.clear();
+  exposure.at_pixel(5, 7);  // as a photon reaches the film again
+  exposure.deposit(SampledSpectrum(0.25F));
+  EXPECT_EQ(exposure.values()[0], 8 * 0.25 * 2 / 0.5);
+}
+
+TEST(PathExposure, WithoutAMosaicEveryPixelHasAllChannels) {
+  PathExposure exposure(kChannels);
+  exposure.begin(all_at(500), 1);
+  exposure.at_pixel(1, 0);
+  exposure.deposit(SampledSpectrum(0.5F));
+  ASSERT_EQ(exposure.values().size(), 2U);
+  EXPECT_EQ(exposure.values()[1], 3 * exposure.values()[0]);
+}
+
+TEST(PathExposure, AngularChannelsFollowTheAngle) {
+  const std::vector<Channel> channels{
+      behind(energy_channel("line", Curve(1.0)), {Curve(1.0), {{band(645, 655), 2.0}}}),
+      energy_channel("plain", Curve(1.0))};
+  PathExposure exposure(channels);
+  exposure.begin(all_at(640), 1);
+  exposure.at_angle(1);
+  exposure.deposit(SampledSpectrum(1.0F));
+  EXPECT_EQ(exposure.values()[0], 0);
+  const double lit = exposure.values()[1];
+  exposure.at_angle(static_cast<float>(std::sqrt(1 - 4 * (1 - std::pow(640.0 / 650, 2)))));
+  exposure.deposit(SampledSpectrum(1.0F));
+  EXPECT_EQ(exposure.values()[0], lit);
+  EXPECT_EQ(exposure.values()[1], 2 * lit);
+}
+
+Scene card_in_a_line(const std::vector<Channel>& channels) {
+  Scene scene{};
+  scene.camera = {IrradianceProbe{}, 2, 1, 1};
+  scene.channels = channels;
+  scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, band(630, 640)});
+  scene.commit();
+  return scene;
+}
+
+TEST(Plan, PixelsOfAMosaicDrawTheWavelengthsOfTheirFilter) {
+  Scene scene = card_in_a_line({energy_channel("a", band(632, 634)), energy_channel("b", band(636, 638))});
+  const Plan both = make_plan(scene);
+  EXPECT_EQ(&both.wavelengths_at(1, 0), &both.wavelengths);
+  scene.mosaic = Mosaic{2, 1, {1, 0}};
+  const Plan plan = make_plan(scene);
+  EXPECT_DOUBLE_EQ(plan.wavelengths_at(0, 0).pdf(637), 0.5);
+  EXPECT_EQ(plan.wavelengths_at(0, 0).pdf(633), 0);
+  EXPECT_DOUBLE_EQ(plan.wavelengths_at(1, 0).pdf(633), 0.5);
+  EXPECT_DOUBLE_EQ(plan.wavelengths.pdf(633), 0.25) << "photons meet any pixel";
+  EXPECT_DOUBLE_EQ(plan.wavelengths.pdf(637), 0.25);
+}
+
+// A lamp that only a tilted filter lets through is a lamp like others.
+TEST(Plan, LightsAndWavelengthsAreDrawnForAllAnglesThatOccur) {
+  std::vector<Channel> channels{
+      behind(energy_channel("line", Curve(1.0)), {Curve(1.0), {{band(645, 655), 2.0}}})};
+  limit_angles(channels[0], 0.9);
+  const Scene scene = card_in_a_line(channels);
+  EXPECT_TRUE(scene.needs.angular_response);
+  const Plan plan = make_plan(scene);
+  EXPECT_FALSE(plan.path_lights.empty());
+  EXPECT_GT(plan.wavelengths.pdf(635), 0.09);
+  EXPECT_NEAR(plan.wavelengths.low_nm(), 645 * blue_shift(0.9, 2.0), 1e-9);
+  EXPECT_EQ(plan.wavelengths.high_nm(), 655);
+}
+
+}  // namespace
+}  // namespace abbe
