@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "description.h"
+#include "io/reference_table.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
-#include "tests/reference/reference_table.h"
 
 namespace abbe {
 namespace {
@@ -21,7 +21,7 @@ Channel only_channel(const Loaded& loaded) {
 }
 
 TEST_F(SensorTest, FilteredCcdsCountTheElectronsOfPlanckianSources) {
-  const test::ReferenceTable counts("ccd_bandpass_counts");
+  const ReferenceTable counts("ccd_bandpass_counts");
   ASSERT_EQ(counts.rows(), 24U);
   for (std::size_t row = 0; row < counts.rows(); ++row) {
     const std::string& efficiency = counts.text(row, "ccd_qe");

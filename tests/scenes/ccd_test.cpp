@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include "sensor/readout/readout.h"
-#include "tests/reference/reference_table.h"
 #include "tests/scenes/scene_fixture.h"
-#include "validation/statistics/equivalence.h"
 
 // What a sensor counts behind its filters, in physical units.
 
@@ -14,14 +12,6 @@ namespace abbe {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-#ifdef ABBE_NIGHTLY
-constexpr double kFlatFieldMargin = 0.001;
-constexpr int kFlatFieldSamples = 1 << 14;
-#else
-constexpr double kFlatFieldMargin = 0.01;
-constexpr int kFlatFieldSamples = 1 << 8;
-#endif
 
 test::Region whole(const Film& film, int channel = 0) {
   return test::region(film, channel, 0, 0, film.width(), film.height());
@@ -39,26 +29,6 @@ Scene flat_field(const std::string& sensor, const std::string& emission, int sam
 }
 // Irradiance on its film per radiance of the dome.
 constexpr double kFlatField_sr = kPi / (4 * 4 * 4);
-
-TEST(FlatField, CountsTheElectronsOfPlanckianSources) {
-  const test::ReferenceTable counts("ccd_bandpass_counts");
-  for (std::size_t row = 0; row < counts.rows(); ++row) {
-    const std::string efficiency = counts.text(row, "ccd_qe") == "none" ? "1" : "\"kodak_kaf-3200me\"";
-    const Scene scene = flat_field(
-        fmt::format(
-            R"("exposure_s": 0.02, "quantum_efficiency": {}, "channels": {{"a": {{"filters": ["{}"]}}}})",
-            efficiency, counts.text(row, "passband")),
-        fmt::format(R"({{"blackbody_K": {}}})", counts.text(row, "T_K")), kFlatFieldSamples);
-    const test::Region measured = whole(render(scene, {}).film);
-    const double expected = counts.number(row, "N") * kFlatField_sr * 0.02;
-    EXPECT_EQ(equivalence({measured.mean, std::sqrt(measured.variance)}, expected, kFlatFieldMargin),
-              Verdict::pass)
-        << counts.text(row, "passband") << ": " << measured.mean / expected - 1 << " +- "
-        << std::sqrt(measured.variance) / expected;
-  }
-}
-
-#ifndef ABBE_NIGHTLY
 
 TEST(FlatField, AWorkedExampleCounts2433Electrons) {
   const Scene scene = test::load("exposure.json");
@@ -326,8 +296,6 @@ TEST(MosaicFilm, AnUnlitFilterIsExactlyBlack) {
       EXPECT_NEAR(result.film.mean(pixel, 0), 10 * kFlatField_sr, 0.01);
   }
 }
-
-#endif
 
 }  // namespace
 }  // namespace abbe
