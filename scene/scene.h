@@ -31,6 +31,13 @@ struct ShapeInstance {
   std::int32_t light = -1;  ///< Index into `Scene::lights`, or -1.
 };
 
+/// A colour chart of the scene: its patches are the quads `shapes[first]` and those that follow.
+struct ChartInstance {
+  std::string name;
+  std::uint32_t first;
+  std::uint32_t patches;
+};
+
 /// Which techniques render the scene.
 enum class Integrator { automatic, path, light };
 
@@ -68,6 +75,7 @@ class Scene {
  public:
   std::vector<ShapeInstance> shapes;
   std::vector<Material> materials;
+  std::vector<ChartInstance> charts;
   std::vector<Light> lights;
   Camera camera;
   std::vector<Channel> channels;

@@ -116,6 +116,9 @@ struct Transform {
 /// The shape of the kind `key`, placed; of a mesh file, one for each material. None after an error.
 [[nodiscard]] std::vector<Part> read_parts(ObjectReader& reader, std::string_view key,
                                            const std::string& name, Reading& reading, Scene& scene);
+/// The patches of a chart in the order of its table, then what surrounds them. None after an error.
+[[nodiscard]] std::vector<Part> read_chart(const JsonValue& json, const std::string& name, Reading& reading,
+                                           Scene& scene);
 void read_shapes(const JsonValue& json, Reading& reading, Scene& scene);
 
 void read_objects(const JsonValue& json, Reading& reading, Scene& scene);

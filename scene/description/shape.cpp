@@ -123,10 +123,29 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
   return parts;
 }
 
+// The shape of the kind `key` before its transform.
+std::vector<Part> read_unplaced(ObjectReader& reader, std::string_view key, const std::string& name,
+                                Reading& reading, Scene& scene) {
+  const JsonValue& json = *reader.find(key);
+  if (key == "chart") return read_chart(json, name, reading, scene);
+  const auto* file = key == "mesh" ? std::get_if<std::string>(&json.value) : nullptr;
+  const bool optional = file && brings_materials(*file);
+  const JsonValue* material_name = optional ? reader.find("material") : reader.require("material");
+  const auto material = material_name ? find_material(*material_name, reading, scene) : std::nullopt;
+  std::vector<Part> parts;
+  if (file && (material || !material_name)) {
+    parts = read_mesh_file(json, *file, name, material ? &*material : nullptr, reading, scene);
+  } else if (!file) {
+    auto shape = read_geometry(json, key, reading);
+    if (shape && material) parts.push_back({name, std::move(*shape), *material});
+  }
+  return parts;
+}
+
 void read_shape(const JsonValue& json, std::size_t number, Reading& reading, Scene& scene) {
   ObjectReader reader(json, reading.diagnostics);
   std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
-  const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism", "instance"});
+  const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism", "chart", "instance"});
   if (!key) return;
   if (*key == "instance") {
     add_instance(*reader.find(*key), name, reading, scene);
@@ -134,6 +153,9 @@ void read_shape(const JsonValue& json, std::size_t number, Reading& reading, Sce
     return;
   }
   std::vector<Part> parts = read_parts(reader, *key, name, reading, scene);
+  if (*key == "chart" && !parts.empty())
+    scene.charts.push_back({name, static_cast<std::uint32_t>(scene.shapes.size()),
+                            static_cast<std::uint32_t>(parts.size() - 1)});
   const JsonValue* emission = reader.find("emission");
   const bool two_sided = reader.boolean_or("two_sided", false);
   reader.finish();
@@ -215,18 +237,7 @@ std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading) {
 
 std::vector<Part> read_parts(ObjectReader& reader, std::string_view key, const std::string& name,
                              Reading& reading, Scene& scene) {
-  const JsonValue& json = *reader.find(key);
-  const auto* file = key == "mesh" ? std::get_if<std::string>(&json.value) : nullptr;
-  const bool optional = file && brings_materials(*file);
-  const JsonValue* material_name = optional ? reader.find("material") : reader.require("material");
-  const auto material = material_name ? find_material(*material_name, reading, scene) : std::nullopt;
-  std::vector<Part> parts;
-  if (file && (material || !material_name)) {
-    parts = read_mesh_file(json, *file, name, material ? &*material : nullptr, reading, scene);
-  } else if (!file) {
-    auto shape = read_geometry(json, key, reading);
-    if (shape && material) parts.push_back({name, std::move(*shape), *material});
-  }
+  std::vector<Part> parts = read_unplaced(reader, key, name, reading, scene);
   const JsonValue* steps = reader.find("transform");
   const Transform transform = steps ? read_similarity(*steps, reading) : Transform{};
   for (Part& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);

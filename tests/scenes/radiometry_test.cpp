@@ -16,7 +16,8 @@ TEST_P(RenderedCase, AgreesWithItsReference) {
   test::expect_passes(GetParam(), {.thorough = kNightly});
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, RenderedCase, testing::ValuesIn(test::cases_by<FilmMean>()), test::case_name);
+INSTANTIATE_TEST_SUITE_P(Cases, RenderedCase, testing::ValuesIn(test::cases_by<FilmMean, RenderedChart>()),
+                         test::case_name);
 
 }  // namespace
 }  // namespace abbe

@@ -41,10 +41,9 @@ inline void expect_passes(const Case& item, const CaseSettings& settings) {
                   item.id, item.title, result.figures.size(), worst.what, worst.measured.mean,
                   worst.reference, worst.measured.standard_error, result.samples, result.cpu_s);
   fmt::print("{}\n", line);
-  EXPECT_TRUE(result.passed()) << line << "; margin " << result.margin.of(worst.reference) << ", "
-                               << item.source;
+  EXPECT_TRUE(result.passed()) << line << "; margin " << result.allowed(worst) << ", " << item.source;
   for (const Figure& figure : result.figures)
-    if (!result.passed() && std::abs(figure.deviation()) > result.margin.of(figure.reference))
+    if (!result.passed() && std::abs(figure.deviation()) > result.allowed(figure))
       ADD_FAILURE() << fmt::format("{}: {:.10g} against {:.10g}", figure.what, figure.measured.mean,
                                    figure.reference);
 }

@@ -7,19 +7,12 @@
 #include "io/data_directory.h"
 #include "transport/render/render.h"
 #include "validation/cases/suites.h"
+#include "validation/picture/color_map.h"
 
 namespace abbe {
 namespace {
 
 constexpr int kDoublings = 4;
-
-Scene load_case(const std::string& id, const FilmMean& method) {
-  Diagnostics diagnostics;
-  std::optional<Scene> scene =
-      load_scene(data_directory() / "scenes" / "validation" / method.scene, method.settings, diagnostics);
-  if (!scene) throw Error(ErrorCode::internal, id, diagnostics.text());
-  return std::move(*scene);
-}
 
 int channel_index(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.channels.size(); ++i)
@@ -27,9 +20,13 @@ int channel_index(const Scene& scene, const std::string& name) {
   throw Error(ErrorCode::internal, "case", "no channel " + name);
 }
 
+std::size_t film_pixels(const Film& film) {
+  return static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
+}
+
 // Mean over the film; pixels are independent, and each knows its variance.
 Estimate film_mean(const Film& film, int channel) {
-  const std::size_t pixels = static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
+  const std::size_t pixels = film_pixels(film);
   double sum = 0;
   double variance = 0;
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
@@ -40,17 +37,24 @@ Estimate film_mean(const Film& film, int channel) {
   return {sum / n, std::sqrt(variance) / n};
 }
 
+// The film's values from 0 to twice what is expected in the mean.
+Image deviation_map(const Film& film, int channel, double expected) {
+  std::vector<double> values;
+  for (std::size_t pixel = 0; pixel < film_pixels(film); ++pixel) values.push_back(film.mean(pixel, channel));
+  return false_color(values, film.width(), film.height(), 0, 2 * expected);
+}
+
 CaseResult measure(const Case& item, const Computed& method, const CaseSettings&) {
   const std::clock_t start = std::clock();
-  CaseResult result{method.figures(), item.margin, Verdict::pass, 0, 0, 0, {}};
+  CaseResult result{method.figures(), item.margin, Verdict::pass, 0, 0, 0};
   result.cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return result;
 }
 
 CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings& settings) {
-  Scene scene = load_case(item.id, method);
+  Scene scene = load_case_scene(item.id, method.scene, method.settings);
   const int channel = channel_index(scene, method.channel);
-  CaseResult result{{}, item.margin, Verdict::fail, 0, 0, 0, {}};
+  CaseResult result{{}, item.margin, Verdict::fail, 0, 0, 0};
   if (settings.thorough) result.margin.value = method.fine_margin;
   const double ratio = item.margin.value / result.margin.value;
   scene.render.samples = static_cast<int>(std::lround(method.samples * ratio * ratio));
@@ -59,7 +63,7 @@ CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings&
     result.figures = {{"", method.expected, film_mean(rendered.film, channel)}};
     result.samples = scene.render.samples;
     result.cpu_s += rendered.stats.cpu_s;
-    result.picture = rendered.film.image(std::vector<std::string>{"X", "Y", "Z"});
+    result.picture = deviation_map(rendered.film, channel, method.expected);
     if (equivalence(result.figures[0].measured, method.expected, result.margin.value) !=
         Verdict::inconclusive)
       break;
@@ -68,8 +72,7 @@ CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings&
 }
 
 // Of one figure. What is not sampled has no interval.
-Verdict verdict_of(const Figure& figure, const Margin& margin) {
-  const double allowed = margin.of(figure.reference);
+Verdict verdict_of(const Figure& figure, double allowed) {
   if (figure.measured.standard_error == 0)
     return std::abs(figure.deviation()) <= allowed ? Verdict::pass : Verdict::fail;
   return equivalence(figure.measured, figure.reference, allowed / std::abs(figure.reference));
@@ -80,9 +83,9 @@ void judge(CaseResult& result) {
   double worst = -1;
   for (std::size_t i = 0; i < result.figures.size(); ++i) {
     const Figure& figure = result.figures[i];
-    if (const Verdict verdict = verdict_of(figure, result.margin); verdict != Verdict::pass)
+    if (const Verdict verdict = verdict_of(figure, result.allowed(figure)); verdict != Verdict::pass)
       result.verdict = verdict;
-    const double deviation = std::abs(figure.deviation()) / result.margin.of(figure.reference);
+    const double deviation = std::abs(figure.deviation()) / result.allowed(figure);
     if (deviation <= worst) continue;  // a deviation that is not a number is the worst
     worst = deviation;
     result.worst = i;
@@ -90,6 +93,14 @@ void judge(CaseResult& result) {
 }
 
 }  // namespace
+
+Scene load_case_scene(const std::string& id, const std::string& file, std::span<const Override> settings) {
+  Diagnostics diagnostics;
+  std::optional<Scene> scene =
+      load_scene(data_directory() / "scenes" / "validation" / file, settings, diagnostics);
+  if (!scene) throw Error(ErrorCode::internal, id, diagnostics.text());
+  return std::move(*scene);
+}
 
 double Margin::of(double reference) const {
   return kind == Kind::absolute ? value : value * std::abs(reference);
@@ -105,8 +116,9 @@ CaseResult run_case(const Case& item, const CaseSettings& settings) {
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
-    for (std::vector<Case> (*suite)() : {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases,
-                                         colour_cases, chart_cases, camera_cases, sensor_cases})
+    for (std::vector<Case> (*suite)() :
+         {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases, colour_cases, chart_cases,
+          rendered_chart_cases, camera_cases, sensor_cases})
       for (Case& item : suite()) all.push_back(std::move(item));
     return all;
   }();

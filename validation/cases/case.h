@@ -13,16 +13,6 @@
 
 namespace abbe {
 
-/// One figure of the program beside what it should be.
-struct Figure {
-  std::string what;  ///< Which of a case's figures; empty where it has one.
-  double reference;
-  Estimate measured;  ///< Its standard error is 0 where nothing is sampled.
-
-  /// Measured minus reference.
-  [[nodiscard]] double deviation() const { return measured.mean - reference; }
-};
-
 /// The largest deviation that passes.
 struct Margin {
   enum class Kind { absolute, relative };
@@ -31,6 +21,17 @@ struct Margin {
 
   /// For one reference value, in its unit.
   [[nodiscard]] double of(double reference) const;
+};
+
+/// One figure of the program beside what it should be.
+struct Figure {
+  std::string what;  ///< Which of a case's figures; empty where it has one.
+  double reference;
+  Estimate measured;                  ///< Its standard error is 0 where nothing is sampled.
+  std::optional<Margin> margin = {};  ///< Its own, where that is not the case's.
+
+  /// Measured minus reference.
+  [[nodiscard]] double deviation() const { return measured.mean - reference; }
 };
 
 /// Figures that follow from formulas and tables alone.
@@ -48,7 +49,14 @@ struct FilmMean {
   double fine_margin;  ///< Relative; for a thorough run.
 };
 
-/// A unit of the report.
+/// Colour differences of a rendered ColorChecker to what its spectra give: patch by patch, and their mean.
+struct RenderedChart {
+  std::string illuminant;
+  int samples;
+  double mean_margin;  ///< Of the mean; the case's margin is that of each patch.
+};
+
+/// A part of the report.
 enum class Suite { optics, radiometry, colour, camera, sensor };
 inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor"};
 
@@ -60,13 +68,19 @@ struct Case {
   std::string source;  ///< Formula or measurement, with its key in `docs/references.bib`.
   std::string unit;    ///< Of the figures; empty for pure numbers.
   Margin margin;
-  std::variant<Computed, FilmMean> method;
+  std::variant<Computed, FilmMean, RenderedChart> method;
 };
 
 /// How carefully to measure.
 struct CaseSettings {
   bool thorough = false;  ///< Films at their fine margins.
   int threads = 0;        ///< 0: one per processor.
+};
+
+/// A figure that is told and not judged.
+struct Remark {
+  std::string what;
+  double value;
 };
 
 /// What a case measured.
@@ -77,7 +91,13 @@ struct CaseResult {
   std::size_t worst;  ///< Of the figures, the one furthest from its reference in margins.
   int samples;        ///< Per pixel; 0 where nothing was rendered.
   double cpu_s;
-  std::optional<Image> picture;  ///< The film, where one was rendered.
+  std::vector<Remark> remarks = {};
+  std::optional<Image> picture = {};  ///< Of what was rendered, for display.
+
+  /// The largest deviation that passes one of the figures.
+  [[nodiscard]] double allowed(const Figure& figure) const {
+    return figure.margin.value_or(margin).of(figure.reference);
+  }
 
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "validation/cases/case.h"
@@ -14,7 +16,15 @@ namespace abbe {
 [[nodiscard]] std::vector<Case> enclosure_cases();
 [[nodiscard]] std::vector<Case> colour_cases();
 [[nodiscard]] std::vector<Case> chart_cases();
+[[nodiscard]] std::vector<Case> rendered_chart_cases();
 [[nodiscard]] std::vector<Case> camera_cases();
 [[nodiscard]] std::vector<Case> sensor_cases();
+
+/// Measures a rendered chart, for `run_case` to judge.
+[[nodiscard]] CaseResult measure(const Case& item, const RenderedChart& method, const CaseSettings& settings);
+
+/// A scene of `data/scenes/validation`. Throws Error{internal} naming the case when it does not load.
+[[nodiscard]] Scene load_case_scene(const std::string& id, const std::string& file,
+                                    std::span<const Override> settings);
 
 }  // namespace abbe

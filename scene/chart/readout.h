@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/image.h"
+#include "scene/scene.h"
+
+namespace abbe {
+
+/// What a film holds of one patch of a chart: means over the pixels that lie wholly within its middle, seen
+/// through the scene's camera.
+struct PatchReading {
+  std::string name;
+  std::size_t pixels;
+  std::vector<double> mean;      ///< Channel by channel, in the order asked for.
+  std::vector<double> variance;  ///< Of those means, from `Variance.*`; 0 where the film has none.
+  const Curve* reflectance;      ///< Of the patch, owned by the scene.
+};
+
+/// Reads every patch of a chart from a film of the scene, whether anything hides it or not. Throws
+/// Error{input} when the film's size is not the scene's, when it lacks a channel, and when the middle of a
+/// patch is beyond the film or holds no pixel.
+[[nodiscard]] std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& chart,
+                                                     const Image& film,
+                                                     const std::vector<std::string>& channels);
+
+}  // namespace abbe

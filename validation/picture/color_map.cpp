@@ -1,0 +1,88 @@
+#include "validation/picture/color_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibration/output/color_spaces.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::size_t kSteps = 256;
+
+// The inverse of `xyz_to_lab` for a white of Y = 1.
+XYZ lab_to_xyz(const Lab& lab, const XYZ& white) {
+  const auto inverse = [](double f) {
+    constexpr double kDelta = 6.0 / 29.0;
+    return f > kDelta ? f * f * f : 3 * kDelta * kDelta * (f - 4.0 / 29.0);
+  };
+  const double fy = (lab[0] + 16) / 116;
+  return {white[0] * inverse(fy + lab[1] / 500), white[1] * inverse(fy),
+          white[2] * inverse(fy - lab[2] / 200)};
+}
+
+LinearRgb linear_rgb_of(double lightness, double chroma, double hue) {
+  static const Matrix3 from_xyz = rgb_to_xyz(kRec709).inverse();
+  return multiply(from_xyz,
+                  lab_to_xyz({lightness, chroma * std::cos(hue), chroma * std::sin(hue)}, unit_xyz(kD65)));
+}
+
+bool displayable(const LinearRgb& rgb) {
+  return std::all_of(rgb.begin(), rgb.end(), [](double v) { return v >= 0 && v <= 1; });
+}
+
+// The largest chroma that an sRGB display has at a lightness and hue, by bisection.
+double gamut_chroma(double lightness, double hue) {
+  double low = 0;
+  double high = 200;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    (displayable(linear_rgb_of(lightness, middle, hue)) ? low : high) = middle;
+  }
+  return low;
+}
+
+// The transfer function of IEC 61966-2-1.
+double code_value(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+DisplayColor computed_color(double share) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kFirstHue = -75 * kDegree;  // blue; the turn passes red at 30 degrees
+  constexpr double kLastHue = 100 * kDegree;
+  constexpr double kShareOfGamut = 0.9;
+  constexpr double kMostChroma = 75;
+  const double lightness = 12 + 82 * share;
+  const double hue = kFirstHue + (kLastHue - kFirstHue) * share;
+  const double chroma = std::min(kMostChroma, kShareOfGamut * gamut_chroma(lightness, hue));
+  DisplayColor color = linear_rgb_of(lightness, chroma, hue);
+  for (double& v : color) v = code_value(v);
+  return color;
+}
+
+}  // namespace
+
+DisplayColor map_color(double share) {
+  static const std::vector<DisplayColor> colors = [] {
+    std::vector<DisplayColor> all;
+    for (std::size_t i = 0; i < kSteps; ++i)
+      all.push_back(computed_color(static_cast<double>(i) / (kSteps - 1)));
+    return all;
+  }();
+  return colors[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * (kSteps - 1)))];
+}
+
+Image false_color(std::span<const double> values, int width, int height, double low, double high) {
+  constexpr DisplayColor kMissing{0.5, 0.5, 0.5};
+  Image image{width, height, {{"R", {}}, {"G", {}}, {"B", {}}}, {}};
+  for (const double value : values) {
+    const double share = high > low ? (value - low) / (high - low) : 0;
+    const DisplayColor color = std::isfinite(share) ? map_color(share) : kMissing;
+    for (std::size_t c = 0; c < 3; ++c) image.channels[c].values.push_back(static_cast<float>(color[c]));
+  }
+  return image;
+}
+
+}  // namespace abbe

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "io/image.h"
+
+namespace abbe {
+
+/// sRGB code values, each in [0, 1].
+using DisplayColor = std::array<double, 3>;
+
+/// A colour for a share in [0, 1] of a scale, clamped there: CIE 1976 lightness grows evenly from 12 to 94
+/// while hue turns from blue over red to yellow, at most of what chroma sRGB has there, so that order shows
+/// in print and to any eye.
+[[nodiscard]] DisplayColor map_color(double share);
+
+/// One plane of an image, row by row, from `low` (dark) to `high`; grey where a value is not finite.
+[[nodiscard]] Image false_color(std::span<const double> values, int width, int height, double low,
+                                double high);
+
+}  // namespace abbe
