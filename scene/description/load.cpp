@@ -168,12 +168,12 @@ std::optional<std::filesystem::path> Reading::file(const std::string& name, cons
 }
 
 std::optional<std::string> Reading::table(const JsonValue& json) {
-  constexpr std::string_view kExtension = ".csv";
+  constexpr std::string_view kExtension = ".csv";  // which a column may follow
   std::optional<std::string> name = read_string(json, diagnostics);
   if (!name) return std::nullopt;
   const std::size_t dot = name->find(kExtension);
-  if (dot == std::string::npos) return name;
-  const std::size_t end = dot + kExtension.size();
+  if (dot == std::string::npos && !name->ends_with(".json")) return name;
+  const std::size_t end = dot == std::string::npos ? name->size() : dot + kExtension.size();
   const auto path = file(name->substr(0, end), json.where);
   if (!path) return std::nullopt;
   return path->string() + name->substr(end);

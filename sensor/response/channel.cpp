@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "io/table.h"
+#include "sensor/response/camera_json.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
@@ -55,6 +56,8 @@ void limit_angles(Channel& channel, double least_cosine) {
 
 std::optional<std::vector<Channel>> load_camera(const std::string& name, const SourcePosition& where,
                                                 Diagnostics& diagnostics, std::optional<ResponseKind> kind) {
+  if (name.ends_with(".json"))
+    return read_camera_json(name, kind.value_or(ResponseKind::energy), diagnostics);
   const std::optional<TableColumn> found = find_table("camera", name, where, diagnostics);
   if (!found) return std::nullopt;
   const auto channel = [kind](const std::string& label, const Curve& curve) {

@@ -64,8 +64,8 @@ struct Channel {
 void limit_angles(Channel& channel, double least_cosine);
 
 /// The channels of a measured camera or detector in `data/camera`, one per column (R, G, B or QE), or of a
-/// user's table. Without a `kind`, colour cameras are energy responses ("to be multiplied by spectral
-/// power"), as they are tabulated, and columns named QE quantum efficiencies.
+/// user's table or `.json` (see `read_camera_json`). Without a `kind`, colour cameras are energy responses
+/// ("to be multiplied by spectral power"), as they are tabulated, and columns named QE quantum efficiencies.
 [[nodiscard]] std::optional<std::vector<Channel>> load_camera(const std::string& name,
                                                               const SourcePosition& where,
                                                               Diagnostics& diagnostics,
