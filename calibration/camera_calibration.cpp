@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/color_spaces.h"
-#include "io/atomic_file.h"
 #include "io/error.h"
 
 namespace abbe {
@@ -59,89 +57,53 @@ void require_setup(const CalibrationSetup& setup) {
     throw Error(ErrorCode::usage, "bits", fmt::format("expected 0 to 16 (got {})", setup.bits));
 }
 
-std::string json_string(std::string_view text) {
-  std::string out(1, '"');
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out.push_back('\\');
-    if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      out.push_back(c);
-  }
-  out.push_back('"');
-  return out;
-}
-
-std::string rows(const Matrix3& m) {
-  std::vector<std::string> text;
-  for (int i = 0; i < 3; ++i) text.push_back(fmt::format("[{}, {}, {}]", m[i][0], m[i][1], m[i][2]));
-  return fmt::format("[{}]", fmt::join(text, ", "));
-}
-
-std::string response_json(const ChannelResponse& r) {
-  return fmt::format(
-      R"({{"channel": {}, "max_error": {}, "median_code": {}, "samples": {}, "iterations": {}, "initial_cost": {}, "final_cost": {}}})",
-      json_string(r.channel), r.max_error, r.fit.median_code, r.fit.samples, r.fit.iterations,
-      r.fit.initial_cost, r.fit.final_cost);
-}
-
 }  // namespace
 
-CameraCalibration calibrate_camera(const CalibrationSetup& setup) {
-  require_setup(setup);
-  PatchColors colors = integrate(setup.chart, setup.channels, setup.light);
-  const PlantedResponse planted(setup.planted_response);
-  const std::vector<std::vector<double>> values = photographed_values(setup);
-  CameraCalibration result{colors.names, exposure_times(), {}, {}, {}};
-  std::array<double, 3> balance{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    ResponseFit fit = recover_response(expose(values[k], result.times_s, planted, setup.bits));
-    const ExposureSeries photograph = expose(values[k], std::array{1.0}, planted, setup.bits);
-    const double white = linearise(fit.linear, photograph.codes.back()[0]);
-    for (std::size_t i = 0; i < colors.raw.size(); ++i)
-      colors.raw[i][k] = linearise(fit.linear, photograph.codes[i][0]) / white;
-    balance[k] = 1 / white;
-    result.profile.linearisation[k] = fit.linear;
-    const double error = response_error(fit, planted);
-    result.responses[k] = {setup.channels[k].name, std::move(fit), error};
-  }
-  result.matrix = fit_matrix(colors);
-  result.profile.description = fmt::format("{} under {}", setup.camera, setup.illuminant);
-  const std::optional<Matrix3> adaptation = bradford(colors.white, unit_xyz(kD65));
-  if (!adaptation)
-    throw Error(ErrorCode::input, setup.illuminant, "the light has no white that a display could show");
-  result.profile.to_xyz_d65 = *adaptation * result.matrix.raw_to_xyz * diagonal(balance);
+CameraCalibration calibrate_measured(const MeasuredCamera& camera, const CharacterisationOptions& options) {
+  const PatchColors& colors = camera.colors;
+  require_enough_patches(options.fit.model, colors.raw.size());
+  const std::optional<Matrix3> to_d65 = adaptation(colors.white, unit_xyz(kD65), options.adaptation);
+  if (!to_d65)
+    throw Error(ErrorCode::input, camera.light, "the light has no white that a display could show");
+  CameraCalibration result;
+  result.patches = colors.names;
+  result.correction = fit_correction(colors, options.fit);
+  result.unseen = cross_validate(colors, options.fit, options.folds > 0 ? options.folds : colors.raw.size());
+  result.unseen_mean = bootstrap_mean(result.unseen.delta_e, options.bootstrap);
+  result.columns = bootstrap_columns(colors, options.fit, options.bootstrap);
+  result.profile = {camera.light,
+                    fmt::format("{} under {}", camera.name, camera.light),
+                    camera.linearisation,
+                    camera.gains,
+                    result.correction.correction,
+                    *to_d65};
   return result;
 }
 
-std::string report_json(const CalibrationSetup& setup, const CameraCalibration& calibration) {
-  const MatrixFit& fit = calibration.matrix;
-  std::vector<std::string> responses;
-  for (const ChannelResponse& r : calibration.responses) responses.push_back(response_json(r));
-  std::vector<std::string> patches;
-  for (std::size_t i = 0; i < calibration.patches.size(); ++i)
-    patches.push_back(fmt::format(R"({{"name": {}, "dE00": {}}})", json_string(calibration.patches[i]),
-                                  fit.errors.delta_e[i]));
-  return fmt::format(
-      R"({{"camera": {}, "illuminant": {}, "chart": {}, "planted_response": {}, "bits": {}, "times_s": [{}],
- "responses": [{}],
- "matrix": {{"raw_to_xyz": {}, "initial_cost": {}, "final_cost": {}, "starts": {}, "usable_starts": {}, "seed": {},
-  "least_squares_dE00_mean": {}, "least_squares_dE00_max": {}}},
- "to_xyz_d65": {},
- "dE00_mean": {}, "dE00_max": {},
- "patches": [{}]}}
-)",
-      json_string(setup.camera), json_string(setup.illuminant), json_string(setup.chart.name),
-      json_string(setup.planted_response), setup.bits, fmt::join(calibration.times_s, ", "),
-      fmt::join(responses, ",\n  "), rows(fit.raw_to_xyz), fit.initial_cost, fit.final_cost, fit.starts,
-      fit.usable, MatrixFitOptions{}.seed, fit.start.mean, fit.start.max,
-      rows(calibration.profile.to_xyz_d65), fit.errors.mean, fit.errors.max, fmt::join(patches, ",\n  "));
-}
-
-void write_calibration(const std::filesystem::path& folder, const CalibrationSetup& setup,
-                       const CameraCalibration& calibration) {
-  write_ocio_config(folder, calibration.profile);
-  write_atomically(folder / "report.json", report_json(setup, calibration));
+CameraCalibration calibrate_camera(const CalibrationSetup& setup, const CharacterisationOptions& options) {
+  require_setup(setup);
+  require_enough_patches(options.fit.model, setup.chart.patches.size());
+  const PlantedResponse planted(setup.planted_response);
+  const std::vector<std::vector<double>> values = photographed_values(setup);
+  MeasuredCamera camera{
+      setup.camera, setup.illuminant, integrate(setup.chart, setup.channels, setup.light), {}, {}};
+  const std::vector<double> times_s = exposure_times();
+  std::vector<ChannelResponse> responses;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ResponseFit fit = recover_response(expose(values[k], times_s, planted, setup.bits));
+    const ExposureSeries photograph = expose(values[k], std::array{1.0}, planted, setup.bits);
+    const double white = linearise(fit.linear, photograph.codes.back()[0]);
+    for (std::size_t i = 0; i < camera.colors.raw.size(); ++i)
+      camera.colors.raw[i][k] = linearise(fit.linear, photograph.codes[i][0]) / white;
+    camera.gains[k] = 1 / white;
+    camera.linearisation[k] = fit.linear;
+    const double error = response_error(fit, planted);
+    responses.push_back({setup.channels[k].name, std::move(fit), error});
+  }
+  CameraCalibration result = calibrate_measured(camera, options);
+  result.times_s = times_s;
+  result.responses = std::move(responses);
+  return result;
 }
 
 }  // namespace abbe

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "calibration/chart/exposure_series.h"
 #include "calibration/chart/patches.h"
-#include "calibration/fit/matrix.h"
+#include "calibration/fit/correction_fit.h"
+#include "calibration/fit/resampling.h"
 #include "calibration/fit/response.h"
-#include "calibration/output/ocio.h"
+#include "calibration/output/camera_profile.h"
+#include "calibration/output/color_spaces.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve.h"
 
@@ -34,29 +35,46 @@ struct ChannelResponse {
                          ///< share of full scale.
 };
 
-/// A camera, calibrated.
+/// How a camera's colours are fitted and judged.
+struct CharacterisationOptions {
+  CorrectionOptions fit;
+  Adaptation adaptation = Adaptation::bradford;  ///< From the light's white to D65.
+  std::size_t folds = 0;  ///< Of the cross-validation; 0 leaves one patch out at a time.
+  BootstrapOptions bootstrap;
+};
+
+/// A camera, calibrated under one light.
 struct CameraCalibration {
   std::vector<std::string> patches;
-  std::vector<double> times_s;
-  std::array<ChannelResponse, 3> responses;
-  MatrixFit matrix;
+  std::vector<double> times_s;             ///< Of the exposure series.
+  std::vector<ChannelResponse> responses;  ///< None for a camera whose values are linear.
+  CorrectionFit correction;
+  PatchErrors unseen;    ///< Each patch shown by a fit that has not seen it.
+  Interval unseen_mean;  ///< 95 % of the mean of `unseen`, the patches being drawn at random.
+  std::vector<std::array<Interval, 3>> columns;  ///< 95 % of the correction's columns.
   CameraProfile profile;
 };
 
 /// The whole chain on integrated colours: the chart and a white tile photographed through the planted
 /// response at exposures one third of a stop apart; each channel's curve recovered from that series without
 /// knowing the response or the patches; the brightest unclipped photograph linearised by the recovered
-/// curves, balanced on the tile, and the white-preserving matrix fitted to it. Errors per patch are therefore
-/// those of curve, code values and matrix together. Throws Error{usage} for bits out of range or a camera
-/// without three channels, Error{input} when a fit fails.
-[[nodiscard]] CameraCalibration calibrate_camera(const CalibrationSetup& setup);
+/// curves, balanced on the tile, and the white-preserving correction fitted to it. Errors per patch are
+/// therefore those of curve, code values and correction together. Throws Error{usage} for bits out of range,
+/// a camera without three channels or a chart too small for the correction, Error{input} when a fit fails.
+[[nodiscard]] CameraCalibration calibrate_camera(const CalibrationSetup& setup,
+                                                 const CharacterisationOptions& options = {});
 
-/// The calibration as one JSON object: names, times, response and matrix fits with their costs, CIEDE2000 per
-/// patch.
-[[nodiscard]] std::string report_json(const CalibrationSetup& setup, const CameraCalibration& calibration);
+/// What a real camera's calibration starts from.
+struct MeasuredCamera {
+  std::string name;
+  std::string light;
+  PatchColors colors;                                ///< White balanced, linear.
+  std::array<double, 3> gains{1, 1, 1};              ///< What balanced them.
+  std::array<std::vector<double>, 3> linearisation;  ///< What made them linear, see CameraProfile.
+};
 
-/// Writes the OpenColorIO configuration and `report.json` into `folder`.
-void write_calibration(const std::filesystem::path& folder, const CalibrationSetup& setup,
-                       const CameraCalibration& calibration);
+/// Fits the correction to measured values. Throws as `calibrate_camera`.
+[[nodiscard]] CameraCalibration calibrate_measured(const MeasuredCamera& camera,
+                                                   const CharacterisationOptions& options = {});
 
 }  // namespace abbe

@@ -1,11 +1,11 @@
 #include "cli/calibrate.h"
 
-#include <cstdio>
-
 #include <fmt/format.h>
 
-#include "calibration/camera_calibration.h"
-#include "cli/answer.h"
+#include "calibration/chart/measured_patches.h"
+#include "calibration/output/ocio.h"
+#include "cli/calibrate_report.h"
+#include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "spectral/library.h"
@@ -42,42 +42,75 @@ std::optional<std::vector<Channel>> camera_channels(const std::string& camera, D
   return load_camera(camera, {}, diagnostics);
 }
 
-CalibrationSetup load_setup(const CalibrateOptions& options) {
+CalibrationCase simulate(const CalibrateOptions& options, const std::string& illuminant) {
   Diagnostics diagnostics;
-  const std::optional<std::vector<Channel>> channels = camera_channels(options.camera, diagnostics);
-  const std::optional<NamedCurve> light = load_illuminant(options.illuminant, {}, diagnostics);
-  const std::optional<Chart> chart = load_chart(options.chart, {}, diagnostics);
+  const auto channels = camera_channels(options.camera, diagnostics);
+  const auto light = load_illuminant(illuminant, {}, diagnostics);
+  const auto chart = load_chart(options.chart, {}, diagnostics);
+  const auto test = options.test.empty() ? Chart{} : load_chart(options.test, {}, diagnostics);
   check(diagnostics);
-  return {options.camera, options.illuminant, options.planted_response, options.bits, *channels, light->curve,
-          *chart};
+  CalibrationCase made{options.camera, options.chart, options.planted_response, options.bits, {}, {}};
+  made.result = calibrate_camera(
+      {options.camera, illuminant, options.planted_response, options.bits, *channels, light->curve, *chart},
+      options.how);
+  if (!options.test.empty())
+    made.test = patch_errors(integrate(*test, *channels, light->curve), made.result.correction.correction);
+  return made;
 }
 
-void print_table(const CalibrationSetup& setup, const CameraCalibration& calibration) {
-  fmt::print("{} under {}, chart {}, {} bits\n\n", setup.camera, setup.illuminant, setup.chart.name,
-             setup.bits);
-  fmt::print("{:<10}{:>22}{:>14}{:>9}\n", "channel", "response error [%]", "residual [%]", "samples");
-  for (const ChannelResponse& r : calibration.responses)
-    fmt::print("{:<10}{:>22.4f}{:>14.4f}{:>9}\n", r.channel, 100 * r.max_error, 100 * r.fit.median_code,
-               r.fit.samples);
-  const MatrixFit& fit = calibration.matrix;
-  fmt::print("\n{:<28}{:>10}{:>16}\n", "patch", "dE2000", "least squares");
-  for (std::size_t i = 0; i < calibration.patches.size(); ++i)
-    fmt::print("{:<28}{:>10.4f}{:>16.4f}\n", calibration.patches[i], fit.errors.delta_e[i],
-               fit.start.delta_e[i]);
-  fmt::print("{:<28}{:>10.4f}{:>16.4f}\n", "mean", fit.errors.mean, fit.start.mean);
-  fmt::print("{:<28}{:>10.4f}{:>16.4f}\n", "max", fit.errors.max, fit.start.max);
+CalibrationCase measure(const CalibrateOptions& options, const std::string& illuminant) {
+  Diagnostics diagnostics;
+  const auto light = load_illuminant(illuminant, {}, diagnostics);
+  const auto chart = light ? load_chart_targets(options.chart, light->curve, {}, diagnostics) : std::nullopt;
+  const auto patches = load_measured_patches(options.measured, diagnostics);
+  check(diagnostics);
+  const BalancedPatches balanced = balance(*chart, *patches);
+  const std::string name = options.measured.stem().string();
+  return {name,
+          options.chart,
+          "",
+          0,
+          calibrate_measured({name, illuminant, balanced.colors, balanced.gains, {}}, options.how),
+          {}};
+}
+
+int calibrate_all(const CalibrateOptions& options) {
+  Diagnostics diagnostics;
+  const auto light = load_illuminant(options.illuminants, {}, diagnostics);
+  const auto chart = load_chart(options.chart, {}, diagnostics);
+  check(diagnostics);
+  const std::vector<CameraQuality> all = all_camera_qualities(*chart, light->curve);
+  if (options.json)
+    fmt::print("{}", text(json_of(all), true));
+  else
+    fmt::print("{}", table_of(all));
+  return 0;
+}
+
+void write_all(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases, Json& report) {
+  std::vector<CameraProfile> profiles;
+  for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
+  const WrittenConfig written = write_ocio_config(options.output, profiles);
+  if (options.how.fit.model != CorrectionModel::linear) report["bake_dE00_max"] = written.bake_error;
+  write_atomically(options.output / "report.json", text(report, true));
 }
 
 }  // namespace
 
 int calibrate(const CalibrateOptions& options) {
-  const CalibrationSetup setup = load_setup(options);
-  const CameraCalibration calibration = calibrate_camera(setup);
-  if (!options.output.empty()) write_calibration(options.output, setup, calibration);
+  if (options.all_cameras) return calibrate_all(options);
+  if (options.camera.empty() == options.measured.empty())
+    throw Error(ErrorCode::usage, "calibrate", "needs one of --camera, --measured and --all-cameras");
+  std::vector<CalibrationCase> cases;
+  for (const std::string& illuminant : split(options.illuminants, ','))
+    cases.push_back(options.measured.empty() ? simulate(options, illuminant) : measure(options, illuminant));
+  Json report{{"calibrations", Json::array()}};
+  for (const CalibrationCase& one : cases) report["calibrations"].push_back(json_of(one));
+  if (!options.output.empty()) write_all(options, cases, report);
   if (options.json)
-    fmt::print("{}", report_json(setup, calibration));
+    print(one_or_all(report["calibrations"]), true);
   else
-    print_table(setup, calibration);
+    for (const CalibrationCase& one : cases) fmt::print("{}", table_of(one));
   return 0;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+
+#include "calibration/camera_calibration.h"
 
 namespace abbe::cli {
 
@@ -9,17 +12,21 @@ namespace abbe::cli {
 struct CalibrateOptions {
   std::string camera;  ///< A camera of `data/camera` or a file, "box:a-b,c-d,e-f" [nm] for ideal filters, or
                        ///< "observer:1931" / "observer:1964".
-  std::string illuminant = "D65";
+  bool all_cameras = false;
+  std::filesystem::path measured;   ///< Values of a real camera's photograph of the chart.
+  std::string illuminants = "D65";  ///< One or more names, with commas between them.
   std::string chart = "colorchecker24_babelcolor_average";
+  std::string test;                            ///< Another chart that the fitted correction is tried on.
   std::string planted_response = "gamma:2.2";  ///< "linear", "gamma:G" or "s-curve".
   int bits = 12;
+  CharacterisationOptions how;
   std::filesystem::path
       output;  ///< Folder for the OpenColorIO configuration and the report; nothing is written when empty.
   bool json = false;
 };
 
-/// Calibrates a camera on a chart, prints CIEDE2000 per patch, and writes the configuration. Returns the exit
-/// code.
+/// Calibrates a camera on a colour chart, prints CIEDE2000 per patch, and writes the configuration; or prints
+/// how well every shipped camera can be calibrated. Returns the exit code.
 int calibrate(const CalibrateOptions& options);
 
 }  // namespace abbe::cli

@@ -140,7 +140,19 @@ void add_render(CLI::App& app, Command& command) {
              "How often, at most a hundredth of the time (default 60s)", "TIME")
       ->needs(checkpoint);
   render.add_flag("--resume", sub->resume, "Go on from the checkpoint, if there is one")->needs(checkpoint);
-  render.add_option("--display", sub->display, "Also write a picture for sRGB displays")
+  render.add_option("--display", sub->display, "Also write a picture for displays")->type_name("FILE.png");
+  render
+      .add_option("--screen", sub->view.display,
+                  "Display of the picture (default: the configuration's first)")
+      ->type_name("NAME");
+  render.add_option("--view", sub->view.view, "View on that display (default: its first)")->type_name("NAME");
+  render
+      .add_option("--ocio", sub->view.config,
+                  "OpenColorIO configuration of the picture (default: $OCIO, else Abbe's own)")
+      ->type_name("FILE.ocio");
+  render
+      .add_option("--gamut", sub->gamut,
+                  "Also write, in white, which colours lay outside the display's gamut")
       ->type_name("FILE.png");
   render.add_option("--stats", sub->stats, "Write what the render did as JSON")->type_name("FILE.json");
   render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
@@ -258,6 +270,19 @@ void add_merge(CLI::App& app, Command& command) {
       ->type_name("FILE.exr|FILE.abbepart");
 }
 
+// How `calibrate` fits and judges colours.
+void add_characterisation(CLI::App& options, CharacterisationOptions& how) {
+  add_parsed(options, "--correction", how.fit.model,
+             one_of<CorrectionModel>({"matrix", "root-polynomial-2", "root-polynomial-3"}),
+             "From camera values to colour (default matrix)", "matrix|root-polynomial-2|root-polynomial-3");
+  add_parsed(options, "--objective", how.fit.objective, one_of<Objective>({"dE2000", "dE76", "XYZ"}),
+             "What the fit makes small (default dE2000)", "dE2000|dE76|XYZ");
+  add_parsed(options, "--adaptation", how.adaptation, one_of<Adaptation>({"bradford", "cat02", "cat16"}),
+             "From the light's white to D65 (default bradford)", "bradford|cat02|cat16");
+  add_parsed(options, "--folds", how.folds, integer_in<std::size_t>(2, 100000),
+             "Of the cross-validation (default: one patch left out at a time)", "N");
+}
+
 void add_compare_and_calibrate(CLI::App& app, Command& command) {
   const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
   sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
@@ -267,16 +292,29 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
                                           calibrate);
   CLI::App& options = *calibration.app;
+  CLI::Option* camera =
+      options
+          .add_option("--camera", calibration->camera,
+                      "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
+          ->type_name("CAMERA");
+  CLI::Option* measured = options
+                              .add_option("--measured", calibration->measured,
+                                          "A real camera's linear values: columns patch, R, G, B")
+                              ->type_name("FILE.csv")
+                              ->excludes(camera);
   options
-      .add_option("--camera", calibration->camera,
-                  "Camera or FILE.csv, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
-      ->required()
-      ->type_name("CAMERA");
-  options.add_option("--illuminant", calibration->illuminant, "Light on the chart")
+      .add_flag("--all-cameras", calibration->all_cameras, "How well each shipped camera can be calibrated")
+      ->excludes(camera)
+      ->excludes(measured);
+  options.add_option("--illuminant", calibration->illuminants, "Light on the chart, or several")
       ->capture_default_str()
-      ->type_name("ILLUMINANT");
-  options.add_option("--chart", calibration->chart, "Table of patch reflectances")
+      ->type_name("ILLUMINANT[,...]");
+  options
+      .add_option("--chart", calibration->chart,
+                  "Table of patch reflectances, or of measured patches' colours")
       ->capture_default_str()
+      ->type_name("TABLE");
+  options.add_option("--test", calibration->test, "Another chart to try the correction on")
       ->type_name("TABLE");
   options
       .add_option("--response", calibration->planted_response, "linear, gamma:G or s-curve, to be recovered")
@@ -284,9 +322,10 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
       ->type_name("CURVE");
   add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
              "Of the code values, 0 for no rounding (default 12)", "N");
+  add_characterisation(options, calibration->how);
   options
       .add_option("-o,--output", calibration->output,
-                  "Folder for the OpenColorIO configuration and the report")
+                  "Folder for the OpenColorIO configuration, CLF, ACES input transform and report")
       ->type_name("FOLDER");
   add_json(options, calibration->json);
 }

@@ -37,30 +37,32 @@ Scene load(const RenderOptions& options) {
 struct Outputs {
   fs::path film;
   fs::path display;  ///< Empty when no picture is wanted.
+  fs::path gamut;    ///< Likewise.
   fs::path stats;    ///< Likewise.
 };
 
 // Where to write, checked before any time is spent on rendering.
 Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
-  Outputs outputs{options.output, options.display, options.stats};
+  Outputs outputs{options.output, options.display, options.gamut, options.stats};
   if (outputs.film.empty()) outputs.film = scene.output.image;
   if (outputs.film.empty()) outputs.film = options.scene.stem().concat(".exr");
   if (outputs.display.empty()) outputs.display = scene.output.display;
   require_film_output(outputs.film);
-  if (!outputs.display.empty()) {
-    if (scene.mosaic)
-      throw Error(ErrorCode::usage, outputs.display.string(),
-                  "a mosaic's film has one colour a pixel and makes no picture");
-    require_extension(outputs.display, {".png", ".jpg", ".tif"});
-    require_writable(outputs.display);
+  if (scene.mosaic && !(outputs.display.empty() && outputs.gamut.empty()))
+    throw Error(ErrorCode::usage, (outputs.display.empty() ? outputs.gamut : outputs.display).string(),
+                "a mosaic's film has one colour a pixel and makes no picture");
+  for (const fs::path& picture : {outputs.display, outputs.gamut}) {
+    if (picture.empty()) continue;
+    require_extension(picture, {".png", ".jpg", ".tif"});
+    require_writable(picture);
   }
   if (!outputs.stats.empty()) require_writable(outputs.stats);
   if (!options.checkpoint.empty()) {
     require_extension(options.checkpoint, {kPartExtension});
     require_writable(options.checkpoint);
   }
-  require_distinct(
-      std::array{options.scene, outputs.film, outputs.display, outputs.stats, options.checkpoint});
+  require_distinct(std::array{options.scene, outputs.film, outputs.display, outputs.gamut, outputs.stats,
+                              options.checkpoint});
   return outputs;
 }
 
@@ -166,6 +168,24 @@ void write_stats(const fs::path& path, const Scene& scene, const RenderStats& st
   write_atomically(path, text(answer, true));
 }
 
+DisplayTransform display_of(const Scene& scene, const RenderOptions& options) {
+  ViewOptions view = options.view;
+  if (view.config.empty()) view.config = users_configuration();
+  return make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission,
+                      view);
+}
+
+void write_pictures(const Outputs& outputs, const DisplayTransform& display, const Scene& scene,
+                    const Image& film, bool quiet) {
+  const std::optional<double> white = scene.output.display_exposure;
+  const DisplayPicture picture = display(film, white ? std::optional(1 / *white) : std::nullopt);
+  if (!outputs.display.empty()) write_picture(outputs.display, picture.image);
+  if (!outputs.gamut.empty()) write_picture(outputs.gamut, picture.outside);
+  if (!quiet && picture.outside_share + picture.clipped_share > 0)
+    say(fmt::format("{:.1f} % of the pixels lay outside the display's gamut, {:.1f} % were too bright for it",
+                    100 * picture.outside_share, 100 * picture.clipped_share));
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -174,21 +194,17 @@ int render(const RenderOptions& options) {
   check_ranges(options, scene);
   const InterruptWatch watch;
   std::deque<FileLock> locks;
-  for (const fs::path& output : {outputs.film, outputs.display, outputs.stats, options.checkpoint})
+  for (const fs::path& output :
+       {outputs.film, outputs.display, outputs.gamut, outputs.stats, options.checkpoint})
     if (!output.empty()) locks.emplace_back(output);
   std::optional<DisplayTransform> display;
-  if (!outputs.display.empty())
-    display = make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission);
+  if (!outputs.display.empty() || !outputs.gamut.empty()) display = display_of(scene, options);
   if (options.explain) tell(describe(scene));
   warn_about_polarisation(scene.needs);
 
   const RenderPart part = develop(scene, options, watch);
   const RenderStats& stats = part.result.stats;
-  const auto write_display = [&] {
-    const std::optional<double> white = scene.output.display_exposure;
-    write_picture(outputs.display,
-                  (*display)(image_of(part), white ? std::optional(1 / *white) : std::nullopt).image);
-  };
+  const auto write_display = [&] { write_pictures(outputs, *display, scene, image_of(part), options.quiet); };
   std::vector<std::function<void()>> writers;
   if (!options.checkpoint.empty())
     writers.emplace_back([&] { write_part(options.checkpoint, part.identity, part.result); });

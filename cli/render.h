@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/output/display.h"
 #include "scene/description/load.h"
 #include "transport/render/render.h"
 
@@ -16,6 +17,8 @@ struct RenderOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::filesystem::path display;
+  ViewOptions view;             ///< Of the display; without a configuration here that of $OCIO, if it is set.
+  std::filesystem::path gamut;  ///< Picture of what the display could not show as it is.
   std::filesystem::path stats;
   std::optional<int> samples;
   std::optional<double> target_error;

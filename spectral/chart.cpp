@@ -1,17 +1,32 @@
 #include "spectral/chart.h"
 
-#include "io/table.h"
 #include "spectral/library.h"
 
 namespace abbe {
 
-std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
-                                Diagnostics& diagnostics) {
+std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
+                                      Diagnostics& diagnostics) {
   const std::optional<TableColumn> found = find_table("reflectance", name, where, diagnostics);
   if (!found) return std::nullopt;
   const TableOrigin origin = name.ends_with(".csv") ? TableOrigin::user : TableOrigin::shipped;
-  const std::optional<Table> table = read_table(found->path, origin, diagnostics);
+  return read_table(found->path, origin, diagnostics);
+}
+
+bool is_spectral(const Table& table) {
+  return !table.columns.empty() && table.columns.front().starts_with("wavelength");
+}
+
+std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
+                                Diagnostics& diagnostics) {
+  const std::optional<Table> table = read_chart_table(name, where, diagnostics);
   if (!table) return std::nullopt;
+  if (!is_spectral(*table)) {
+    diagnostics.error(
+        table->where,
+        "states colours and not reflectances, from which alone a camera's values can be computed",
+        ErrorCode::input);
+    return std::nullopt;
+  }
   Chart chart{name, {}};
   for (const std::string& column : table->columns) {
     if (column.starts_with("wavelength")) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/diagnostics.h"
+#include "io/table.h"
 #include "spectral/curve.h"
 
 namespace abbe {
@@ -21,8 +22,14 @@ struct Chart {
   std::vector<Patch> patches;
 };
 
-/// The chart of one table of `data/reflectance` (or of a user's file), one patch per column, e.g.
-/// "colorchecker24_babelcolor_average".
+/// The table of a chart: one of `data/reflectance` or a user's file.
+[[nodiscard]] std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
+                                                    Diagnostics& diagnostics);
+/// Whether a table is one of reflectances over wavelength; other editions of charts state colours.
+[[nodiscard]] bool is_spectral(const Table& table);
+
+/// The chart of a table of reflectances, one patch per column, e.g. "colorchecker24_babelcolor_average".
+/// Reports a table of colours.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
                                               Diagnostics& diagnostics);
 

@@ -29,13 +29,13 @@ const Channel& reference_channel(std::span<const Channel> channels) {
   return channels.front();
 }
 
+}  // namespace
+
 XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance) {
   XYZ xyz = tristimulus(illuminant, reflectance, Observer::cie1931);
   for (double& v : xyz) v /= 100;
   return xyz;
 }
-
-}  // namespace
 
 std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& illuminant,
                                const Curve& reflectance) {

@@ -12,6 +12,9 @@
 
 namespace abbe {
 
+/// CIE 1931 tristimulus values, Y = 1 for the perfect diffuser.
+[[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance);
+
 /// Raw values of a reflectance under an illuminant in channel order: 1 nm sums over 380-780 nm, divided by
 /// the value of the perfect diffuser in the channel named G, else Y, else the first. Throws Error{input} when
 /// that channel does not see the illuminant.

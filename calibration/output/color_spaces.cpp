@@ -1,6 +1,21 @@
 #include "calibration/output/color_spaces.h"
 
 namespace abbe {
+namespace {
+
+Matrix3 cone_responses(Adaptation method) {
+  switch (method) {
+    case Adaptation::bradford:
+      break;
+    case Adaptation::cat02:
+      return {0.7328, 0.4296, -0.1624, -0.7036, 1.6975, 0.0061, 0.0030, 0.0136, 0.9834};
+    case Adaptation::cat16:
+      return {0.401288, 0.650173, -0.051461, -0.250268, 1.204414, 0.045854, -0.002079, 0.048952, 0.953127};
+  }
+  return {0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296};
+}
+
+}  // namespace
 
 XYZ unit_xyz(const Chromaticity& xy) {
   return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};
@@ -14,8 +29,8 @@ Matrix3 rgb_to_xyz(const RgbSpace& space) {
   return primaries * diagonal(multiply(primaries.inverse(true), unit_xyz(white)));
 }
 
-std::optional<Matrix3> bradford(const XYZ& from_white, const XYZ& to_white) {
-  const Matrix3 cones(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296);
+std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white, Adaptation method) {
+  const Matrix3 cones = cone_responses(method);
   const std::array<double, 3> from = multiply(cones, from_white);
   const std::array<double, 3> to = multiply(cones, to_white);
   std::array<double, 3> gain{};
@@ -24,6 +39,10 @@ std::optional<Matrix3> bradford(const XYZ& from_white, const XYZ& to_white) {
     gain[i] = to[i] / from[i];
   }
   return cones.inverse(true) * diagonal(gain) * cones;
+}
+
+Matrix3 rgb_to_xyz_d65(const RgbSpace& space) {
+  return adaptation(unit_xyz(space.white), unit_xyz(kD65)).value() * rgb_to_xyz(space);
 }
 
 }  // namespace abbe

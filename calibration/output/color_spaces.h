@@ -27,14 +27,29 @@ struct RgbSpace {
 };
 inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
                                   kD65};  ///< [BT709]
+inline constexpr Chromaticity kAcesWhite{0.32168, 0.33767};
 inline constexpr RgbSpace kAces2065{
-    {0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, {0.32168, 0.33767}};  ///< [ST2065-1]
+    {0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, kAcesWhite};  ///< AP0 [ST2065-1]
+inline constexpr RgbSpace kAcesCg{
+    {0.713, 0.293}, {0.165, 0.83}, {0.128, 0.044}, kAcesWhite};                          ///< AP1 [S2014-004]
+inline constexpr RgbSpace kP3D65{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, kD65};  ///< [RP431-2]
 
 /// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
 [[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
-/// Chromatic adaptation of XYZ from one white to another in the sharpened Bradford cone space, linear
-/// [Lam1985]. Nothing for a white without a positive response of every cone, such as a spectral line.
-[[nodiscard]] std::optional<Matrix3> bradford(const XYZ& from_white, const XYZ& to_white);
+/// Cone spaces in which white is adapted, by a gain for each cone.
+enum class Adaptation {
+  bradford,  ///< Sharpened Bradford cones, linear [Lam1985].
+  cat02,     ///< Those of CIECAM02 [CIE159].
+  cat16,     ///< Those of CAM16 [Li2017].
+};
+
+/// Chromatic adaptation of XYZ from one white to another, complete. Nothing for a white without a positive
+/// response of every cone, such as a spectral line.
+[[nodiscard]] std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white,
+                                                Adaptation method = Adaptation::bradford);
+
+/// Linear RGB of a space to XYZ relative to D65: through Bradford's cones where its own white is another.
+[[nodiscard]] Matrix3 rgb_to_xyz_d65(const RgbSpace& space);
 
 }  // namespace abbe

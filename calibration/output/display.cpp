@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <sstream>
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -9,6 +13,7 @@
 
 #include "calibration/chart/patches.h"
 #include "calibration/output/color_spaces.h"
+#include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
 
@@ -37,14 +42,17 @@ std::vector<const ImageChannel*> planes(const Image& film, const std::vector<std
   return found;
 }
 
-// Clips one pixel; true if that changed it.
+std::array<double, 3> film_values(const std::vector<const ImageChannel*>& film_planes, std::size_t pixel) {
+  std::array<double, 3> values{};
+  for (std::size_t k = 0; k < film_planes.size(); ++k) values[k] = film_planes[k]->values[pixel];
+  return values;
+}
+
+// Clips one pixel's code values; true if one of them was too high.
 bool clip(float* rgb) {
-  bool clipped = false;
-  for (float* v = rgb; v != rgb + 3; ++v) {
-    if (!(*v >= -kClipTolerance && *v <= 1 + kClipTolerance)) clipped = true;
-    *v = std::isnan(*v) ? 0.0F : std::clamp(*v, 0.0F, 1.0F);
-  }
-  return clipped;
+  const bool too_high = std::any_of(rgb, rgb + 3, [](float v) { return !(v <= 1 + kClipTolerance); });
+  for (float* v = rgb; v != rgb + 3; ++v) *v = std::isnan(*v) ? 0.0F : std::clamp(*v, 0.0F, 1.0F);
+  return too_high;
 }
 
 Image split_planes(const std::vector<float>& packed, const Image& film, bool grey) {
@@ -59,17 +67,45 @@ Image split_planes(const std::vector<float>& packed, const Image& film, bool gre
   return image;
 }
 
-// Adaptation of the light's white, as the standard observer sees it, to the display's; a lamp of spectral
-// lines, to whose colour no eye adapts, is shown as it looks beside daylight.
-Matrix3 adaptation(const Curve& illuminant) {
-  XYZ white = tristimulus(illuminant, Curve(1.0), Observer::cie1931);
-  for (double& v : white) v /= 100;
-  return bradford(white, unit_xyz(kD65)).value_or(Matrix3());
+// The space of a user's configuration that holds ACES2065-1.
+std::string aces_space(const OCIO::Config& config, const std::string& file) {
+  for (const char* name : {"aces_interchange", "ACES2065-1", "ACES - ACES2065-1"})
+    if (config.getColorSpace(name)) return name;
+  throw Error(
+      ErrorCode::input, file,
+      "has neither the role aces_interchange nor a colour space ACES2065-1, so it cannot be told what "
+      "the film's colours are");
 }
 
-DisplayTransform grey_display(const Channel& channel) {
+// The one asked for among those there are, or the first.
+std::string choose(const char* option, const std::string& asked, int count,
+                   const std::function<const char*(int)>& name) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.emplace_back(name(i));
+  if (names.empty()) throw Error(ErrorCode::input, option, "the OpenColorIO configuration has none");
+  if (asked.empty()) return names.front();
+  if (std::find(names.begin(), names.end(), asked) == names.end())
+    throw Error(ErrorCode::usage, option, fmt::format("got {}, allowed {}", asked, fmt::join(names, ", ")));
+  return asked;
+}
+
+// What the view can take in, in Abbe's own configuration or a user's.
+Gamut gamut_of(bool own, const std::string& display, const std::string& view) {
+  if (!own || view != kPlainView) return Gamut(kAcesCg);
+  return Gamut(display == kP3Display ? kP3D65 : kRec709, 1);
+}
+
+// Adaptation of the light's white, as the standard observer sees it, to the display's; a lamp of spectral
+// lines, to whose colour no eye adapts, is shown as it looks beside daylight.
+Matrix3 light_adaptation(const Curve& illuminant) {
+  XYZ white = tristimulus(illuminant, Curve(1.0), Observer::cie1931);
+  for (double& v : white) v /= 100;
+  return adaptation(white, unit_xyz(kD65)).value_or(Matrix3());
+}
+
+DisplayTransform grey_display(const Channel& channel, const ViewOptions& options) {
   const XYZ white = unit_xyz(kD65);
-  return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0)};
+  return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), {}, options};
 }
 
 bool is_observer(const std::vector<Channel>& channels) {
@@ -79,23 +115,42 @@ bool is_observer(const std::vector<Channel>& channels) {
 }  // namespace
 
 struct DisplayTransform::Processor {
+  Gamut gamut;
+  Matrix3 to_input;  // from the gamut's RGB
   OCIO::ConstCPUProcessorRcPtr cpu;
 };
 
+std::filesystem::path users_configuration() {
+  const char* named = std::getenv("OCIO");
+  return named == nullptr ? "" : named;
+}
+
 DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
-                                   std::optional<MatrixFit> fit)
+                                   std::optional<CorrectionFit> fit, const ViewOptions& options)
     : channels_(std::move(channels)), to_xyz_d65_(to_xyz_d65), fit_(std::move(fit)) {
   require_displayable(channels_.size());
+  const bool own = options.config.empty();
   try {
-    std::istringstream text(ocio_config_text({"film", {}, to_xyz_d65}));
-    const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromStream(text);
+    std::istringstream text(own ? ocio_config_text({}) : "");
+    const OCIO::ConstConfigRcPtr config =
+        own ? OCIO::Config::CreateFromStream(text) : OCIO::Config::CreateFromFile(options.config.c_str());
+    // All displays, not the active ones: $OCIO_ACTIVE_DISPLAYS is about a user's configuration.
+    const std::string display =
+        choose("display", options.display, own ? config->getNumDisplaysAll() : config->getNumDisplays(),
+               [&](int i) { return own ? config->getDisplayAll(i) : config->getDisplay(i); });
+    const std::string view = choose("view", options.view, config->getNumViews(display.c_str()),
+                                    [&](int i) { return config->getView(display.c_str(), i); });
+    const std::string input = own ? kReferenceSpace : aces_space(*config, options.config.string());
+    const Gamut gamut = gamut_of(own, display, view);
+    const Matrix3 from_xyz = own ? Matrix3() : rgb_to_xyz_d65(kAces2065).inverse();
     // Lossless, because the fast powers and logarithms of other settings have errors (for negative values on
     // some processors gross ones) that nobody bounds.
-    processor_ = std::make_shared<const Processor>(
-        Processor{config->getProcessor(kCameraSpace, kDisplay, kView, OCIO::TRANSFORM_DIR_FORWARD)
-                      ->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)});
+    processor_ = std::make_shared<const Processor>(Processor{
+        gamut, from_xyz * gamut.to_xyz_d65,
+        config->getProcessor(input.c_str(), display.c_str(), view.c_str(), OCIO::TRANSFORM_DIR_FORWARD)
+            ->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)});
   } catch (const OCIO::Exception& e) {
-    throw Error(ErrorCode::internal, "OpenColorIO", e.what());
+    throw Error(own ? ErrorCode::internal : ErrorCode::input, "OpenColorIO", e.what());
   }
 }
 
@@ -104,52 +159,69 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   DisplayPicture picture;
   picture.scale = scale ? *scale : automatic_scale(film);
   if (film.pixels() == 0) return picture;
+  const auto& [gamut, to_input, cpu] = *processor_;
+  const Matrix3 to_gamut = gamut.from_xyz_d65 * to_xyz_d65_ * picture.scale;
   std::vector<float> packed(3 * film.pixels(), 0.0F);
-  for (std::size_t k = 0; k < film_planes.size(); ++k)
-    for (std::size_t i = 0; i < film.pixels(); ++i)
-      packed[3 * i + k] = static_cast<float>(film_planes[k]->values[i] * picture.scale);
+  std::vector<bool> too_bright(film.pixels());
+  ImageChannel outside{"Y", std::vector<float>(film.pixels())};
+  for (std::size_t i = 0; i < film.pixels(); ++i) {
+    const MappedColor mapped = map_into(gamut, multiply(to_gamut, film_values(film_planes, i)));
+    const std::array<double, 3> input = multiply(to_input, mapped.rgb);
+    std::copy(input.begin(), input.end(), packed.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    outside.values[i] = mapped.outside ? 1.0F : 0.0F;
+    too_bright[i] = mapped.too_bright;
+  }
   OCIO::PackedImageDesc pixels(packed.data(), film.width, film.height, 3);
   try {
-    processor_->cpu->apply(pixels);
+    cpu->apply(pixels);
   } catch (const OCIO::Exception& e) {
     throw Error(ErrorCode::internal, "OpenColorIO", e.what());
   }
   std::size_t clipped = 0;
-  for (std::size_t i = 0; i < film.pixels(); ++i) clipped += clip(&packed[3 * i]) ? 1U : 0U;
-  picture.clipped_share = static_cast<double>(clipped) / static_cast<double>(film.pixels());
+  for (std::size_t i = 0; i < film.pixels(); ++i) clipped += clip(&packed[3 * i]) || too_bright[i] ? 1U : 0U;
+  const double count = static_cast<double>(film.pixels());
+  picture.clipped_share = static_cast<double>(clipped) / count;
+  picture.outside_share = std::accumulate(outside.values.begin(), outside.values.end(), 0.0) / count;
+  picture.outside = {film.width, film.height, {std::move(outside)}, film.metadata};
   picture.image = split_planes(packed, film, channels_.size() == 1);
   return picture;
 }
 
 double DisplayTransform::automatic_scale(const Image& film) const {
   const std::vector<const ImageChannel*> film_planes = planes(film, channels_);
-  std::vector<double> luminance(film.pixels(), 0.0);
-  for (std::size_t k = 0; k < film_planes.size(); ++k)
-    for (std::size_t i = 0; i < luminance.size(); ++i)
-      luminance[i] += to_xyz_d65_[1][static_cast<int>(k)] * film_planes[k]->values[i];
-  std::erase_if(luminance, [](double y) { return !std::isfinite(y); });
-  if (luminance.empty()) return 1;
-  const auto rank = static_cast<std::ptrdiff_t>(kPercentile * static_cast<double>(luminance.size() - 1));
-  std::nth_element(luminance.begin(), luminance.begin() + rank, luminance.end());
-  double bright = luminance[static_cast<std::size_t>(rank)];
-  if (!(bright > 0)) bright = *std::max_element(luminance.begin(), luminance.end());
+  Gamut gamut = processor_->gamut;
+  gamut.top = std::numeric_limits<double>::infinity();
+  const Matrix3 to_gamut = gamut.from_xyz_d65 * to_xyz_d65_;
+  std::vector<double> brightness;
+  for (std::size_t i = 0; i < film.pixels(); ++i) {
+    const std::array<double, 3> rgb = multiply(to_gamut, film_values(film_planes, i));
+    if (!std::all_of(rgb.begin(), rgb.end(), [](double v) { return std::isfinite(v); })) continue;
+    const MappedColor mapped = map_into(gamut, rgb);
+    brightness.push_back(*std::max_element(mapped.rgb.begin(), mapped.rgb.end()));
+  }
+  if (brightness.empty()) return 1;
+  const auto rank = static_cast<std::ptrdiff_t>(kPercentile * static_cast<double>(brightness.size() - 1));
+  std::nth_element(brightness.begin(), brightness.begin() + rank, brightness.end());
+  double bright = brightness[static_cast<std::size_t>(rank)];
+  if (!(bright > 0)) bright = *std::max_element(brightness.begin(), brightness.end());
   return bright > 0 ? 1 / bright : 1;
 }
 
-DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant) {
+DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
+                              const ViewOptions& options) {
   require_displayable(channels.size());
-  if (channels.size() == 1) return grey_display(channels.front());
+  if (channels.size() == 1) return grey_display(channels.front(), options);
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
-  if (is_observer(channels)) return {std::move(names), adaptation(illuminant)};
+  if (is_observer(channels)) return {std::move(names), light_adaptation(illuminant), {}, options};
   Diagnostics diagnostics;
   const std::optional<Chart> chart = load_chart(kChart, {}, diagnostics);
   if (!chart) throw Error(diagnostics.code(), kChart, diagnostics.text());
   const std::vector<double> white = diffuser_values(channels, illuminant);
-  MatrixFit fit = fit_matrix(integrate(*chart, channels, illuminant));
+  CorrectionFit fit = fit_correction(integrate(*chart, channels, illuminant));
   const Matrix3 balance = diagonal({white[1] / white[0], 1, white[1] / white[2]});
-  const Matrix3 to_xyz_d65 = adaptation(illuminant) * fit.raw_to_xyz * balance;
-  return {std::move(names), to_xyz_d65, std::move(fit)};
+  const Matrix3 to_xyz_d65 = light_adaptation(illuminant) * linear_part(fit.correction) * balance;
+  return {std::move(names), to_xyz_d65, std::move(fit), options};
 }
 
 }  // namespace abbe

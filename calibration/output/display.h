@@ -1,12 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/chart/matrix3.h"
-#include "calibration/fit/matrix.h"
+#include "calibration/fit/correction_fit.h"
 #include "io/image.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve.h"
@@ -15,40 +16,56 @@ namespace abbe {
 
 /// A film made fit for a display.
 struct DisplayPicture {
-  Image image;       ///< Channels R, G, B (or Y for a film of one channel): sRGB code values in [0, 1].
-  double scale = 1;  ///< What the film values were multiplied by.
-  double clipped_share = 0;  ///< Share of pixels with a code value outside [0, 1] before clipping.
+  Image image;               ///< Channels R, G, B (or Y for a film of one channel): code values in [0, 1].
+  Image outside;             ///< Channel Y: 1 where the colour lay outside the gamut, 0 elsewhere.
+  double scale = 1;          ///< What the film values were multiplied by.
+  double outside_share = 0;  ///< Share of pixels whose colour lay outside the gamut, whatever its brightness.
+  double clipped_share = 0;  ///< Share of pixels that were too bright for the display, or not numbers.
 };
 
-/// From the linear values of one sensor to the code values of an sRGB display, through OpenColorIO.
+/// Through which view a film is shown. Empty: Abbe's own configuration, its first display and that one's
+/// first view.
+struct ViewOptions {
+  std::filesystem::path config;  ///< A user's OpenColorIO configuration.
+  std::string display;
+  std::string view;
+};
+
+/// The configuration that $OCIO names; empty when it names none.
+[[nodiscard]] std::filesystem::path users_configuration();
+
+/// From the linear values of one sensor to the code values of a display, through OpenColorIO.
 class DisplayTransform {
  public:
   /// `channels` names the film channels in order, one or three of them; `to_xyz_d65` takes their values to
-  /// XYZ relative to D65. For one channel only its first column counts. Throws Error{usage} for another
-  /// number of channels.
+  /// XYZ relative to D65. For one channel only its first column counts. A user's configuration is given
+  /// ACES2065-1: it needs the role `aces_interchange`, or that space by name. Throws Error{usage} for another
+  /// number of channels and for an unknown display or view, Error{input} for a configuration that cannot be
+  /// used.
   DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
-                   std::optional<MatrixFit> fit = {});
+                   std::optional<CorrectionFit> fit = {}, const ViewOptions& options = {});
 
-  /// Multiplies by `scale`, or else by the automatic one, and applies the configuration; only the result is
-  /// clipped, to [0, 1], so negative film values and colours outside the display's gamut pass through all
-  /// linear steps. A pixel that is not a number becomes black and counts as clipped. Throws Error{input} when
-  /// the film lacks a channel.
+  /// Multiplies by `scale`, or else by the automatic one; brings every colour into the gamut (`map_into`):
+  /// that of the display for the plain view, AP1 without an upper end for any other, which does its own tone
+  /// mapping; then applies the view. Only what still exceeds code values of [0, 1] is clipped. A pixel that
+  /// is not a number becomes black and counts as clipped. Throws Error{input} when the film lacks a channel.
   [[nodiscard]] DisplayPicture operator()(const Image& film, std::optional<double> scale = {}) const;
 
-  /// The scale that brings the 99th percentile of luminance over all pixels to 1; where that is not positive,
-  /// the brightest pixel; 1 for a film without any light.
+  /// The scale that brings the 99th percentile, over all pixels, of the brightest primary to 1, colours
+  /// having been brought into the gamut; where that is not positive, the brightest pixel; 1 for a film
+  /// without any light.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
   /// Film values to XYZ relative to D65.
   [[nodiscard]] const Matrix3& to_xyz_d65() const { return to_xyz_d65_; }
   /// How the matrix was fitted; nothing where it follows from the channels themselves.
-  [[nodiscard]] const std::optional<MatrixFit>& fit() const { return fit_; }
+  [[nodiscard]] const std::optional<CorrectionFit>& fit() const { return fit_; }
 
  private:
   struct Processor;
   std::vector<std::string> channels_;
   Matrix3 to_xyz_d65_;
-  std::optional<MatrixFit> fit_;
+  std::optional<CorrectionFit> fit_;
   std::shared_ptr<const Processor> processor_;
 };
 
@@ -58,6 +75,7 @@ class DisplayTransform {
 /// light, then adapted; luminance is in units of the second channel's value of a neutral. One channel is
 /// shown as grey. Throws Error{usage} for another number, Error{input} when the light or the channels do not
 /// determine the colours.
-[[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant);
+[[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
+                                            const ViewOptions& options = {});
 
 }  // namespace abbe

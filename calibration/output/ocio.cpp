@@ -1,10 +1,13 @@
 #include "calibration/output/ocio.h"
 
+#include <cctype>
+#include <random>
 #include <sstream>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
+#include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
@@ -14,17 +17,27 @@ namespace {
 
 namespace OCIO = OCIO_NAMESPACE;
 
-constexpr const char* kReferenceSpace = "Linear XYZ-D65";
 constexpr const char* kRec709Space = "Linear Rec.709 (sRGB)";
 constexpr const char* kAcesSpace = "ACES2065-1";
+constexpr const char* kAcesCgSpace = "ACEScg";
 constexpr const char* kRawSpace = "Raw";
 constexpr const char* kDisplayReferenceSpace = "CIE-XYZ-D65";
-constexpr const char* kDisplaySpace = "sRGB - Display";
-constexpr const char* kViewTransform = "Un-tone-mapped";
+constexpr const char* kDisplaySpaces[][3] = {
+    {kSrgbDisplay, "DISPLAY - CIE-XYZ-D65_to_sRGB", "Code values of an sRGB display."},
+    {kRec1886Display, "DISPLAY - CIE-XYZ-D65_to_REC.1886-REC.709", "Code values of a Rec.709 video display."},
+    {kP3Display, "DISPLAY - CIE-XYZ-D65_to_G2.6-P3-D65", "Code values of a P3 projector with white D65."}};
+constexpr const char* kAcesOutput = "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0";
 constexpr std::size_t kMaxCurveSize = std::size_t{1} << 20;
+constexpr int kCubeEdge = 65;
+constexpr int kBakeTrials = 4000;
+constexpr double kDarkestTrial = 0.002;  // as a share of full scale
 
 bool has_curve(const CameraProfile& profile) {
   return !profile.linearisation[0].empty();
+}
+
+bool has_cube(const CameraProfile& profile) {
+  return profile.correction.model != CorrectionModel::linear;
 }
 
 OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3& m) {
@@ -34,6 +47,26 @@ OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3& m) {
   values[15] = 1;
   OCIO::MatrixTransformRcPtr transform = OCIO::MatrixTransform::Create();
   transform->setMatrix(values.data());
+  return transform;
+}
+
+OCIO::FileTransformRcPtr file_transform(const std::string& file, OCIO::Interpolation interpolation) {
+  OCIO::FileTransformRcPtr transform = OCIO::FileTransform::Create();
+  transform->setSrc(file.c_str());
+  transform->setInterpolation(interpolation);
+  return transform;
+}
+
+OCIO::BuiltinTransformRcPtr builtin(const char* style) {
+  OCIO::BuiltinTransformRcPtr transform = OCIO::BuiltinTransform::Create();
+  transform->setStyle(style);
+  return transform;
+}
+
+// A cube is as fine where it is dark as the eye is when it is looked up by cube roots.
+OCIO::ExponentTransformRcPtr cube_root() {
+  OCIO::ExponentTransformRcPtr transform = OCIO::ExponentTransform::Create();
+  transform->setValue({1.0 / 3, 1.0 / 3, 1.0 / 3, 1});
   return transform;
 }
 
@@ -55,75 +88,79 @@ void add_scene_space(OCIO::Config& config, const char* name, const char* descrip
 
 void add_camera_space(OCIO::Config& config, const CameraProfile& profile) {
   const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-  if (has_curve(profile)) {
-    const OCIO::FileTransformRcPtr curve = OCIO::FileTransform::Create();
-    curve->setSrc(kCurveFile);
-    curve->setInterpolation(OCIO::INTERP_LINEAR);
-    group->appendTransform(curve);
+  if (has_curve(profile))
+    group->appendTransform(file_transform(camera_file(profile, ".spi1d"), OCIO::INTERP_LINEAR));
+  if (has_cube(profile)) {
+    group->appendTransform(cube_root());
+    group->appendTransform(file_transform(camera_file(profile, ".cube"), OCIO::INTERP_TETRAHEDRAL));
+  } else {
+    group->appendTransform(matrix_transform(matrix_to_xyz_d65(profile)));
   }
-  group->appendTransform(matrix_transform(profile.to_xyz_d65));
   const OCIO::ColorSpaceRcPtr space =
-      color_space(kCameraSpace, profile.description.c_str(), OCIO::REFERENCE_SPACE_SCENE);
+      color_space(camera_space(profile).c_str(), profile.description.c_str(), OCIO::REFERENCE_SPACE_SCENE);
   space->setTransform(group, OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(space);
 }
 
-// The encoding of IEC 61966-2-1, its linear part continued below zero.
-OCIO::ExponentWithLinearTransformRcPtr srgb_encoding() {
-  OCIO::ExponentWithLinearTransformRcPtr encoding = OCIO::ExponentWithLinearTransform::Create();
-  encoding->setGamma({2.4, 2.4, 2.4, 1});
-  encoding->setOffset({0.055, 0.055, 0.055, 0});
-  encoding->setNegativeStyle(OCIO::NEGATIVE_LINEAR);
-  encoding->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  return encoding;
+void add_view_transform(OCIO::Config& config, const char* name, const char* description,
+                        const OCIO::ConstTransformRcPtr& from_scene) {
+  const OCIO::ViewTransformRcPtr view = OCIO::ViewTransform::Create(OCIO::REFERENCE_SPACE_SCENE);
+  view->setName(name);
+  view->setDescription(description);
+  view->setTransform(from_scene, OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE);
+  config.addViewTransform(view);
 }
 
-void add_display(OCIO::Config& config) {
+void add_displays(OCIO::Config& config) {
   config.addColorSpace(color_space(kDisplayReferenceSpace, "CIE XYZ of the display, white D65 at Y = 1.",
                                    OCIO::REFERENCE_SPACE_DISPLAY));
-  const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-  group->appendTransform(matrix_transform(rgb_to_xyz(kRec709).inverse()));
-  group->appendTransform(srgb_encoding());
-  const OCIO::ColorSpaceRcPtr srgb =
-      color_space(kDisplaySpace, "Code values of an sRGB display.", OCIO::REFERENCE_SPACE_DISPLAY);
-  srgb->setEncoding("sdr-video");
-  srgb->setTransform(group, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  config.addColorSpace(srgb);
-
-  const OCIO::ViewTransformRcPtr view = OCIO::ViewTransform::Create(OCIO::REFERENCE_SPACE_SCENE);
-  view->setName(kViewTransform);
-  view->setDescription("The scene's XYZ shown as they are.");
-  view->setTransform(OCIO::MatrixTransform::Create(), OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE);
-  config.addViewTransform(view);
-  config.setDefaultViewTransformName(kViewTransform);
-  config.addDisplayView(kDisplay, kView, kViewTransform, kDisplaySpace, "", "", "");
+  add_view_transform(config, kPlainView, "The scene's XYZ shown as they are.",
+                     OCIO::MatrixTransform::Create());
+  const OCIO::GroupTransformRcPtr aces = OCIO::GroupTransform::Create();
+  aces->appendTransform(matrix_transform(rgb_to_xyz_d65(kAces2065).inverse()));
+  aces->appendTransform(builtin(kAcesOutput));
+  add_view_transform(config, kAcesView, "The rendering and output transform of ACES 1.0.", aces);
+  config.setDefaultViewTransformName(kPlainView);
+  for (const auto& [name, style, description] : kDisplaySpaces) {
+    const OCIO::ColorSpaceRcPtr space = color_space(name, description, OCIO::REFERENCE_SPACE_DISPLAY);
+    space->setEncoding("sdr-video");
+    space->setTransform(builtin(style), OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+    config.addColorSpace(space);
+    for (const char* view : {kPlainView, kAcesView})
+      config.addDisplayView(name, view, view, name, "", "", "");
+  }
 }
 
 void add_roles(OCIO::Config& config) {
   config.setRole("aces_interchange", kAcesSpace);
   config.setRole("cie_xyz_d65_interchange", kDisplayReferenceSpace);
-  config.setRole(OCIO::ROLE_SCENE_LINEAR, kRec709Space);
-  config.setRole(OCIO::ROLE_RENDERING, kRec709Space);
-  config.setRole(OCIO::ROLE_DATA, kRawSpace);
-  config.setRole(OCIO::ROLE_DEFAULT, kRawSpace);
+  for (const char* role : {OCIO::ROLE_SCENE_LINEAR, OCIO::ROLE_RENDERING}) config.setRole(role, kAcesCgSpace);
+  for (const char* role : {OCIO::ROLE_DATA, OCIO::ROLE_DEFAULT}) config.setRole(role, kRawSpace);
+  for (const char* role : {OCIO::ROLE_COLOR_PICKING, OCIO::ROLE_TEXTURE_PAINT, OCIO::ROLE_MATTE_PAINT})
+    config.setRole(role, kRec709Space);
 }
 
-OCIO::ConfigRcPtr build_config(const CameraProfile& profile) {
+OCIO::ConfigRcPtr build_config(std::span<const CameraProfile> profiles) {
   OCIO::ConfigRcPtr config = OCIO::Config::Create();
-  config->setVersion(2, 0);
-  config->setDescription(profile.description.c_str());
+  config->setVersion(2, 1);
   config->setSearchPath(".");
   add_scene_space(*config, kReferenceSpace, "CIE XYZ, linear, scene white adapted to D65.", nullptr);
+  add_scene_space(*config, kAcesSpace, "AP0 primaries, linear, white adapted from D65 by Bradford's cones.",
+                  matrix_transform(rgb_to_xyz_d65(kAces2065)));
+  add_scene_space(*config, kAcesCgSpace, "AP1 primaries, linear, white adapted from D65 by Bradford's cones.",
+                  matrix_transform(rgb_to_xyz_d65(kAcesCg)));
   add_scene_space(*config, kRec709Space, "Rec.709 primaries, linear, white D65.",
                   matrix_transform(rgb_to_xyz(kRec709)));
-  const Matrix3 aces_to_d65 =
-      bradford(unit_xyz(kAces2065.white), unit_xyz(kD65)).value() * rgb_to_xyz(kAces2065);
-  add_scene_space(*config, kAcesSpace, "ACES2065-1: AP0 primaries, linear.", matrix_transform(aces_to_d65));
-  add_camera_space(*config, profile);
+  std::string descriptions;
+  for (const CameraProfile& profile : profiles) {
+    add_camera_space(*config, profile);
+    descriptions += (descriptions.empty() ? "" : "; ") + profile.description;
+  }
+  config->setDescription(descriptions.c_str());
   const OCIO::ColorSpaceRcPtr raw = color_space(kRawSpace, "No transform.", OCIO::REFERENCE_SPACE_SCENE);
   raw->setIsData(true);
   config->addColorSpace(raw);
-  add_display(*config);
+  add_displays(*config);
   add_roles(*config);
   return config;
 }
@@ -137,24 +174,51 @@ std::string spi1d_text(const CameraProfile& profile) {
   return text + "}\n";
 }
 
-std::string clf_text(const CameraProfile& profile, const OCIO::ConstConfigRcPtr& config) {
-  const auto& [r, g, b] = profile.linearisation;
-  const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-  group->getFormatMetadata().setID("abbe-camera");
-  group->getFormatMetadata().addChildElement("Description", profile.description.c_str());
-  if (has_curve(profile)) {
-    const OCIO::Lut1DTransformRcPtr curve =
-        OCIO::Lut1DTransform::Create(static_cast<unsigned long>(r.size()), false);
-    curve->setInterpolation(OCIO::INTERP_LINEAR);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      curve->setValue(static_cast<unsigned long>(i), static_cast<float>(r[i]), static_cast<float>(g[i]),
-                      static_cast<float>(b[i]));
-    group->appendTransform(curve);
-  }
-  group->appendTransform(matrix_transform(profile.to_xyz_d65));
+std::string cube_text(const CameraProfile& profile) {
+  std::string text =
+      fmt::format("# cube roots of linear camera values to XYZ, D65\nLUT_3D_SIZE {}\n", kCubeEdge);
+  const auto value = [](int i) { return std::pow(static_cast<double>(i) / (kCubeEdge - 1), 3); };
+  for (int b = 0; b < kCubeEdge; ++b)
+    for (int g = 0; g < kCubeEdge; ++g)
+      for (int r = 0; r < kCubeEdge; ++r) {
+        const XYZ xyz = to_xyz_d65(profile, {value(r), value(g), value(b)});
+        text += fmt::format("{:.9g} {:.9g} {:.9g}\n", xyz[0], xyz[1], xyz[2]);
+      }
+  return text;
+}
+
+// What a camera space does up to another space, as one file without references.
+std::string clf_text(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile, const char* to) {
+  const OCIO::GroupTransformRcPtr group =
+      config->getProcessor(camera_space(profile).c_str(), to)->createGroupTransform();
+  OCIO::FormatMetadata& metadata = group->getFormatMetadata();
+  metadata.setID(fmt::format("abbe-{}-to-{}", camera_file(profile, ""), to).c_str());
+  metadata.addChildElement("Description", profile.description.c_str());
+  metadata.addChildElement("InputDescriptor",
+                           has_curve(profile) ? "camera code values" : "linear camera values");
+  metadata.addChildElement("OutputDescriptor", to);
   std::ostringstream text;
   group->write(config, "Academy/ASC Common LUT Format", text);
   return text.str();
+}
+
+double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile) {
+  const OCIO::GroupTransformRcPtr baked = OCIO::GroupTransform::Create();
+  baked->appendTransform(cube_root());
+  baked->appendTransform(file_transform(camera_file(profile, ".cube"), OCIO::INTERP_TETRAHEDRAL));
+  const auto processor = config->getProcessor(baked)->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
+  const XYZ white = unit_xyz(kD65);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> value(kDarkestTrial, 1);
+  double worst = 0;
+  for (int k = 0; k < kBakeTrials; ++k) {
+    const Raw raw{value(random), value(random), value(random)};
+    float rgb[3] = {static_cast<float>(raw[0]), static_cast<float>(raw[1]), static_cast<float>(raw[2])};
+    processor->applyRGB(rgb);
+    const Lab shown = xyz_to_lab(XYZ{rgb[0], rgb[1], rgb[2]}, white);
+    worst = std::max(worst, delta_e_2000(xyz_to_lab(to_xyz_d65(profile, raw), white), shown));
+  }
+  return worst;
 }
 
 void require_well_formed(const CameraProfile& profile) {
@@ -176,31 +240,51 @@ auto with_ocio_errors(ErrorCode code, const F& f) {
 
 }  // namespace
 
-std::string ocio_config_text(const CameraProfile& profile) {
-  require_well_formed(profile);
+std::string camera_space(const CameraProfile& profile) {
+  return "Camera " + profile.light;
+}
+
+std::string camera_file(const CameraProfile& profile, const std::string& extension) {
+  std::string name = "camera_" + profile.light;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+  return name + extension;
+}
+
+std::string ocio_config_text(std::span<const CameraProfile> profiles) {
+  for (const CameraProfile& profile : profiles) require_well_formed(profile);
   return with_ocio_errors(ErrorCode::internal, [&] {
     std::ostringstream text;
-    build_config(profile)->serialize(text);
+    build_config(profiles)->serialize(text);
     return text.str();
   });
 }
 
-void write_ocio_config(const std::filesystem::path& folder, const CameraProfile& profile) {
-  const std::string text = ocio_config_text(profile);
+WrittenConfig write_ocio_config(const std::filesystem::path& folder,
+                                std::span<const CameraProfile> profiles) {
+  const std::string text = ocio_config_text(profiles);
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ErrorCode::output, folder.string(), "cannot create the folder: " + failure.message());
+  WrittenConfig written;
   with_ocio_errors(ErrorCode::output, [&] {
     std::istringstream stream(text);
     const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(stream)->createEditableCopy();
     config->validate();
     config->setWorkingDir(folder.string().c_str());
-    if (has_curve(profile)) write_atomically(folder / kCurveFile, spi1d_text(profile));
-    write_atomically(folder / kClfFile, clf_text(profile, config));
-    static_cast<void>(config->getProcessor(kCameraSpace, kDisplay, kView, OCIO::TRANSFORM_DIR_FORWARD));
+    for (const CameraProfile& profile : profiles) {
+      if (has_curve(profile)) write_atomically(folder / camera_file(profile, ".spi1d"), spi1d_text(profile));
+      if (has_cube(profile)) {
+        write_atomically(folder / camera_file(profile, ".cube"), cube_text(profile));
+        written.bake_error = std::max(written.bake_error, bake_error(config, profile));
+      }
+      write_atomically(folder / camera_file(profile, ".clf"), clf_text(config, profile, kReferenceSpace));
+      write_atomically(folder / camera_file(profile, "_to_aces.clf"), clf_text(config, profile, kAcesSpace));
+    }
   });
   write_atomically(folder / "config.ocio", text);
+  return written;
 }
 
 }  // namespace abbe

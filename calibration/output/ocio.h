@@ -1,40 +1,44 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
-#include <vector>
 
-#include "calibration/chart/matrix3.h"
+#include "calibration/output/camera_profile.h"
 
 namespace abbe {
 
-/// What OpenColorIO needs to know of a camera.
-struct CameraProfile {
-  std::string description;  ///< One line: which camera, under which light.
-  /// Per channel the linear exposure of code i/(size - 1), all of one size; empty when the camera's values
-  /// are linear.
-  std::array<std::vector<double>, 3> linearisation;
-  Matrix3 to_xyz_d65;  ///< Linear camera values to XYZ relative to a D65 white.
+/// Names in the configuration.
+inline constexpr const char* kReferenceSpace = "Linear XYZ-D65";
+inline constexpr const char* kSrgbDisplay = "sRGB - Display";
+inline constexpr const char* kRec1886Display = "Rec.1886 Rec.709 - Display";
+inline constexpr const char* kP3Display = "P3-D65 - Display";
+inline constexpr const char* kPlainView = "Un-tone-mapped";
+inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
+
+/// The colour space of a profile, e.g. "Camera D65".
+[[nodiscard]] std::string camera_space(const CameraProfile& profile);
+/// Its files: `camera_D65` and an extension; characters a file name should not have become '_'.
+[[nodiscard]] std::string camera_file(const CameraProfile& profile, const std::string& extension);
+
+/// An OpenColorIO version 2 configuration. Reference space: linear XYZ, white D65. Colour spaces: one for
+/// each profile (file transform of its `.spi1d` if there is a linearisation, then a matrix, or the square
+/// root and the `.cube` of a root polynomial), ACES2065-1, ACEScg, linear Rec.709, sRGB texture, Raw.
+/// Displays sRGB, Rec.1886 and P3-D65, each with a view that neither tone-maps nor clips and with the
+/// ACES 1.0 view, from OpenColorIO's built-in transforms. Throws Error{internal} with OpenColorIO's words.
+[[nodiscard]] std::string ocio_config_text(std::span<const CameraProfile> profiles);
+
+/// What a root polynomial's cube costs: the largest CIEDE2000 between OpenColorIO's interpolation and the
+/// polynomial, over random camera values; 0 for a matrix.
+struct WrittenConfig {
+  double bake_error = 0;
 };
 
-/// Names in the configuration.
-inline constexpr const char* kCameraSpace = "Camera";
-inline constexpr const char* kDisplay = "sRGB";
-inline constexpr const char* kView = "Plain";
-inline constexpr const char* kCurveFile = "camera.spi1d";  ///< The linearisation, three components.
-inline constexpr const char* kClfFile = "camera.clf";      ///< Linearisation and matrix in one.
-
-/// An OpenColorIO version 2 configuration: reference space linear XYZ-D65; colour spaces Camera (file
-/// transform of kCurveFile if there is a linearisation, then the matrix), linear Rec.709 and ACES2065-1;
-/// display sRGB with the view Plain, which neither tone-maps nor clips. Throws Error{internal}
-/// with OpenColorIO's words.
-[[nodiscard]] std::string ocio_config_text(const CameraProfile& profile);
-
-/// Writes config.ocio, the curve and the CLF into `folder`, creating it; config.ocio last, after OpenColorIO
-/// has validated it and built the display transform from the files beside it. Throws Error{output} when the
-/// folder cannot be written or OpenColorIO objects, as it does when $OCIO_ACTIVE_DISPLAYS names displays of
-/// another configuration.
-void write_ocio_config(const std::filesystem::path& folder, const CameraProfile& profile);
+/// Writes into `folder`, creating it: curves and cubes of the profiles; for each one `camera_<light>.clf` to
+/// XYZ and the ACES input transform `camera_<light>_to_aces.clf`, both made by OpenColorIO from the
+/// configuration itself; `config.ocio` last, after OpenColorIO has validated it. Throws Error{output} when
+/// the folder cannot be written or OpenColorIO objects, as it does when $OCIO_ACTIVE_DISPLAYS names displays
+/// of another configuration.
+WrittenConfig write_ocio_config(const std::filesystem::path& folder, std::span<const CameraProfile> profiles);
 
 }  // namespace abbe

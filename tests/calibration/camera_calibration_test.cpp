@@ -1,12 +1,7 @@
 #include "calibration/camera_calibration.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-
-#include "io/json.h"
-#include "io/text.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {
@@ -16,49 +11,61 @@ CalibrationSetup setup(const std::string& response, int bits = 12) {
   return {"Nikon_D5100", "D65", response, bits, test::camera(), test::illuminant("D65"), test::chart()};
 }
 
-std::optional<JsonValue> parse(const std::string& text) {
-  Diagnostics diagnostics;
-  auto value = parse_json(std::make_shared<const SourceText>(SourceText{"report", text}), diagnostics);
-  EXPECT_TRUE(value.has_value()) << diagnostics.text() << text;
-  return value;
-}
-
 TEST(CameraCalibration, RecoversCurveAndColour) {
-  const MatrixFit ideal = fit_matrix(integrate(test::chart(), test::camera(), test::illuminant("D65")));
+  const CorrectionFit ideal =
+      fit_correction(integrate(test::chart(), test::camera(), test::illuminant("D65")));
   for (const char* response : {"linear", "gamma:2.2", "s-curve"}) {
     const CameraCalibration calibration = calibrate_camera(setup(response));
     for (const ChannelResponse& r : calibration.responses)
       EXPECT_LT(r.max_error, 0.003) << response << r.channel;
-    EXPECT_LE(calibration.matrix.errors.mean, calibration.matrix.start.mean) << response;
-    EXPECT_NEAR(calibration.matrix.errors.mean, ideal.errors.mean, 0.03) << response;
-    EXPECT_NEAR(calibration.matrix.errors.max, ideal.errors.max, 0.1) << response;
+    EXPECT_LE(calibration.correction.errors.mean, calibration.correction.start.mean) << response;
+    EXPECT_NEAR(calibration.correction.errors.mean, ideal.errors.mean, 0.03) << response;
+    EXPECT_NEAR(calibration.correction.errors.max, ideal.errors.max, 0.1) << response;
   }
 }
 
 TEST(CameraCalibration, CoarserCodesCostColour) {
-  const double fine = calibrate_camera(setup("linear", 12)).matrix.errors.mean;
-  EXPECT_GT(calibrate_camera(setup("linear", 7)).matrix.errors.mean, fine + 0.05);
+  const double fine = calibrate_camera(setup("linear", 12)).correction.errors.mean;
+  EXPECT_GT(calibrate_camera(setup("linear", 7)).correction.errors.mean, fine + 0.05);
 }
 
-TEST(CameraCalibration, WritesConfigAndReport) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("abbe_calibration_test_" + std::to_string(::getpid()));
-  CalibrationSetup named = setup("gamma:2.2");
-  named.camera = "a \"quoted\\ name";
-  const CameraCalibration calibration = calibrate_camera(named);
-  write_calibration(folder, named, calibration);
-  for (const char* name : {"config.ocio", "camera.spi1d", "camera.clf"})
-    EXPECT_GT(std::filesystem::file_size(folder / name), 1000U) << name;
-  Diagnostics diagnostics;
-  const auto text = read_text(folder / "report.json", diagnostics);
-  ASSERT_TRUE(text) << diagnostics.text();
-  const auto report = parse(text->text);
-  ASSERT_TRUE(report);
-  EXPECT_EQ(std::get<std::string>(report->find("camera")->value), named.camera);
-  EXPECT_EQ(std::get<double>(report->find("dE00_mean")->value), calibration.matrix.errors.mean);
-  EXPECT_EQ(std::get<JsonValue::Array>(report->find("patches")->value).size(), 24U);
-  EXPECT_EQ(std::get<JsonValue::Array>(report->find("responses")->value).size(), 3U);
-  std::filesystem::remove_all(folder);
+TEST(CameraCalibration, ProfileShowsWhatTheFitSays) {
+  for (const Adaptation method : {Adaptation::bradford, Adaptation::cat16}) {
+    CharacterisationOptions options;
+    options.adaptation = method;
+    CalibrationSetup tungsten = setup("gamma:2.2");
+    tungsten.illuminant = "A";
+    tungsten.light = test::illuminant("A");
+    const CameraCalibration calibration = calibrate_camera(tungsten, options);
+    const CameraProfile& profile = calibration.profile;
+    EXPECT_EQ(profile.light, "A");
+    const Raw white{1 / profile.gains[0], 1 / profile.gains[1], 1 / profile.gains[2]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(to_xyz_d65(profile, white)[i], unit_xyz(kD65)[i], 1e-12);
+      EXPECT_NEAR(multiply(matrix_to_xyz_d65(profile), white)[i], unit_xyz(kD65)[i], 1e-12);
+    }
+    const Matrix3 expected =
+        adaptation(integrate(tungsten.chart, tungsten.channels, tungsten.light).white, unit_xyz(kD65), method)
+            .value();
+    EXPECT_EQ(profile.adaptation, expected);
+  }
+}
+
+TEST(CameraCalibration, JudgesPatchesItHasNotSeen) {
+  const CameraCalibration one_out = calibrate_camera(setup("linear"));
+  CharacterisationOptions options;
+  options.folds = 4;
+  const CameraCalibration folds = calibrate_camera(setup("linear"), options);
+  EXPECT_GT(one_out.unseen.mean, one_out.correction.errors.mean);
+  EXPECT_GT(folds.unseen.mean, one_out.unseen.mean);
+  EXPECT_LT(one_out.unseen_mean.low, one_out.unseen.mean);
+  EXPECT_GT(one_out.unseen_mean.high, one_out.unseen.mean);
+  ASSERT_EQ(one_out.columns.size(), 3U);
+  for (std::size_t t = 0; t < 3; ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LT(one_out.columns[t][i].low, one_out.columns[t][i].high);
+      EXPECT_NEAR(one_out.columns[t][i].low, one_out.profile.correction.columns[t][i], 0.3);
+    }
 }
 
 TEST(CameraCalibration, RefusesBadSetups) {
@@ -68,6 +75,14 @@ TEST(CameraCalibration, RefusesBadSetups) {
   one.channels.resize(1);
   test::expect_error([&] { static_cast<void>(calibrate_camera(one)); }, ErrorCode::usage,
                      "three channels (got 1 of");
+  CharacterisationOptions cubic;
+  cubic.fit.model = CorrectionModel::root_polynomial_3;
+  test::expect_error([&] { static_cast<void>(calibrate_camera(setup("linear"), cubic)); }, ErrorCode::usage,
+                     "13 terms on 24 patches");
+  CharacterisationOptions folds;
+  folds.folds = 25;
+  test::expect_error([&] { static_cast<void>(calibrate_camera(setup("linear"), folds)); }, ErrorCode::usage,
+                     "folds: got 25, allowed 2 to the 24 patches");
 }
 
 }  // namespace

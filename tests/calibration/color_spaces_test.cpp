@@ -7,8 +7,20 @@
 namespace abbe {
 namespace {
 
+TEST(ColorSpaces, EveryAdaptationTakesWhiteToWhite) {
+  const XYZ a = unit_xyz({0.44758, 0.40745});
+  const XYZ d65 = unit_xyz(kD65);
+  const Matrix3 bradford = adaptation(a, d65).value();
+  for (const Adaptation method : {Adaptation::bradford, Adaptation::cat02, Adaptation::cat16}) {
+    const Matrix3 m = adaptation(a, d65, method).value();
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(multiply(m, a)[i], d65[i], 1e-12);
+    EXPECT_TRUE((adaptation(d65, a, method).value() * m).equalWithAbsError(Matrix3(), 1e-12));
+    EXPECT_EQ(m.equalWithAbsError(bradford, 1e-3), method == Adaptation::bradford);
+  }
+}
+
 TEST(ColorSpaces, NothingAdaptsToAWhiteWithoutConeResponse) {
-  EXPECT_FALSE(bradford({0, 0, 0}, unit_xyz(kD65)));
+  EXPECT_FALSE(adaptation({0, 0, 0}, unit_xyz(kD65)));
 }
 
 }  // namespace

@@ -1,14 +1,19 @@
 #include "calibration/output/display.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
+#include "calibration/output/gamut.h"
+#include "calibration/output/ocio.h"
 #include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"
 
@@ -49,20 +54,26 @@ TEST(Display, AgreesWithDoublePrecision) {
   constexpr double kScale = 0.75;
   const DisplayPicture picture = display(film_of({"R", "G", "B"}, pixels), kScale);
   const Matrix3 to_srgb = rgb_to_xyz(kRec709).inverse() * m;
+  const Gamut gamut(kRec709, 1);
   std::size_t outside = 0;
+  std::size_t too_bright = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    std::array<double, 3> expected = multiply(to_srgb, pixels[i]);
-    bool clipped = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double code = srgb_code(kScale * expected[k]);
-      clipped = clipped || code < -1e-5 || code > 1 + 1e-5;
-      EXPECT_NEAR(pixel(picture, i)[k], std::clamp(code, 0.0, 1.0), 1e-5)
-          << testing::PrintToString(pixels[i]);
-    }
-    outside += clipped ? 1U : 0U;
+    std::array<double, 3> linear{};
+    for (std::size_t k = 0; k < 3; ++k)
+      linear[k] = kScale * static_cast<double>(static_cast<float>(pixels[i][k]));
+    const MappedColor mapped = map_into(gamut, multiply(to_srgb, linear));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(pixel(picture, i)[k], srgb_code(mapped.rgb[k]), 1e-5) << testing::PrintToString(pixels[i]);
+    outside += mapped.outside ? 1U : 0U;
+    too_bright += mapped.too_bright ? 1U : 0U;
+    EXPECT_EQ(picture.outside.channels.at(0).values[i], mapped.outside ? 1 : 0);
   }
-  EXPECT_NEAR(picture.clipped_share, static_cast<double>(outside) / static_cast<double>(pixels.size()), 1e-3);
+  EXPECT_NEAR(picture.outside_share, static_cast<double>(outside) / static_cast<double>(pixels.size()),
+              1e-12);
+  EXPECT_NEAR(picture.clipped_share, static_cast<double>(too_bright) / static_cast<double>(pixels.size()),
+              1e-3);
   EXPECT_GT(outside, 100U);
+  EXPECT_GT(too_bright, 100U);
 }
 
 TEST(Display, WhiteStaysWhiteUnderAnyLight) {
@@ -131,16 +142,28 @@ TEST(Display, OneChannelIsGrey) {
 }
 
 TEST(Display, ScalesTheNinetyNinthPercentileToOne) {
+  const XYZ white = unit_xyz(kD65);
   std::vector<std::array<double, 3>> pixels;
-  for (int i = 0; i <= 1000; ++i) pixels.push_back({1.0 * i, 1.0 * i, 1.0 * i});
+  for (int i = 0; i <= 1000; ++i) pixels.push_back({i * white[0], i * white[1], i * white[2]});
   const DisplayTransform display({"X", "Y", "Z"}, Matrix3());
   EXPECT_NEAR(display.automatic_scale(film_of({"X", "Y", "Z"}, pixels)), 1 / 990.0, 1e-9);
   EXPECT_EQ(display(film_of({"X", "Y", "Z"}, pixels)).scale,
             display.automatic_scale(film_of({"X", "Y", "Z"}, pixels)));
   std::vector<std::array<double, 3>> spark(1000, {0, 0, 0});
   EXPECT_EQ(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 1);
-  spark[3] = {1, 4, 1};
-  EXPECT_EQ(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 0.25);
+  spark[3] = {4 * white[0], 4 * white[1], 4 * white[2]};
+  EXPECT_NEAR(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 0.25, 1e-7);
+}
+
+TEST(Display, SaturatedColoursAreExposedSoThatTheyFit) {
+  const DisplayTransform display({"X", "Y", "Z"}, Matrix3());
+  for (const std::array<double, 3>& rgb : {std::array{0.0, 0.0, 1.0}, {0.3, 1.0, -0.2}, {1.0, -0.1, 0.0}}) {
+    const std::vector<std::array<double, 3>> pixels(100, multiply(rgb_to_xyz(kRec709), rgb));
+    const DisplayPicture picture = display(film_of({"X", "Y", "Z"}, pixels));
+    EXPECT_EQ(picture.clipped_share, 0);
+    const auto code = pixel(picture, 0);
+    EXPECT_NEAR(*std::max_element(code.begin(), code.end()), 1, 1e-5);
+  }
 }
 
 TEST(Display, NotANumberIsBlackAndCounted) {
@@ -151,13 +174,72 @@ TEST(Display, NotANumberIsBlackAndCounted) {
   EXPECT_EQ(picture.clipped_share, 0.5);
 }
 
-TEST(Display, DoesNotMindTheUsersOwnConfiguration) {
+TEST(Display, OwnConfigurationDoesNotMindTheUsersOne) {
   ASSERT_EQ(setenv("OCIO_ACTIVE_DISPLAYS", "elsewhere", 1), 0);
+  ASSERT_EQ(setenv("OCIO_ACTIVE_VIEWS", "another", 1), 0);
   ASSERT_EQ(setenv("OCIO", "/nowhere/config.ocio", 1), 0);
+  EXPECT_EQ(users_configuration(), "/nowhere/config.ocio");
   const DisplayTransform display({"X", "Y", "Z"}, Matrix3());
   EXPECT_NEAR(pixel(display(film_of({"X", "Y", "Z"}, {unit_xyz(kD65)}), 1.0), 0)[1], 1, 2e-6);
   unsetenv("OCIO_ACTIVE_DISPLAYS");
+  unsetenv("OCIO_ACTIVE_VIEWS");
   unsetenv("OCIO");
+  EXPECT_EQ(users_configuration(), "");
+}
+
+TEST(Display, ShowsThroughTheViewAskedFor) {
+  const Image grey = film_of({"X", "Y", "Z"}, {unit_xyz(kD65)});
+  const auto code = [&](const ViewOptions& options) {
+    const DisplayTransform display({"X", "Y", "Z"}, Matrix3(), {}, options);
+    return pixel(display(grey, 0.18), 0)[1];
+  };
+  EXPECT_NEAR(code({}), srgb_code(0.18), 2e-6);
+  EXPECT_NEAR(code({"", kRec1886Display, kPlainView}), std::pow(0.18, 1 / 2.4), 2e-6);
+  EXPECT_NEAR(code({"", kP3Display, ""}), std::pow(0.18, 1 / 2.6), 2e-6);
+  EXPECT_NEAR(std::pow(code({"", kRec1886Display, kAcesView}), 2.4), 0.104, 1e-3);
+  test::expect_error(
+      [&] {
+        code({"", "paper", ""});
+      },
+      ErrorCode::usage, "display: got paper, allowed sRGB - Display, ");
+  test::expect_error(
+      [&] {
+        code({"", "", "film"});
+      },
+      ErrorCode::usage, "view: got film, allowed Un-tone-mapped, ");
+}
+
+TEST(Display, P3ShowsColoursThatSrgbCannot) {
+  const XYZ green = multiply(rgb_to_xyz(kP3D65), {0, 1, 0});
+  const Image film = film_of({"X", "Y", "Z"}, {green});
+  const DisplayTransform p3({"X", "Y", "Z"}, Matrix3(), {}, {"", kP3Display, ""});
+  const DisplayTransform srgb({"X", "Y", "Z"}, Matrix3());
+  EXPECT_EQ(p3(film, 1.0).outside_share, 0);
+  EXPECT_EQ(srgb(film, 1.0).outside_share, 1);
+  EXPECT_NEAR(pixel(p3(film, 1.0), 0)[1], 1, 1e-5);
+}
+
+TEST(Display, UsesAUsersConfigurationThatKnowsAces) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("abbe_users_ocio_" + std::to_string(::getpid()));
+  write_ocio_config(folder, {});
+  const Image grey = film_of({"X", "Y", "Z"}, {unit_xyz(kD65)});
+  const DisplayTransform own({"X", "Y", "Z"}, Matrix3(), {}, {folder / "config.ocio", "", ""});
+  EXPECT_NEAR(pixel(own(grey, 0.18), 0)[1], srgb_code(0.18), 2e-6);
+  const auto refuse = [&](const std::string& text, const std::string& complaint) {
+    std::ofstream(folder / "bad.ocio") << text;
+    test::expect_error(
+        [&] {
+          static_cast<void>(DisplayTransform({"X", "Y", "Z"}, Matrix3(), {}, {folder / "bad.ocio", "", ""}));
+        },
+        ErrorCode::input, complaint);
+  };
+  refuse("no configuration", "OpenColorIO: ");
+  refuse(
+      "ocio_profile_version: 1\nroles:\n  default: raw\ndisplays:\n  screen:\n    - !<View> {name: Raw, "
+      "colorspace: raw}\ncolorspaces:\n  - !<ColorSpace>\n    name: raw\n    isdata: true\n",
+      "has neither the role aces_interchange nor a colour space ACES2065-1");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Display, RefusesWhatItCannotShow) {

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <random>
 
+#include "calibration/chart/delta_e.h"
 #include "calibration/fit/response.h"
 #include "calibration/output/color_spaces.h"
 #include "tests/calibration/calibration_fixture.h"
@@ -18,8 +20,19 @@ namespace {
 namespace OCIO = OCIO_NAMESPACE;
 using Rgb = std::array<double, 3>;
 
-CameraProfile profile() {
-  CameraProfile p{"test camera", {}, Matrix3(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2)};
+const ColorCorrection kMatrix = linear_correction(Matrix3(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2));
+const ColorCorrection kRoot{CorrectionModel::root_polynomial_2,
+                            {{0.5, 0.2, 0.05},
+                             {0.1, 0.6, -0.1},
+                             {0.1, -0.1, 0.9},
+                             {0.15, 0.25, -0.05},
+                             {0.05, 0.1, 0.05},
+                             {0.05, -0.05, 0.25}}};
+
+CameraProfile profile(const std::string& light = "D65", const ColorCorrection& correction = kMatrix) {
+  CameraProfile p{light,      "test camera",
+                  {},         {1.1, 0.9, 1.2},
+                  correction, adaptation(unit_xyz({0.34567, 0.3585}), unit_xyz(kD65)).value()};
   const double gammas[] = {1.8, 2.2, 1.4};
   for (std::size_t k = 0; k < 3; ++k)
     for (int i = 0; i < 4096; ++i) p.linearisation[k].push_back(std::pow(i / 4095.0, gammas[k]));
@@ -29,7 +42,7 @@ CameraProfile profile() {
 Rgb linear_xyz(const CameraProfile& p, const Rgb& code) {
   Rgb linear{};
   for (std::size_t k = 0; k < 3; ++k) linear[k] = linearise(p.linearisation[k], code[k]);
-  return multiply(p.to_xyz_d65, linear);
+  return to_xyz_d65(p, linear);
 }
 
 Rgb run(const OCIO::ConstProcessorRcPtr& processor, const Rgb& in) {
@@ -52,31 +65,38 @@ std::vector<Rgb> codes() {
   return all;
 }
 
-class WrittenConfig : public testing::Test {
+class OcioFolder : public testing::Test {
  protected:
-  void SetUp() override {
-    write_ocio_config(folder_, profile());
+  static void SetUpTestSuite() {
+    folder_ = std::filesystem::path(testing::TempDir()) / ("abbe_ocio_test_" + std::to_string(::getpid())) /
+              "nested";
+    const CameraProfile profiles[] = {profile(), profile("blackbody:3200", kRoot)};
+    written_ = write_ocio_config(folder_, profiles);
     config_ = OCIO::Config::CreateFromFile((folder_ / "config.ocio").c_str());
   }
-  void TearDown() override { std::filesystem::remove_all(folder_.parent_path()); }
+  static void TearDownTestSuite() {
+    std::filesystem::remove_all(folder_.parent_path());
+    config_.reset();
+  }
 
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / ("abbe_ocio_test_" + std::to_string(::getpid())) / "nested";
-  OCIO::ConstConfigRcPtr config_;
+  static inline std::filesystem::path folder_;
+  static inline OCIO::ConstConfigRcPtr config_;
+  static inline WrittenConfig written_;
 };
 
-TEST_F(WrittenConfig, IsValidVersionTwoWithItsRoles) {
+TEST_F(OcioFolder, IsValidVersionTwoWithItsRoles) {
   EXPECT_NO_THROW(config_->validate());
   EXPECT_EQ(config_->getMajorVersion(), 2U);
-  for (const char* role : {"aces_interchange", "cie_xyz_d65_interchange", "scene_linear", "default"})
+  for (const char* role : {"aces_interchange", "cie_xyz_d65_interchange", "scene_linear", "default", "data",
+                           "rendering", "color_picking", "texture_paint", "matte_paint"})
     EXPECT_TRUE(config_->hasRole(role)) << role;
   EXPECT_EQ(config_->getColorSpace("cie_xyz_d65_interchange")->getReferenceSpaceType(),
             OCIO::REFERENCE_SPACE_DISPLAY);
 }
 
-TEST_F(WrittenConfig, CameraAgreesWithDoublePrecisionAndBack) {
-  const auto forward = config_->getProcessor(kCameraSpace, "Linear XYZ-D65");
-  const auto back = config_->getProcessor("Linear XYZ-D65", kCameraSpace);
+TEST_F(OcioFolder, CameraAgreesWithDoublePrecisionAndBack) {
+  const auto forward = config_->getProcessor("Camera D65", "Linear XYZ-D65");
+  const auto back = config_->getProcessor("Linear XYZ-D65", "Camera D65");
   for (const Rgb& code : codes()) {
     expect_near(run(forward, code), linear_xyz(profile(), code), 1e-5);
     // Near black a power's inverse is too steep for single precision.
@@ -84,25 +104,99 @@ TEST_F(WrittenConfig, CameraAgreesWithDoublePrecisionAndBack) {
   }
 }
 
-TEST_F(WrittenConfig, ClfHoldsTheSameTransform) {
+TEST_F(OcioFolder, ClfHoldsTheSameTransform) {
   const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
-  clf->setSrc(kClfFile);
+  clf->setSrc("camera_D65.clf");
   const auto processor = config_->getProcessor(clf);
   for (const Rgb& code : codes()) expect_near(run(processor, code), linear_xyz(profile(), code), 1e-5);
 }
 
-TEST_F(WrittenConfig, ScenesSpacesShareOneWhite) {
+TEST_F(OcioFolder, AcesInputTransformAgreesWithDoublePrecision) {
+  const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
+  clf->setSrc("camera_D65_to_aces.clf");
+  const auto processor = config_->getProcessor(clf);
+  const auto through_config = config_->getProcessor("Camera D65", "aces_interchange");
+  const Matrix3 to_aces = rgb_to_xyz_d65(kAces2065).inverse();
+  for (const Rgb& code : codes()) {
+    expect_near(run(processor, code), multiply(to_aces, linear_xyz(profile(), code)), 1e-5);
+    expect_near(run(processor, code), run(through_config, code), 1e-6);
+  }
+}
+
+TEST_F(OcioFolder, CubeOfARootPolynomialIsFineEnough) {
+  EXPECT_GT(written_.bake_error, 0);
+  EXPECT_LT(written_.bake_error, 0.1);
+  const CameraProfile root = profile("blackbody:3200", kRoot);
+  const auto processor = config_->getProcessor("Camera blackbody:3200", "Linear XYZ-D65");
+  const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
+  clf->setSrc("camera_blackbody_3200.clf");
+  const auto from_clf = config_->getProcessor(clf);
+  const XYZ white = unit_xyz(kD65);
+  for (const Rgb& code : codes()) {
+    const Rgb shown = run(processor, code);
+    EXPECT_LT(delta_e_2000(xyz_to_lab(linear_xyz(root, code), white), xyz_to_lab(shown, white)), 0.1);
+    expect_near(run(from_clf, code), shown, 1e-6);
+  }
+}
+
+TEST_F(OcioFolder, BuiltInTransformsAgreeWithTheSpacesOfTheProgram) {
+  const auto aces = config_->getProcessor("ACEScg", "ACES2065-1");
+  const Matrix3 expected = rgb_to_xyz_d65(kAces2065).inverse() * rgb_to_xyz_d65(kAcesCg);
+  expect_near(run(aces, {0.2, 0.5, 0.9}), multiply(expected, {0.2, 0.5, 0.9}), 1e-6);
+  const OCIO::BuiltinTransformRcPtr builtin = OCIO::BuiltinTransform::Create();
+  builtin->setStyle("UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD");
+  expect_near(run(config_->getProcessor("ACES2065-1", "Linear XYZ-D65"), {0.2, 0.5, 0.9}),
+              run(config_->getProcessor(builtin), {0.2, 0.5, 0.9}), 1e-6);
+}
+
+TEST_F(OcioFolder, DisplaysEncodeAsTheirStandardsSay) {
+  const Rgb linear{0.18, 0.5, 1};
+  const auto shown = [&](const char* display, const RgbSpace& space) {
+    const auto processor =
+        config_->getProcessor(kReferenceSpace, display, kPlainView, OCIO::TRANSFORM_DIR_FORWARD);
+    return run(processor, multiply(rgb_to_xyz(space), linear));
+  };
+  const auto power = [&](double gamma) {
+    return Rgb{std::pow(linear[0], 1 / gamma), std::pow(linear[1], 1 / gamma),
+               std::pow(linear[2], 1 / gamma)};
+  };
+  expect_near(shown(kRec1886Display, kRec709), power(2.4), 2e-6);
+  expect_near(shown(kP3Display, kP3D65), power(2.6), 2e-6);
+}
+
+// Middle grey of ACES 1.0 is a tenth of the white of a dark cinema, less its black, and brightened for dim
+// surroundings by the power 0.9811 [ACES-CTL].
+TEST_F(OcioFolder, AcesViewPutsMiddleGreyWhereAcesDoes) {
+  const auto aces =
+      config_->getProcessor("ACES2065-1", kRec1886Display, kAcesView, OCIO::TRANSFORM_DIR_FORWARD);
+  const double code = run(aces, {0.18, 0.18, 0.18})[1];
+  EXPECT_NEAR(std::pow(code, 2.4), std::pow((4.8 - 0.02) / (48 - 0.02), 0.9811), 5e-4);
+}
+
+TEST_F(OcioFolder, PassesOpenColorIosOwnCheck) {
+  const std::string command = "ociocheck --iconfig " + (folder_ / "config.ocio").string() + " > " +
+                              (folder_ / "check.txt").string() + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::ifstream file(folder_ / "check.txt");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("Tests complete."), std::string::npos) << text;
+  EXPECT_EQ(text.find("ERROR"), std::string::npos) << text;
+}
+
+TEST_F(OcioFolder, ScenesSpacesShareOneWhite) {
   const auto aces = config_->getProcessor("ACES2065-1", "scene_linear");
   expect_near(run(aces, {1, 1, 1}), {1, 1, 1}, 1e-6);
   const auto xyz = config_->getProcessor("Linear XYZ-D65", "scene_linear");
   expect_near(run(xyz, unit_xyz(kD65)), {1, 1, 1}, 1e-6);
-  const auto display = config_->getProcessor("scene_linear", kDisplay, kView, OCIO::TRANSFORM_DIR_FORWARD);
+  const auto display =
+      config_->getProcessor("Linear Rec.709 (sRGB)", kSrgbDisplay, kPlainView, OCIO::TRANSFORM_DIR_FORWARD);
   expect_near(run(display, {0.18, 0.5, 1}),
               {1.055 * std::pow(0.18, 1 / 2.4) - 0.055, 1.055 * std::pow(0.5, 1 / 2.4) - 0.055, 1}, 2e-6);
 }
 
 TEST(OcioConfig, LinearCameraNeedsNoFile) {
-  const std::string text = ocio_config_text({"linear", {}, Matrix3()});
+  const CameraProfile linear{"D65", "linear", {}, {1, 1, 1}, kMatrix, {}};
+  const std::string text = ocio_config_text({&linear, 1});
   EXPECT_EQ(text.find("FileTransform"), std::string::npos);
   EXPECT_NE(text.find("ocio_profile_version: 2"), std::string::npos);
 }
@@ -110,14 +204,18 @@ TEST(OcioConfig, LinearCameraNeedsNoFile) {
 TEST(OcioConfig, RefusesUnequalCurves) {
   CameraProfile p = profile();
   p.linearisation[1].pop_back();
-  test::expect_error([&] { static_cast<void>(ocio_config_text(p)); }, ErrorCode::internal, "one common size");
+  test::expect_error(
+      [&] {
+        static_cast<void>(ocio_config_text({&p, 1}));
+      },
+      ErrorCode::internal, "one common size");
 }
 
 TEST(OcioConfig, RefusesAFileInPlaceOfTheFolder) {
   const std::filesystem::path file =
       std::filesystem::path(testing::TempDir()) / ("abbe_ocio_file_" + std::to_string(::getpid()));
   std::ofstream(file) << "taken";
-  test::expect_error([&] { write_ocio_config(file, profile()); }, ErrorCode::output, file.string());
+  test::expect_error([&] { write_ocio_config(file, {}); }, ErrorCode::output, file.string());
   std::filesystem::remove(file);
 }
 

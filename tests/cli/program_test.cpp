@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <regex>
 
 #include <fmt/format.h>
@@ -139,11 +140,47 @@ TEST(Calibrate, FromTheCommandLine) {
   EXPECT_EQ(run.json()["bits"], 10);
   EXPECT_LT(run.json()["dE00_mean"], 1.5);
   EXPECT_EQ(abbe("calibrate --camera box:400-500").code, 2);
+  EXPECT_EQ(abbe("calibrate").code, 2);
+  const Outcome cubic = abbe("calibrate --camera Nikon_D5100 --correction root-polynomial-3");
+  EXPECT_EQ(cubic.code, 2);
+  EXPECT_NE(cubic.err.find("13 terms on 24 patches"), std::string::npos) << cubic.err;
   const Outcome unknown = abbe("calibrate --camera Nikon_D510 --illuminant D66 --chart none");
   EXPECT_EQ(unknown.code, 4);
   for (const char* name : {"\"Nikon_D5100\"?\n", "\"D66\"", "\"none\"\n"})
     EXPECT_NE(unknown.err.find(name), std::string::npos) << unknown.err;
   EXPECT_FALSE(unknown.err.ends_with("\n\n"));
+}
+
+TEST(Calibrate, WritesConfigurationAndReportForEachLight) {
+  const std::filesystem::path folder = scratch() / "nikon";
+  const Outcome run = abbe(
+      "calibrate --camera Nikon_D5100 --illuminant D65,A --response linear --correction root-polynomial-2 "
+      "--test colorchecker24_ohta1997 -o " +
+      folder.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* name : {"config.ocio", "camera_D65.clf", "camera_A.clf", "camera_A.cube", "camera_A.spi1d",
+                           "camera_A_to_aces.clf"})
+    EXPECT_GT(std::filesystem::file_size(folder / name), 1000U) << name;
+  const auto report = nlohmann::json::parse(read_file(folder / "report.json"));
+  EXPECT_LT(report["bake_dE00_max"], 0.1);
+  ASSERT_EQ(report["calibrations"].size(), 2U);
+  const auto& tungsten = report["calibrations"][1];
+  EXPECT_EQ(tungsten["illuminant"], "A");
+  EXPECT_EQ(tungsten["patches"].size(), 24U);
+  EXPECT_EQ(tungsten["responses"].size(), 3U);
+  EXPECT_EQ(tungsten["correction"]["columns_95"].size(), 6U);
+  EXPECT_GT(tungsten["unseen_dE00_mean"], tungsten["dE00_mean"]);
+  EXPECT_GT(tungsten["test_dE00_mean"], 0);
+  EXPECT_NE(run.out.find("on the test chart: mean"), std::string::npos);
+}
+
+TEST(Calibrate, MeasuredCamera) {
+  const auto file =
+      scratch().write("measured.csv", "# unit: linear camera values\npatch,R,G,B\ndark skin,0.1,0.1,0.1\n");
+  const Outcome few = abbe("calibrate --measured " + file.string() + " --chart colorchecker24_after_nov2014");
+  EXPECT_EQ(few.code, 4);
+  EXPECT_NE(few.err.find("missing: light skin"), std::string::npos) << few.err;
+  EXPECT_EQ(abbe("calibrate --camera Nikon_D5100 --measured " + file.string()).code, 2);
 }
 
 TEST(Trace, FromTheCommandLine) {

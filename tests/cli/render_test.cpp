@@ -46,6 +46,28 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_GT(stats["relative_error"], 0);
 }
 
+TEST(Render, ShowsThroughViewsAndUsersConfigurations) {
+  const std::string render = "render " + ball() + " --quiet --seed 7 -o " + file("film.exr") + " --display ";
+  const auto picture = [&](const std::string& name, const std::string& options,
+                           const std::string& before = "") {
+    const Outcome run = shell(before + ABBE_BINARY + " " + render + file(name) + options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return read_file(file(name));
+  };
+  const std::string plain = picture("plain.png", " --gamut " + file("gamut.png"));
+  EXPECT_EQ(read_picture(file("gamut.png")).channels.size(), 1U);
+  EXPECT_EQ(picture("same.png", " --screen 'sRGB - Display' --view Un-tone-mapped"), plain);
+  const std::string aces = picture("aces.png", " --view 'ACES 1.0 - SDR Video'");
+  EXPECT_NE(aces, plain);
+  ASSERT_EQ(abbe("calibrate --camera observer:1931 -o " + file("users")).code, 0);
+  const std::string config = file("users") + "/config.ocio";
+  EXPECT_EQ(picture("option.png", " --view 'ACES 1.0 - SDR Video' --ocio " + config), aces);
+  EXPECT_EQ(picture("variable.png", " --view 'ACES 1.0 - SDR Video'", "OCIO=" + config + " "), aces);
+  EXPECT_EQ(abbe(render + file("a.png") + " --view other").code, 2);
+  EXPECT_EQ(abbe(render + file("a.png") + " --ocio /nowhere.ocio").code, 4);
+  EXPECT_EQ(shell("OCIO=/nowhere.ocio " + (ABBE_BINARY " " + render) + file("a.png")).code, 4);
+}
+
 TEST(Render, SameBitsAndOptionsThatChangeThem) {
   const std::string render = "render " + ball() + " --quiet -o ";
   ASSERT_EQ(abbe(render + file("one.exr") + " --threads 1").code, 0);

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/patches.h"
-#include "calibration/fit/matrix.h"
+#include "calibration/fit/correction_fit.h"
 #include "io/reference_table.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
@@ -67,7 +67,7 @@ std::vector<Figure> least_squares_differences() {
   std::vector<Figure> figures;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const Fitted fitted = fit_row(table, row);
-    const PatchErrors errors = patch_errors(fitted.colors, fitted.matrix);
+    const PatchErrors errors = patch_errors(fitted.colors, linear_correction(fitted.matrix));
     figures.push_back(exact_figure(fitted.name + " mean", table.number(row, "dE00_mean"), errors.mean));
     figures.push_back(exact_figure(fitted.name + " max", table.number(row, "dE00_max"), errors.max));
   }

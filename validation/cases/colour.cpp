@@ -167,12 +167,16 @@ std::vector<Figure> colour_matrices() {
   add_matrix(figures, table, "RGB_to_XYZ sRGB", rgb_to_xyz(kRec709));
   add_matrix(figures, table, "XYZ_to_RGB sRGB", rgb_to_xyz(kRec709).inverse());
   add_matrix(figures, table, "RGB_to_XYZ ACES2065-1", rgb_to_xyz(kAces2065));
+  add_matrix(figures, table, "RGB_to_XYZ ACEScg", rgb_to_xyz(kAcesCg));
+  add_matrix(figures, table, "RGB_to_XYZ Display P3", rgb_to_xyz(kP3D65));
   const XYZ a = unit_xyz({0.44758, 0.40745});
   const XYZ d50 = unit_xyz({0.3457, 0.3585});
   const XYZ d65 = unit_xyz(kD65);
-  add_matrix(figures, table, "Bradford adaptation A to D65", bradford(a, d65).value());
-  add_matrix(figures, table, "Bradford adaptation D50 to D65", bradford(d50, d65).value());
-  add_matrix(figures, table, "Bradford adaptation D65 to D50", bradford(d65, d50).value());
+  add_matrix(figures, table, "Bradford adaptation A to D65", adaptation(a, d65).value());
+  add_matrix(figures, table, "Bradford adaptation D50 to D65", adaptation(d50, d65).value());
+  add_matrix(figures, table, "Bradford adaptation D65 to D50", adaptation(d65, d50).value());
+  add_matrix(figures, table, "CAT02 adaptation A to D65", adaptation(a, d65, Adaptation::cat02).value());
+  add_matrix(figures, table, "CAT02 adaptation D50 to D65", adaptation(d50, d65, Adaptation::cat02).value());
   return figures;
 }
 

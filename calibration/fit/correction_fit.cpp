@@ -1,0 +1,222 @@
+#include "calibration/fit/correction_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include "calibration/chart/delta_e.h"
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kLossScale = 0.05;  // colour difference below which the loss turns quadratic
+constexpr std::size_t kPatchesPerTerm = 4;
+
+// The columns of all terms but the last, which follows from the white.
+using Parameters = std::vector<double>;
+
+ColorCorrection correction_of(CorrectionModel model, const Parameters& p, const XYZ& white) {
+  ColorCorrection correction{model, std::vector<XYZ>(term_count(model))};
+  XYZ rest = white;
+  for (std::size_t t = 0; t + 1 < correction.columns.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      correction.columns[t][i] = p[3 * t + i];
+      rest[i] -= p[3 * t + i];
+    }
+  correction.columns.back() = rest;
+  return correction;
+}
+
+Parameters parameters_of(const ColorCorrection& correction) {
+  Parameters p;
+  for (std::size_t t = 0; t + 1 < correction.columns.size(); ++t)
+    p.insert(p.end(), correction.columns[t].begin(), correction.columns[t].end());
+  return p;
+}
+
+// L*a*b* of one patch as a function of the parameters, against the truth.
+template <std::size_t kTerms>
+struct PatchResidual {
+  std::vector<double> terms;
+  XYZ white;
+  Lab target;
+  Objective objective;
+
+  template <typename T>
+  bool operator()(const T* p, T* residual) const {
+    const double last = terms.back();
+    std::array<T, 3> xyz{T(white[0] * last), T(white[1] * last), T(white[2] * last)};
+    for (std::size_t t = 0; t + 1 < kTerms; ++t)
+      for (std::size_t i = 0; i < 3; ++i) xyz[i] += p[3 * t + i] * (terms[t] - last);
+    const std::array<T, 3> lab = xyz_to_lab(xyz, white);
+    const std::array<T, 3> truth{T(target[0]), T(target[1]), T(target[2])};
+    if (objective == Objective::delta_e_2000) {
+      const std::array<T, 3> d = delta_e_2000_vector(truth, lab);
+      std::copy(d.begin(), d.end(), residual);
+    } else {
+      for (std::size_t i = 0; i < 3; ++i) residual[i] = lab[i] - truth[i];
+    }
+    return true;
+  }
+};
+
+struct Attempt {
+  Parameters parameters;
+  ceres::Solver::Summary summary;
+};
+
+template <std::size_t kTerms>
+Attempt solve_with(const PatchColors& colors, const Parameters& start, const CorrectionOptions& how) {
+  using Residual = PatchResidual<kTerms>;
+  Attempt attempt{start, {}};
+  ceres::Problem problem;
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) {
+    auto residual =
+        std::make_unique<Residual>(Residual{correction_terms(how.model, colors.raw[i]), colors.white,
+                                            xyz_to_lab(colors.xyz[i], colors.white), how.objective});
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<Residual, 3, 3 * (kTerms - 1)>(residual.release()),
+        new ceres::SoftLOneLoss(kLossScale), attempt.parameters.data());
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = how.max_iterations;
+  options.function_tolerance = 1e-10;
+  options.parameter_tolerance = 1e-10;
+  options.gradient_tolerance = 1e-12;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solve(options, &problem, &attempt.summary);
+  return attempt;
+}
+
+Attempt solve(const PatchColors& colors, const Parameters& start, const CorrectionOptions& how) {
+  switch (how.model) {
+    case CorrectionModel::linear:
+      return solve_with<term_count(CorrectionModel::linear)>(colors, start, how);
+    case CorrectionModel::root_polynomial_2:
+      return solve_with<term_count(CorrectionModel::root_polynomial_2)>(colors, start, how);
+    case CorrectionModel::root_polynomial_3:
+      break;
+  }
+  return solve_with<term_count(CorrectionModel::root_polynomial_3)>(colors, start, how);
+}
+
+// Ceres counts an exhausted iteration budget as usable and may call an infinite cost converged, so both are
+// looked at here.
+bool usable(const Attempt& attempt) {
+  return attempt.summary.IsSolutionUsable() && attempt.summary.termination_type == ceres::CONVERGENCE &&
+         std::isfinite(attempt.summary.final_cost) &&
+         std::all_of(attempt.parameters.begin(), attempt.parameters.end(),
+                     [](double p) { return std::isfinite(p); });
+}
+
+void require_three_dimensions(const Eigen::MatrixXd& a, Eigen::Index rank) {
+  if (rank == a.cols() && a.allFinite()) return;
+  throw Error(ErrorCode::input, "colour correction",
+              fmt::format("{} patches do not determine the correction (rank {}, needed {})", a.rows(), rank,
+                          a.cols()));
+}
+
+// Least squares solution of a x = b, column by column.
+Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+  require_three_dimensions(a, qr.rank());
+  return qr.solve(b);
+}
+
+}  // namespace
+
+Matrix3 least_squares_matrix(const PatchColors& colors) {
+  const auto n = static_cast<Eigen::Index>(colors.raw.size());
+  Eigen::MatrixXd a(n, 3);
+  Eigen::MatrixXd b(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    a.row(i) = Eigen::Map<const Eigen::RowVector3d>(colors.raw[static_cast<std::size_t>(i)].data());
+    b.row(i) = Eigen::Map<const Eigen::RowVector3d>(colors.xyz[static_cast<std::size_t>(i)].data());
+  }
+  const Eigen::MatrixXd x = solve_least_squares(a, b);
+  return {x(0, 0), x(1, 0), x(2, 0), x(0, 1), x(1, 1), x(2, 1), x(0, 2), x(1, 2), x(2, 2)};
+}
+
+ColorCorrection white_preserving_least_squares(const PatchColors& colors, CorrectionModel model) {
+  const auto n = static_cast<Eigen::Index>(colors.raw.size());
+  const auto free_terms = static_cast<Eigen::Index>(term_count(model)) - 1;
+  Eigen::MatrixXd a(n, free_terms);
+  Eigen::MatrixXd b(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::vector<double> terms = correction_terms(model, colors.raw[static_cast<std::size_t>(i)]);
+    const XYZ& xyz = colors.xyz[static_cast<std::size_t>(i)];
+    for (Eigen::Index t = 0; t < free_terms; ++t) a(i, t) = terms[static_cast<std::size_t>(t)] - terms.back();
+    for (Eigen::Index j = 0; j < 3; ++j)
+      b(i, j) = xyz[static_cast<std::size_t>(j)] - colors.white[static_cast<std::size_t>(j)] * terms.back();
+  }
+  const Eigen::MatrixXd columns = solve_least_squares(a, b).transpose();
+  return correction_of(model, {columns.data(), columns.data() + columns.size()}, colors.white);
+}
+
+PatchErrors patch_errors(const PatchColors& colors, const ColorCorrection& correction) {
+  PatchErrors errors;
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) {
+    const Lab lab = xyz_to_lab(correction(colors.raw[i]), colors.white);
+    const Lab truth = xyz_to_lab(colors.xyz[i], colors.white);
+    errors.delta_e.push_back(delta_e_2000(truth, lab));
+    errors.max = std::max(errors.max, errors.delta_e.back());
+    errors.mean_76 += delta_e_76(truth, lab);
+  }
+  const double count = std::max(1.0, static_cast<double>(errors.delta_e.size()));
+  errors.mean = std::accumulate(errors.delta_e.begin(), errors.delta_e.end(), 0.0) / count;
+  errors.mean_76 /= count;
+  return errors;
+}
+
+void require_enough_patches(CorrectionModel model, std::size_t patches) {
+  const std::size_t needed = kPatchesPerTerm * term_count(model);
+  if (model == CorrectionModel::linear || patches >= needed) return;
+  throw Error(ErrorCode::usage, "correction",
+              fmt::format("{} terms on {} patches would follow the patches and not the camera: patches left "
+                          "out of the fit are shown worse than by a matrix (allowed from {} patches on)",
+                          term_count(model), patches, needed));
+}
+
+CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions& options) {
+  CorrectionFit fit{white_preserving_least_squares(colors, options.model), {}, {}, 0, 0, options.starts, 0};
+  fit.errors = fit.start = patch_errors(colors, fit.correction);
+  if (options.objective == Objective::xyz) {
+    fit.starts = fit.usable = 1;
+    return fit;
+  }
+  const Parameters least_squares = parameters_of(fit.correction);
+  const auto mean = options.objective == Objective::delta_e_76 ? &PatchErrors::mean_76 : &PatchErrors::mean;
+  std::mt19937_64 random(options.seed);
+  std::normal_distribution<double> jitter(0, options.jitter);
+  std::string report;
+  for (int k = 0; k < options.starts; ++k) {
+    Parameters parameters = least_squares;
+    if (k > 0)
+      for (double& p : parameters) p += jitter(random);
+    const Attempt attempt = solve(colors, parameters, options);
+    if (k == 0) {
+      fit.initial_cost = fit.final_cost = attempt.summary.initial_cost;
+      report = attempt.summary.BriefReport();
+    }
+    if (!usable(attempt)) continue;
+    ++fit.usable;
+    ColorCorrection candidate = correction_of(options.model, attempt.parameters, colors.white);
+    PatchErrors errors = patch_errors(colors, candidate);
+    if (!(errors.*mean < fit.errors.*mean)) continue;
+    fit.correction = std::move(candidate);
+    fit.errors = std::move(errors);
+    fit.final_cost = attempt.summary.final_cost;
+  }
+  if (fit.usable == 0) throw Error(ErrorCode::input, "colour correction", "no start converged: " + report);
+  return fit;
+}
+
+}  // namespace abbe

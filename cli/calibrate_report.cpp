@@ -1,0 +1,169 @@
+#include "cli/calibrate_report.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+namespace abbe::cli {
+namespace {
+
+Json json_of(const Interval& interval) {
+  return Json::array({interval.low, interval.high});
+}
+
+Json json_of(const Matrix3& m) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({m[i][0], m[i][1], m[i][2]});
+  return rows;
+}
+
+Json json_of(const ChannelResponse& r) {
+  return {
+      {"channel", r.channel},          {"max_error", r.max_error},       {"median_code", r.fit.median_code},
+      {"samples", r.fit.samples},      {"iterations", r.fit.iterations}, {"initial_cost", r.fit.initial_cost},
+      {"final_cost", r.fit.final_cost}};
+}
+
+Json correction_json(const CameraCalibration& c) {
+  const CorrectionFit& fit = c.correction;
+  Json correction;
+  correction["columns"] = fit.correction.columns;
+  for (const auto& column : c.columns)
+    correction["columns_95"].push_back({json_of(column[0]), json_of(column[1]), json_of(column[2])});
+  correction["initial_cost"] = fit.initial_cost;
+  correction["final_cost"] = fit.final_cost;
+  correction["starts"] = fit.starts;
+  correction["usable_starts"] = fit.usable;
+  correction["seed"] = CorrectionOptions{}.seed;
+  correction["least_squares_dE00_mean"] = fit.start.mean;
+  correction["least_squares_dE00_max"] = fit.start.max;
+  return correction;
+}
+
+std::string row(const std::string& name, double fit, double start, double unseen) {
+  return fmt::format("{:<28}{:>10.4f}{:>16.4f}{:>12.4f}\n", name, fit, start, unseen);
+}
+
+// The figures of a camera as the table shows them, with their headings.
+struct Figure {
+  const char* heading;
+  double (*of)(const CameraQuality&);
+};
+constexpr Figure kFigures[] = {
+    {"LS mean", [](const CameraQuality& q) { return q.least_squares.mean; }},
+    {"max", [](const CameraQuality& q) { return q.least_squares.max; }},
+    {"matrix", [](const CameraQuality& q) { return q.matrix.mean; }},
+    {"max", [](const CameraQuality& q) { return q.matrix.max; }},
+    {"left out", [](const CameraQuality& q) { return q.matrix_unseen.mean; }},
+    {"max", [](const CameraQuality& q) { return q.matrix_unseen.max; }},
+    {"root", [](const CameraQuality& q) { return q.root.mean; }},
+    {"max", [](const CameraQuality& q) { return q.root.max; }},
+    {"left out", [](const CameraQuality& q) { return q.root_unseen.mean; }},
+    {"max", [](const CameraQuality& q) { return q.root_unseen.max; }},
+    {"index", [](const CameraQuality& q) { return q.sensitivity_index; }},
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+Json summary(const PatchErrors& errors) {
+  return {{"mean", errors.mean}, {"max", errors.max}};
+}
+
+}  // namespace
+
+Json json_of(const CalibrationCase& one) {
+  const CameraCalibration& c = one.result;
+  Json answer;
+  answer["camera"] = one.camera;
+  answer["illuminant"] = c.profile.light;
+  answer["chart"] = one.chart;
+  if (!one.response.empty()) {
+    answer["planted_response"] = one.response;
+    answer["bits"] = one.bits;
+    answer["times_s"] = c.times_s;
+  }
+  answer["responses"] = Json::array();
+  for (const ChannelResponse& r : c.responses) answer["responses"].push_back(json_of(r));
+  answer["gains"] = c.profile.gains;
+  answer["correction"] = correction_json(c);
+  answer["adaptation"] = json_of(c.profile.adaptation);
+  if (c.profile.correction.model == CorrectionModel::linear)
+    answer["to_xyz_d65"] = json_of(matrix_to_xyz_d65(c.profile));
+  answer["dE00_mean"] = c.correction.errors.mean;
+  answer["dE00_max"] = c.correction.errors.max;
+  answer["dE76_mean"] = c.correction.errors.mean_76;
+  answer["unseen_dE00_mean"] = c.unseen.mean;
+  answer["unseen_dE00_mean_95"] = json_of(c.unseen_mean);
+  answer["unseen_dE00_max"] = c.unseen.max;
+  if (one.test) {
+    answer["test_dE00_mean"] = one.test->mean;
+    answer["test_dE00_max"] = one.test->max;
+  }
+  answer["patches"] = Json::array();
+  for (std::size_t i = 0; i < c.patches.size(); ++i)
+    answer["patches"].push_back({{"name", c.patches[i]},
+                                 {"dE00", c.correction.errors.delta_e[i]},
+                                 {"unseen_dE00", c.unseen.delta_e[i]}});
+  return answer;
+}
+
+std::string table_of(const CalibrationCase& one) {
+  const CameraCalibration& c = one.result;
+  std::string text = fmt::format("{} under {}, chart {}", one.camera, c.profile.light, one.chart);
+  if (one.response.empty())
+    text += "\n";
+  else
+    text += fmt::format(", {} bits\n\n{:<10}{:>22}{:>14}{:>9}\n", one.bits, "channel", "response error [%]",
+                        "residual [%]", "samples");
+  for (const ChannelResponse& r : c.responses)
+    text += fmt::format("{:<10}{:>22.4f}{:>14.4f}{:>9}\n", r.channel, 100 * r.max_error,
+                        100 * r.fit.median_code, r.fit.samples);
+  const CorrectionFit& fit = c.correction;
+  text += fmt::format("\n{:<28}{:>10}{:>16}{:>12}\n", "patch", "dE2000", "least squares", "left out");
+  for (std::size_t i = 0; i < c.patches.size(); ++i)
+    text += row(c.patches[i], fit.errors.delta_e[i], fit.start.delta_e[i], c.unseen.delta_e[i]);
+  text += row("mean", fit.errors.mean, fit.start.mean, c.unseen.mean);
+  text += row("max", fit.errors.max, fit.start.max, c.unseen.max);
+  text += fmt::format("mean left out, 95 %: {:.4f} to {:.4f}\n", c.unseen_mean.low, c.unseen_mean.high);
+  if (one.test)
+    text += fmt::format("on the test chart: mean {:.4f}, max {:.4f}\n", one.test->mean, one.test->max);
+  return text;
+}
+
+Json json_of(const std::vector<CameraQuality>& all) {
+  Json list = Json::array();
+  for (const CameraQuality& q : all)
+    list.push_back({{"camera", q.camera},
+                    {"least_squares", summary(q.least_squares)},
+                    {"matrix", summary(q.matrix)},
+                    {"matrix_unseen", summary(q.matrix_unseen)},
+                    {"root_polynomial", summary(q.root)},
+                    {"root_polynomial_unseen", summary(q.root_unseen)},
+                    {"sensitivity_index", q.sensitivity_index}});
+  return {{"cameras", std::move(list)}};
+}
+
+std::string table_of(const std::vector<CameraQuality>& all) {
+  std::string heading = fmt::format("{:<36}", "camera");
+  std::string medians = fmt::format("{:<36}", "median");
+  std::string text;
+  for (const CameraQuality& q : all) {
+    text += fmt::format("{:<36}", q.camera);
+    for (const Figure& figure : kFigures) text += fmt::format("{:>9.2f}", figure.of(q));
+    text += '\n';
+  }
+  for (const Figure& figure : kFigures) {
+    std::vector<double> values;
+    for (const CameraQuality& q : all) values.push_back(figure.of(q));
+    heading += fmt::format("{:>9}", figure.heading);
+    medians += fmt::format("{:>9.2f}", median(std::move(values)));
+  }
+  return heading + '\n' + text + medians + '\n';
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/camera_calibration.h"
+#include "calibration/characterisation.h"
+#include "cli/answer.h"
+
+namespace abbe::cli {
+
+/// One calibration and what was asked of it.
+struct CalibrationCase {
+  std::string camera;
+  std::string chart;
+  std::string response;  ///< The planted one; empty for a measured camera.
+  int bits = 0;
+  CameraCalibration result;
+  std::optional<PatchErrors> test;  ///< Of another chart.
+};
+
+[[nodiscard]] Json json_of(const CalibrationCase& one);
+/// The same for reading: responses, then CIEDE2000 of every patch.
+[[nodiscard]] std::string table_of(const CalibrationCase& one);
+
+[[nodiscard]] Json json_of(const std::vector<CameraQuality>& all);
+/// A line for each camera and one of medians.
+[[nodiscard]] std::string table_of(const std::vector<CameraQuality>& all);
+
+}  // namespace abbe::cli

@@ -1,0 +1,49 @@
+#include "calibration/characterisation.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "io/data_directory.h"
+#include "tests/calibration/calibration_fixture.h"
+
+namespace abbe {
+namespace {
+
+// The numbers of the row of the documented table that begins with `camera`.
+std::vector<double> documented(const std::string& camera) {
+  std::ifstream file(data_directory().parent_path() / "docs" / "calibration.md");
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with(camera + " ")) continue;
+    std::istringstream cells(line.substr(camera.size()));
+    return {std::istream_iterator<double>(cells), {}};
+  }
+  return {};
+}
+
+TEST(Characterisation, EveryCameraIsAsTheDocumentationSays) {
+  const auto all = all_camera_qualities(test::chart(), test::illuminant("D65"));
+  ASSERT_EQ(all.size(), 31U);
+  for (const CameraQuality& q : all) {
+    EXPECT_LE(q.matrix.mean, q.least_squares.mean) << q.camera;
+    EXPECT_LT(q.root.mean, q.matrix.mean) << q.camera;
+    const std::vector<double> shown{q.least_squares.mean, q.least_squares.max,  q.matrix.mean,
+                                    q.matrix.max,         q.matrix_unseen.mean, q.matrix_unseen.max,
+                                    q.root.mean,          q.root.max,           q.root_unseen.mean,
+                                    q.root_unseen.max,    q.sensitivity_index};
+    const std::vector<double> written = documented(q.camera);
+    ASSERT_EQ(written.size(), shown.size()) << q.camera;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      EXPECT_NEAR(written[i], shown[i], 0.0051) << q.camera << ", figure " << i;
+  }
+}
+
+TEST(Characterisation, IndexOfAnObserverIsOneHundred) {
+  EXPECT_NEAR(sensitivity_index(observer_channels(Observer::cie1931)), 100, 1e-4);
+  EXPECT_LT(sensitivity_index(test::camera()), 95);
+}
+
+}  // namespace
+}  // namespace abbe

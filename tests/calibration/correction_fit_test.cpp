@@ -1,0 +1,160 @@
+#include "calibration/fit/correction_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calibration/fit/resampling.h"
+#include "tests/calibration/calibration_fixture.h"
+
+namespace abbe {
+namespace {
+
+PatchColors nikon(const std::string& light) {
+  return integrate(test::chart(), test::camera(), test::illuminant(light));
+}
+
+void expect_white_kept(const PatchColors& colors, const ColorCorrection& correction) {
+  const XYZ white = correction({1, 1, 1});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(white[i], colors.white[i], 1e-14);
+}
+
+CorrectionOptions root_polynomial() {
+  CorrectionOptions options;
+  options.model = CorrectionModel::root_polynomial_2;
+  return options;
+}
+
+TEST(CorrectionFit, ImprovesOnItsStartAndKeepsTheWhite) {
+  for (const char* light : {"A", "D65", "FL11"}) {
+    const PatchColors colors = nikon(light);
+    const CorrectionFit fit = fit_correction(colors);
+    expect_white_kept(colors, white_preserving_least_squares(colors));
+    expect_white_kept(colors, fit.correction);
+    EXPECT_LT(fit.errors.mean, 0.99 * fit.start.mean) << light;
+    EXPECT_LT(fit.final_cost, fit.initial_cost) << light;
+    EXPECT_EQ(fit.usable, fit.starts) << light;
+    EXPECT_NEAR(fit.errors.mean, patch_errors(colors, fit.correction).mean, 0);
+  }
+}
+
+TEST(CorrectionFit, IsAMinimumOfTheMeanDifference) {
+  const PatchColors colors = nikon("D65");
+  const CorrectionFit fit = fit_correction(colors);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (const double step : {-0.01, 0.01}) {
+        Matrix3 moved = linear_part(fit.correction);
+        moved[i][j] += step;
+        moved[i][2] -= step;
+        EXPECT_GT(patch_errors(colors, linear_correction(moved)).mean, fit.errors.mean + 1e-4);
+      }
+}
+
+TEST(CorrectionFit, RecoversAPlantedMatrix) {
+  PatchColors colors = nikon("D65");
+  const Matrix3 planted(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2);
+  colors.white = multiply(planted, {1, 1, 1});
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.xyz[i] = multiply(planted, colors.raw[i]);
+  const CorrectionFit fit = fit_correction(colors);
+  EXPECT_LT(fit.errors.max, 1e-6);
+  EXPECT_TRUE(linear_part(fit.correction).equalWithAbsError(planted, 1e-8));
+}
+
+TEST(CorrectionFit, RecoversAPlantedMatrixDespiteOutliers) {
+  PatchColors colors = nikon("D65");
+  const Matrix3 planted(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2);
+  colors.white = multiply(planted, {1, 1, 1});
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.xyz[i] = multiply(planted, colors.raw[i]);
+  colors.xyz[4][0] *= 1.2;
+  colors.xyz[11][2] *= 1.3;
+  const CorrectionFit fit = fit_correction(colors);
+  EXPECT_TRUE(linear_part(fit.correction).equalWithAbsError(planted, 5e-3));
+  EXPECT_FALSE(linear_part(white_preserving_least_squares(colors)).equalWithAbsError(planted, 5e-3));
+}
+
+TEST(CorrectionFit, EachObjectiveIsBestInItsOwnMeasure) {
+  const PatchColors colors = nikon("D65");
+  CorrectionOptions options;
+  const CorrectionFit by_2000 = fit_correction(colors, options);
+  options.objective = Objective::delta_e_76;
+  const CorrectionFit by_76 = fit_correction(colors, options);
+  options.objective = Objective::xyz;
+  const CorrectionFit by_xyz = fit_correction(colors, options);
+  EXPECT_LT(by_2000.errors.mean, by_76.errors.mean - 0.005);
+  EXPECT_LT(by_76.errors.mean_76, by_2000.errors.mean_76 - 0.005);
+  EXPECT_EQ(by_xyz.errors.mean, by_xyz.start.mean);
+  EXPECT_EQ(by_xyz.starts, 1);
+  const Matrix3 m = linear_part(by_xyz.correction);
+  const auto squares = [&](const Matrix3& matrix) {
+    double sum = 0;
+    for (std::size_t i = 0; i < colors.raw.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        sum += std::pow(multiply(matrix, colors.raw[i])[k] - colors.xyz[i][k], 2);
+    return sum;
+  };
+  EXPECT_LT(squares(m), squares(linear_part(by_2000.correction)));
+}
+
+TEST(CorrectionFit, RootPolynomialRecoversAPlantedOne) {
+  PatchColors colors = nikon("D65");
+  const ColorCorrection planted{CorrectionModel::root_polynomial_2,
+                                {{0.5, 0.2, 0.05},
+                                 {0.1, 0.6, -0.1},
+                                 {0.1, -0.1, 0.9},
+                                 {0.15, 0.25, -0.05},
+                                 {0.05, 0.1, 0.05},
+                                 {0.05, -0.05, 0.25}}};
+  colors.white = planted({1, 1, 1});
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.xyz[i] = planted(colors.raw[i]);
+  const CorrectionFit fit = fit_correction(colors, root_polynomial());
+  EXPECT_LT(fit.errors.max, 1e-4);
+  for (std::size_t t = 0; t < 6; ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(fit.correction.columns[t][i], planted.columns[t][i], 1e-5) << t << i;
+}
+
+TEST(CorrectionFit, RootPolynomialKeepsWhiteAndCommutesWithExposure) {
+  const PatchColors colors = nikon("D65");
+  const CorrectionFit fit = fit_correction(colors, root_polynomial());
+  expect_white_kept(colors, fit.correction);
+  EXPECT_LT(fit.errors.mean, 0.7 * fit_correction(colors).errors.mean);
+  for (const Raw& raw : colors.raw) {
+    const XYZ bright = fit.correction({8 * raw[0], 8 * raw[1], 8 * raw[2]});
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(bright[i], 8 * fit.correction(raw)[i], 1e-13);
+  }
+  EXPECT_EQ(correction_terms(CorrectionModel::root_polynomial_2, {-0.25, 1, 1}),
+            (std::vector<double>{-0.25, 1, 1, 0, 1, 0}));
+}
+
+TEST(CorrectionFit, RefusesDegreeThreeOnTwentyFourPatchesForAGoodReason) {
+  test::expect_error(
+      [] { require_enough_patches(CorrectionModel::root_polynomial_3, 24); }, ErrorCode::usage,
+      "13 terms on 24 patches would follow the patches and not the camera: patches left out of "
+      "the fit are shown worse than by a matrix (allowed from 52 patches on)");
+  EXPECT_NO_THROW(require_enough_patches(CorrectionModel::root_polynomial_3, 52));
+  EXPECT_NO_THROW(require_enough_patches(CorrectionModel::root_polynomial_2, 24));
+  const PatchColors colors = nikon("D65");
+  CorrectionOptions cubic;
+  cubic.model = CorrectionModel::root_polynomial_3;
+  cubic.max_iterations = 2000;
+  cubic.starts = 2;
+  EXPECT_LT(fit_correction(colors, cubic).errors.mean, fit_correction(colors, root_polynomial()).errors.mean);
+  EXPECT_GT(cross_validate(colors, cubic, 24).mean, cross_validate(colors, {}, 24).mean);
+}
+
+TEST(CorrectionFit, SaysWhenItFails) {
+  PatchColors colors = nikon("D65");
+  CorrectionOptions once;
+  once.max_iterations = 1;
+  test::expect_error([&] { static_cast<void>(fit_correction(colors, once)); }, ErrorCode::input,
+                     "colour correction: no start converged");
+  for (Raw& raw : colors.raw) raw[1] = raw[0];
+  test::expect_error([&] { static_cast<void>(least_squares_matrix(colors)); }, ErrorCode::input,
+                     "24 patches do not determine the correction (rank 2, needed 3)");
+  test::expect_error([&] { static_cast<void>(fit_correction(colors)); }, ErrorCode::input,
+                     "(rank 1, needed 2)");
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,106 @@
+#include "calibration/chart/measured_patches.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "calibration/chart/delta_e.h"
+#include "calibration/fit/correction_fit.h"
+#include "tests/calibration/calibration_fixture.h"
+
+namespace abbe {
+namespace {
+
+ChartTargets colors_of(const std::string& name, const std::string& light = "D50") {
+  Diagnostics diagnostics;
+  auto colors = load_chart_targets(name, test::illuminant(light), {}, diagnostics);
+  EXPECT_TRUE(colors) << diagnostics.text();
+  return colors.value_or(ChartTargets{});
+}
+
+// Mean CIEDE2000 between two charts, each relative to its own white.
+double mean_difference(const ChartTargets& a, const ChartTargets& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.xyz.size(); ++i)
+    sum += delta_e_2000(xyz_to_lab(a.xyz[i], a.white), xyz_to_lab(b.xyz[i], b.white));
+  return sum / static_cast<double>(a.xyz.size());
+}
+
+// Differences between editions that others have published.
+TEST(ChartTargets, EditionsDifferAsPublished) {
+  const ChartTargets babel = colors_of("colorchecker24_babelcolor_average_xyY");
+  const ChartTargets before = colors_of("colorchecker24_before_nov2014");
+  const ChartTargets after = colors_of("colorchecker24_after_nov2014");
+  const ChartTargets stated_2005 = colors_of("colorchecker24_2005_xyY");
+  EXPECT_NEAR(mean_difference(before, after), 0.848, 0.001);
+  EXPECT_NEAR(mean_difference(stated_2005, babel), 0.489, 0.001);
+  EXPECT_LT(mean_difference(colors_of("colorchecker24_babelcolor_average"), babel), 0.1);
+  EXPECT_EQ(colors_of("colorcheckersg_after_nov2014").xyz.size(), 140U);
+  EXPECT_EQ(colors_of("colorchecker24_1976_xyY").xyz.size(), 24U);
+  EXPECT_NEAR(colors_of("colorchecker24_1976_xyY").white[0], 0.31006 / 0.31616, 1e-12);
+}
+
+class Measured : public testing::Test {
+ protected:
+  std::optional<MeasuredPatches> read(const std::string& rows) {
+    std::ofstream(path_) << "# unit: linear camera values\n" << rows;
+    return load_measured_patches(path_, diagnostics_);
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  std::filesystem::path path_ =
+      std::filesystem::path(testing::TempDir()) / ("abbe_measured_" + std::to_string(::getpid()) + ".csv");
+  Diagnostics diagnostics_;
+};
+
+// A camera whose values are a known matrix away from the chart's XYZ, times gains.
+TEST_F(Measured, RecoversTheMatrixOfAMeasuredCamera) {
+  const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
+  const Matrix3 planted(0.6, 0.25, 0.1142, 0.2, 0.95, -0.15, 0.05, -0.2, 0.9751);
+  const Raw gains{1.9, 1, 1.4};
+  const Raw diffuser = multiply(planted.inverse(), chart.white);
+  std::string rows = "patch,R,G,B\n";
+  const auto add = [&](const std::string& name, const XYZ& xyz) {
+    const Raw raw = multiply(planted.inverse(), xyz);
+    rows += fmt::format("{},{},{},{}\n", name, raw[0] / gains[0], raw[1] / gains[1], raw[2] / gains[2]);
+  };
+  for (std::size_t i = 0; i < 24; ++i) add(chart.names[i], chart.xyz[i]);
+  const auto without_white = read(rows);
+  add("perfect diffuser", chart.white);
+  const auto measured = read(rows);
+  ASSERT_TRUE(measured && without_white) << diagnostics_.text();
+  const BalancedPatches balanced = balance(chart, *measured);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(balanced.gains[k], gains[k] / diffuser[k], 1e-12);
+  EXPECT_LT(fit_correction(balanced.colors).errors.max, 1e-4);
+  const BalancedPatches by_greys = balance(chart, *without_white);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(by_greys.gains[k] / balanced.gains[k], 1, 0.03) << "the chart's greys are not quite neutral";
+}
+
+TEST_F(Measured, SaysWhatIsMissing) {
+  const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
+  const auto few = read("patch,R,G,B\nperfect diffuser,1,1,1\ndark skin,0.1,0.1,0.1\n");
+  ASSERT_TRUE(few);
+  test::expect_error([&] { static_cast<void>(balance(chart, *few)); }, ErrorCode::input,
+                     "missing: light skin, blue sky");
+  const ChartTargets red{{"red"}, {{0.4, 0.2, 0.1}}, {0.95, 1, 1.09}};
+  test::expect_error(
+      [&] {
+        static_cast<void>(balance(red, {{"red"}, {{0.4, 0.2, 0.1}}}));
+      },
+      ErrorCode::input, "nothing to balance white on");
+  EXPECT_FALSE(read("patch,R,G\ndark skin,1,1\n"));
+  EXPECT_NE(diagnostics_.text().find("no column \"B\""), std::string::npos);
+}
+
+TEST(ChartTargets, ReflectancesCannotBeMadeFromColours) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load_chart("colorchecker24_after_nov2014", {}, diagnostics));
+  EXPECT_NE(diagnostics.text().find("states colours and not reflectances"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe
