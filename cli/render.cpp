@@ -150,7 +150,8 @@ void write_all(const std::vector<std::function<void()>>& writers) {
   if (failure) throw *failure;
 }
 
-void write_stats(const fs::path& path, const Scene& scene, const RenderStats& stats) {
+void write_stats(const fs::path& path, const Scene& scene, const RenderResult& result) {
+  const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
   answer["cpu_s"] = stats.cpu_s;
@@ -161,6 +162,11 @@ void write_stats(const fs::path& path, const Scene& scene, const RenderStats& st
   answer["embree_replay_share"] = stats.embree_replay_share;
   answer["relative_error"] = stats.relative_error;
   answer["nonfinite_samples"] = stats.nonfinite_samples;
+  const std::vector<std::string> planes = scene.film_planes();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Film::Average average = result.film.average(static_cast<int>(i));
+    answer["film"][planes[i]] = {{"mean", average.mean}, {"standard_error", average.standard_error}};
+  }
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;
@@ -210,7 +216,7 @@ int render(const RenderOptions& options) {
     writers.emplace_back([&] { write_part(options.checkpoint, part.identity, part.result); });
   writers.emplace_back([&] { write_film(outputs.film, part); });
   if (display) writers.emplace_back(write_display);
-  if (!outputs.stats.empty()) writers.emplace_back([&] { write_stats(outputs.stats, scene, stats); });
+  if (!outputs.stats.empty()) writers.emplace_back([&] { write_stats(outputs.stats, scene, part.result); });
   write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),

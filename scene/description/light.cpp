@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "scene/description/pieces.h"
+#include "scene/shapes/quad.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -17,21 +19,31 @@ namespace {
 using Keys = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 4> kAreaScales{"radiant_flux_W", "luminous_flux_lm", "radiance",
                                                       "luminance"};
-constexpr std::array<std::string_view, 4> kPointScales{"radiant_flux_W", "luminous_flux_lm", "intensity",
-                                                       "luminous_intensity"};
+constexpr std::array<std::string_view, 6> kLampScales{"radiant_flux_W", "luminous_flux_lm", "radiance",
+                                                      "luminance",      "irradiance",       "illuminance"};
+constexpr std::array<std::string_view, 6> kPointScales{
+    "radiant_flux_W", "luminous_flux_lm", "intensity", "luminous_intensity", "irradiance", "illuminance"};
 constexpr std::array<std::string_view, 2> kEnvironmentScales{"radiance", "luminance"};
 
 constexpr Range kHalfAngle{0.1, 180};  // degrees: below, a float's cosine no longer tells cones apart
 
-/// What fixes the strength of a lamp of one kind: the scales it may name, and the flux of a lamp of unit
-/// radiance or intensity.
+/// What fixes the strength of a lamp of one kind: the scales it may name, and what a lamp of unit radiance or
+/// intensity has of them.
 struct LampKind {
   Keys scales;
-  double flux;  ///< [m^2 sr] for radiance, [sr] for intensity.
+  double flux;  ///< [m^2 sr] for radiance, [sr] for intensity; 0 without a flux.
+  /// Irradiance on its axis at that distance [m], of a surface that faces it: [sr] for radiance, [m^-2] for
+  /// intensity.
+  std::function<double(double)> irradiance = {};
 };
 
-std::optional<Curve> read_spectrum(std::string_view key, const JsonValue& json, Reading& reading) {
+std::optional<Curve> read_spectrum(std::string_view key, const JsonValue& json, const LampKind& kind,
+                                   Reading& reading) {
   if (key == "spectrum") return read_curve(json, {"illuminant", kPower}, reading);
+  if (key == "spectral_flux_W_per_nm") {
+    const std::optional<Curve> flux = read_curve(json, {"illuminant", kPower}, reading);
+    return flux ? std::optional(scaled(*flux, 1 / kind.flux)) : std::nullopt;
+  }
   if (key != "illuminant") return read_source(key, json, reading);
   const std::optional<std::string> name = reading.table(json);
   if (!name) return std::nullopt;
@@ -40,41 +52,71 @@ std::optional<Curve> read_spectrum(std::string_view key, const JsonValue& json, 
   return std::move(named->curve);
 }
 
-// `spectrum` scaled so that the quantity `scale` names has the value asked for.
-std::optional<Curve> normalised(const Curve& spectrum, std::string_view scale, double value,
-                                const LampKind& kind, const SourcePosition& where, const Reading& reading) {
-  const bool luminous = scale.starts_with("lumin");
-  const bool flux = scale == "radiant_flux_W" || scale == "luminous_flux_lm";
-  const double unscaled = (luminous ? photometric(spectrum) : spectrum.integral()) * (flux ? kind.flux : 1);
-  if (unscaled > 0) return scaled(spectrum, value / unscaled);
-  reading.diagnostics.error(where, fmt::format("{} cannot scale this spectrum, which has none", scale));
+/// A quantity that an emission is scaled to, and how much of it a lamp of unit radiance or intensity has.
+struct Scale {
+  std::string_view name;
+  double value;
+  double of_unit;
+};
+
+// The quantity `name` of the lamp; the last two are had at a distance.
+std::optional<Scale> read_scale(ObjectReader& reader, std::string_view name, const LampKind& kind,
+                                const Reading& reading) {
+  const auto value = reader.number(name, kPower);
+  if (name == "irradiance" || name == "illuminance") {
+    const auto distance = reader.require_number("distance", kLength);
+    if (!value || !distance) return std::nullopt;
+    const double of_unit = kind.irradiance(*distance * reading.unit_m);
+    if (of_unit > 0) return Scale{name, *value, of_unit};
+    reading.diagnostics.error(reader.where(),
+                              fmt::format("lies within the lamp (got a distance of {})", *distance));
+    return std::nullopt;
+  }
+  const bool flux = name == "radiant_flux_W" || name == "luminous_flux_lm";
+  return value ? std::optional(Scale{name, *value, flux ? kind.flux : 1}) : std::nullopt;
+}
+
+// `spectrum` with as much of a quantity as asked for.
+std::optional<Curve> normalised(const Curve& spectrum, const Scale& scale, const SourcePosition& where,
+                                const Reading& reading) {
+  const bool luminous = scale.name.starts_with("lumin") || scale.name == "illuminance";
+  const double unscaled = (luminous ? photometric(spectrum) : spectrum.integral()) * scale.of_unit;
+  if (unscaled > 0) return scaled(spectrum, scale.value / unscaled);
+  reading.diagnostics.error(where, fmt::format("{} cannot scale this spectrum, which has none", scale.name));
   return std::nullopt;
 }
 
 std::optional<Curve> read_emission(const JsonValue& json, const LampKind& kind, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
-  const auto key = reader.exactly_one({"illuminant", "blackbody_K", "daylight_K", "spectrum", "lines"});
+  const auto key = kind.flux > 0
+                       ? reader.exactly_one({"illuminant", "blackbody_K", "daylight_K", "spectrum", "lines",
+                                             "spectral_flux_W_per_nm"})
+                       : reader.exactly_one({"illuminant", "blackbody_K", "daylight_K", "spectrum", "lines"});
   if (!key) return std::nullopt;
-  std::optional<Curve> spectrum = read_spectrum(*key, *reader.find(*key), reading);
-  std::string_view scale;
-  std::optional<double> value;
+  std::optional<Curve> spectrum = read_spectrum(*key, *reader.find(*key), kind, reading);
+  std::string_view name;
+  std::optional<Scale> scale;
   for (std::string_view candidate : kind.scales) {
     if (!reader.find(candidate)) continue;
-    if (!scale.empty())
+    if (!name.empty())
       reading.diagnostics.error(json.where,
-                                fmt::format("an emission has one scale (got {} and {})", scale, candidate));
-    scale = candidate;
-    value = reader.number(candidate, kPower);
+                                fmt::format("an emission has one scale (got {} and {})", name, candidate));
+    name = candidate;
+    scale = read_scale(reader, candidate, kind, reading);
   }
   reader.finish();
   const bool relative = *key == "illuminant" || *key == "daylight_K";
-  if (scale.empty() && relative)
+  if (name.empty() && relative)
     reading.diagnostics.error(json.where,
                               fmt::format("{} is a relative spectrum and needs a scale, one of {}", *key,
                                           fmt::join(kind.scales, ", ")));
-  if (!spectrum || (scale.empty() && relative) || (!scale.empty() && !value)) return std::nullopt;
-  if (scale.empty()) return spectrum;
-  return normalised(*spectrum, scale, *value, kind, json.where, reading);
+  if (!spectrum || (name.empty() && relative) || (!name.empty() && !scale)) return std::nullopt;
+  if (name.empty()) return spectrum;
+  return normalised(*spectrum, *scale, json.where, reading);
+}
+
+double inverse_square(double distance) {
+  return 1 / (distance * distance);
 }
 
 /// A light at a point: where it is, and how it spreads.
@@ -89,7 +131,7 @@ std::optional<Placed> read_point_light(const JsonValue& json, const Reading& rea
   const auto at = read_point(reader, "at", reading);
   reader.finish();
   if (!at) return std::nullopt;
-  return Placed{PointLight{Imath::V3f(0)}, *at, {kPointScales, 4 * std::numbers::pi}};
+  return Placed{PointLight{Imath::V3f(0)}, *at, {kPointScales, 4 * std::numbers::pi, inverse_square}};
 }
 
 std::optional<Placed> read_spot(const JsonValue& json, const Reading& reading) {
@@ -102,7 +144,7 @@ std::optional<Placed> read_spot(const JsonValue& json, const Reading& reading) {
   const double sine = std::sin(*half_angle * std::numbers::pi / 360);
   const SpotLight spot{Imath::V3f(0), Imath::V3f(*axis), static_cast<float>(2 * sine * sine)};
   const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
-  return Placed{spot, *at, {kPointScales, solid_angle}};
+  return Placed{spot, *at, {kPointScales, solid_angle, inverse_square}};
 }
 
 void add_environment(ObjectReader& reader, std::string name, const JsonValue& json, Reading& reading,
@@ -117,7 +159,7 @@ void add_environment(ObjectReader& reader, std::string name, const JsonValue& js
     return;
   }
   if (!sky || !emission) return;
-  auto curve = read_emission(*emission, {kEnvironmentScales, 1}, reading);
+  auto curve = read_emission(*emission, {kEnvironmentScales, 0}, reading);
   if (!curve) return;
   EnvironmentLight light;
   if (!sky->texels.empty())
@@ -178,14 +220,49 @@ void read_light(const JsonValue& json, std::size_t number, Reading& reading, Sce
   }
 }
 
+// Of a surface on the axis that faces the lamp, for unit radiance [sr]; 0 within it.
+double axial_irradiance(const Sphere& sphere, double distance) {
+  const double sine = sphere.radius / distance;
+  return sine < 1 ? std::numbers::pi * sine * sine : 0;
+}
+double axial_irradiance(const Disc& disc, double distance) {
+  const double r2 = disc.radius * disc.radius;
+  return std::numbers::pi * r2 / (r2 + distance * distance);
+}
+// Half the sum over the edges of the angle each takes up, times how it leans [Lambert1760].
+double axial_irradiance(const Quad& quad, double distance) {
+  const Imath::V3d normal = normal_of(quad);
+  const Imath::V3d to_corner = normal * distance - (quad.edge_u + quad.edge_v) / 2;
+  const std::array corners{to_corner, to_corner + quad.edge_u, to_corner + quad.edge_u + quad.edge_v,
+                           to_corner + quad.edge_v};
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Imath::V3d& a = corners.at(i);
+    const Imath::V3d& b = corners.at((i + 1) % corners.size());
+    const Imath::V3d edge = a.cross(b);
+    sum += std::atan2(edge.length(), a.dot(b)) * edge.normalized().dot(normal);
+  }
+  return std::abs(sum) / 2;
+}
+
+LampKind area_lamp(const Shape& shape, bool two_sided) {
+  LampKind kind{kAreaScales, std::numbers::pi * area(shape) * (two_sided ? 2 : 1)};
+  const auto lamp = [&kind](const auto& plain_shape) {
+    kind.scales = kLampScales;
+    kind.irradiance = [plain_shape](double distance) { return axial_irradiance(plain_shape, distance); };
+  };
+  if (const auto* sphere = plain<Sphere>(shape)) lamp(*sphere);
+  if (const auto* disc = plain<Disc>(shape)) lamp(*disc);
+  if (const auto* quad = plain<Quad>(shape)) lamp(*quad);
+  return kind;
+}
+
 }  // namespace
 
 void add_area_light(const JsonValue& emission, bool two_sided, std::uint32_t shape, Reading& reading,
                     Scene& scene) {
   const ShapeInstance& instance = scene.shapes[shape];
-  const double one_side = area(instance.shape);
-  const double flux = std::numbers::pi * one_side * (two_sided ? 2 : 1);
-  auto curve = read_emission(emission, {kAreaScales, flux}, reading);
+  auto curve = read_emission(emission, area_lamp(instance.shape, two_sided), reading);
   if (!curve) return;
   scene.lights.push_back({instance.name, AreaLight{shape, two_sided}, std::move(*curve)});
   reading.light_positions.push_back({0, 0, 0});

@@ -118,6 +118,18 @@ double Film::variance(std::size_t pixel, int channel) const {
   return filled < 2 ? 0 : spread / (filled - 1);
 }
 
+Film::Average Film::average(int channel) const {
+  const std::size_t pixels = static_cast<std::size_t>(shape_.width) * static_cast<std::size_t>(shape_.height);
+  double sum = 0;
+  double error = 0;
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    sum += mean(pixel, channel);
+    error += variance(pixel, channel);
+  }
+  const auto n = static_cast<double>(pixels);
+  return {sum / n, std::sqrt(error) / n};
+}
+
 double Film::relative_error() const {
   double value = 0;
   double error = 0;

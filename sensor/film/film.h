@@ -62,6 +62,12 @@ class Film {
   /// Mean of a pixel's channel, and the variance of that mean (0 with fewer than two replicates).
   [[nodiscard]] double mean(std::size_t pixel, int channel) const;
   [[nodiscard]] double variance(std::size_t pixel, int channel) const;
+  /// Mean of a channel over all pixels, and its standard error: pixels are independent.
+  struct Average {
+    double mean;
+    double standard_error;
+  };
+  [[nodiscard]] Average average(int channel) const;
   /// Root of the mean variance over the image over its mean value: one figure for the noise; infinite until
   /// known.
   [[nodiscard]] double relative_error() const;

@@ -206,7 +206,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["materials"], 1);
   EXPECT_EQ(found["needs"]["dispersion"], true);
   EXPECT_EQ(found["needs"]["delta_lights"], false);
-  EXPECT_EQ(found["needs"].size(), 9U);
+  EXPECT_EQ(found["needs"].size(), 10U);
   EXPECT_EQ(found["because"]["dispersion"], "shape \"prism\"");
   EXPECT_EQ(found["techniques"][0], "path");
   EXPECT_TRUE(found["unreached"].is_array());
@@ -217,6 +217,23 @@ TEST(Info, KeysOfTheContract) {
   const Outcome readable = abbe("info " + path);
   EXPECT_NE(readable.out.find("dispersion"), std::string::npos);
   EXPECT_EQ(abbe("info " + scratch().write("ball.json", ball_scene()).string()).err, "");
+}
+
+TEST(Info, TellsTheMosaicAndHoldsOnePlaneForIt) {
+  const auto told = [](const std::string& members) {
+    const std::string scene = ball_scene();
+    const std::string observer = R"("observer": "1931")";
+    const std::size_t at = scene.find(observer);
+    const auto path =
+        scratch().write("mosaic.json", scene.substr(0, at) + members + scene.substr(at + observer.size()));
+    return abbe("info " + path.string() + " --json").json();
+  };
+  const std::string channels = R"("channels": {"a": {"band": [400, 500]}, "b": 1})";
+  const nlohmann::json plain = told(channels);
+  const nlohmann::json raw = told(channels + R"(, "mosaic": [["a", "b", "b"]])");
+  EXPECT_FALSE(plain.contains("mosaic"));
+  EXPECT_EQ(raw["mosaic"], "a,b,b");
+  EXPECT_EQ(plain["memory_bytes"].get<int>() - raw["memory_bytes"].get<int>(), 24 * 16 * 2 * 16);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 13U);
+  EXPECT_EQ(stats.size(), 14U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
@@ -44,6 +44,40 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_GT(stats["cpu_s"], 0);
   EXPECT_GT(stats["embree_replay_share"], 0);
   EXPECT_GT(stats["relative_error"], 0);
+  double sum = 0;
+  for (const float y : image.find("Y")->values) sum += static_cast<double>(y);
+  EXPECT_EQ(stats["film"].size(), 3U);
+  EXPECT_NEAR(stats["film"]["Y"]["mean"], sum / (24 * 16), 1e-6 * sum);
+  EXPECT_GT(stats["film"]["Y"]["standard_error"], 0);
+}
+
+TEST(Render, AMosaicHasOnePlaneThatTellsItsPattern) {
+  const std::string sensor =
+      R"( --set '/sensor={"resolution": [5, 4], "camera": "Nikon_D5100", "mosaic": [["R", "G"], ["G", "B"]]}')";
+  const std::string render = "render " + ball() + sensor + " --quiet -o ";
+  ASSERT_EQ(abbe(render + file("raw.exr")).code, 0);
+  const Image image = read_exr(file("raw.exr"));
+  ASSERT_EQ(image.channels.size(), 2U);
+  EXPECT_NE(image.find("raw"), nullptr);
+  EXPECT_NE(image.find("Variance.raw"), nullptr);
+  EXPECT_EQ(image.metadata.at("mosaic"), "R,G/G,B");
+  EXPECT_EQ(image.metadata.at("mosaic_channels"), "R,G,B");
+
+  ASSERT_EQ(abbe(render + file("a.abbepart") + " --sample-range 0:3").code, 0);
+  ASSERT_EQ(abbe(render + file("b.abbepart") + " --sample-range 3:8").code, 0);
+  ASSERT_EQ(abbe("merge " + file("b.abbepart") + " " + file("a.abbepart") + " -o " + file("sum.exr")).code,
+            0);
+  EXPECT_EQ(read_exr(file("sum.exr")).find("raw")->values, image.find("raw")->values);
+  EXPECT_EQ(read_exr(file("sum.exr")).metadata, image.metadata);
+  const std::string other =
+      "render " + ball() + sensor + " --set '/sensor/mosaic=[[\"G\", \"R\"], [\"B\", \"G\"]]'";
+  ASSERT_EQ(abbe(other + " --quiet --sample-range 3:8 -o " + file("c.abbepart")).code, 0);
+  EXPECT_EQ(abbe("merge " + file("a.abbepart") + " " + file("c.abbepart") + " -o " + file("sum.exr")).code,
+            4);
+
+  const Outcome shown = abbe(render + file("raw.exr") + " --display " + file("raw.png"));
+  EXPECT_EQ(shown.code, 2);
+  EXPECT_NE(shown.err.find("a mosaic's film has one colour a pixel"), std::string::npos) << shown.err;
 }
 
 TEST(Render, ShowsThroughViewsAndUsersConfigurations) {

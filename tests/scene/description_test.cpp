@@ -152,6 +152,47 @@ TEST_F(DescriptionTest, NormalisesEmission) {
   EXPECT_NEAR(emission(point, R"({"lines": [{"nm": 500, "width_nm": 2, "power": 3}]})").integral(), 3, 1e-9);
 }
 
+TEST_F(DescriptionTest, LampsLightASurfaceAtADistance) {
+  const auto luminance = [this](const std::string& lamp, const char* distance) {
+    return photometric(emission(
+        lamp, fmt::format(R"({{"illuminant": "A", "illuminance": 500, "distance": {}}})", distance)));
+  };
+  EXPECT_NEAR(luminance(R"("point": {"at": [1, 0, 0]})", "2"), 500 * 4, 1e-9);
+  EXPECT_NEAR(luminance(R"("spot": {"at": [0, 0, 0], "direction": [0, 0, 1], "half_angle_deg": 9})", "3"),
+              500 * 9, 1e-9);
+  EXPECT_NEAR(luminance(R"("sphere": {"center": [0, 0, 0], "radius": 0.5})", "2") * kPi / 16, 500, 1e-9);
+  EXPECT_NEAR(luminance(R"("disc": {"center": [0, 0, 0], "normal": [1, 0, 0], "radius": 0.5})", "2") * kPi *
+                  0.25 / 4.25,
+              500, 1e-9);
+  // Four times the configuration factor of a unit square one unit away, over its corner [Howell2010, B-4].
+  const double corner = std::atan(std::sqrt(0.5)) * std::sqrt(0.5) / kPi;
+  EXPECT_NEAR(luminance(R"("quad": {"corner": [-3, 0, 0], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2]})", "1") *
+                  4 * kPi * corner,
+              500, 1e-9);
+  // Leaning, against a sum over its area.
+  double sum = 0;
+  for (int i = 0; i < 400; ++i)
+    for (int j = 0; j < 400; ++j) {
+      const double v = (j + 0.5) / 400 - 0.5;
+      const double x = 2 * ((i + 0.5) / 400 - 0.5) + v;
+      sum += 2.0 / (400 * 400) * 9 / std::pow(x * x + v * v + 9, 2);
+    }
+  EXPECT_NEAR(
+      luminance(R"("quad": {"corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [1, 1, 0]})", "3") * sum, 500,
+      1e-2);
+  EXPECT_NEAR(emission(R"("point": {"at": [0, 0, 0]})", R"({"spectrum": 1, "irradiance": 3, "distance": 2})")
+                  .integral(),
+              12, 1e-9);
+}
+
+TEST_F(DescriptionTest, LampsSendOutTheirSpectralFlux) {
+  const std::string flux = R"({"spectral_flux_W_per_nm": {"band": [500, 600], "value": 0.02}})";
+  EXPECT_NEAR(emission(R"("point": {"at": [0, 0, 0]})", flux)(550) * 4 * kPi, 0.02, 1e-12);
+  const std::string disc = R"("disc": {"center": [0, 0, 0], "normal": [1, 0, 0], "radius": 2})";
+  EXPECT_NEAR(emission(disc, flux)(550) * kPi * kPi * 4, 0.02, 1e-12);
+  EXPECT_NEAR(emission(disc + R"(, "two_sided": true)", flux)(550) * kPi * kPi * 8, 0.02, 1e-12);
+}
+
 TEST_F(DescriptionTest, LampsAreShapes) {
   const Loaded loaded = load(
       R"({"lights": [{"disc": {"center": [0, 0, 1], "normal": [0, 0, -1], "radius": 2}, "two_sided": true,

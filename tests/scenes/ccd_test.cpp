@@ -77,6 +77,29 @@ TEST(FlatField, AFilterWheelExposesEachFilterForItsTime) {
   EXPECT_NEAR(whole(film, 0).mean / whole(film, 1).mean, 0.2, 1e-6);
 }
 
+// A lamp that gives 200 lx at 2 m, and the luminance that takes.
+TEST(Meters, ReadLuxAndCandelaPerSquareMetre) {
+  const auto read = [](const char* camera) {
+    return whole(
+               render(
+                   test::load_text(fmt::format(
+                       R"({{"abbe": 1, "camera": {{{}}}, "sensor": {{"observer": "1931", "resolution": [16, 16]}},
+                  "lights": [{{"disc": {{"center": [0, 0, 2], "normal": [0, 0, -1], "radius": 0.3}},
+                               "emission": {{"illuminant": "D65", "illuminance": 200, "distance": 2}}}}],
+                  "render": {{"samples": 256}}}})",
+                       camera)),
+                   {})
+                   .film,
+               1)
+        .mean;
+  };
+  EXPECT_NEAR(read(R"("irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]})"), 200, 0.2);
+  EXPECT_NEAR(
+      read(
+          R"("pinhole": {"fov_deg": 1, "f_number": 0.886226925}, "from": [0, 0, 0], "to": [0, 0, 2], "up": [0, 1, 0])"),
+      200 / kPi * 4.09 / 0.09, 3);
+}
+
 // --- Filters that shift with the angle ---
 
 constexpr double kIndex = 2;

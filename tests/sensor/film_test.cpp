@@ -80,6 +80,19 @@ TEST(Film, VarianceIsThatOfTheMeanOverReplicates) {
   EXPECT_DOUBLE_EQ(film.relative_error(), std::sqrt(5.0 / 12.0) / 2.5);
 }
 
+TEST(Film, AveragesPixelsWithTheErrorOfTheirMean) {
+  Film film(2, 1, 1, 2, 1.0);
+  for (int r = 0; r < 2; ++r) {
+    const double left = 1.0 + r;
+    const double right = 5.0 - 3 * r;
+    film.add(0, r, {&left, 1});
+    film.add(1, r, {&right, 1});
+  }
+  film.set_samples({1, 1});
+  EXPECT_DOUBLE_EQ(film.average(0).mean, 2.5);
+  EXPECT_DOUBLE_EQ(film.average(0).standard_error, std::sqrt(0.25 + 2.25) / 2);
+}
+
 TEST(Film, HoldsRefusesWhatWouldOverflow) {
   const Film film(1, 1, 1, 1, 1.0);
   EXPECT_TRUE(film.holds(1e12));

@@ -20,27 +20,11 @@ int channel_index(const Scene& scene, const std::string& name) {
   throw Error(ErrorCode::internal, "case", "no channel " + name);
 }
 
-std::size_t film_pixels(const Film& film) {
-  return static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
-}
-
-// Mean over the film; pixels are independent, and each knows its variance.
-Estimate film_mean(const Film& film, int channel) {
-  const std::size_t pixels = film_pixels(film);
-  double sum = 0;
-  double variance = 0;
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    sum += film.mean(pixel, channel);
-    variance += film.variance(pixel, channel);
-  }
-  const auto n = static_cast<double>(pixels);
-  return {sum / n, std::sqrt(variance) / n};
-}
-
 // The film's values from 0 to twice what is expected in the mean.
 Image deviation_map(const Film& film, int channel, double expected) {
-  std::vector<double> values;
-  for (std::size_t pixel = 0; pixel < film_pixels(film); ++pixel) values.push_back(film.mean(pixel, channel));
+  std::vector<double> values(static_cast<std::size_t>(film.width()) *
+                             static_cast<std::size_t>(film.height()));
+  for (std::size_t pixel = 0; pixel < values.size(); ++pixel) values[pixel] = film.mean(pixel, channel);
   return false_color(values, film.width(), film.height(), 0, 2 * expected);
 }
 
@@ -60,7 +44,8 @@ CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings&
   scene.render.samples = static_cast<int>(std::lround(method.samples * ratio * ratio));
   for (int doubling = 0; doubling <= kDoublings; ++doubling, scene.render.samples *= 2) {
     const RenderResult rendered = render(scene, {.threads = settings.threads});
-    result.figures = {{"", method.expected, film_mean(rendered.film, channel)}};
+    const Film::Average measured = rendered.film.average(channel);
+    result.figures = {{"", method.expected, {measured.mean, measured.standard_error}}};
     result.samples = scene.render.samples;
     result.cpu_s += rendered.stats.cpu_s;
     result.picture = deviation_map(rendered.film, channel, method.expected);
