@@ -20,6 +20,7 @@
 #include "cli/render.h"
 #include "cli/trace.h"
 #include "cli/usage.h"
+#include "cli/validate.h"
 #include "cli/version.h"
 
 namespace abbe::cli {
@@ -352,6 +353,20 @@ void add_bench(CLI::App& app, Command& command) {
   add_json(options, sub->json);
 }
 
+void add_validate(CLI::App& app, Command& command) {
+  const Sub<ValidateOptions> sub(app, "validate", "Recompute everything that has a known answer", command,
+                                 validate);
+  CLI::App& options = *sub.app;
+  options.add_flag("--quick", sub->quick, "Films at wider margins, within two minutes");
+  add_parsed(options, "--suite", sub->suites, parse_suites,
+             "Only some of optics, radiometry, colour, camera and sensor", "SUITE[,SUITE...]");
+  options.add_option("-o,--output", sub->output, "Folder for report.html and report.json")
+      ->type_name("FOLDER");
+  add_parsed(options, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
+             "Threads, 0 for one per processor", "N");
+  add_json(options, sub->json);
+}
+
 // `abbe help [COMMAND]`.
 void add_help(CLI::App& app, Command& command) {
   struct Options {
@@ -387,6 +402,7 @@ void add_commands(CLI::App& app, Command& command) {
   add_scene_commands(app, command);
   add_query(app, command);
   add_compare_and_calibrate(app, command);
+  add_validate(app, command);
   add_bench(app, command);
   add_help(app, command);
 }

@@ -85,15 +85,23 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   return input;
 }
 
-}  // namespace
-
-void write_picture(const std::filesystem::path& path, const Image& image) {
+std::string display_bytes(const std::filesystem::path& path, const Image& image) {
   const std::size_t channels = image.channels.size() < 3 ? 1 : 3;
   OIIO::ImageSpec spec = described(path, image, channels, OIIO::TypeDesc::UINT8);
   // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
   // memory.
   if (!is_tiff(path)) spec.attribute("oiio:ColorSpace", "sRGB");
-  write_atomically(path, encoded(path, spec, interleaved(image, channels, code_value).data()));
+  return encoded(path, spec, interleaved(image, channels, code_value).data());
+}
+
+}  // namespace
+
+void write_picture(const std::filesystem::path& path, const Image& image) {
+  write_atomically(path, display_bytes(path, image));
+}
+
+std::string encoded_picture(const std::string& extension, const Image& image) {
+  return display_bytes("picture" + extension, image);
 }
 
 void write_raw_picture(const std::filesystem::path& path, const Image& image) {

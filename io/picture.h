@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "io/image.h"
 
@@ -10,6 +11,9 @@ namespace abbe {
 /// display code values in [0, 1], clamped and rounded. The format follows the extension (.png, .jpg, .tif).
 /// Atomic; throws Error{output}.
 void write_picture(const std::filesystem::path& path, const Image& image);
+
+/// The bytes `write_picture` would write to a file of that extension, as ".png". Throws Error{output}.
+[[nodiscard]] std::string encoded_picture(const std::string& extension, const Image& image);
 
 /// Writes whole numbers from 0 to 65535, such as the codes of a sensor, as a linear 16-bit file: one channel
 /// or three as .png, any number as .tif. Throws Error{output}, Error{internal} for other values.

@@ -29,6 +29,9 @@ namespace abbe {
 /// `text` cut at every `separator`, each piece without surrounding blanks.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
+/// The bytes in base64, as data URLs hold them [RFC4648, sec. 4].
+[[nodiscard]] std::string base64(std::string_view bytes);
+
 /// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 

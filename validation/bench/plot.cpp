@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "validation/picture/svg.h"
+
 namespace abbe {
 namespace {
 
@@ -15,26 +17,6 @@ constexpr double kRight = 570;  // the legend stands beyond
 constexpr double kTop = 46;
 constexpr double kBottom = 410;
 constexpr double kLegendRow = 21;
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text)
-    safe += c == '&'   ? "&amp;"
-            : c == '<' ? "&lt;"
-            : c == '>' ? "&gt;"
-            : c == '"' ? "&quot;"
-                       : std::string(1, c);
-  return safe;
-}
-
-std::string text_at(double x, double y, const std::string& text, const std::string& attributes) {
-  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", x, y, attributes, escaped(text));
-}
-
-std::string line(double x0, double y0, double x1, double y1, const std::string& attributes) {
-  return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>\n", x0, y0, x1, y1,
-                     attributes);
-}
 
 // 1, 2 and 5 times the powers of ten within the axis.
 std::vector<double> ticks(const LogAxis& axis) {
@@ -51,22 +33,23 @@ std::string axes(const LogAxis& x, const LogAxis& y, const LogPlot& plot) {
   const std::string grid = "stroke=\"#dddddd\"";
   std::string all;
   for (const double value : ticks(x)) {
-    all += line(x.at(value), kTop, x.at(value), kBottom, grid);
+    all += svg_line(x.at(value), kTop, x.at(value), kBottom, grid);
     all +=
-        text_at(x.at(value), kBottom + 18, fmt::format("{:g}", value), "class=\"x\" text-anchor=\"middle\"");
+        svg_text(x.at(value), kBottom + 18, fmt::format("{:g}", value), "class=\"x\" text-anchor=\"middle\"");
   }
   for (const double value : ticks(y)) {
-    all += line(kLeft, y.at(value), kRight, y.at(value), grid);
-    all += text_at(kLeft - 7, y.at(value) + 4, fmt::format("{:g}", value), "class=\"y\" text-anchor=\"end\"");
+    all += svg_line(kLeft, y.at(value), kRight, y.at(value), grid);
+    all +=
+        svg_text(kLeft - 7, y.at(value) + 4, fmt::format("{:g}", value), "class=\"y\" text-anchor=\"end\"");
   }
   all +=
       fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#444444\"/>\n",
                   kLeft, kTop, kRight - kLeft, kBottom - kTop);
   const double middle = (kTop + kBottom) / 2;
-  all += text_at((kLeft + kRight) / 2, kBottom + 42, plot.x_label, "text-anchor=\"middle\"");
-  all += text_at(18, middle, plot.y_label,
-                 fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
-  return all + text_at(kLeft, kTop - 16, plot.title, "font-size=\"15\" font-weight=\"bold\"");
+  all += svg_text((kLeft + kRight) / 2, kBottom + 42, plot.x_label, "text-anchor=\"middle\"");
+  all += svg_text(18, middle, plot.y_label,
+                  fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
+  return all + svg_text(kLeft, kTop - 16, plot.title, "font-size=\"15\" font-weight=\"bold\"");
 }
 
 std::string marker(double x, double y, const PlotSeries& series, const std::string& kind) {
@@ -95,9 +78,9 @@ std::string legend(const std::vector<PlotSeries>& series) {
   std::string all;
   double y = kTop + 8;
   for (const PlotSeries& one : series) {
-    all += line(kRight + 16, y, kRight + 46, y, stroke(one));
+    all += svg_line(kRight + 16, y, kRight + 46, y, stroke(one));
     all += marker(kRight + 31, y, one, "key");
-    all += text_at(kRight + 54, y + 4, one.name, "");
+    all += svg_text(kRight + 54, y + 4, one.name, "");
     y += kLegendRow;
   }
   return all;

@@ -20,11 +20,18 @@ int channel_index(const Scene& scene, const std::string& name) {
   throw Error(ErrorCode::internal, "case", "no channel " + name);
 }
 
-// The film's values from 0 to twice what is expected in the mean.
-Image deviation_map(const Film& film, int channel, double expected) {
+// The film's values from 0 to twice what is expected in the mean; nothing for a film that is the same all
+// over.
+std::optional<Image> film_map(const Film& film, int channel, double expected) {
+  constexpr double kFlat = 0.1;  // relative root mean square
   std::vector<double> values(static_cast<std::size_t>(film.width()) *
                              static_cast<std::size_t>(film.height()));
-  for (std::size_t pixel = 0; pixel < values.size(); ++pixel) values[pixel] = film.mean(pixel, channel);
+  double squares = 0;
+  for (std::size_t pixel = 0; pixel < values.size(); ++pixel) {
+    values[pixel] = film.mean(pixel, channel);
+    squares += std::pow(values[pixel] / expected - 1, 2);
+  }
+  if (squares < kFlat * kFlat * static_cast<double>(values.size())) return std::nullopt;
   return false_color(values, film.width(), film.height(), 0, 2 * expected);
 }
 
@@ -48,7 +55,7 @@ CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings&
     result.figures = {{"", method.expected, {measured.mean, measured.standard_error}}};
     result.samples = scene.render.samples;
     result.cpu_s += rendered.stats.cpu_s;
-    result.picture = deviation_map(rendered.film, channel, method.expected);
+    result.picture = film_map(rendered.film, channel, method.expected);
     if (equivalence(result.figures[0].measured, method.expected, result.margin.value) !=
         Verdict::inconclusive)
       break;

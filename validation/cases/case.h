@@ -92,7 +92,7 @@ struct CaseResult {
   int samples;        ///< Per pixel; 0 where nothing was rendered.
   double cpu_s;
   std::vector<Remark> remarks = {};
-  std::optional<Image> picture = {};  ///< Of what was rendered, for display.
+  std::optional<Image> picture = {};  ///< Of what was rendered, for display, where it shows something.
 
   /// The largest deviation that passes one of the figures.
   [[nodiscard]] double allowed(const Figure& figure) const {

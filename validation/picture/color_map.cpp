@@ -51,10 +51,10 @@ double code_value(double linear) {
 DisplayColor computed_color(double share) {
   constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kFirstHue = -75 * kDegree;  // blue; the turn passes red at 30 degrees
-  constexpr double kLastHue = 100 * kDegree;
+  constexpr double kLastHue = 95 * kDegree;
   constexpr double kShareOfGamut = 0.9;
-  constexpr double kMostChroma = 75;
-  const double lightness = 12 + 82 * share;
+  constexpr double kMostChroma = 70;
+  const double lightness = 12 + 80 * share;
   const double hue = kFirstHue + (kLastHue - kFirstHue) * share;
   const double chroma = std::min(kMostChroma, kShareOfGamut * gamut_chroma(lightness, hue));
   DisplayColor color = linear_rgb_of(lightness, chroma, hue);

@@ -5,11 +5,10 @@
 namespace abbe {
 
 Verdict equivalence(const Estimate& measured, double reference, double margin) {
-  constexpr double kDeviations = 4.89;
   constexpr double kRounding = 1e-5;  // single precision, over a path of many events
   const double scale = std::abs(reference);
   const double difference = std::abs(measured.mean - reference);
-  const double spread = kDeviations * measured.standard_error;
+  const double spread = kInterval * measured.standard_error;
   if (difference + spread < margin * scale) return Verdict::pass;
   if (difference - spread > kRounding * scale || !std::isfinite(difference + spread)) return Verdict::fail;
   return Verdict::inconclusive;

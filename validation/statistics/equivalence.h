@@ -8,6 +8,9 @@ struct Estimate {
   double standard_error;
 };
 
+/// Standard errors in half of an interval: significance 1e-6.
+inline constexpr double kInterval = 4.89;
+
 enum class Verdict { pass, fail, inconclusive };
 
 /// Whether a measurement equals its reference within `margin` (relative to the reference), decided by

@@ -1,0 +1,81 @@
+#include "validation/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace abbe {
+namespace {
+
+// One case that passes, with a picture, and one that fails.
+struct Planted {
+  Case good{Suite::optics, "good", "a < b", "[Born1999]", "mm", {0.5}, Computed{}};
+  Case bad{Suite::colour, "bad", "off", "[CIE15]", "", {0.01, Margin::Kind::relative}, Computed{}};
+  ValidationReport report{
+      {"cpu", 2, "compiler", "-O3", "2026-01-01T00:00:00Z"}, "9.9", "abc", true, {}, {}, 3};
+
+  Planted() {
+    CaseResult right{{{"x", 1, {1.25, 0}}}, good.margin, Verdict::pass, 0, 0, 2};
+    right.picture = Image{1, 1, {{"R", {1}}, {"G", {0}}, {"B", {0}}}, {}};
+    CaseResult wrong{{{"first", 2, {2, 0}}, {"second", 2, {3, 0}}}, bad.margin, Verdict::fail, 1, 16, 5};
+    wrong.remarks.push_back({"beside", 0.125});
+    report.outcomes = {{&good, right}, {&bad, wrong}};
+  }
+};
+
+TEST(Report, JsonHoldsEveryFigureAndWhatIsNotCovered) {
+  const Planted planted;
+  const nlohmann::json json = nlohmann::json::parse(json_text(planted.report));
+  EXPECT_EQ(json["cases"], 2);
+  EXPECT_EQ(json["failures"], 1);
+  EXPECT_EQ(json["cpu_s"], 7);
+  EXPECT_EQ(json["version"], "9.9");
+  EXPECT_EQ(json["data_sha256"], "abc");
+  const auto& bad = json["outcomes"].at(1);
+  EXPECT_EQ(bad["suite"], "colour");
+  EXPECT_FALSE(bad["passed"]);
+  EXPECT_DOUBLE_EQ(bad["worst_share_of_margin"], 50);
+  EXPECT_EQ(bad["figures"].at(1)["measured"], 3);
+  EXPECT_EQ(bad["figures"].at(1)["deviation"], 1);
+  EXPECT_DOUBLE_EQ(bad["figures"].at(1)["allowed"], 0.02);
+  EXPECT_EQ(bad["remarks"].at(0)["value"], 0.125);
+  EXPECT_EQ(json["not_covered"].size(), uncovered().size());
+}
+
+TEST(Report, TextNamesTheFailure) {
+  const std::string text = readable_text(Planted().report);
+  EXPECT_NE(text.find("FAIL"), std::string::npos);
+  EXPECT_NE(text.find("1 of 2 cases pass"), std::string::npos);
+  EXPECT_NE(text.find("not covered"), std::string::npos);
+}
+
+TEST(Report, HtmlIsSelfContainedAndEscaped) {
+  const Planted planted;
+  const std::string html = html_text(planted.report);
+  EXPECT_NE(html.find("a &lt; b"), std::string::npos);
+  EXPECT_NE(html.find("1 of 2 cases fail"), std::string::npos);
+  EXPECT_NE(html.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos)
+      << "the picture is within";
+  EXPECT_EQ(html.find("http"), std::string::npos) << "nothing is fetched";
+  EXPECT_NE(html.find(">FAIL<"), std::string::npos);
+  EXPECT_NE(html.find("second"), std::string::npos) << "the worst figure is named";
+  EXPECT_NE(html.find("Not covered"), std::string::npos);
+}
+
+TEST(Report, OnlyTheSuitesAskedForRun) {
+  std::vector<std::string> told;
+  const ValidationReport report =
+      validate({.suites = {Suite::camera}, .quick = true, .version = "1", .say = [&](const std::string& s) {
+                  told.push_back(s);
+                }});
+  ASSERT_FALSE(report.outcomes.empty());
+  EXPECT_EQ(told.size(), report.outcomes.size());
+  for (const Outcome& outcome : report.outcomes) EXPECT_EQ(outcome.item->suite, Suite::camera);
+  EXPECT_EQ(report.failures(), 0U);
+  EXPECT_EQ(report.data_sha256.size(), 64U);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "io/data_directory.h"
+#include "tests/cli/program.h"
+
+namespace abbe::test {
+namespace {
+
+TEST(ValidateProgram, WritesTableJsonAndReport) {
+  const std::filesystem::path folder = scratch() / "made" / "out";
+  const Outcome run = abbe("validate --quick --suite camera -o " + folder.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("least-squares"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("radiometry  "), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("camera raw"), std::string::npos) << run.err;
+  const nlohmann::json json = nlohmann::json::parse(read_file(folder / "report.json"));
+  EXPECT_EQ(json["version"], ABBE_VERSION);
+  EXPECT_TRUE(json["quick"]);
+  EXPECT_TRUE(read_file(folder / "report.html").ends_with("</html>\n"));
+  EXPECT_EQ(abbe("validate --quick --suite camera --json").json()["outcomes"].size(),
+            json["outcomes"].size());
+}
+
+// The data folder by links, but for one known answer that is off by a thousandth.
+std::filesystem::path spoilt_data() {
+  namespace fs = std::filesystem;
+  const fs::path folder = scratch() / "data";
+  fs::create_directories(folder / "reference");
+  for (const auto& entry : fs::directory_iterator(data_directory()))
+    if (entry.path().filename() != "reference")
+      fs::create_symlink(entry.path(), folder / entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(data_directory() / "reference"))
+    fs::copy(entry.path(), folder / "reference");
+  const fs::path table = folder / "reference" / "camera_raw_colorchecker.csv";
+  std::string text = read_file(table);
+  const std::size_t at = text.find("0.1558763");
+  EXPECT_NE(at, std::string::npos);
+  std::ofstream(table, std::ios::binary) << text.replace(at, 9, "0.1560322");
+  return folder;
+}
+
+TEST(ValidateProgram, AFailingCaseIsToldAndIsTheExitCode) {
+  const Outcome run =
+      shell("ABBE_DATA=" + spoilt_data().string() + " " ABBE_BINARY " validate --quick --suite camera");
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.out.find("FAIL"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("2 of 3 cases pass"), std::string::npos) << run.out;
+}
+
+TEST(ValidateProgram, RefusesOtherSuitesAndPlacesItCannotWrite) {
+  const Outcome run = abbe("validate --suite optics,color");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("colour"), std::string::npos) << run.err;
+  EXPECT_EQ(abbe("validate --quick --suite camera -o /proc/nowhere").code, 5);
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "validation/bench/machine.h"
+#include "validation/cases/case.h"
+
+namespace abbe {
+
+/// A case with what it measured.
+struct Outcome {
+  const Case* item;
+  CaseResult result;
+};
+
+/// A picture that shows something and judges nothing.
+struct Specimen {
+  std::string caption;
+  Image picture;  ///< For display.
+};
+
+/// Everything a validation found.
+struct ValidationReport {
+  Machine machine;
+  std::string version;
+  std::string data_sha256;
+  bool quick;
+  std::vector<Outcome> outcomes;
+  std::vector<Specimen> specimens;
+  double wall_s;
+
+  [[nodiscard]] std::size_t failures() const;
+  [[nodiscard]] double cpu_s() const;  ///< Of the cases.
+};
+
+/// What to validate.
+struct ValidationSettings {
+  std::vector<Suite> suites;  ///< Empty: all.
+  bool quick = false;         ///< Films at the margins of the tests instead of the fine ones.
+  bool specimens = false;     ///< Also render some scenes for the report.
+  int threads = 0;            ///< 0: one per processor.
+  std::string version;
+  std::function<void(const std::string&)> say;  ///< Told each case before it runs, if set.
+};
+
+/// Runs the cases of the suites, in their order. Throws as `run_case`.
+[[nodiscard]] ValidationReport validate(const ValidationSettings& settings);
+
+/// For reading: a line per case, its figure furthest from the reference, then what is not covered.
+[[nodiscard]] std::string readable_text(const ValidationReport& report);
+
+/// One JSON object with every figure, every digit kept.
+[[nodiscard]] std::string json_text(const ValidationReport& report);
+
+/// One HTML document that needs nothing else.
+[[nodiscard]] std::string html_text(const ValidationReport& report);
+
+/// "optics" and so on.
+[[nodiscard]] std::string suite_name(Suite suite);
+/// "pass", "FAIL" or "UNDECIDED".
+[[nodiscard]] std::string verdict_name(Verdict verdict);
+/// How far the worst figure is from its reference, as a share of what is allowed; infinite without figures.
+[[nodiscard]] double worst_share(const CaseResult& result);
+
+}  // namespace abbe
