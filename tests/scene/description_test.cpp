@@ -183,6 +183,9 @@ TEST_F(DescriptionTest, LampsLightASurfaceAtADistance) {
   EXPECT_NEAR(emission(R"("point": {"at": [0, 0, 0]})", R"({"spectrum": 1, "irradiance": 3, "distance": 2})")
                   .integral(),
               12, 1e-9);
+  const Loaded millimetres = load(R"({"units": "mm", "lights": [{"point": {"at": [0, 0, 0]},
+      "emission": {"spectrum": 1, "irradiance": 3, "distance": 2000}}]})");
+  EXPECT_NEAR(millimetres->lights.at(0).emission.integral(), 12, 1e-9);
 }
 
 TEST_F(DescriptionTest, LampsSendOutTheirSpectralFlux) {

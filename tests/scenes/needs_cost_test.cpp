@@ -28,6 +28,7 @@ struct Room {
   std::string camera = R"({"pinhole": {"focal_length": 0.02}})";
   std::string sphere = "";
   std::string matter = "";
+  std::string filters = "";
 };
 std::string text_of(const Room& room) {
   Room r = room;
@@ -35,7 +36,7 @@ std::string text_of(const Room& room) {
   return fmt::format(R"({{
   "abbe": 1,
   "camera": {}, "from": [0, -1.5, 1], "to": [0, 1, 1], "up": [0, 0, 1]}},
-  "sensor": {{"resolution": [{}, {}], "pixel_pitch_um": 500, "observer": "1931"}},
+  "sensor": {{"resolution": [{}, {}], "pixel_pitch_um": 500, "observer": "1931"{}}},
   "materials": {{"grey": {{"diffuse": {{"reflectance": "cornell_box_walls:white"}}}}{}}},
   "lights": [{{"quad": {{"corner": [-0.4, 0, 1.9], "edge_u": [0, 0.8, 0], "edge_v": [0.8, 0, 0]}},
     "emission": {{"illuminant": "D65", "luminance": 100}}}}],
@@ -49,7 +50,7 @@ std::string text_of(const Room& room) {
   ],
   "render": {{"integrator": "path", "samples": {}, "max_depth": 6}}
 }})",
-                     r.camera, kSide, kSide, r.matter, r.sphere, kSamples);
+                     r.camera, kSide, kSide, r.filters, r.matter, r.sphere, kSamples);
 }
 
 struct Profile {
@@ -122,6 +123,13 @@ TEST(NeedsCost, OnlyWhatIsNeededRuns) {
     EXPECT_FALSE(plain().ran(name)) << name;
     EXPECT_TRUE(glass.ran(name)) << name;
   }
+}
+
+TEST(NeedsCost, OnlyFiltersThatShiftAreWeighedByTheAngle) {
+  const Profile tilting =
+      profile({.filters = R"(, "filters": [{"transmittance": {"band": [400, 700]}, "effective_index": 2}])"});
+  EXPECT_FALSE(plain().ran("PathExposure::weigh_by_angle"));
+  EXPECT_TRUE(tilting.ran("PathExposure::weigh_by_angle"));
 }
 
 TEST(NeedsCost, APinholeDrawsNoLensPoint) {
