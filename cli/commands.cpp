@@ -287,7 +287,14 @@ void add_characterisation(CLI::App& options, CharacterisationOptions& how) {
 void add_compare_and_calibrate(CLI::App& app, Command& command) {
   const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
   sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
-  sub.app->add_option("reference", sub->reference, "Reference")->required()->type_name("FILE.exr");
+  sub.app->add_option("reference", sub->reference, "Reference; with --chart, the chart's own spectra without")
+      ->type_name("FILE.exr");
+  sub.app->add_option("--chart", sub->chart, "Also compare patch by patch: the scene with the chart")
+      ->type_name("SCENE");
+  add_parsed(*sub.app, "--delta-e", sub->formula, one_of<DeltaE>({"2000", "94", "76"}),
+             "Formula of colour difference (default 2000)", "2000|94|76");
+  sub.app->add_option("--maps", sub->maps, "Folder for maps and histograms of the differences")
+      ->type_name("FOLDER");
   add_json(*sub.app, sub->json);
 
   const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,

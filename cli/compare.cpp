@@ -1,21 +1,123 @@
 #include "cli/compare.h"
 
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
 #include "cli/answer.h"
+#include "io/atomic_file.h"
 #include "io/exr.h"
-#include "validation/statistics/image_difference.h"
+#include "io/picture.h"
+#include "scene/description/load.h"
+#include "validation/picture/difference_maps.h"
+#include "validation/statistics/chart_difference.h"
 
 namespace abbe::cli {
+namespace {
 
-int compare(const CompareOptions& options) {
-  const Image image = read_exr(options.image);
-  const Comparison c = compare_images(image, read_exr(options.reference));
-  Json answer;
+const char* key_of(DeltaE formula) {
+  return formula == DeltaE::cie94 ? "dE94" : formula == DeltaE::cie76 ? "dE76" : "dE00";
+}
+
+void add_color(Json& answer, const std::string& key, const std::optional<ColorDifference>& color) {
+  answer[key + "_mean"] = color ? Json(color->mean) : Json();
+  answer[key + "_p95"] = color ? Json(color->p95) : Json();
+  answer[key + "_max"] = color ? Json(color->max) : Json();
+}
+
+Json patch_answer(const std::vector<PatchDifference>& patches, const std::string& key) {
+  Json list = Json::array();
+  for (const PatchDifference& patch : patches)
+    list.push_back({{"patch", patch.name},
+                    {"pixels", patch.pixels},
+                    {"Lab", patch.image},
+                    {"reference_Lab", patch.reference},
+                    {key, patch.delta_e}});
+  return list;
+}
+
+void print_patches(const std::vector<PatchDifference>& patches, const std::string& key) {
+  fmt::print("{:<24} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "patch", "pixels", "L*", "a*", "b*",
+             "ref L*", "ref a*", "ref b*", key);
+  for (const PatchDifference& p : patches)
+    fmt::print("{:<24} {:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f}\n", p.name,
+               p.pixels, p.image[0], p.image[1], p.image[2], p.reference[0], p.reference[1], p.reference[2],
+               p.delta_e);
+}
+
+void add_patch_summary(Json& answer, const std::vector<PatchDifference>& patches, const std::string& key) {
+  double sum = 0;
+  double largest = 0;
+  for (const PatchDifference& patch : patches) {
+    sum += patch.delta_e;
+    largest = std::max(largest, patch.delta_e);
+  }
+  answer["patches_" + key + "_mean"] = sum / static_cast<double>(patches.size());
+  answer["patches_" + key + "_max"] = largest;
+}
+
+Json write_maps(const std::filesystem::path& folder, const std::vector<DifferenceMap>& maps) {
+  Json written = Json::array();
+  for (const DifferenceMap& map : maps) {
+    write_picture(folder / (map.name + ".png"), map.map);
+    write_picture(folder / (map.name + "_histogram.png"), map.histogram);
+    written.push_back(
+        {{"map", map.name + ".png"}, {"histogram", map.name + "_histogram.png"}, {"to", map.high}});
+  }
+  return written;
+}
+
+Scene load_chart_scene(const std::filesystem::path& path) {
+  Diagnostics diagnostics;
+  return accepted(load_scene(path, {}, diagnostics), diagnostics);
+}
+
+// The figures of two images, and their maps if wanted.
+void compare_films(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
+  const Comparison c = compare_images(image, reference);
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;
-  answer["dE00_mean"] = c.color ? Json(c.color->mean) : Json();
-  answer["dE00_p95"] = c.color ? Json(c.color->p95) : Json();
-  answer["dE00_max"] = c.color ? Json(c.color->max) : Json();
+  add_color(answer, "dE00", c.color);
+  const std::optional<ColorDifference> color =
+      options.formula == DeltaE::cie2000 ? c.color : color_difference(image, reference, options.formula);
+  if (options.formula != DeltaE::cie2000) add_color(answer, key_of(options.formula), color);
+  if (options.maps.empty()) return;
+  answer["maps"] = write_maps(
+      options.maps, difference_maps(relative_errors(image, reference), color, image.width, image.height));
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  if (options.reference.empty() && options.chart.empty())
+    throw Error(ErrorCode::usage, options.image.string(),
+                "is compared with nothing: a reference or --chart is needed");
+  if (options.reference.empty() && !options.maps.empty())
+    throw Error(ErrorCode::usage, "--maps", "needs a reference");
+  if (!options.maps.empty()) {
+    std::error_code ignored;
+    std::filesystem::create_directories(options.maps, ignored);
+    require_writable(options.maps / "relative_error.png");
+  }
+  const Image image = read_exr(options.image);
+  std::optional<Image> reference;
+  if (!options.reference.empty()) reference = read_exr(options.reference);
+  Json answer;
+  if (reference) compare_films(options, image, *reference, answer);
+  if (!options.chart.empty()) {
+    const Scene scene = load_chart_scene(options.chart);
+    const std::string key = key_of(options.formula);
+    const std::vector<PatchDifference> patches =
+        compare_chart(scene, image, reference ? &*reference : nullptr, options.formula);
+    add_patch_summary(answer, patches, key);
+    if (options.json)
+      answer["patches"] = patch_answer(patches, key);
+    else
+      print_patches(patches, key);
+  }
   print(answer, options.json);
   return 0;
 }

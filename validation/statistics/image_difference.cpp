@@ -54,32 +54,6 @@ Means means(const std::vector<Pair>& pairs) {
   return {sum.image / count, sum.reference / count};
 }
 
-// The smallest value that at least a share `quantile` of `values` does not exceed.
-double percentile(std::vector<double> values, double quantile) {
-  const double rank = std::ceil(quantile * static_cast<double>(values.size()));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-// XYZ of every pixel, from X, Y, Z or linear sRGB; nothing for other images.
-std::vector<XYZ> tristimuli(const Image& image) {
-  const Matrix3 from_rgb = rgb_to_xyz(kRec709);
-  for (const auto& names : {std::array{"X", "Y", "Z"}, std::array{"R", "G", "B"}}) {
-    const ImageChannel* a = image.find(names[0]);
-    const ImageChannel* b = image.find(names[1]);
-    const ImageChannel* c = image.find(names[2]);
-    if (a == nullptr || b == nullptr || c == nullptr) continue;
-    std::vector<XYZ> pixels(image.pixels());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const XYZ value{a->values[i], b->values[i], c->values[i]};
-      pixels[i] = *names[0] == 'X' ? value : multiply(from_rgb, value);
-    }
-    return pixels;
-  }
-  return {};
-}
-
 // One value's share of an error: what it is trimmed by, and what it adds.
 struct Term {
   double quotient;
@@ -104,6 +78,52 @@ std::vector<Term> terms(const std::vector<Pair>& pairs, double mean, const Error
 
 }  // namespace
 
+double percentile(std::vector<double> values, double quantile) {
+  const double rank = std::ceil(quantile * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::vector<XYZ> tristimuli(const Image& image) {
+  const Matrix3 from_rgb = rgb_to_xyz(kRec709);
+  for (const auto& names : {std::array{"X", "Y", "Z"}, std::array{"R", "G", "B"}}) {
+    const ImageChannel* a = image.find(names[0]);
+    const ImageChannel* b = image.find(names[1]);
+    const ImageChannel* c = image.find(names[2]);
+    if (a == nullptr || b == nullptr || c == nullptr) continue;
+    std::vector<XYZ> pixels(image.pixels());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const XYZ value{a->values[i], b->values[i], c->values[i]};
+      pixels[i] = *names[0] == 'X' ? value : multiply(from_rgb, value);
+    }
+    return pixels;
+  }
+  return {};
+}
+
+double delta_e(DeltaE formula, const Lab& standard, const Lab& sample) {
+  switch (formula) {
+    case DeltaE::cie94:
+      return delta_e_94(standard, sample);
+    case DeltaE::cie76:
+      return delta_e_76(standard, sample);
+    case DeltaE::cie2000:
+      break;
+  }
+  return delta_e_2000(standard, sample);
+}
+
+std::vector<double> relative_errors(const Image& image, const Image& reference) {
+  const std::vector<Pair> pairs = common_channels(image, reference);
+  const std::vector<Term> all = terms(pairs, means(pairs).reference, {});
+  std::vector<double> errors(reference.pixels(), 0);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    errors[i % errors.size()] += all[i].added / static_cast<double>(pairs.size());
+  for (double& error : errors) error = std::sqrt(error);
+  return errors;
+}
+
 double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& measure) {
   const std::vector<Pair> pairs = common_channels(image, reference);
   std::vector<Term> all = terms(pairs, means(pairs).reference, measure);
@@ -116,7 +136,7 @@ double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& m
   return sum / static_cast<double>(kept - all.begin());
 }
 
-std::optional<ColorDifference> color_difference(const Image& image, const Image& reference) {
+std::optional<ColorDifference> color_difference(const Image& image, const Image& reference, DeltaE formula) {
   const std::vector<XYZ> x = tristimuli(image);
   const std::vector<XYZ> r = tristimuli(reference);
   if (x.empty() || r.empty() || (image.find("X") == nullptr) != (reference.find("X") == nullptr))
@@ -131,11 +151,12 @@ std::optional<ColorDifference> color_difference(const Image& image, const Image&
     return xyz_to_lab(xyz, white);
   };
   std::vector<double> differences;
-  for (std::size_t i = 0; i < x.size(); ++i) differences.push_back(delta_e_2000(lab(r[i]), lab(x[i])));
+  for (std::size_t i = 0; i < x.size(); ++i) differences.push_back(delta_e(formula, lab(r[i]), lab(x[i])));
   const double total = std::accumulate(differences.begin(), differences.end(), 0.0);
   const double largest = *std::max_element(differences.begin(), differences.end());
   const auto count = static_cast<double>(differences.size());
-  return ColorDifference{total / count, percentile(std::move(differences), 0.95), largest};
+  const double p95 = percentile(differences, 0.95);
+  return ColorDifference{total / count, p95, largest, std::move(differences)};
 }
 
 Comparison compare_images(const Image& image, const Image& reference) {

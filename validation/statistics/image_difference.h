@@ -1,22 +1,30 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "io/image.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe {
 
-/// CIEDE2000 over the pixels of two images.
+/// Formulas of colour difference, as `calibration/chart/delta_e.h` has them.
+enum class DeltaE { cie2000, cie94, cie76 };
+/// By one of them; `standard` is the reference of the one that is not symmetric.
+[[nodiscard]] double delta_e(DeltaE formula, const Lab& standard, const Lab& sample);
+
+/// Colour differences over the pixels of two images.
 struct ColorDifference {
   double mean, p95, max;
+  std::vector<double> pixels;
 };
 
 /// How far an image is from a reference, over their common channels except `Variance.*`.
 struct Comparison {
-  double rel_mse;     ///< As `rel_mse` with its defaults.
-  double rmse;        ///< Root mean square of x - r.
-  double mean_ratio;  ///< Mean of x over mean of r.
-  std::optional<ColorDifference> color;
+  double rel_mse;                        ///< As `rel_mse` with its defaults.
+  double rmse;                           ///< Root mean square of x - r.
+  double mean_ratio;                     ///< Mean of x over mean of r.
+  std::optional<ColorDifference> color;  ///< CIEDE2000.
 };
 
 /// Throws Error{input} for images of different size, without a common channel, or with a value that is not
@@ -26,7 +34,19 @@ struct Comparison {
 /// For images with X, Y, Z (the observer), or R, G, B taken as linear sRGB: both scaled so that the 99th
 /// percentile of the reference's Y is 100, and seen against a D65 white of Y = 100. Nothing for other images,
 /// and for a black reference.
-[[nodiscard]] std::optional<ColorDifference> color_difference(const Image& image, const Image& reference);
+[[nodiscard]] std::optional<ColorDifference> color_difference(const Image& image, const Image& reference,
+                                                              DeltaE formula = DeltaE::cie2000);
+
+/// XYZ of every pixel of such an image, in its own scale; nothing for other images.
+[[nodiscard]] std::vector<XYZ> tristimuli(const Image& image);
+
+/// The smallest value that at least a share `quantile` in (0, 1] of `values`, of which there is one or more,
+/// does not exceed.
+[[nodiscard]] double percentile(std::vector<double> values, double quantile);
+
+/// The root, pixel by pixel, of what `rel_mse` with its defaults takes the mean of, over the channels. Throws
+/// as `compare_images`.
+[[nodiscard]] std::vector<double> relative_errors(const Image& image, const Image& reference);
 
 /// What `rel_mse` takes the mean of.
 struct ErrorMeasure {

@@ -1,0 +1,164 @@
+// `abbe compare`: maps, patches, formulas.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cli/compare.h"
+#include "io/data_directory.h"
+#include "io/exr.h"
+#include "io/picture.h"
+#include "scene/description/load.h"
+#include "tests/cli/ask.h"
+#include "tests/cli/program.h"
+#include "validation/picture/color_map.h"
+#include "validation/picture/difference_maps.h"
+#include "validation/statistics/chart_difference.h"
+
+namespace abbe::test {
+namespace {
+
+Image grey(const std::vector<float>& values) {
+  return {static_cast<int>(values.size()), 1, {{"R", values}, {"G", values}, {"B", values}}, {}};
+}
+
+std::filesystem::path saved(const std::string& name, const Image& image) {
+  write_exr(scratch() / name, image);
+  return scratch() / name;
+}
+
+TEST(DeltaEChoice, EachFormulaIsItsOwn) {
+  const Lab a{50, 50, 0};
+  const Lab b{50, 60, 0};
+  EXPECT_DOUBLE_EQ(delta_e(DeltaE::cie76, a, b), 10);
+  EXPECT_NEAR(delta_e(DeltaE::cie94, a, b), 10 / 3.25, 1e-12);
+  EXPECT_NEAR(delta_e(DeltaE::cie2000, {50, 2.6772, -79.7751}, {50, 0, -82.7485}), 2.0425, 5e-5);
+}
+
+TEST(RelativeErrors, TheirMeanSquareIsTheRelMse) {
+  const Image a = grey({1, 2, 4, 0});
+  const Image b = grey({1, 3, 3, 1});
+  double squares = 0;
+  for (const double error : relative_errors(a, b)) squares += error * error / 4;
+  EXPECT_NEAR(squares, rel_mse(a, b), 1e-12);
+  EXPECT_EQ(relative_errors(a, b)[0], 0);
+}
+
+TEST(DifferenceMaps, ColoursAndScaleFollowTheValues) {
+  const Image a = grey({1, 1.1F, 1});
+  const Image b = grey({1, 1, 1});
+  const auto maps = difference_maps(relative_errors(a, b), color_difference(a, b), 3, 1);
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_EQ(maps[0].name, "relative_error");
+  EXPECT_EQ(maps[0].high, 0.1) << "0.0995 of relative error";
+  EXPECT_EQ(maps[1].name, "delta_e");
+  EXPECT_NEAR(maps[0].map.channels[0].values[0], map_color(0)[0], 1e-6);
+  EXPECT_NEAR(maps[0].map.channels[0].values[1], map_color(0.995)[0], 0.02);
+  EXPECT_EQ(maps[0].map.channels[2].values[2], maps[0].map.channels[2].values[0]);
+}
+
+TEST(DifferenceMaps, HistogramBarsAreAsHighAsTheirShares) {
+  const Image picture = histogram_picture({0, 0, 0, 0, 9.9, 9.9, 12}, 10);
+  const auto drawn = [&](double share) {  // pixels of the bar's column that are not white
+    const int x = 36 + static_cast<int>(share * 64) * 8 + 3;
+    int count = 0;
+    for (int y = 0; y < 200 + 12; ++y)
+      count += picture.channels[0].values[static_cast<std::size_t>(y * picture.width + x)] < 0.999F ||
+               picture.channels[2].values[static_cast<std::size_t>(y * picture.width + x)] < 0.999F;
+    return count;
+  };
+  EXPECT_EQ(drawn(0), 200);
+  EXPECT_EQ(drawn(0.5), 0);
+  EXPECT_EQ(drawn(0.99), 150) << "what is beyond counts at the end";
+}
+
+TEST(CompareCommand, KeysOfTheContractAndOfTheChoice) {
+  const auto a = saved("a.exr", grey({1, 0.5F}));
+  const auto b = saved("b.exr", grey({1, 0.25F}));
+  const json plain = ask(cli::compare, {a, b});
+  for (const char* key : {"relMSE", "rmse", "mean_ratio", "dE00_mean", "dE00_p95", "dE00_max"})
+    EXPECT_TRUE(plain.contains(key)) << key;
+  EXPECT_EQ(plain.size(), 6U);
+  const json other = ask(cli::compare, {a, b, DeltaE::cie76});
+  EXPECT_EQ(other["dE00_max"], plain["dE00_max"]);
+  EXPECT_NEAR(other["dE76_max"].get<double>(), 116 * (std::cbrt(0.5) - std::cbrt(0.25)), 1e-5);
+}
+
+TEST(CompareCommand, MapsAreWritten) {
+  const auto a = saved("a.exr", grey({1, 0.5F}));
+  const auto b = saved("b.exr", grey({1, 0.25F}));
+  const std::filesystem::path folder = scratch() / "maps" / "deep";
+  const json answer = ask(cli::compare, {a, b, DeltaE::cie2000, {}, folder});
+  ASSERT_EQ(answer["maps"].size(), 2U);
+  for (const auto& map : answer["maps"]) {
+    EXPECT_EQ(read_picture(folder / map["map"].get<std::string>()).width, 2);
+    EXPECT_GT(read_picture(folder / map["histogram"].get<std::string>()).width, 500);
+  }
+}
+
+// A film that holds exactly what the chart's spectra give, times 3, but for the first patch, which is
+// brighter.
+Image planted_film(const Scene& scene, double brighter) {
+  Image film{scene.camera.width, scene.camera.height, {{"X", {}}, {"Y", {}}, {"Z", {}}}, {}};
+  const Curve& light = scene.lights.front().emission;
+  for (ImageChannel& channel : film.channels) channel.values.assign(film.pixels(), 0);
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x) {
+      // The camera looks squarely at the middle of the chart: 64 pixels are 2 x 1000 tan(0.125 degrees).
+      const double scale = 2000 * std::tan(0.125 * M_PI / 180) / 64;
+      const double column = ((x + 0.5 - 48) * scale + 3);
+      const double row = ((y + 0.5 - 32) * scale + 2);
+      if (column < 0 || column >= 6 || row < 0 || row >= 4) continue;
+      const auto patch = static_cast<std::size_t>(row) * 6 + static_cast<std::size_t>(column);
+      const auto& material = scene.materials[scene.shapes[patch].material];
+      const XYZ xyz =
+          tristimulus(light, std::get<DiffuseMaterial>(material.model).reflectance, Observer::cie1931);
+      for (std::size_t c = 0; c < 3; ++c)
+        film.channels[c].values[static_cast<std::size_t>(y * film.width + x)] =
+            static_cast<float>(3 * xyz[c] * (patch == 0 ? brighter : 1));
+    }
+  return film;
+}
+
+TEST(CompareChart, PatchesAreComparedWithTheirSpectra) {
+  const auto file = data_directory() / "scenes" / "validation" / "colorchecker.json";
+  Diagnostics diagnostics;
+  const Scene scene = load_scene(file, {}, diagnostics).value();
+  for (const PatchDifference& patch : compare_chart(scene, planted_film(scene, 1), nullptr, DeltaE::cie2000))
+    EXPECT_LT(patch.delta_e, 1e-4) << patch.name;
+  const auto off = compare_chart(scene, planted_film(scene, 1.1), nullptr, DeltaE::cie76);
+  EXPECT_GT(off[0].delta_e, 1);
+  EXPECT_GT(off[0].image[0], off[0].reference[0] + 1);
+  EXPECT_LT(off[5].delta_e, 0.2) << "only the common factor moves the others";
+}
+
+TEST(CompareChart, TwoFilmsAreScaledAlike) {
+  const auto file = data_directory() / "scenes" / "validation" / "colorchecker.json";
+  Diagnostics diagnostics;
+  const Scene scene = load_scene(file, {}, diagnostics).value();
+  const Image reference = planted_film(scene, 1);
+  const auto patches = compare_chart(scene, planted_film(scene, 1.1), &reference, DeltaE::cie76);
+  EXPECT_GT(patches[0].delta_e, 1);
+  for (std::size_t i = 1; i < patches.size(); ++i) EXPECT_LT(patches[i].delta_e, 1e-4) << patches[i].name;
+  const json answer = ask(cli::compare, {saved("film.exr", planted_film(scene, 1.1)),
+                                         saved("other.exr", reference), DeltaE::cie2000, file});
+  EXPECT_EQ(answer["patches"].size(), 24U);
+  EXPECT_EQ(answer["patches"][0]["patch"], "dark skin");
+  EXPECT_EQ(answer["patches_dE00_max"], answer["patches"][0]["dE00"]);
+  EXPECT_TRUE(answer.contains("relMSE"));
+}
+
+TEST(CompareFaults, SomethingToCompareWithIsNeeded) {
+  const auto a = saved("a.exr", grey({1, 0.5F}));
+  EXPECT_EQ(fault([&] { cli::compare({a, {}}); }, "compared with nothing"), ErrorCode::usage);
+  const auto furnace = data_directory() / "scenes" / "furnace.json";
+  EXPECT_EQ(fault([&] { cli::compare({a, {}, DeltaE::cie2000, furnace}); }, "no chart"), ErrorCode::input);
+  EXPECT_EQ(fault(
+                [&] {
+                  cli::compare({a, {}, DeltaE::cie2000, furnace, scratch() / "m"});
+                },
+                "needs a reference"),
+            ErrorCode::usage);
+}
+
+}  // namespace
+}  // namespace abbe::test
