@@ -38,16 +38,6 @@ Scene dome(const std::string& camera, const std::string& sensor, const std::stri
                                      camera, sensor, emission));
 }
 
-TEST(FilmUnits, AQuantumChannelCountsTheElectronsOfAPixel) {
-  const Scene scene =
-      dome(R"("thin_lens": {"focal_length": 0.05, "f_number": 4, "focus_distance": "infinity"})",
-           R"("pixel_pitch_um": 4.5, "exposure_s": 0.01, "quantum_efficiency": 0.6, "channels": {"all": 1})",
-           R"({"lines": [{"nm": 555, "width_nm": 0.01, "power": 1}], "radiance": 0.146})");
-  // pi 0.146/(4 4^2) W/m^2 for 10 ms on a square of 4.5 um, 60 % of the photons of 555 nm.
-  const double pixel_m2 = 4.5e-6 * 4.5e-6;
-  EXPECT_NEAR(mean(render(scene, {})) * pixel_m2, 2433, 1);
-}
-
 TEST(FilmUnits, ALensDimsWithTheFourthPowerOfTheCosineAndWithMagnification) {
   const double f = 0.05;
   const double distance = 2;

@@ -44,26 +44,6 @@ PhotonTransfer transfer(const Bench& bench, int bits) {
   return photon_transfer(bench.dark.pairs, bench.lit.pairs, bits);
 }
 
-TEST(PhotonTransfer, RecoversTheSensorWithinHalfAPercent) {
-  Readout readout;
-  readout.gain_e_per_dn = 1.6;
-  readout.bits = 14;
-  readout.offset_dn = 200;
-  readout.full_well_e = 20000;
-  readout.read_noise_e = 9;
-  readout.dark_e_per_s = 60;
-  readout.prnu_percent = 1.5;
-  readout.dsnu_e = 12;
-  const PhotonTransfer found = transfer(measure(readout, readout.full_well_e), readout.bits);
-  EXPECT_NEAR(found.gain_e_per_dn / readout.gain_e_per_dn, 1, 0.005);
-  EXPECT_NEAR(found.read_noise_e / readout.read_noise_e, 1, 0.005);
-  EXPECT_NEAR(found.dark_e_per_s / readout.dark_e_per_s, 1, 0.005);
-  EXPECT_NEAR(found.prnu_percent / readout.prnu_percent, 1, 0.005);
-  EXPECT_NEAR(found.dsnu_e / readout.dsnu_e, 1, 0.005);
-  ASSERT_TRUE(found.full_well_e);
-  EXPECT_NEAR(*found.full_well_e / readout.full_well_e, 1, 0.005);
-}
-
 // With 16 electrons per code the read noise is half a code, so that a quarter of the dark variance is
 // rounding.
 TEST(PhotonTransfer, CoarseCodesNeedTheVarianceOfRounding) {

@@ -53,6 +53,7 @@ TEST(Cases, ExpectedValuesAreTheKnownFigures) {
                                                           {"T15-T", .33911112 * pi / 4},
                                                           {"T15-R", .04499008 * pi / 4}};
   for (const auto& [id, value] : known) EXPECT_NEAR(expected(id), value, 1e-5 * value) << id;
+  EXPECT_NEAR(expected("worked-example") * 4.5e-6 * 4.5e-6, 2433, 0.5);
   EXPECT_NEAR(expected("T17-60") / expected("T17-0"), 0.60899778, 1e-8);
   EXPECT_NEAR(expected("T17-90") / expected("T17-0"), 0.31830989, 1e-8);
 }

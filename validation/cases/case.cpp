@@ -127,7 +127,7 @@ const std::vector<Uncovered>& uncovered() {
       {Suite::radiometry, "Cornell box against its photographs", "no measured pixel values are published"},
       {Suite::radiometry, "tables of CIE 171", "paywalled; its analytic cases are recomputed from formulas"},
       {Suite::camera, "sensitivity metamerism indices of ISO 17321", "no values per camera are at hand"},
-      {Suite::sensor, "photon transfer of EMVA 1288", "there is no noise and no read-out yet"},
+      {Suite::sensor, "blooming, lag and non-linear charge transfer", "the read-out does not model them"},
   };
   return all;
 }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "io/reference_table.h"
+#include "sensor/readout/photon_transfer.h"
+#include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"
 #include "spectral/sources.h"
 #include "validation/cases/figures.h"
@@ -58,13 +60,73 @@ std::vector<Case> flat_fields() {
   return cases;
 }
 
+// A dome of 0.146 W/(m^2 sr) at 555 nm through f/4 for 10 ms, 60 % of the photons counted; `exposure.json`
+// says the same.
+Case worked_example() {
+  constexpr double kPerPhoton = 0.6;
+  const double energy = std::numbers::pi / (4 * 4 * 4) * 0.146 * 0.01;  // per m^2 of the film
+  return {Suite::sensor,
+          "worked-example",
+          "worked example: 2433 electrons in a pixel of 4.5 µm, as electrons per m²",
+          "πLtQλ/(4N²hc), the camera equation [Pharr2023, sec. 5.4]",
+          "electrons/m²",
+          {0.01, Margin::Kind::relative},
+          FilmMean{"../exposure.json", {}, "mono", energy * kPerPhoton / photon_energy(555), 64, 5e-4}};
+}
+
+// A pair of flats of one sensor, simulated.
+struct SimulatedPair {
+  double exposure_s;
+  RawFrame first;
+  RawFrame second;
+};
+SimulatedPair simulate(const Readout& readout, double electrons, double exposure_s, std::uint32_t frame) {
+  constexpr std::size_t kPixels = 1000000;
+  const std::vector<float> expected(kPixels, static_cast<float>(electrons));
+  return {exposure_s, read_out(readout, expected, {exposure_s, 20, frame}),
+          read_out(readout, expected, {exposure_s, 20, frame + 1})};
+}
+
+// What photon transfer says of a sensor that is known: a million pixels, dark and lit.
+std::vector<Figure> transferred() {
+  Readout sensor;
+  sensor.gain_e_per_dn = 1.6;
+  sensor.bits = 14;
+  sensor.offset_dn = 200;
+  sensor.full_well_e = 20000;
+  sensor.read_noise_e = 9;
+  sensor.dark_e_per_s = 60;
+  sensor.prnu_percent = 1.5;
+  sensor.dsnu_e = 12;
+  std::vector<SimulatedPair> frames;
+  for (const double seconds : {0.01, 20.0})
+    frames.push_back(simulate(sensor, 0, seconds, static_cast<std::uint32_t>(2 * frames.size())));
+  for (const double share : {0.35, 0.5, 0.65, 1.6})
+    frames.push_back(simulate(sensor, share * sensor.full_well_e, 0.01,
+                              100 + static_cast<std::uint32_t>(2 * frames.size())));
+  std::vector<FlatPair> pairs;
+  for (const SimulatedPair& pair : frames) pairs.push_back({pair.exposure_s, pair.first.dn, pair.second.dn});
+  const PhotonTransfer found =
+      photon_transfer(std::span(pairs).first(2), std::span(pairs).subspan(2), sensor.bits);
+  return {exact_figure("gain e/DN", sensor.gain_e_per_dn, found.gain_e_per_dn),
+          exact_figure("read noise e", sensor.read_noise_e, found.read_noise_e),
+          exact_figure("dark current e/s", sensor.dark_e_per_s, found.dark_e_per_s),
+          exact_figure("PRNU %", sensor.prnu_percent, found.prnu_percent),
+          exact_figure("DSNU e", sensor.dsnu_e, found.dsnu_e),
+          exact_figure("full well e", sensor.full_well_e, found.full_well_e.value_or(0))};
+}
+
 }  // namespace
 
 std::vector<Case> sensor_cases() {
   std::vector<Case> cases{
       computed_case(Suite::sensor, "ccd-counts", "electrons of a filtered CCD before black bodies",
                     "photon counts of Planck's law [Planck1901] in measured passbands [Bessell1990]",
-                    "1/(s m² sr)", {1e-6, Margin::Kind::relative}, ccd_counts)};
+                    "1/(s m² sr)", {1e-6, Margin::Kind::relative}, ccd_counts),
+      worked_example(),
+      computed_case(Suite::sensor, "photon-transfer", "photon transfer returns what a sensor was given",
+                    "the method of [EMVA1288] on simulated flats", "", {0.005, Margin::Kind::relative},
+                    transferred)};
   for (Case& item : flat_fields()) cases.push_back(std::move(item));
   return cases;
 }
