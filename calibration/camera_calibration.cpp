@@ -71,12 +71,14 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
   result.unseen = cross_validate(colors, options.fit, options.folds > 0 ? options.folds : colors.raw.size());
   result.unseen_mean = bootstrap_mean(result.unseen.delta_e, options.bootstrap);
   result.columns = bootstrap_columns(colors, options.fit, options.bootstrap);
-  result.profile = {camera.light,
-                    fmt::format("{} under {}", camera.name, camera.light),
-                    camera.linearisation,
-                    camera.gains,
-                    result.correction.correction,
-                    *to_d65};
+  result.profile.light = camera.light;
+  result.profile.description = fmt::format("{} under {}", camera.name, camera.light);
+  for (std::size_t k = 0; k < camera.responses.size(); ++k)
+    result.profile.linearisation.at(k) = camera.responses[k].fit.linear;
+  result.profile.gains = camera.gains;
+  result.profile.correction = result.correction.correction;
+  result.profile.adaptation = *to_d65;
+  result.responses = camera.responses;
   return result;
 }
 
@@ -88,21 +90,18 @@ CameraCalibration calibrate_camera(const CalibrationSetup& setup, const Characte
   MeasuredCamera camera{
       setup.camera, setup.illuminant, integrate(setup.chart, setup.channels, setup.light), {}, {}};
   const std::vector<double> times_s = exposure_times();
-  std::vector<ChannelResponse> responses;
   for (std::size_t k = 0; k < 3; ++k) {
-    ResponseFit fit = recover_response(expose(values[k], times_s, planted, setup.bits));
-    const ExposureSeries photograph = expose(values[k], std::array{1.0}, planted, setup.bits);
+    ResponseFit fit = recover_response(expose(values[k], times_s, planted, {setup.bits, 0, 0}));
+    const ExposureSeries photograph = expose(values[k], std::array{1.0}, planted, {setup.bits, 0, 0});
     const double white = linearise(fit.linear, photograph.codes.back()[0]);
     for (std::size_t i = 0; i < camera.colors.raw.size(); ++i)
       camera.colors.raw[i][k] = linearise(fit.linear, photograph.codes[i][0]) / white;
     camera.gains[k] = 1 / white;
-    camera.linearisation[k] = fit.linear;
     const double error = response_error(fit, planted);
-    responses.push_back({setup.channels[k].name, std::move(fit), error});
+    camera.responses.push_back({setup.channels[k].name, std::move(fit), error});
   }
   CameraCalibration result = calibrate_measured(camera, options);
   result.times_s = times_s;
-  result.responses = std::move(responses);
   return result;
 }
 

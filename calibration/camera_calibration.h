@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,12 @@ struct CalibrationSetup {
   Chart chart;
 };
 
-/// One channel's recovered curve, judged by the response that was planted.
+/// One channel's recovered curve, judged by the response that was planted, if one was.
 struct ChannelResponse {
   std::string channel;
   ResponseFit fit;
-  double max_error = 0;  ///< Largest error of linear exposure between 1 % and 99 % of the code range, as a
-                         ///< share of full scale.
+  std::optional<double> max_error;  ///< Largest error of linear exposure between 1 % and 99 % of the code
+                                    ///< range, as a share of full scale.
 };
 
 /// How a camera's colours are fitted and judged.
@@ -68,9 +69,9 @@ struct CameraCalibration {
 struct MeasuredCamera {
   std::string name;
   std::string light;
-  PatchColors colors;                                ///< White balanced, linear.
-  std::array<double, 3> gains{1, 1, 1};              ///< What balanced them.
-  std::array<std::vector<double>, 3> linearisation;  ///< What made them linear, see CameraProfile.
+  PatchColors colors;                      ///< White balanced, linear.
+  std::array<double, 3> gains{1, 1, 1};    ///< What balanced them.
+  std::vector<ChannelResponse> responses;  ///< What made them linear: three, or none.
 };
 
 /// Fits the correction to measured values. Throws as `calibrate_camera`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/measured_patches.h"
+#include "calibration/chart/photographed_series.h"
 #include "calibration/output/ocio.h"
 #include "cli/calibrate_report.h"
 #include "io/atomic_file.h"
@@ -58,20 +59,55 @@ CalibrationCase simulate(const CalibrateOptions& options, const std::string& ill
   return made;
 }
 
+std::vector<ChannelResponse> recover(const std::filesystem::path& file) {
+  Diagnostics diagnostics;
+  const auto photographs = accepted(read_series(file, diagnostics), diagnostics);
+  std::vector<ChannelResponse> responses;
+  for (std::size_t k = 0; k < photographs.channels.size(); ++k)
+    responses.push_back({photographs.channels[k], recover_response(photographs.series[k]), {}});
+  return responses;
+}
+
+// Code values to linear ones.
+void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
+  if (responses.size() != 3)
+    throw Error(ErrorCode::input, "--series",
+                fmt::format("expected three channels (got {})", responses.size()));
+  for (Raw& value : patches.values)
+    for (std::size_t k = 0; k < 3; ++k) value[k] = linearise(responses[k].fit.linear, value[k]);
+}
+
 CalibrationCase measure(const CalibrateOptions& options, const std::string& illuminant) {
   Diagnostics diagnostics;
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   const auto chart = light ? load_chart_targets(options.chart, light->curve, {}, diagnostics) : std::nullopt;
-  const auto patches = load_measured_patches(options.measured, diagnostics);
+  auto patches = load_measured_patches(options.measured, diagnostics);
   check(diagnostics);
+  MeasuredCamera camera{options.measured.stem().string(), illuminant, {}, {}, {}};
+  if (!options.series.empty()) {
+    camera.responses = recover(options.series);
+    linearise_all(*patches, camera.responses);
+  }
   const BalancedPatches balanced = balance(*chart, *patches);
-  const std::string name = options.measured.stem().string();
-  return {name,
-          options.chart,
-          "",
-          0,
-          calibrate_measured({name, illuminant, balanced.colors, balanced.gains, {}}, options.how),
-          {}};
+  camera.colors = balanced.colors;
+  camera.gains = balanced.gains;
+  return {camera.name, options.chart, "", 0, calibrate_measured(camera, options.how), {}};
+}
+
+int calibrate_response(const CalibrateOptions& options) {
+  const std::vector<ChannelResponse> responses = recover(options.series);
+  Json report{{"series", options.series.string()}, {"responses", Json::array()}};
+  for (const ChannelResponse& r : responses) report["responses"].push_back(json_of(r));
+  if (!options.output.empty()) {
+    make_folder(options.output);
+    write_atomically(options.output / "response.csv", csv_of(responses, options.series.string()));
+    write_atomically(options.output / "report.json", text(report, true));
+  }
+  if (options.json)
+    print(report, true);
+  else
+    fmt::print("{}", table_of(responses));
+  return 0;
 }
 
 int calibrate_all(const CalibrateOptions& options) {
@@ -98,9 +134,12 @@ void write_all(const CalibrateOptions& options, const std::vector<CalibrationCas
 }  // namespace
 
 int calibrate(const CalibrateOptions& options) {
+  const bool is_real = !options.measured.empty() || !options.series.empty();
+  if (int{options.all_cameras} + int{!options.camera.empty()} + int{is_real} != 1)
+    throw Error(ErrorCode::usage, "calibrate",
+                "needs one of --camera, --all-cameras, or --measured, --series or both");
   if (options.all_cameras) return calibrate_all(options);
-  if (options.camera.empty() == options.measured.empty())
-    throw Error(ErrorCode::usage, "calibrate", "needs one of --camera, --measured and --all-cameras");
+  if (is_real && options.measured.empty()) return calibrate_response(options);
   std::vector<CalibrationCase> cases;
   for (const std::string& illuminant : split(options.illuminants, ','))
     cases.push_back(options.measured.empty() ? simulate(options, illuminant) : measure(options, illuminant));

@@ -14,6 +14,7 @@ struct CalibrateOptions {
                        ///< "observer:1931" / "observer:1964".
   bool all_cameras = false;
   std::filesystem::path measured;   ///< Values of a real camera's photograph of the chart.
+  std::filesystem::path series;     ///< Photographs of a real camera with their exposure times.
   std::string illuminants = "D65";  ///< One or more names, with commas between them.
   std::string chart = "colorchecker24_babelcolor_average";
   std::string test;                            ///< Another chart that the fitted correction is tried on.
@@ -26,7 +27,8 @@ struct CalibrateOptions {
 };
 
 /// Calibrates a camera on a colour chart, prints CIEDE2000 per patch, and writes the configuration; or prints
-/// how well every shipped camera can be calibrated. Returns the exit code.
+/// how well every shipped camera can be calibrated; or recovers the response of a real one. Returns the exit
+/// code.
 int calibrate(const CalibrateOptions& options);
 
 }  // namespace abbe::cli

@@ -1,7 +1,7 @@
 #include "cli/calibrate_report.h"
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -16,13 +16,6 @@ Json json_of(const Matrix3& m) {
   Json rows = Json::array();
   for (int i = 0; i < 3; ++i) rows.push_back({m[i][0], m[i][1], m[i][2]});
   return rows;
-}
-
-Json json_of(const ChannelResponse& r) {
-  return {
-      {"channel", r.channel},          {"max_error", r.max_error},       {"median_code", r.fit.median_code},
-      {"samples", r.fit.samples},      {"iterations", r.fit.iterations}, {"initial_cost", r.fit.initial_cost},
-      {"final_cost", r.fit.final_cost}};
 }
 
 Json correction_json(const CameraCalibration& c) {
@@ -76,6 +69,49 @@ Json summary(const PatchErrors& errors) {
 
 }  // namespace
 
+Json json_of(const ChannelResponse& r) {
+  Json answer{{"channel", r.channel}};
+  if (r.max_error) answer["max_error"] = *r.max_error;
+  answer["uncertainty_95"] = largest_uncertainty(r.fit);
+  answer["median_code"] = r.fit.median_code;
+  answer["noise_scale"] = r.fit.noise_scale;
+  answer["roughness"] = r.fit.roughness;
+  answer["samples"] = r.fit.samples;
+  answer["iterations"] = r.fit.iterations;
+  answer["initial_cost"] = r.fit.initial_cost;
+  answer["final_cost"] = r.fit.final_cost;
+  return answer;
+}
+
+std::string table_of(const std::vector<ChannelResponse>& responses) {
+  const auto percent = [](double share) { return fmt::format("{:.4f}", 100 * share); };
+  std::string text = fmt::format("{:<10}{:>22}{:>18}{:>14}{:>9}\n", "channel", "response error [%]",
+                                 "uncertainty [%]", "residual [%]", "samples");
+  for (const ChannelResponse& r : responses)
+    text +=
+        fmt::format("{:<10}{:>22}{:>18}{:>14}{:>9}\n", r.channel, r.max_error ? percent(*r.max_error) : "-",
+                    percent(largest_uncertainty(r.fit)), percent(r.fit.median_code), r.fit.samples);
+  return text;
+}
+
+std::string csv_of(const std::vector<ChannelResponse>& responses, const std::string& source) {
+  std::string text = fmt::format(
+      "# title: response of a camera\n# unit: linear exposure, 1 at full scale, with its 95 % interval\n"
+      "# source: {}\ncode",
+      source);
+  for (const ChannelResponse& r : responses) text += fmt::format(",{0},{0}_low,{0}_high", r.channel);
+  const std::size_t size = responses.front().fit.linear.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    text += fmt::format("\n{}", static_cast<double>(i) / static_cast<double>(size - 1));
+    for (const ChannelResponse& r : responses) {
+      const double factor = std::exp(1.96 * r.fit.log_deviation[i]);
+      text += fmt::format(",{:.8g},{:.8g},{:.8g}", r.fit.linear[i], r.fit.linear[i] / factor,
+                          r.fit.linear[i] * factor);
+    }
+  }
+  return text + "\n";
+}
+
 Json json_of(const CalibrationCase& one) {
   const CameraCalibration& c = one.result;
   Json answer;
@@ -115,14 +151,8 @@ Json json_of(const CalibrationCase& one) {
 std::string table_of(const CalibrationCase& one) {
   const CameraCalibration& c = one.result;
   std::string text = fmt::format("{} under {}, chart {}", one.camera, c.profile.light, one.chart);
-  if (one.response.empty())
-    text += "\n";
-  else
-    text += fmt::format(", {} bits\n\n{:<10}{:>22}{:>14}{:>9}\n", one.bits, "channel", "response error [%]",
-                        "residual [%]", "samples");
-  for (const ChannelResponse& r : c.responses)
-    text += fmt::format("{:<10}{:>22.4f}{:>14.4f}{:>9}\n", r.channel, 100 * r.max_error,
-                        100 * r.fit.median_code, r.fit.samples);
+  text += one.response.empty() ? "\n" : fmt::format(", {} bits\n", one.bits);
+  if (!c.responses.empty()) text += "\n" + table_of(c.responses);
   const CorrectionFit& fit = c.correction;
   text += fmt::format("\n{:<28}{:>10}{:>16}{:>12}\n", "patch", "dE2000", "least squares", "left out");
   for (std::size_t i = 0; i < c.patches.size(); ++i)

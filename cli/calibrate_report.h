@@ -20,6 +20,12 @@ struct CalibrationCase {
   std::optional<PatchErrors> test;  ///< Of another chart.
 };
 
+[[nodiscard]] Json json_of(const ChannelResponse& response);
+/// A line for each channel, under its headings.
+[[nodiscard]] std::string table_of(const std::vector<ChannelResponse>& responses);
+/// The curves as a table: code, then each channel's linear exposure with its 95 % interval.
+[[nodiscard]] std::string csv_of(const std::vector<ChannelResponse>& responses, const std::string& source);
+
 [[nodiscard]] Json json_of(const CalibrationCase& one);
 /// The same for reading: responses, then CIEDE2000 of every patch.
 [[nodiscard]] std::string table_of(const CalibrationCase& one);

@@ -300,20 +300,20 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
                                           calibrate);
   CLI::App& options = *calibration.app;
-  CLI::Option* camera =
-      options
-          .add_option("--camera", calibration->camera,
-                      "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
-          ->type_name("CAMERA");
-  CLI::Option* measured = options
-                              .add_option("--measured", calibration->measured,
-                                          "A real camera's linear values: columns patch, R, G, B")
-                              ->type_name("FILE.csv")
-                              ->excludes(camera);
   options
-      .add_flag("--all-cameras", calibration->all_cameras, "How well each shipped camera can be calibrated")
-      ->excludes(camera)
-      ->excludes(measured);
+      .add_option("--camera", calibration->camera,
+                  "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
+      ->type_name("CAMERA");
+  options
+      .add_option("--measured", calibration->measured,
+                  "A real camera's values of the chart, linear or to be made so by --series")
+      ->type_name("FILE.csv");
+  options
+      .add_option("--series", calibration->series,
+                  "Photographs with their exposure times, which the response is recovered from")
+      ->type_name("FILE.json");
+  options.add_flag("--all-cameras", calibration->all_cameras,
+                   "How well each shipped camera can be calibrated");
   options.add_option("--illuminant", calibration->illuminants, "Light on the chart, or several")
       ->capture_default_str()
       ->type_name("ILLUMINANT[,...]");

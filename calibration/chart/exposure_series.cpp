@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -37,15 +38,28 @@ double PlantedResponse::exposure(double code) const {
   return std::pow(p, 1 / power_);
 }
 
+double CodeNoise::deviation(double code) const {
+  const double step = bits > 0 ? 1 / (std::ldexp(1.0, bits) - 1) : 0;
+  return std::sqrt(read * read + shot * std::max(0.0, code) + step * step / 12);
+}
+
 ExposureSeries expose(std::span<const double> values, std::span<const double> times_s,
-                      const PlantedResponse& response, int bits) {
-  const double full_scale = std::ldexp(1.0, bits) - 1;
-  ExposureSeries series{{times_s.begin(), times_s.end()}, {}};
+                      const PlantedResponse& response, const CodeNoise& noise, std::uint64_t seed) {
+  const double full_scale = std::ldexp(1.0, noise.bits) - 1;
+  const CodeNoise before_rounding{0, noise.read, noise.shot};
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  ExposureSeries series{{times_s.begin(), times_s.end()}, {}, {}};
+  const bool is_noisy = noise.deviation(1) > 0;
   for (const double value : values) {
     std::vector<double>& codes = series.codes.emplace_back();
+    if (is_noisy) series.deviations.emplace_back();
     for (const double time : times_s) {
-      const double code = response.code(value * time);
-      codes.push_back(bits > 0 ? std::round(code * full_scale) / full_scale : code);
+      const double mean = response.code(value * time);
+      double code = std::clamp(mean + before_rounding.deviation(mean) * normal(random), 0.0, 1.0);
+      if (noise.bits > 0) code = std::round(code * full_scale) / full_scale;
+      codes.push_back(code);
+      if (is_noisy) series.deviations.back().push_back(noise.deviation(code));
     }
   }
   return series;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,15 +25,29 @@ class PlantedResponse {
   double shoulder_ = 0;  // s; 0 for a pure power
 };
 
+/// How code values scatter, full scale being 1: independent Gaussian noise of variance `read`^2 + `shot` z
+/// about the code z, then rounding to `bits` bits, which adds a twelfth of a step squared.
+struct CodeNoise {
+  int bits = 0;     ///< 0: not rounded.
+  double read = 0;  ///< Standard deviation in the dark.
+  double shot = 0;  ///< Variance for each unit of code.
+
+  /// Standard deviation of a code whose noiseless value is `code`.
+  [[nodiscard]] double deviation(double code) const;
+};
+
 /// One channel's code values of every patch at every exposure time.
 struct ExposureSeries {
   std::vector<double> times_s;
   std::vector<std::vector<double>> codes;  ///< codes[patch][time], each in [0, 1].
+  /// Standard deviations of the codes; empty when nothing is known but that they are alike.
+  std::vector<std::vector<double>> deviations;
 };
 
-/// Photographs `values` (linear, 1 = full scale in one second) for `times_s` through a response, rounded to
-/// `bits` bits (0: not rounded).
+/// Photographs `values` (linear, 1 = full scale in one second) for `times_s` through a response. The noise is
+/// a function of `seed`.
 [[nodiscard]] ExposureSeries expose(std::span<const double> values, std::span<const double> times_s,
-                                    const PlantedResponse& response, int bits);
+                                    const PlantedResponse& response, const CodeNoise& noise,
+                                    std::uint64_t seed = 1);
 
 }  // namespace abbe

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
@@ -16,28 +20,50 @@ namespace {
 
 constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
 constexpr double kFirstScale =
-    0.01;  // Cauchy scale of the first pass: code errors beyond 1 % of full scale count ever less
-constexpr double kScaleOfMedian = 4;  // of the second pass, in median residuals of the first
-constexpr double kSmallestScale = 3e-4;
-constexpr double kRoughness = 1e-3;  // weight of second differences of theta
+    0.01;  // of the first pass: code errors beyond 1 % of full scale count ever less
+constexpr double kFirstRoughness = 1;
+constexpr double kCauchy = 2.385;  // in deviations: 95 % efficient for Gaussian errors [Holland1977]
+constexpr double kMadToDeviation = 1.4826;
+constexpr double kLeastDeviation = 2e-5;  // of a code: what even exact values are taken to be uncertain by
+constexpr double kDarkMargin = 8;         // deviations from black, below which the curve of noise is no noise
+constexpr double kBrightMargin = 4;       // deviations from full scale
 constexpr double kSlopeDrift =
-    1e-5;  // weight of first differences, which carries the slope on where no sample lies
+    0.01;  // weight of first differences, which carry the slope on where no sample lies
 constexpr std::size_t kMinSamples = 32;
 
 struct Sample {
   std::size_t patch;
   double code;
+  double deviation;
   double log_time;
 };
 
-// Black and clipped codes say nothing of the exposure.
-std::vector<Sample> usable_samples(const ExposureSeries& series) {
+// Whether noise of this deviation cannot have brought a code from black or from beyond full scale.
+bool within_margins(double code, double deviation) {
+  return code > kDarkMargin * deviation && code < 1 - kBrightMargin * deviation;
+}
+
+// Black and clipped codes say nothing of the exposure, nor do those of longer times than one that clipped, or
+// of shorter ones than one that was black: noise alone moves them off the ends. With margins, codes within a
+// few known deviations of either end are left out too.
+std::vector<Sample> usable_samples(const ExposureSeries& series, bool with_margins) {
   std::vector<Sample> samples;
-  for (std::size_t i = 0; i < series.codes.size(); ++i)
+  for (std::size_t i = 0; i < series.codes.size(); ++i) {
+    double black_s = 0;
+    double clipped_s = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < series.times_s.size(); ++j) {
+      if (series.codes[i][j] <= 0) black_s = std::max(black_s, series.times_s[j]);
+      if (series.codes[i][j] >= 1) clipped_s = std::min(clipped_s, series.times_s[j]);
+    }
     for (std::size_t j = 0; j < series.times_s.size(); ++j) {
       const double code = series.codes[i][j];
-      if (code > 0 && code < 1) samples.push_back({i, code, std::log(series.times_s[j])});
+      const double time = series.times_s[j];
+      const double known = series.deviations.empty() ? 0 : series.deviations[i][j];
+      if (!(time > black_s && time < clipped_s && code > 0 && code < 1)) continue;
+      if (with_margins && !within_margins(code, known)) continue;
+      samples.push_back({i, code, series.deviations.empty() ? 1 : known, std::log(time)});
     }
+  }
   return samples;
 }
 
@@ -53,10 +79,12 @@ struct SampleResidual {
 };
 
 struct Smoothness {
+  double roughness;
+
   template <typename T>
   bool operator()(const T* theta, T* residual) const {
     for (std::size_t k = 0; k + 2 < kCoefficients; ++k)
-      residual[k] = kRoughness * (theta[k] - 2.0 * theta[k + 1] + theta[k + 2]);
+      residual[k] = roughness * (theta[k] - 2.0 * theta[k + 1] + theta[k + 2]);
     for (std::size_t k = 0; k + 1 < kCoefficients; ++k)
       residual[kCoefficients - 2 + k] = kSlopeDrift * (theta[k + 1] - theta[k]);
     return true;
@@ -67,6 +95,8 @@ constexpr int kSmoothnessTerms = static_cast<int>(2 * kCoefficients - 3);
 struct Unknowns {
   std::array<double, kCoefficients> theta{};
   std::vector<double> log_exposure;  // one per patch
+
+  [[nodiscard]] ResponseModel<double> model() const { return ResponseModel<double>(theta.data()); }
 };
 
 // A straight line in the curve's coordinate, and the patches where it puts them.
@@ -74,7 +104,7 @@ Unknowns start(const std::vector<Sample>& samples, std::size_t patches) {
   Unknowns unknowns;
   unknowns.log_exposure.assign(patches, 0.0);
   std::vector<int> counts(patches, 0);
-  const ResponseModel<double> model(unknowns.theta.data());
+  const ResponseModel<double> model = unknowns.model();
   for (const Sample& s : samples) {
     unknowns.log_exposure[s.patch] += model(s.code) - s.log_time;
     ++counts[s.patch];
@@ -87,43 +117,51 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw Error(ErrorCode::input, "response fit", message);
 }
 
-ceres::Solver::Summary converge(const std::vector<Sample>& samples, double scale, Unknowns& unknowns) {
-  ceres::Problem problem;
-  for (const Sample& s : samples) {
-    auto residual =
-        std::make_unique<SampleResidual>(SampleResidual{s, ResponseModel<double>::sensitivity(s.code)});
-    problem.AddResidualBlock(
+// Samples with what their residuals are multiplied by, so that their deviation is 1.
+struct Weighted {
+  std::vector<Sample> samples;
+  std::vector<double> weights;
+  double loss = 0;  // width of the Cauchy loss
+};
+
+std::unique_ptr<ceres::Problem> data_terms(const Weighted& data, Unknowns& unknowns) {
+  auto problem = std::make_unique<ceres::Problem>();
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    auto residual = std::make_unique<SampleResidual>(SampleResidual{data.samples[i], data.weights[i]});
+    problem->AddResidualBlock(
         new ceres::AutoDiffCostFunction<SampleResidual, 1, kCoefficients, 1>(residual.release()),
-        new ceres::CauchyLoss(scale), unknowns.theta.data(), &unknowns.log_exposure[s.patch]);
+        new ceres::CauchyLoss(data.loss), unknowns.theta.data(),
+        &unknowns.log_exposure[data.samples[i].patch]);
   }
-  problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<Smoothness, kSmoothnessTerms, kCoefficients>(new Smoothness), nullptr,
-      unknowns.theta.data());
+  return problem;
+}
+
+std::unique_ptr<ceres::Problem> all_terms(const Weighted& data, double roughness, Unknowns& unknowns) {
+  auto problem = data_terms(data, unknowns);
+  auto smoothness = std::make_unique<Smoothness>(Smoothness{roughness});
+  problem->AddResidualBlock(
+      new ceres::AutoDiffCostFunction<Smoothness, kSmoothnessTerms, kCoefficients>(smoothness.release()),
+      nullptr, unknowns.theta.data());
+  return problem;
+}
+
+ceres::Solver::Summary converge(const Weighted& data, double roughness, int max_iterations,
+                                Unknowns& unknowns) {
+  const auto problem = all_terms(data, roughness, unknowns);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 300;
+  options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-14;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  ceres::Solve(options, problem.get(), &summary);
   require(summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE &&
               std::isfinite(summary.final_cost),
           "the solver did not converge: " + summary.BriefReport());
   return summary;
-}
-
-// Absolute residuals, as code values.
-std::vector<double> residuals(const std::vector<Sample>& samples, const Unknowns& unknowns) {
-  const ResponseModel<double> model(unknowns.theta.data());
-  std::vector<double> sizes;
-  for (const Sample& s : samples) {
-    const double r = model(s.code) - unknowns.log_exposure[s.patch] - s.log_time;
-    sizes.push_back(std::abs(r) * ResponseModel<double>::sensitivity(s.code));
-  }
-  return sizes;
 }
 
 double median(std::vector<double> values) {
@@ -132,8 +170,168 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// Errors of the code values, absolute.
+std::vector<double> code_errors(const std::vector<Sample>& samples, const Unknowns& unknowns) {
+  const ResponseModel<double> model = unknowns.model();
+  std::vector<double> sizes;
+  for (const Sample& s : samples)
+    sizes.push_back(std::abs(model(s.code) - unknowns.log_exposure[s.patch] - s.log_time) /
+                    model.slope(s.code));
+  return sizes;
+}
+
+// Where on the curve the patch's exposure is, by bisection.
+double predicted_code(const Unknowns& unknowns, const Sample& s) {
+  const ResponseModel<double> model = unknowns.model();
+  const double target = unknowns.log_exposure[s.patch] + s.log_time;
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    (model(middle) < target ? low : high) = middle;
+  }
+  return target > model(1) ? 1 : (low + high) / 2;
+}
+
+// How much larger errors are than their stated deviations; few outliers do not tell.
+double noise_scale(const std::vector<Sample>& samples, const Unknowns& unknowns, std::size_t unknown_count) {
+  std::vector<double> sizes = code_errors(samples, unknowns);
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] /= samples[i].deviation;
+  const double count = static_cast<double>(samples.size());
+  return kMadToDeviation * median(std::move(sizes)) *
+         std::sqrt(count / std::max(1.0, count - static_cast<double>(unknown_count)));
+}
+
+Weighted weigh(const std::vector<Sample>& all, const Unknowns& unknowns, double scale) {
+  Weighted data{{}, {}, kCauchy};
+  const ResponseModel<double> model = unknowns.model();
+  for (const Sample& s : all) {
+    const double deviation = std::max(kLeastDeviation, scale * s.deviation);
+    // Chosen by the curve, since a choice by the noisy code itself would favour one side.
+    const double expected = predicted_code(unknowns, s);
+    if (!within_margins(expected, deviation)) continue;
+    data.samples.push_back(s);
+    data.weights.push_back(1 / (deviation * model.slope(std::clamp(expected, 1e-9, 1.0))));
+  }
+  return data;
+}
+
+Eigen::MatrixXd dense(const ceres::CRSMatrix& sparse) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row)
+    for (int k = sparse.rows[static_cast<std::size_t>(row)];
+         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k)
+      matrix(row, sparse.cols[static_cast<std::size_t>(k)]) = sparse.values[static_cast<std::size_t>(k)];
+  return matrix;
+}
+
+// J'J and J'r of the smoothness at these unknowns.
+struct Normal {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd gradient;
+};
+Normal smoothness_normal(double roughness, const Unknowns& unknowns, Eigen::Index size) {
+  const ceres::AutoDiffCostFunction<Smoothness, kSmoothnessTerms, kCoefficients> cost(
+      new Smoothness{roughness});
+  Eigen::Matrix<double, kSmoothnessTerms, static_cast<int>(kCoefficients), Eigen::RowMajor> jacobian;
+  Eigen::Matrix<double, kSmoothnessTerms, 1> residuals;
+  const double* parameters = unknowns.theta.data();
+  double* jacobians = jacobian.data();
+  cost.Evaluate(&parameters, residuals.data(), &jacobians);
+  Normal normal{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  constexpr auto kSize = static_cast<Eigen::Index>(kCoefficients);
+  normal.matrix.topLeftCorner(kSize, kSize) = jacobian.transpose() * jacobian;
+  normal.gradient.head(kSize) = jacobian.transpose() * residuals;
+  return normal;
+}
+
+// Rows of the samples of each exposure time.
+std::vector<std::vector<Eigen::Index>> exposures_of(const Weighted& data) {
+  std::map<double, std::vector<Eigen::Index>> rows;
+  for (std::size_t i = 0; i < data.samples.size(); ++i)
+    rows[data.samples[i].log_time].push_back(static_cast<Eigen::Index>(i));
+  std::vector<std::vector<Eigen::Index>> exposures;
+  for (auto& [time, list] : rows) exposures.push_back(std::move(list));
+  return exposures;
+}
+
+// Squared residuals of each exposure under the fit to all others. The fit is linear, so leaving out is exact
+// and needs no other fit: residuals r with the block H of the hat matrix become (I - H)^-1 r.
+double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures,
+                      const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& influence,
+                      const Eigen::VectorXd& residuals) {
+  constexpr double kAlone = 1e-6;  // for a patch that no other exposure shows
+  double score = 0;
+  for (const std::vector<Eigen::Index>& rows : exposures) {
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    const Eigen::MatrixXd hat = jacobian(rows, Eigen::all) * influence(Eigen::all, rows);
+    const Eigen::MatrixXd rest = (1 + kAlone) * Eigen::MatrixXd::Identity(count, count) - hat;
+    score += rest.ldlt().solve(Eigen::VectorXd(residuals(rows))).squaredNorm();
+  }
+  return score;
+}
+
+// The roughness under which exposures left out one at a time are predicted best, the problem being linearised
+// at the unknowns. Whole exposures, since the samples of one share the error of its time, and patches that
+// look alike share their rounding.
+double choose_roughness(const Weighted& data, Unknowns& unknowns) {
+  const auto problem = data_terms(data, unknowns);
+  std::vector<double> residual_values;
+  ceres::CRSMatrix sparse;
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {unknowns.theta.data()};
+  for (double& e : unknowns.log_exposure)
+    if (problem->HasParameterBlock(&e)) options.parameter_blocks.push_back(&e);
+  problem->Evaluate(options, nullptr, &residual_values, nullptr, &sparse);
+  const Eigen::MatrixXd jacobian = dense(sparse);
+  const Eigen::Map<const Eigen::VectorXd> residuals(residual_values.data(), jacobian.rows());
+  const Eigen::MatrixXd data_matrix = jacobian.transpose() * jacobian;
+  const Eigen::VectorXd data_gradient = jacobian.transpose() * residuals;
+  const std::vector<std::vector<Eigen::Index>> exposures = exposures_of(data);
+  double best = kFirstRoughness;
+  double least = std::numeric_limits<double>::infinity();
+  for (double roughness = 1; roughness < 5000; roughness *= 2) {
+    const Normal smooth = smoothness_normal(roughness, unknowns, jacobian.cols());
+    const Eigen::LDLT<Eigen::MatrixXd> solver(data_matrix + smooth.matrix);
+    const Eigen::VectorXd moved = residuals - jacobian * solver.solve(data_gradient + smooth.gradient);
+    const Eigen::MatrixXd influence = solver.solve(jacobian.transpose());
+    const double score = left_out_score(exposures, jacobian, influence, moved);
+    if (score < least) {
+      least = score;
+      best = roughness;
+    }
+  }
+  return best;
+}
+
+// Deviation of ln of the linear exposure relative to the gauge, from the covariance of the coefficients.
+std::vector<double> log_deviations(const Weighted& data, double roughness, Unknowns& unknowns,
+                                   std::size_t size) {
+  const auto problem = all_terms(data, roughness, unknowns);
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  options.min_reciprocal_condition_number = 1e-20;  // where no sample lies smoothness alone says something
+  ceres::Covariance covariance(options);
+  const double* theta = unknowns.theta.data();
+  const std::vector<std::pair<const double*, const double*>> blocks{{theta, theta}};
+  require(covariance.Compute(blocks, problem.get()), "the covariance of the curve cannot be computed");
+  constexpr auto kSize = static_cast<int>(kCoefficients);
+  Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> c;
+  covariance.GetCovarianceBlock(theta, theta, c.data());
+  using Jet = ceres::Jet<double, kSize>;
+  std::array<Jet, kCoefficients> dual;
+  for (int k = 0; k < kSize; ++k) dual[static_cast<std::size_t>(k)] = Jet(theta[k], k);
+  const ResponseModel<Jet> model(dual.data());
+  std::vector<double> deviations(size, 0.0);
+  for (std::size_t i = 1; i < size; ++i) {
+    const auto gradient = model(static_cast<double>(i) / static_cast<double>(size - 1)).v;
+    deviations[i] = std::sqrt(std::max(0.0, gradient.dot(c * gradient)));
+  }
+  return deviations;
+}
+
 std::vector<double> tabulate(const Unknowns& unknowns, std::size_t size) {
-  const ResponseModel<double> model(unknowns.theta.data());
+  const ResponseModel<double> model = unknowns.model();
   const double full_scale = model(1.0);
   std::vector<double> table(size, 0.0);
   for (std::size_t i = 1; i < size; ++i)
@@ -141,34 +339,64 @@ std::vector<double> tabulate(const Unknowns& unknowns, std::size_t size) {
   return table;
 }
 
+void require_samples(const std::vector<Sample>& samples) {
+  require(samples.size() >= kMinSamples,
+          fmt::format("only {} code values are neither black nor clipped (needed {})", samples.size(),
+                      kMinSamples));
+}
+
+// The first pass knows neither slopes nor the size of errors.
+Weighted first_weights(const std::vector<Sample>& samples) {
+  Weighted data{samples, {}, 1};
+  for (const Sample& s : samples)
+    data.weights.push_back(ResponseModel<double>::sensitivity(s.code) / kFirstScale);
+  return data;
+}
+
 }  // namespace
 
-ResponseFit recover_response(const ExposureSeries& series, std::size_t table_size) {
+ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options) {
   require(series.times_s.size() >= 2,
           fmt::format("an exposure series needs two times or more (got {})", series.times_s.size()));
   require(std::all_of(series.times_s.begin(), series.times_s.end(),
                       [](double t) { return t > 0 && std::isfinite(t); }),
           "exposure times must be positive");
-  const std::vector<Sample> samples = usable_samples(series);
-  require(samples.size() >= kMinSamples,
-          fmt::format("only {} code values are neither black nor clipped (needed {})", samples.size(),
-                      kMinSamples));
-  Unknowns unknowns = start(samples, series.codes.size());
-  const ceres::Solver::Summary first = converge(samples, kFirstScale, unknowns);
-  const double scale = kScaleOfMedian * median(residuals(samples, unknowns));
-  const ceres::Solver::Summary second =
-      converge(samples, std::clamp(scale, kSmallestScale, kFirstScale), unknowns);
+  const std::vector<Sample> samples = usable_samples(series, false);
+  Weighted data = first_weights(usable_samples(series, true));
+  require_samples(data.samples);
+  Unknowns unknowns = start(data.samples, series.codes.size());
+  ceres::Solver::Summary summary = converge(data, kFirstRoughness, options.max_iterations, unknowns);
   ResponseFit fit;
-  fit.linear = tabulate(unknowns, table_size);
-  fit.initial_cost = second.initial_cost;
-  fit.final_cost = second.final_cost;
-  fit.median_code = median(residuals(samples, unknowns));
-  fit.samples = samples.size();
-  fit.iterations = static_cast<int>(first.iterations.size() + second.iterations.size());
+  fit.iterations = static_cast<int>(summary.iterations.size());
+  const std::size_t unknown_count = kCoefficients + series.codes.size();
+  for (int pass = 0; pass < 2; ++pass) {
+    fit.noise_scale = noise_scale(data.samples, unknowns, unknown_count);
+    data = weigh(samples, unknowns, fit.noise_scale);
+    require_samples(data.samples);
+    fit.roughness = choose_roughness(data, unknowns);
+
+    summary = converge(data, fit.roughness, options.max_iterations, unknowns);
+    fit.iterations += static_cast<int>(summary.iterations.size());
+  }
+  fit.linear = tabulate(unknowns, options.table_size);
+  fit.log_deviation = log_deviations(data, fit.roughness, unknowns, options.table_size);
+  fit.initial_cost = summary.initial_cost;
+  fit.final_cost = summary.final_cost;
+  fit.median_code = median(code_errors(data.samples, unknowns));
+  fit.samples = data.samples.size();
   require(std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
               std::isfinite(fit.linear.back()),
           "the recovered curve does not rise strictly");
   return fit;
+}
+
+double largest_uncertainty(const ResponseFit& fit) {
+  double largest = 0;
+  for (int percent = 1; percent < 100; ++percent) {
+    const double code = percent / 100.0;
+    largest = std::max(largest, 1.96 * linearise(fit.log_deviation, code) * linearise(fit.linear, code));
+  }
+  return largest;
 }
 
 double linearise(const std::vector<double>& table, double code) {

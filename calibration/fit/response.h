@@ -12,21 +12,39 @@ namespace abbe {
 struct ResponseFit {
   std::vector<double>
       linear;  ///< Linear exposure of code i/(size - 1), rising strictly from 0 to 1 at full scale.
-  double initial_cost = 0;  ///< Of the second pass, at its start.
-  double final_cost = 0;    ///< Of the second pass.
+  /// Standard deviation of ln of exposure at each code, relative to that at mid-scale, where it is 0: the
+  /// factor of all exposures is not observable, and that of full scale hardly. The truth lies within
+  /// `linear` exp(+-1.96 of it) with about 95 % probability, taken over the curve [Nychka1988].
+  std::vector<double> log_deviation;
+  double initial_cost = 0;  ///< Of the last pass, at its start.
+  double final_cost = 0;    ///< Of the last pass.
   double median_code =
       0;  ///< Median size of the residuals, about that of the errors of the code values (full scale 1).
+  double noise_scale = 0;   ///< Size of the residuals in units of the deviations that were stated.
+  double roughness = 0;     ///< Weight of the curve's second differences that cross-validation chose.
   std::size_t samples = 0;  ///< Code values used: neither black nor clipped.
-  int iterations = 0;       ///< Of both passes.
+  int iterations = 0;       ///< Of all passes.
+};
+
+/// How a response is recovered.
+struct ResponseOptions {
+  std::size_t table_size = 4096;
+  int max_iterations = 300;  ///< Of each pass.
 };
 
 /// Recovers the response of one channel from a series of known exposure times: minimises over the curve g and
-/// the patches' unknown exposures E_i the sum over samples of Cauchy(w(z_ij) [g(z_ij) - ln E_i - ln t_j])
-/// plus a smoothness term on g [Debevec1997, eq. 3]. w is the slope of the code against the curve's
-/// coordinate, so residuals are errors of the code value. A first pass has a loss 1 % of full scale wide; a
-/// second one is as narrow as the residuals of the first, so that outliers lose their hold. Throws
-/// Error{input} when the series does not determine the curve or the solver does not converge.
-[[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, std::size_t table_size = 4096);
+/// the patches' unknown exposures E_i the sum over samples of Cauchy([g(z_ij) - ln E_i - ln t_j]/s_ij) plus a
+/// smoothness term on g [Debevec1997, eq. 3], s_ij being the deviation of the code times the curve's slope. A
+/// first pass has a wide loss and the slope of a straight line in the curve's coordinate; two more take slope
+/// and size of the residuals from the one before, leave out codes so near to black or full scale that noise
+/// may have clipped them, and choose the weight of smoothness by leaving out each exposure in turn, exactly
+/// for the linearised problem. Throws Error{input} when the series does not determine the curve or the solver
+/// does not converge.
+[[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options = {});
+
+/// The largest half-width of the 95 % interval of exposure between 1 % and 99 % of the code range, as a share
+/// of full scale.
+[[nodiscard]] double largest_uncertainty(const ResponseFit& fit);
 
 /// Linear exposure of a code value in [0, 1] by linear interpolation in such a table.
 [[nodiscard]] double linearise(const std::vector<double>& table, double code);

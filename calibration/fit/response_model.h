@@ -33,6 +33,15 @@ class ResponseModel {
     return sum;
   }
 
+  /// Its derivative by the code.
+  [[nodiscard]] T slope(double code) const {
+    using std::exp;
+    const double x = position(code);
+    T sum(0.0);
+    for (std::size_t k = 0; k < kCoefficients; ++k) sum += exp(theta_[k]) * bump(x - knot(k));
+    return sum / (sensitivity(code) * spacing());
+  }
+
   /// d code / d u: by how much a rise in u shows in the code, largest in mid-scale and falling to the toe and
   /// the shoulder.
   [[nodiscard]] static double sensitivity(double code) {
@@ -48,8 +57,12 @@ class ResponseModel {
   // u in units of the knot spacing, from the lowest code.
   static double position(double code) {
     static const double low = coordinate(kLowestCode);
-    static const double spacing = (coordinate(1) - low) / static_cast<double>(kCoefficients - 2);
-    return (coordinate(std::clamp(code, kLowestCode, 1.0)) - low) / spacing;
+    return (coordinate(std::clamp(code, kLowestCode, 1.0)) - low) / spacing();
+  }
+  static double spacing() {
+    static const double knots_apart =
+        (coordinate(1) - coordinate(kLowestCode)) / static_cast<double>(kCoefficients - 2);
+    return knots_apart;
   }
   static double knot(std::size_t k) { return static_cast<double>(k) - 2; }
 
@@ -60,6 +73,14 @@ class ResponseModel {
     if (x < 1) return x * x * x / 6;
     if (x > 2) return 1 - (3 - x) * (3 - x) * (3 - x) / 6;
     return 0.5 + (x - 1.5) * (0.75 - (x - 1.5) * (x - 1.5) / 3);
+  }
+
+  // Its derivative: the quadratic uniform B-spline.
+  static double bump(double x) {
+    if (x <= 0 || x >= 3) return 0;
+    if (x < 1) return x * x / 2;
+    if (x > 2) return (3 - x) * (3 - x) / 2;
+    return 0.75 - (x - 1.5) * (x - 1.5);
   }
 
   const T* theta_;

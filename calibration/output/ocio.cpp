@@ -260,13 +260,17 @@ std::string ocio_config_text(std::span<const CameraProfile> profiles) {
   });
 }
 
-WrittenConfig write_ocio_config(const std::filesystem::path& folder,
-                                std::span<const CameraProfile> profiles) {
-  const std::string text = ocio_config_text(profiles);
+void make_folder(const std::filesystem::path& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ErrorCode::output, folder.string(), "cannot create the folder: " + failure.message());
+}
+
+WrittenConfig write_ocio_config(const std::filesystem::path& folder,
+                                std::span<const CameraProfile> profiles) {
+  const std::string text = ocio_config_text(profiles);
+  make_folder(folder);
   WrittenConfig written;
   with_ocio_errors(ErrorCode::output, [&] {
     std::istringstream stream(text);

@@ -28,6 +28,9 @@ inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
 /// ACES 1.0 view, from OpenColorIO's built-in transforms. Throws Error{internal} with OpenColorIO's words.
 [[nodiscard]] std::string ocio_config_text(std::span<const CameraProfile> profiles);
 
+/// Creates a folder unless it is there. Throws Error{output}.
+void make_folder(const std::filesystem::path& folder);
+
 /// What a root polynomial's cube costs: the largest CIEDE2000 between OpenColorIO's interpolation and the
 /// polynomial, over random camera values; 0 for a matrix.
 struct WrittenConfig {

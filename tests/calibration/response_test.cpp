@@ -6,34 +6,10 @@
 #include <functional>
 #include <random>
 
-#include "tests/calibration/calibration_fixture.h"
+#include "tests/calibration/response_fixture.h"
 
-namespace abbe {
+namespace abbe::test {
 namespace {
-
-std::vector<double> stops(double low, double high, double step) {
-  std::vector<double> times;
-  for (int i = 0; low + i * step <= high; ++i) times.push_back(std::exp2(low + i * step));
-  return times;
-}
-
-// The chart's green values through a measured camera.
-std::vector<double> chart_values() {
-  std::vector<double> values;
-  const Curve light = test::illuminant("D65");
-  const std::vector<Channel> camera = test::camera();
-  for (const Patch& patch : test::chart().patches)
-    values.push_back(camera_raw(camera, light, patch.reflectance)[1]);
-  return values;
-}
-
-// Largest error between 1 % and 99 % of the code range, as a share of full scale.
-double worst_error(const ResponseFit& fit, const PlantedResponse& planted) {
-  double worst = 0;
-  for (int i = 10; i <= 990; ++i)
-    worst = std::max(worst, std::abs(linearise(fit.linear, i / 1000.0) - planted.exposure(i / 1000.0)));
-  return worst;
-}
 
 TEST(PlantedResponse, InvertsItself) {
   for (const char* name : {"linear", "gamma:2.2", "s-curve"}) {
@@ -50,13 +26,13 @@ TEST(PlantedResponse, InvertsItself) {
 
 TEST(PlantedResponse, RefusesOtherNames) {
   for (const char* name : {"", "gamma:", "gamma:0", "gamma:2.2x", "log"})
-    test::expect_error([&] { static_cast<void>(PlantedResponse(name)); }, ErrorCode::usage,
-                       "expected linear, s-curve or gamma:G");
+    expect_error([&] { static_cast<void>(PlantedResponse(name)); }, ErrorCode::usage,
+                 "expected linear, s-curve or gamma:G");
 }
 
 TEST(ExposureSeries, RoundsToCodes) {
   const ExposureSeries series =
-      expose(std::array{0.5, 2.0}, std::array{0.25, 1.0}, PlantedResponse("linear"), 8);
+      expose(std::array{0.5, 2.0}, std::array{0.25, 1.0}, PlantedResponse("linear"), {8, 0, 0});
   EXPECT_EQ(series.codes[0][0], 32.0 / 255);
   EXPECT_EQ(series.codes[0][1], 128.0 / 255);
   EXPECT_EQ(series.codes[1][1], 1);
@@ -66,7 +42,8 @@ TEST(ResponseFit, RecoversPlantedCurves) {
   for (const char* name : {"linear", "gamma:2.2", "gamma:1.8", "s-curve"}) {
     const PlantedResponse planted(name);
     for (const auto& [bits, margin] : {std::pair{0, 0.001}, {14, 0.001}, {12, 0.001}, {10, 0.003}}) {
-      const ResponseFit fit = recover_response(expose(chart_values(), stops(-9, 6, 1.0 / 3), planted, bits));
+      const ResponseFit fit =
+          recover_response(expose(chart_values(), stops(-9, 6, 1.0 / 3), planted, {bits, 0, 0}));
       EXPECT_LT(worst_error(fit, planted), margin) << name << ", " << bits << " bits";
       EXPECT_EQ(fit.linear.size(), 4096U);
       EXPECT_EQ(fit.linear.front(), 0);
@@ -78,7 +55,8 @@ TEST(ResponseFit, RecoversPlantedCurves) {
 
 TEST(ResponseFit, RecoversTheToeInRelativeTermsToo) {
   const PlantedResponse planted("gamma:2.2");
-  const ResponseFit fit = recover_response(expose(chart_values(), stops(-9, 6, 1.0 / 3), planted, 14));
+  const ResponseFit fit =
+      recover_response(expose(chart_values(), stops(-9, 6, 1.0 / 3), planted, {14, 0, 0}));
   for (double code = 0.05; code < 1; code += 0.01)
     EXPECT_NEAR(linearise(fit.linear, code) / planted.exposure(code), 1, 0.005) << code;
 }
@@ -90,15 +68,17 @@ TEST(ResponseFit, DoesNotDependOnTheUnknownBrightness) {
   for (double& v : values) v *= 8;
   for (double& t : shorter) t /= 8;
   const PlantedResponse planted("s-curve");
-  const ResponseFit bright = recover_response(expose(values, shorter, planted, 12), 1024);
-  const ResponseFit plain = recover_response(expose(chart_values(), times, planted, 12), 1024);
+  const ResponseFit bright =
+      recover_response(expose(values, shorter, planted, {12, 0, 0}), {.table_size = 1024});
+  const ResponseFit plain =
+      recover_response(expose(chart_values(), times, planted, {12, 0, 0}), {.table_size = 1024});
   for (std::size_t i = 0; i < 1024; ++i) EXPECT_NEAR(bright.linear[i], plain.linear[i], 1e-6);
 }
 
 TEST(ResponseFit, SurvivesOutliers) {
   for (const char* name : {"gamma:2.2", "s-curve"}) {
     const PlantedResponse planted(name);
-    ExposureSeries series = expose(chart_values(), stops(-8, 6, 0.5), planted, 12);
+    ExposureSeries series = expose(chart_values(), stops(-8, 6, 0.5), planted, {12, 0, 0});
     std::mt19937 random(3);
     for (std::vector<double>& codes : series.codes)
       for (double& code : codes)
@@ -107,16 +87,77 @@ TEST(ResponseFit, SurvivesOutliers) {
   }
 }
 
+TEST(ExposureSeries, ScattersAsItSays) {
+  const CodeNoise noise{12, 1e-3, 4e-6};
+  const std::vector<double> values(4000, 0.25);
+  const ExposureSeries series = expose(values, std::array{1.0}, PlantedResponse("linear"), noise, 9);
+  double sum = 0;
+  double squares = 0;
+  for (const std::vector<double>& codes : series.codes) {
+    sum += codes[0] / 4000;
+    squares += (codes[0] - 0.25) * (codes[0] - 0.25) / 4000;
+  }
+  const double expected = std::sqrt(1e-6 + 4e-6 * 0.25 + std::pow(1 / 4095.0, 2) / 12);
+  EXPECT_NEAR(series.deviations[0][0], expected, 1e-5);
+  EXPECT_NEAR(std::sqrt(squares), expected, 0.04 * expected);
+  EXPECT_NEAR(sum, 0.25, 4 * expected / std::sqrt(4000));
+  EXPECT_NE(expose(values, std::array{1.0}, PlantedResponse("linear"), noise, 10).codes[0], series.codes[0]);
+  EXPECT_TRUE(expose(values, std::array{1.0}, PlantedResponse("linear"), {}).deviations.empty());
+}
+
+TEST(ResponseFit, ItsIntervalHoldsThePlantedCurve) {
+  for (const char* name : {"linear", "gamma:2.2", "s-curve"}) {
+    const Recovery recovery = recover_often(name, 6);
+    EXPECT_LT(recovery.worst, 0.003) << name;
+    EXPECT_GE(recovery.coverage, 0.85) << name;
+    EXPECT_LE(recovery.coverage, 1) << name;
+  }
+}
+
+// Noise ten times as large makes the interval ten times as wide, whether it was announced or not.
+TEST(ResponseFit, IntervalGrowsWithTheNoise) {
+  const PlantedResponse planted("gamma:2.2");
+  const auto width = [&](double read, double stated) {
+    ExposureSeries series = expose(chart_values(), stops(-9, 6, 1.0 / 3), planted, {0, read, 0}, 4);
+    for (std::vector<double>& deviations : series.deviations)
+      for (double& d : deviations) d *= stated;
+    const ResponseFit fit = recover_response(series);
+    EXPECT_NEAR(fit.noise_scale * stated, 1, 0.15);
+    return linearise(fit.log_deviation, 0.2);
+  };
+  const double narrow = width(1e-4, 1);
+  EXPECT_NEAR(width(1e-3, 1) / narrow, 10, 4);
+  EXPECT_NEAR(width(1e-4, 5) / narrow, 1, 0.05);
+}
+
+// Saturated patches that noise moves below full scale would bend the curve there.
+TEST(ResponseFit, ClippingByNoiseDoesNotPullTheCurve) {
+  for (const char* name : {"linear", "s-curve"}) {
+    const PlantedResponse planted(name);
+    const ExposureSeries series = expose(chart_values(), stops(-9, 6, 1.0 / 6), planted, {12, 1e-3, 0}, 3);
+    const ResponseFit fit = recover_response(series);
+    EXPECT_LT(worst_error(fit, planted), 0.005) << name;
+    EXPECT_GT(coverage(fit, planted), 0.7) << name;
+  }
+}
+
+TEST(ResponseFit, AFitThatDoesNotConvergeIsAnError) {
+  const ExposureSeries series =
+      expose(chart_values(), stops(-9, 6, 1.0 / 3), PlantedResponse("s-curve"), {12, 0, 0});
+  expect_error([&] { static_cast<void>(recover_response(series, {.max_iterations = 2})); }, ErrorCode::input,
+               "response fit: the solver did not converge: Ceres Solver Report");
+}
+
 TEST(ResponseFit, SaysWhatIsMissing) {
   const PlantedResponse linear("linear");
   const std::vector<double> values = chart_values();
   const auto fit = [&](const std::vector<double>& times) {
-    return [&, times] { static_cast<void>(recover_response(expose(values, times, linear, 12))); };
+    return [&, times] { static_cast<void>(recover_response(expose(values, times, linear, {12, 0, 0}))); };
   };
-  test::expect_error(fit({1}), ErrorCode::input, "an exposure series needs two times or more (got 1)");
-  test::expect_error(fit({1, 0}), ErrorCode::input, "exposure times must be positive");
-  test::expect_error(fit({1e4, 2e4}), ErrorCode::input, "only 0 code values are neither black nor clipped");
+  expect_error(fit({1}), ErrorCode::input, "an exposure series needs two times or more (got 1)");
+  expect_error(fit({1, 0}), ErrorCode::input, "exposure times must be positive");
+  expect_error(fit({1e4, 2e4}), ErrorCode::input, "only 0 code values are neither black nor clipped");
 }
 
 }  // namespace
-}  // namespace abbe
+}  // namespace abbe::test

@@ -1,9 +1,12 @@
+#include <cmath>
 #include <filesystem>
 #include <regex>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "calibration/chart/measured_patches.h"
+#include "io/exr.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
@@ -172,6 +175,51 @@ TEST(Calibrate, WritesConfigurationAndReportForEachLight) {
   EXPECT_GT(tungsten["unseen_dE00_mean"], tungsten["dE00_mean"]);
   EXPECT_GT(tungsten["test_dE00_mean"], 0);
   EXPECT_NE(run.out.find("on the test chart: mean"), std::string::npos);
+}
+
+TEST(Calibrate, RealCameraFromPhotographsToConfiguration) {
+  // Grey steps that a camera of gamma 2 photographed with eight times.
+  std::string exposures;
+  for (int stop = -6; stop <= 1; ++stop) {
+    Image image{48, 1, {}, {}};
+    for (const char* name : {"R", "G", "B"}) {
+      ImageChannel channel{name, {}};
+      for (int x = 0; x < 48; ++x)
+        channel.values.push_back(
+            static_cast<float>(std::min(1.0, std::sqrt((x + 1) / 48.0 * std::exp2(stop)))));
+      image.channels.push_back(std::move(channel));
+    }
+    write_exr(scratch() / fmt::format("s{}.exr", stop), image);
+    exposures += fmt::format("{{\"file\": \"s{}.exr\", \"exposure_s\": {}}},", stop, std::exp2(stop));
+  }
+  const std::string series = scratch().write("series.json", "{\"exposures\": [" + exposures + "]}").string();
+  const std::string folder = (scratch() / "real").string();
+  const Outcome alone = abbe("calibrate --series " + series + " -o " + folder);
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_NE(alone.out.find("uncertainty [%]"), std::string::npos);
+  EXPECT_NE(read_file(folder + "/response.csv").find("code,R,R_low,R_high,G"), std::string::npos);
+
+  // The chart's own XYZ, seen by that camera.
+  std::string rows = "# unit: code values\npatch,R,G,B\n";
+  Diagnostics diagnostics;
+  const auto targets = load_chart_targets("colorchecker24_after_nov2014", Curve(1.0), {}, diagnostics);
+  ASSERT_TRUE(targets);
+  const auto add = [&](const std::string& name, const XYZ& xyz) {
+    rows += fmt::format("{},{},{},{}\n", name, std::sqrt(xyz[0]), std::sqrt(xyz[1]), std::sqrt(xyz[2]));
+  };
+  for (std::size_t i = 0; i < 24; ++i) add(targets->names[i], targets->xyz[i]);
+  add("perfect diffuser", targets->white);
+  const std::string measured = scratch().write("codes.csv", rows).string();
+  const Outcome both = abbe("calibrate --chart colorchecker24_after_nov2014 --illuminant D50 --measured " +
+                            measured + " --series " + series + " --json -o " + folder);
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_LT(both.json()["dE00_max"], 0.5);
+  EXPECT_EQ(both.json()["responses"].size(), 3U);
+  EXPECT_GT(std::filesystem::file_size(folder + "/camera_D50.spi1d"), 1000U);
+  EXPECT_GT(abbe("calibrate --chart colorchecker24_after_nov2014 --illuminant D50 --measured " + measured +
+                 " --json")
+                .json()["dE00_max"],
+            3);
 }
 
 TEST(Calibrate, MeasuredCamera) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/chart/exposure_series.h"
+#include "io/diagnostics.h"
+
+namespace abbe {
+
+/// The exposure series of each channel of a camera.
+struct PhotographedSeries {
+  std::vector<std::string> channels;
+  std::vector<ExposureSeries> series;  ///< One a channel.
+};
+
+/// Reads photographs of one still scene (any picture format, EXR too) listed in a JSON file:
+///
+///     {"exposures": [{"file": "a.tif", "exposure_s": 0.01}, ...],
+///      "regions": [[x0, y0, x1, y1], ...], "full_scale": 1, "bits": 12}
+///
+/// Paths are relative to that file. Each region [pixels, the last ones excluded] gives one patch: the mean of
+/// its code values, with the mean's standard error from their spread and from rounding to `bits`; a region
+/// with a black or clipped pixel counts as black or clipped. Without regions, single pixels of a regular grid
+/// are the patches, and nothing is known of their noise. Codes are divided by `full_scale`, the value at
+/// which the camera clips (default 1, an integer file's largest). Reports photographs of unequal size or
+/// channels, regions beyond them, and values that are not finite.
+[[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
+                                                            Diagnostics& diagnostics);
+
+}  // namespace abbe

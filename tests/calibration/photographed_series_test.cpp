@@ -1,0 +1,150 @@
+#include "calibration/chart/photographed_series.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "io/exr.h"
+#include "io/picture.h"
+#include "tests/calibration/response_fixture.h"
+
+namespace abbe::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPatchEdge = 10;
+
+class Photographs : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // 24 patches in a row, seen through a response with noise, once in each channel with its own gain.
+  static Image photograph(const std::string& response, double time_s, double noise, std::uint64_t seed) {
+    const PlantedResponse planted(response);
+    const std::vector<double> values = chart_values();
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal(0, noise);
+    Image image{24 * kPatchEdge, kPatchEdge, {}, {}};
+    for (const auto& [name, gain] : {std::pair{"R", 0.6}, {"G", 1.0}, {"B", 0.8}}) {
+      ImageChannel channel{name, {}};
+      for (int y = 0; y < kPatchEdge; ++y)
+        for (std::size_t i = 0; i < 24; ++i)
+          for (int x = 0; x < kPatchEdge; ++x)
+            channel.values.push_back(static_cast<float>(
+                std::clamp(planted.code(gain * values[i] * time_s) + normal(random), 0.0, 1.0)));
+      image.channels.push_back(std::move(channel));
+    }
+    return image;
+  }
+
+  // Writes the photographs and their listing; the extra members come first.
+  fs::path list(const std::string& extension, const std::string& members, double noise, double scale = 1) {
+    std::string exposures;
+    std::uint64_t seed = 1;
+    for (const double time : stops(-9, 6, 0.5)) {
+      const std::string name = fmt::format("{}{}", seed, extension);
+      Image image = photograph("gamma:2.2", time, noise, seed++);
+      for (ImageChannel& channel : image.channels)
+        for (float& v : channel.values) v *= static_cast<float>(scale);
+      if (extension == ".exr")
+        write_exr(folder_ / name, image);
+      else
+        write_picture(folder_ / name, image);
+      exposures += fmt::format("{{\"file\": \"{}\", \"exposure_s\": {}}},", name, time);
+    }
+    std::ofstream(folder_ / "series.json") << "{" << members << "\"exposures\": [" << exposures << "]}";
+    return folder_ / "series.json";
+  }
+
+  static std::string regions() {
+    std::string text = "\"regions\": [";
+    for (int i = 0; i < 24; ++i)
+      text += fmt::format("[{}, 0, {}, {}],", i * kPatchEdge, (i + 1) * kPatchEdge, kPatchEdge);
+    return text + "], ";
+  }
+
+  std::optional<PhotographedSeries> read(const fs::path& path) {
+    diagnostics_ = {};
+    return read_series(path, diagnostics_);
+  }
+  void expect_complaint(const std::string& json, const std::string& text) {
+    std::ofstream(folder_ / "bad.json") << json;
+    EXPECT_FALSE(read(folder_ / "bad.json"));
+    EXPECT_NE(diagnostics_.text().find(text), std::string::npos) << diagnostics_.text();
+  }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_series_" + std::to_string(::getpid()));
+  Diagnostics diagnostics_;
+};
+
+TEST_F(Photographs, RegionsOfNoisyFloatImages) {
+  const auto all = read(list(".exr", regions() + "\"full_scale\": 4, ", 2e-3, 4));
+  ASSERT_TRUE(all) << diagnostics_.text();
+  ASSERT_EQ(all->channels, (std::vector<std::string>{"R", "G", "B"}));
+  const PlantedResponse planted("gamma:2.2");
+  for (const ExposureSeries& series : all->series) {
+    ASSERT_EQ(series.codes.size(), 24U);
+    ASSERT_EQ(series.times_s.size(), 31U);
+    EXPECT_NEAR(series.deviations[18][10], 2e-4, 1e-4) << "a tenth of a pixel's";
+    const ResponseFit fit = recover_response(series);
+    EXPECT_LT(worst_error(fit, planted), 0.003);
+    EXPECT_GT(coverage(fit, planted), 0.6);
+    EXPECT_NEAR(fit.noise_scale, 1, 0.25);
+  }
+}
+
+TEST_F(Photographs, GridOfPixelsOfEightBitPictures) {
+  const auto all = read(list(".png", "", 0));
+  ASSERT_TRUE(all) << diagnostics_.text();
+  EXPECT_EQ(all->series[1].codes.size(), 160U) << "16 columns of ten rows";
+  EXPECT_TRUE(all->series[1].deviations.empty());
+  EXPECT_LT(worst_error(recover_response(all->series[1]), PlantedResponse("gamma:2.2")), 0.005);
+}
+
+TEST_F(Photographs, RoundingIsNoiseTooWhereItIsStated) {
+  const auto exact = read(list(".png", regions(), 0));
+  const auto rounded = read(list(".png", regions() + "\"bits\": 8, ", 0));
+  ASSERT_TRUE(exact && rounded) << diagnostics_.text();
+  EXPECT_TRUE(exact->series[0].deviations.empty()) << "no spread at all is no knowledge of it";
+  EXPECT_NEAR(rounded->series[0].deviations[20][12], 1 / 255.0 / std::sqrt(12), 1e-9);
+}
+
+TEST_F(Photographs, AClippedPixelClipsItsRegion) {
+  Image image{4, 1, {{"Y", {0.2F, 0.4F, 0.5F, 1.0F}}}, {}};
+  write_exr(folder_ / "a.exr", image);
+  std::ofstream(folder_ / "one.json") << R"({"regions": [[0, 0, 2, 1], [2, 0, 4, 1]],
+    "exposures": [{"file": "a.exr", "exposure_s": 1}]})";
+  const auto all = read(folder_ / "one.json");
+  ASSERT_TRUE(all) << diagnostics_.text();
+  EXPECT_NEAR(all->series[0].codes[0][0], 0.3, 1e-7);
+  EXPECT_NEAR(all->series[0].deviations[0][0], 0.1, 1e-7);
+  EXPECT_EQ(all->series[0].codes[1][0], 1);
+}
+
+TEST_F(Photographs, SaysWhatIsWrong) {
+  write_exr(folder_ / "a.exr", {4, 1, {{"Y", {0, 0, 0, 0}}}, {}});
+  write_exr(folder_ / "b.exr", {2, 1, {{"Y", {0, 0}}}, {}});
+  write_exr(folder_ / "c.exr", {4, 1, {{"Z", {0, 0, 0, 0}}}, {}});
+  expect_complaint(R"({"exposures": []})", "no exposures");
+  expect_complaint(R"({"exposures": [{"file": "a.exr"}]})", "/exposures/0");
+  expect_complaint(R"({"exposures": [{"file": "a.exr", "exposure_s": 0}]})", "/exposures/0/exposure_s");
+  expect_complaint(
+      R"({"exposures": [{"file": "a.exr", "exposure_s": 1}, {"file": "b.exr", "exposure_s": 1}]})",
+      "b.exr has 2 x 1 pixels, the first 4 x 1");
+  expect_complaint(
+      R"({"exposures": [{"file": "a.exr", "exposure_s": 1}, {"file": "c.exr", "exposure_s": 1}]})",
+      "c.exr has other channels than the first");
+  expect_complaint(R"({"regions": [[0, 0, 5, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
+                   "region [0, 0, 5, 1] lies beyond its 4 x 1 pixels");
+  expect_complaint(R"({"regions": [[2, 0, 2, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
+                   "x0 < x1");
+  expect_complaint(R"({"exposure": [], "exposures": [{"file": "a.exr", "exposure_s": 1}]})", "exposure");
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "calibration/fit/response.h"
+#include "tests/calibration/calibration_fixture.h"
+
+namespace abbe::test {
+
+/// Exposure times of 2^low to 2^high seconds.
+inline std::vector<double> stops(double low, double high, double step) {
+  std::vector<double> times;
+  for (int i = 0; low + i * step <= high; ++i) times.push_back(std::exp2(low + i * step));
+  return times;
+}
+
+/// The chart's green values through a measured camera.
+inline std::vector<double> chart_values() {
+  std::vector<double> values;
+  const Curve light = illuminant("D65");
+  const std::vector<Channel> nikon = camera();
+  for (const Patch& patch : chart().patches) values.push_back(camera_raw(nikon, light, patch.reflectance)[1]);
+  return values;
+}
+
+/// The planted exposure of a code over the recovered one, both in units of that at mid-scale.
+inline double exposure_ratio(const ResponseFit& fit, const PlantedResponse& planted, double code) {
+  return linearise(fit.linear, code) / linearise(fit.linear, 0.5) * planted.exposure(0.5) /
+         planted.exposure(code);
+}
+
+/// Largest error between 1 % and 99 % of the code range, as a share of full scale.
+inline double worst_error(const ResponseFit& fit, const PlantedResponse& planted) {
+  double worst = 0;
+  for (int i = 10; i <= 990; ++i)
+    worst = std::max(worst,
+                     std::abs(exposure_ratio(fit, planted, i / 1000.0) - 1) * planted.exposure(i / 1000.0));
+  return worst;
+}
+
+/// The share of the codes between 1 % and 99 % where the reported interval holds the planted exposure.
+inline double coverage(const ResponseFit& fit, const PlantedResponse& planted) {
+  int inside = 0;
+  for (int i = 10; i <= 990; ++i) {
+    const double code = i / 1000.0;
+    const double error = std::abs(std::log(exposure_ratio(fit, planted, code)));
+    inside += error <= 1.96 * linearise(fit.log_deviation, code) ? 1 : 0;
+  }
+  return inside / 981.0;
+}
+
+/// A 12-bit camera whose patches, each a mean of some pixels, scatter by half a step in the dark and by one
+/// and a half at full scale.
+inline constexpr CodeNoise kNoisyCamera{12, 1.2e-4, 1.2e-7};
+
+/// What recovering a planted curve from many noisy series comes to.
+struct Recovery {
+  double worst = 0;     ///< Error over all seeds.
+  double coverage = 0;  ///< Mean over all seeds.
+};
+inline Recovery recover_often(const std::string& response, int seeds) {
+  const PlantedResponse planted(response);
+  const std::vector<double> values = chart_values();
+  Recovery all;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const ResponseFit fit = recover_response(
+        expose(values, stops(-9, 6, 1.0 / 3), planted, kNoisyCamera, static_cast<std::uint64_t>(seed)));
+    all.worst = std::max(all.worst, worst_error(fit, planted));
+    all.coverage += coverage(fit, planted) / seeds;
+  }
+  return all;
+}
+
+}  // namespace abbe::test
