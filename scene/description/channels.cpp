@@ -41,7 +41,7 @@ struct Detector {
 
 // Puts one more filter into the stack: a curve, or one that shifts with the angle.
 bool read_filter(const JsonValue& json, FilterStack& stack, Reading& reading) {
-  if (!json.find("effective_index")) {
+  if (!json.find("effective_index") && !json.find("transmittance")) {
     const auto curve = read_curve(json, {"filter", kTransmittance}, reading);
     if (curve) stack.fixed = product(stack.fixed, *curve);
     return curve.has_value();

@@ -187,6 +187,7 @@ TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
        "/sensor/channels/a/filters/0/effective_index: error: expected a number (got 0.9, allowed [1, 10])"},
       {"no transmittance", behind(R"({"effective_index": 2})"), ErrorCode::scene,
        "missing key \"transmittance\""},
+      {"no index", behind(R"({"transmittance": 1})"), ErrorCode::scene, "missing key \"effective_index\""},
       {"unknown filter", behind(R"("bessel_V")"), ErrorCode::scene, "did you mean \"bessell_V\"?"},
       {"not a list", sensed(pixel + R"("channels": {"a": {"filters": "bessell_V"}})"), ErrorCode::scene,
        "expected an array of filters (got a string)"},
