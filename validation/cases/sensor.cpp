@@ -1,3 +1,4 @@
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -74,6 +75,20 @@ Case worked_example() {
           FilmMean{"../exposure.json", {}, "mono", energy * kPerPhoton / photon_energy(555), 64, 5e-4}};
 }
 
+// Stretched by s the band is 10 s wide and centred at 650 s; a shift of 0.05 nm changes the film by 4e-4.
+Case tilted_filter() {
+  constexpr double kIndex = 2;
+  const double s = std::sqrt(1 - 0.36 / (kIndex * kIndex));
+  const double wedge = (650 * s - 500) / (700 - 500);
+  return {Suite::sensor,
+          "tilted-filter",
+          "interference filter of 10 nm, tilted by 36.87°: where its band stands",
+          "λ0 sqrt(1 - sin²θ/n²) [Smith2008, ch. 11]",
+          "J/m²",
+          {0.01, Margin::Kind::relative},
+          FilmMean{"tilted_filter.json", {}, "wedge", 0.8 / 25 * 10 * s * wedge, 128, 4e-4}};
+}
+
 // A pair of flats of one sensor, simulated.
 struct SimulatedPair {
   double exposure_s;
@@ -123,7 +138,7 @@ std::vector<Case> sensor_cases() {
       computed_case(Suite::sensor, "ccd-counts", "electrons of a filtered CCD before black bodies",
                     "photon counts of Planck's law [Planck1901] in measured passbands [Bessell1990]",
                     "1/(s m² sr)", {1e-6, Margin::Kind::relative}, ccd_counts),
-      worked_example(),
+      worked_example(), tilted_filter(),
       computed_case(Suite::sensor, "photon-transfer", "photon transfer returns what a sensor was given",
                     "the method of [EMVA1288] on simulated flats", "", {0.005, Margin::Kind::relative},
                     transferred)};
