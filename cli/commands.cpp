@@ -181,24 +181,28 @@ void add_scene_commands(CLI::App& app, Command& command) {
   add_json(*sub.app, sub->json);
 }
 
-void add_index_query(CLI::App& query, const std::string& name, const std::string& help, Command& command,
-                     int (*run)(const IndexOptions&)) {
-  const Sub<IndexOptions> sub(query, name, help, command, run);
-  sub.app->add_option("name", sub->name, "Material or FILE.csv")->required()->type_name("MATERIAL");
+constexpr const char* kMaterialHelp = "Material, FILE.csv or FILE.yml of refractiveindex.info";
+
+Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
+                                  Command& command, int (*run)(const IndexOptions&)) {
+  Sub<IndexOptions> sub(query, name, help, command, run);
+  sub.app->add_option("name", sub->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*sub.app, sub->at_nm);
   add_json(*sub.app, sub->json);
+  return sub;
 }
 
 void add_matter_queries(CLI::App& query, Command& command) {
-  add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
+  const Sub<IndexOptions> ior =
+      add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
+  add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
+             "Also tell the internal transmittance of that many millimetres", "MM");
   add_index_query(query, "critical", "Critical angle from inside", command, query_critical);
   add_index_query(query, "brewster", "Brewster's angle from outside", command, query_brewster);
 
   const Sub<ReflectanceOptions> reflectance(query, "reflectance", "Reflectance of a polished surface in air",
                                             command, query_reflectance);
-  reflectance.app->add_option("name", reflectance->name, "Material or FILE.csv")
-      ->required()
-      ->type_name("MATERIAL");
+  reflectance.app->add_option("name", reflectance->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*reflectance.app, reflectance->at_nm);
   add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
              "Angles of incidence (default 0)", "DEG[,DEG...]");
@@ -206,7 +210,7 @@ void add_matter_queries(CLI::App& query, Command& command) {
 
   const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
                                 query_prism);
-  prism.app->add_option("name", prism->name, "Material or FILE.csv")->required()->type_name("MATERIAL");
+  prism.app->add_option("name", prism->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*prism.app, prism->at_nm);
   add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
       ->required();

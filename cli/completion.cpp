@@ -64,11 +64,11 @@ _abbe_answer() {  # PROGRAM VALUE KIND...
   case $3 in
     words) mapfile -t COMPREPLY < <(compgen -W "${*:4}" -- "$value") ;;
     names)
-      mapfile -t COMPREPLY < <(compgen -W "$("$1" query --list "$4" 2>/dev/null)" -- "$value")
+      mapfile -t COMPREPLY < <(compgen -W "$("$1" query --list "$4" 2>/dev/null | cut -f1)" -- "$value")
       if ((${#COMPREPLY[@]})); then
         mapfile -t COMPREPLY < <(printf '%q\n' "${COMPREPLY[@]}")
       else
-        _abbe_answer "$1" "$value" files csv
+        _abbe_answer "$1" "$value" files csv yml
       fi
       ;;
     files)

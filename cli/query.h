@@ -18,7 +18,9 @@ struct IndexOptions {
   std::string name;
   std::vector<double> at_nm;
   bool json = false;
+  std::optional<double> thickness_mm = {};  ///< Of `query ior`: of the piece whose inside is asked about.
 };
+/// With a thickness, what of the light between two faces reaches the second: exp(-4 pi k d / lambda).
 int query_ior(const IndexOptions& options);
 /// Angle of total reflection against an index of 1 outside; null where n <= 1.
 int query_critical(const IndexOptions& options);
@@ -70,7 +72,7 @@ struct CameraOptions {
 };
 int query_camera(const CameraOptions& options);
 
-/// `query --list [KIND]`: the names of every kind, or of one.
+/// `query --list [KIND]`: the names of every kind, or of one; of matter, where it holds and its source too.
 struct ListOptions {
   std::string kind;
   bool json = false;

@@ -43,12 +43,32 @@ constexpr char kReflectance[] = "reflectance";
 constexpr char kCamera[] = "camera";
 constexpr char kFilter[] = "filter";
 constexpr char kObserver[] = "observer";
-constexpr std::array<Kind, 6> kKinds{{{"material", index_names},
+constexpr char kMaterial[] = "material";
+constexpr char kGlass[] = "glass";  // too many to show unasked
+constexpr std::array<Kind, 7> kKinds{{{kMaterial, index_names},
+                                      {kGlass, glass_names},
                                       {kIlluminant, names_in<kIlluminant>},
                                       {kReflectance, names_in<kReflectance>},
                                       {kCamera, names_in<kCamera>},
                                       {kFilter, names_in<kFilter>},
                                       {kObserver, names_in<kObserver>}}};
+
+// Adds where each material of a list holds and who measured it, as lists beside their names.
+void describe_matter(Json& answer, const std::string& kind) {
+  Diagnostics diagnostics;
+  for (const auto& name : Json(answer[kind])) {
+    const NamedIndex matter = accepted(load_index(name, {}, diagnostics), diagnostics);
+    answer["low_nm"].push_back(matter.index.low_nm());
+    answer["high_nm"].push_back(matter.index.high_nm());
+    answer["source"].push_back(matter.source);
+  }
+}
+
+// The same of one of them, for reading; a tab ends the name.
+std::string described(const Json& answer, std::size_t i) {
+  return fmt::format("\t{:g}-{:g} nm\t{}", answer["low_nm"][i].get<double>(),
+                     answer["high_nm"][i].get<double>(), answer["source"][i].get_ref<const std::string&>());
+}
 
 }  // namespace
 
@@ -99,14 +119,22 @@ int query_list(const ListOptions& options) {
     if (options.kind.empty() || options.kind == kind.name) answer[kind.name] = kind.names();
   if (answer.empty())
     throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, name_kinds()));
+  const bool matter = options.kind == kMaterial || options.kind == kGlass;
+  if (matter) describe_matter(answer, options.kind);
   if (options.json) {
     print(answer, true);
     return 0;
   }
   for (const auto& [kind, names] : answer.items()) {
-    if (answer.size() > 1) fmt::print("{}\n", kind);
-    for (const auto& name : names)
-      fmt::print("{}{}\n", answer.size() > 1 ? "  " : "", name.get_ref<const std::string&>());
+    if (matter && kind != options.kind) continue;
+    if (options.kind.empty()) fmt::print("{}\n", kind);
+    if (options.kind.empty() && kind == kGlass) {
+      fmt::print("  {} glasses of their makers, listed by --list {}\n", names.size(), kGlass);
+      continue;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+      fmt::print("{}{}{}\n", options.kind.empty() ? "  " : "", names[i].get_ref<const std::string&>(),
+                 matter ? described(answer, i) : "");
   }
   return 0;
 }

@@ -66,6 +66,10 @@ int query_ior(const IndexOptions& options) {
   answer["wavelength_nm"] = one_or_all(options.at_nm);
   answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
   answer["k"] = each(options.at_nm, [&](double nm) { return matter.index.k(nm); });
+  if (options.thickness_mm)
+    answer["internal_transmittance"] = each(options.at_nm, [&](double nm) {
+      return std::exp(-matter.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
+    });
   print(answer, options.json);
   return 0;
 }

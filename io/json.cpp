@@ -9,21 +9,14 @@
 #include <cctype>
 
 #include "io/text.h"
+#include "io/value_tree.h"
 
 namespace abbe {
 namespace {
 
-constexpr std::size_t kMaxDepth = 256;
-constexpr std::size_t kMaxPointer = 1024;  // every value stores its pointer, so long keys would multiply
 constexpr unsigned kFlags = rapidjson::kParseIterativeFlag | rapidjson::kParseInsituFlag |
                             rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag |
                             rapidjson::kParseNumbersAsStringsFlag;
-
-std::string escaped(std::string_view key) {
-  std::string token;
-  for (const char c : key) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return token;
-}
 
 std::string unescaped(std::string_view token) {
   std::string key;
@@ -39,130 +32,52 @@ std::string unescaped(std::string_view token) {
 /// given point into the parsed copy of the text, which tells where they stand.
 class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
  public:
-  TreeBuilder(rapidjson::InsituStringStream& stream, std::shared_ptr<const SourceText> source,
-              std::string pointer, Diagnostics& diagnostics)
-      : stream_(stream),
-        source_(std::move(source)),
-        pointer_(std::move(pointer)),
-        diagnostics_(diagnostics) {}
+  TreeBuilder(rapidjson::InsituStringStream& stream, ValueTree& tree) : stream_(stream), tree_(tree) {}
 
-  bool Null() { return add(nullptr, stream_.Tell() - std::string_view("null").size()); }
-  bool Bool(bool b) { return add(b, stream_.Tell() - std::string_view(b ? "true" : "false").size()); }
-  bool StartObject() { return open(JsonValue::Object{}); }
-  bool StartArray() { return open(JsonValue::Array{}); }
+  bool Null() { return tree_.add(nullptr, stream_.Tell() - std::string_view("null").size()); }
+  bool Bool(bool b) { return tree_.add(b, stream_.Tell() - std::string_view(b ? "true" : "false").size()); }
+  bool StartObject() { return tree_.open(JsonValue::Object{}, stream_.Tell()); }
+  bool StartArray() { return tree_.open(JsonValue::Array{}, stream_.Tell()); }
+  bool EndObject(rapidjson::SizeType) { return close(); }
   bool EndArray(rapidjson::SizeType) { return close(); }
 
   bool RawNumber(const char* text, rapidjson::SizeType size, bool) {
     const std::size_t offset = offset_of(text);
     const std::string_view digits(text, size);
-    if (const auto number = parse_number(digits)) return add(*number, offset);
-    return refuse(offset,
-                  fmt::format("number out of range (got {}, allowed magnitudes from 4.94e-324 to 1.797e308)",
-                              digits.substr(0, 40)));
+    if (const auto number = parse_number(digits)) return tree_.add(*number, offset);
+    return tree_.refuse(
+        offset, fmt::format("number out of range (got {}, allowed magnitudes from 4.94e-324 to 1.797e308)",
+                            digits.substr(0, 40)));
   }
 
   bool String(const char* text, rapidjson::SizeType size, bool) {
     const std::size_t offset = offset_of(text) - 1;
-    return is_text({text, size}, offset) && add(std::string(text, size), offset);
+    return is_text({text, size}, offset) && tree_.add(std::string(text, size), offset);
   }
 
   bool Key(const char* text, rapidjson::SizeType size, bool) {
-    key_.assign(text, size);
-    key_offset_ = offset_of(text) - 1;
-    return is_text(key_, key_offset_);
+    const std::size_t offset = offset_of(text) - 1;
+    tree_.key(std::string(text, size), offset);
+    return is_text({text, size}, offset);
   }
-
-  bool EndObject(rapidjson::SizeType) {
-    std::vector<const JsonValue::Member*> members;
-    for (const auto& member : std::get<JsonValue::Object>(open_.back()->value)) members.push_back(&member);
-    std::stable_sort(members.begin(), members.end(), [](auto* a, auto* b) { return a->first < b->first; });
-    for (std::size_t i = 1; i < members.size(); ++i)
-      if (members[i]->first == members[i - 1]->first)
-        refuse(members[i]->second.key_offset, fmt::format("duplicate key \"{}\"", members[i]->first),
-               members[i]->second.where.pointer);
-    return close();
-  }
-
-  /// Where the parser stands, as a JSON pointer.
-  [[nodiscard]] std::string pointer() const { return open_.empty() ? pointer_ : open_.back()->where.pointer; }
-  [[nodiscard]] bool refused() const { return refused_; }
-  [[nodiscard]] JsonValue take() { return std::move(root_); }
 
  private:
   [[nodiscard]] std::size_t offset_of(const char* text) const {
     return static_cast<std::size_t>(text - stream_.head_);
   }
 
-  bool refuse(std::size_t offset, std::string message, std::string pointer) {
-    diagnostics_.error({source_, offset, std::move(pointer)}, std::move(message));
-    refused_ = true;
-    return false;
-  }
-  bool refuse(std::size_t offset, std::string message) {
-    return refuse(offset, std::move(message), next_pointer());
-  }
-
   bool is_text(std::string_view text, std::size_t offset) {
     return valid_prefix(text) == text.size() ||
-           refuse(offset, "invalid string (got NUL or half a surrogate pair)", pointer());
-  }
-
-  [[nodiscard]] std::string next_pointer() const {
-    if (open_.empty()) return pointer_;
-    const JsonValue& parent = *open_.back();
-    if (const auto* array = std::get_if<JsonValue::Array>(&parent.value))
-      return fmt::format("{}/{}", parent.where.pointer, array->size());
-    return fmt::format("{}/{}", parent.where.pointer, escaped(key_));
-  }
-
-  /// The new value stays in place while it is open: its parent grows again only after it was closed.
-  JsonValue* place(JsonValue value) {
-    if (open_.empty()) return &(root_ = std::move(value));
-    JsonValue& parent = *open_.back();
-    if (auto* array = std::get_if<JsonValue::Array>(&parent.value))
-      return &array->emplace_back(std::move(value));
-    value.key_offset = key_offset_;
-    auto& object = std::get<JsonValue::Object>(parent.value);
-    object.push_back({std::move(key_), std::move(value)});
-    return &object.back().second;
-  }
-
-  template <class Content>
-  bool add(Content content, std::size_t offset) {
-    std::string pointer = next_pointer();
-    if (pointer.size() > kMaxPointer)
-      return refuse(
-          offset,
-          fmt::format("keys too long (got a path of {} bytes, allowed {})", pointer.size(), kMaxPointer),
-          this->pointer());
-    last_ = place({std::move(content), {source_, offset, std::move(pointer)}});
-    return true;
-  }
-
-  template <class Container>
-  bool open(Container container) {
-    if (open_.size() == kMaxDepth)
-      return refuse(stream_.Tell(), fmt::format("nesting too deep (allowed {} levels)", kMaxDepth), "");
-    if (!add(std::move(container), stream_.Tell())) return false;
-    open_.push_back(last_);
-    return true;
+           tree_.refuse(offset, "invalid string (got NUL or half a surrogate pair)", tree_.pointer());
   }
 
   bool close() {
-    open_.pop_back();
+    tree_.close();
     return true;
   }
 
   rapidjson::InsituStringStream& stream_;
-  std::shared_ptr<const SourceText> source_;
-  std::string pointer_;
-  Diagnostics& diagnostics_;
-  JsonValue root_;
-  std::vector<JsonValue*> open_;
-  JsonValue* last_ = nullptr;
-  std::string key_;
-  std::size_t key_offset_ = 0;
-  bool refused_ = false;
+  ValueTree& tree_;
 };
 
 /// What the grammar wanted where the parser stopped.
@@ -236,15 +151,16 @@ std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, 
                                Diagnostics& diagnostics) {
   std::string scratch = source->text;
   rapidjson::InsituStringStream stream(scratch.data());
-  TreeBuilder builder(stream, source, pointer, diagnostics);
+  ValueTree tree(source, pointer, ErrorCode::scene, diagnostics);
+  TreeBuilder builder(stream, tree);
   rapidjson::Reader reader;
   const rapidjson::ParseResult result = reader.Parse<kFlags>(stream, builder);
   if (result.IsError() && result.Code() != rapidjson::kParseErrorTermination)
-    report(result, {source, 0, builder.pointer()}, diagnostics);
-  else if (!builder.refused() && stream.Tell() != source->text.size())
+    report(result, {source, 0, tree.pointer()}, diagnostics);
+  else if (!tree.refused() && stream.Tell() != source->text.size())
     diagnostics.error({source, stream.Tell(), ""}, "NUL byte in a text");
-  else if (!builder.refused())
-    return builder.take();
+  else if (!tree.refused())
+    return tree.take();
   return std::nullopt;
 }
 

@@ -91,7 +91,7 @@ class TableReader {
     const bool shipped = origin == TableOrigin::shipped;
     if (!shipped) {
       provenance.title = fs::path(source_->file).stem().string();
-      provenance.source = fmt::format("{} (SHA-256 {})", source_->file, sha256(source_->text));
+      provenance.source = user_source(*source_);
     }
     take("title", provenance.title, shipped);
     take("unit", provenance.unit, true);
@@ -238,13 +238,8 @@ const Names& names_in(std::string_view folder) {
 std::optional<TableColumn> user_column(const std::string& name, const SourcePosition& where,
                                        Diagnostics& diagnostics) {
   const std::size_t end = name.ends_with(".csv") ? name.size() : name.rfind(".csv:") + 4;
-  fs::path path = name.substr(0, end);
-  if (where.source) path = fs::path(where.source->file).parent_path() / path;
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) {
-    diagnostics.error(where, fmt::format("no such file \"{}\"", path.string()), ErrorCode::input);
-    return std::nullopt;
-  }
+  const fs::path path = name.substr(0, end);
+  if (!is_file(path, where, diagnostics)) return std::nullopt;
   const Heading heading = heading_of(path);
   if (end == name.size()) return TableColumn{path, only_value(heading)};
   const std::string column = name.substr(end + 1);

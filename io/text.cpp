@@ -91,6 +91,13 @@ std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, D
                 valid, code);
 }
 
+bool is_file(const std::filesystem::path& path, const SourcePosition& where, Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) return true;
+  diagnostics.error(where, fmt::format("no such file \"{}\"", path.string()), ErrorCode::input);
+  return false;
+}
+
 std::size_t valid_prefix(std::string_view text) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   const char* at = text.data();
@@ -128,6 +135,10 @@ std::string base64(std::string_view bytes) {
   auto* to = reinterpret_cast<unsigned char*>(text.data());
   text.resize(static_cast<std::size_t>(EVP_EncodeBlock(to, from, static_cast<int>(bytes.size()))));
   return text;
+}
+
+std::string user_source(const SourceText& text) {
+  return fmt::format("{} (SHA-256 {})", text.file, sha256(text.text));
 }
 
 std::string sha256(std::string_view bytes) {

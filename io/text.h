@@ -19,6 +19,10 @@ namespace abbe {
                                                           ErrorCode code = ErrorCode::input,
                                                           std::size_t limit_bytes = std::size_t{1} << 28);
 
+/// Whether `path` is a regular file; another is reported at `where`, as what names it.
+[[nodiscard]] bool is_file(const std::filesystem::path& path, const SourcePosition& where,
+                           Diagnostics& diagnostics);
+
 /// How many leading bytes of `text` are valid UTF-8 without NUL; all of them for a proper text.
 [[nodiscard]] std::size_t valid_prefix(std::string_view text);
 
@@ -31,6 +35,9 @@ namespace abbe {
 
 /// The bytes in base64, as data URLs hold them [RFC4648, sec. 4].
 [[nodiscard]] std::string base64(std::string_view bytes);
+
+/// The source of a user's file: its name and the hash of its text.
+[[nodiscard]] std::string user_source(const SourceText& text);
 
 /// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);

@@ -49,11 +49,8 @@ std::optional<std::vector<double>> wavelengths(const Table& table, Diagnostics& 
                       ErrorCode::input);
     return std::nullopt;
   }
-  if (values->back() <= kMinWavelengthNm || values->front() >= kMaxWavelengthNm) {
-    diagnostics.error(table.where,
-                      fmt::format("wavelengths from {} to {} nm lie outside [{}, {}] nm; is the unit right?",
-                                  values->front(), values->back(), kMinWavelengthNm, kMaxWavelengthNm),
-                      ErrorCode::input);
+  if (auto fault = range_fault(values->front(), values->back())) {
+    diagnostics.error(table.where, std::move(*fault), ErrorCode::input);
     return std::nullopt;
   }
   return values;
@@ -120,21 +117,25 @@ std::optional<NamedCurve> load_curve(std::string_view folder, const std::string&
   const auto found = find_table(folder, name, where, diagnostics);
   if (!found) return std::nullopt;
   const auto table = read_table(found->path, origin(found->path), diagnostics);
-  if (!table) return std::nullopt;
-  const auto nm = wavelengths(*table, diagnostics);
-  const auto column = value_column(*table, found->column, diagnostics);
-  if (!nm || !column) return std::nullopt;
-  const auto values = table->numbers(*column, diagnostics);
+  return table ? curve_of(*table, found->column, name, diagnostics, needed) : std::nullopt;
+}
+
+std::optional<NamedCurve> curve_of(const Table& table, const std::string& column, const std::string& name,
+                                   Diagnostics& diagnostics, NeededRange needed) {
+  const auto nm = wavelengths(table, diagnostics);
+  const auto values_at = value_column(table, column, diagnostics);
+  if (!nm || !values_at) return std::nullopt;
+  const auto values = table.numbers(*values_at, diagnostics);
   if (!values) return std::nullopt;
   NamedCurve result{name,
-                    table->provenance.source,
-                    table->provenance.unit,
+                    table.provenance.source,
+                    table.provenance.unit,
                     nm->front(),
                     nm->back(),
-                    table_curve(*nm, *values, table->outside)};
-  if (table->outside == Outside::error && !covers(result, needed)) {
+                    table_curve(*nm, *values, table.outside)};
+  if (table.outside == Outside::error && !covers(result, needed)) {
     diagnostics.error(
-        table->where,
+        table.where,
         fmt::format("covers {} to {} nm and declares \"outside: error\", but {} to {} nm are needed "
                     "(declare \"outside: clamp\" or \"outside: zero\" to say what holds there)",
                     result.low_nm, result.high_nm, needed.low_nm, needed.high_nm),
@@ -142,6 +143,12 @@ std::optional<NamedCurve> load_curve(std::string_view folder, const std::string&
     return std::nullopt;
   }
   return result;
+}
+
+std::optional<std::string> range_fault(double low_nm, double high_nm) {
+  if (high_nm > kMinWavelengthNm && low_nm < kMaxWavelengthNm) return std::nullopt;
+  return fmt::format("wavelengths from {} to {} nm lie outside [{}, {}] nm; is the unit right?", low_nm,
+                     high_nm, kMinWavelengthNm, kMaxWavelengthNm);
 }
 
 std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/diagnostics.h"
+#include "io/table.h"
 #include "spectral/curve.h"
 
 namespace abbe {
@@ -32,6 +33,15 @@ struct NeededRange {
 [[nodiscard]] std::optional<NamedCurve> load_curve(std::string_view folder, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});
+
+/// The same for a column of a table already read, called `name`.
+[[nodiscard]] std::optional<NamedCurve> curve_of(const Table& table, const std::string& column,
+                                                 const std::string& name, Diagnostics& diagnostics,
+                                                 NeededRange needed = {});
+
+/// Why a table or formula that holds on [low_nm, high_nm] is of no use: all of it lies outside [300, 1100]
+/// nm. Nothing when some does not.
+[[nodiscard]] std::optional<std::string> range_fault(double low_nm, double high_nm);
 
 /// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminant A beyond
 /// its table follows its definition.

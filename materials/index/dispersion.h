@@ -13,7 +13,8 @@ namespace abbe {
 struct DispersionFormula {
   int id = 2;
   std::array<double, 17> c{};
-  int terms = 17;  ///< How many of `c` the table gives.
+  int terms = 17;                   ///< How many of `c` the table gives.
+  bool vacuum_wavelengths = false;  ///< Its wavelengths are those in vacuum, not in standard air.
 };
 
 /// n at a wavelength in MICROMETRES by formula `f.id`. NaN where the formula has none (n^2 < 0) and for an

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "spectral/air.h"
 
 namespace abbe {
@@ -35,6 +37,13 @@ SampledSpectrum sellmeier_index(const DispersionFormula& f, const SampledSpectru
 
 }  // namespace
 
+std::optional<std::string> index_fault(const Curve& n, const Curve& k) {
+  if (n.min() > 0 && k.min() >= 0) return std::nullopt;
+  return fmt::format(
+      "an index must be positive and its extinction not negative (got n down to {}, k down to {})", n.min(),
+      k.min());
+}
+
 RefractiveIndex::RefractiveIndex(double n, double k)
     : n_(Constant{n}), k_(k), low_nm_(0), high_nm_(std::numeric_limits<double>::infinity()) {}
 
@@ -51,7 +60,8 @@ RefractiveIndex::RefractiveIndex(Curve n, Curve k, IndexMedium medium, double lo
 
 void RefractiveIndex::bake() {
   const auto* formula = std::get_if<DispersionFormula>(&n_);
-  if (medium_ == IndexMedium::air && (!formula || is_sellmeier(*formula))) return;
+  if (medium_ == IndexMedium::air && (!formula || (is_sellmeier(*formula) && !formula->vacuum_wavelengths)))
+    return;
   const auto* table = std::get_if<Curve>(&n_);
   std::vector<Knot> knots;
   for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1)
@@ -62,7 +72,8 @@ void RefractiveIndex::bake() {
 double RefractiveIndex::catalogued_n(double wavelength_nm) const {
   if (const auto* constant = std::get_if<Constant>(&n_)) return constant->n;
   const double nm = std::clamp(wavelength_nm, low_nm_, high_nm_);
-  if (const auto* formula = std::get_if<DispersionFormula>(&n_)) return dispersion_index(*formula, nm * 1e-3);
+  if (const auto* formula = std::get_if<DispersionFormula>(&n_))
+    return dispersion_index(*formula, (formula->vacuum_wavelengths ? air_to_vacuum(nm) : nm) * 1e-3);
   return std::get<Curve>(n_)(nm);
 }
 

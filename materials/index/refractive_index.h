@@ -12,6 +12,9 @@ namespace abbe {
 /// What a catalogued index is relative to.
 enum class IndexMedium { air, vacuum };
 
+/// Why `n` and `k` cannot be an index: n <= 0 or k < 0 somewhere in [300, 1100] nm. Nothing when they can.
+[[nodiscard]] std::optional<std::string> index_fault(const Curve& n, const Curve& k);
+
 /// A complex refractive index n + ik over wavelength: catalogued numbers with what they are relative to and
 /// where they hold. Outside [low_nm, high_nm] n keeps its value at the nearer end. Packets agree with the
 /// double functions to 1e-5.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "io/text.h"
+#include "materials/index/library.h"
 #include "scene/description/pieces.h"
 #include "scene/shapes/placed.h"
 
@@ -172,7 +173,7 @@ std::optional<std::string> Reading::table(const JsonValue& json) {
   std::optional<std::string> name = read_string(json, diagnostics);
   if (!name) return std::nullopt;
   const std::size_t dot = name->find(kExtension);
-  if (dot == std::string::npos && !name->ends_with(".json")) return name;
+  if (dot == std::string::npos && !name->ends_with(".json") && !is_refractiveindex_info(*name)) return name;
   const std::size_t end = dot == std::string::npos ? name->size() : dot + kExtension.size();
   const auto path = file(name->substr(0, end), json.where);
   if (!path) return std::nullopt;

@@ -53,8 +53,8 @@ struct Reading {
   /// A file named by the scene, remembered for the hash; a URL is reported.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,
                                                           const SourcePosition& where);
-  /// A table's name as the libraries take it: a user's `FILE.csv` or `FILE.csv:COLUMN` is looked for beside
-  /// the scene.
+  /// A table's name as the libraries take it: a user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml` is looked
+  /// for beside the scene.
   [[nodiscard]] std::optional<std::string> table(const JsonValue& name);
 };
 

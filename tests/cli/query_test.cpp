@@ -103,6 +103,42 @@ TEST(QueryIor, KeysOfTheContractAndPlainNumbersForOneWavelength) {
   EXPECT_EQ(ask(cli::query_ior, {"water_20.0C", {550}})["medium"], "vacuum");
 }
 
+TEST(QueryIor, InternalTransmittanceOfAThickness) {
+  cli::IndexOptions options{"schott/N-BK7", {300, 1100}};
+  EXPECT_FALSE(ask(cli::query_ior, options).contains("internal_transmittance"));
+  options.thickness_mm = 10;
+  const json ten = ask(cli::query_ior, options);
+  EXPECT_NEAR(ten["internal_transmittance"][0].get<double>(), 0.301711, 1e-6) << "as its maker tells";
+  options.thickness_mm = 25;
+  const json more = ask(cli::query_ior, options);
+  EXPECT_NEAR(more["internal_transmittance"][0].get<double>(),
+              std::pow(ten["internal_transmittance"][0].get<double>(), 2.5), 1e-12);
+}
+
+TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
+  const json glass = ask(cli::query_list, {"glass"});
+  ASSERT_EQ(glass["glass"].size(), 1634U);
+  const auto& names = glass["glass"];
+  const auto at =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), "hoya/FCD1") - names.begin());
+  ASSERT_LT(at, names.size());
+  EXPECT_EQ(glass["low_nm"][at], 365.01);
+  EXPECT_DOUBLE_EQ(glass["high_nm"][at].get<double>(), 1013.98);
+  EXPECT_NE(glass["source"][at].get<std::string>().find("hoya/optical/FCD1.yml"), std::string::npos);
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(cli::query_list({"material"}), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("\nAu_Johnson\t191.6-1937 nm\tP. B. Johnson"),
+            std::string::npos);
+  const json all = ask(cli::query_list, {""});
+  EXPECT_EQ(all["glass"].size(), 1634U);
+  EXPECT_FALSE(all.contains("source"));
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(cli::query_list({""}), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find(
+                "\nglass\n  1634 glasses of their makers, listed by --list glass\nilluminant\n"),
+            std::string::npos);
+}
+
 TEST(QueryPrism, EveryMinimumDeviation) {
   const ReferenceTable table("prism_minimum_deviation");
   for (const auto& [id, rows] : rows_by(table, "id")) {
@@ -239,7 +275,7 @@ TEST(QueryCamera, EveryPatchOfEveryChart) {
 
 TEST(QueryList, NamesEveryKind) {
   const json all = ask(cli::query_list, cli::ListOptions{});
-  EXPECT_EQ(all.size(), 6U);
+  EXPECT_EQ(all.size(), 7U);
   const auto names = all["material"].get<std::vector<std::string>>();
   EXPECT_NE(std::find(names.begin(), names.end(), "N-BK7"), names.end());
   EXPECT_EQ(ask(cli::query_list, {"camera"}).size(), 1U);

@@ -162,20 +162,21 @@ TEST_F(FindTable, ListsItsNames) {
   EXPECT_TRUE(table_names("no such folder").empty());
 }
 
-TEST_F(FindTable, UserFilesAreRelativeToTheFileThatNamesThem) {
+TEST_F(FindTable, FindsUserFilesByTheirPaths) {
   const auto folder = test_folder();
   put(folder / "mine.csv", "# unit: W\nl,a,b\n1,2,3\n");
   const auto scene = std::make_shared<SourceText>(SourceText{(folder / "scene.json").string(), ""});
   Diagnostics diagnostics;
-  const auto all = find_table("light", "mine.csv", {scene, 0, ""}, diagnostics);
+  const auto all = find_table("light", (folder / "mine.csv").string(), {scene, 0, ""}, diagnostics);
   ASSERT_TRUE(all.has_value()) << diagnostics.text();
   EXPECT_EQ(all->path, folder / "mine.csv");
   EXPECT_EQ(all->column, "");
   const auto b = find_table("light", (folder / "mine.csv:b").string(), {}, diagnostics);
   ASSERT_TRUE(b.has_value()) << diagnostics.text();
   EXPECT_EQ(b->column, "b");
-  EXPECT_FALSE(find_table("light", "mine.csv:c", {scene, 0, ""}, diagnostics).has_value());
-  EXPECT_FALSE(find_table("light", "none.csv", {scene, 0, ""}, diagnostics).has_value());
+  EXPECT_FALSE(
+      find_table("light", (folder / "mine.csv:c").string(), {scene, 0, ""}, diagnostics).has_value());
+  EXPECT_FALSE(find_table("light", (folder / "none.csv").string(), {scene, 0, ""}, diagnostics).has_value());
   ASSERT_EQ(diagnostics.all().size(), 2U);
   EXPECT_EQ(diagnostics.all()[0].message, "unknown column \"c\"; known: a, b");
   EXPECT_EQ(diagnostics.all()[1].message, "no such file \"" + (folder / "none.csv").string() + "\"");

@@ -270,6 +270,24 @@ TEST_F(DescriptionTest, ReadsMaterials) {
   EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
 }
 
+// A scene named by a path relative to the working directory, as on the command line.
+TEST_F(DescriptionTest, FindsIndicesBesideTheScene) {
+  write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.6\n1100,1.6\n");
+  write(folder_ / "own.yml",
+        "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1.1\n    coefficients: 1.7 0 1\n");
+  write(folder_ / "scene.json", completed(R"({"materials": {"table": {"dielectric": {"ior": "own.csv"}},
+    "entry": {"dielectric": {"ior": "own.yml"}}}})"));
+  Diagnostics diagnostics;
+  const auto scene = load_scene(std::filesystem::relative(folder_ / "scene.json"), {}, diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.text();
+  EXPECT_EQ(std::get<DielectricMaterial>(scene->materials[0].model).index.n(500.0), 1.6);
+  EXPECT_EQ(std::get<DielectricMaterial>(scene->materials[1].model).index.n(500.0), 1.7);
+  write(folder_ / "own.yml",
+        "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1.1\n    coefficients: 1.8 0 1\n");
+  Diagnostics again;
+  EXPECT_NE(load_scene(folder_ / "scene.json", {}, again)->sha256, scene->sha256) << "part of the scene";
+}
+
 TEST_F(DescriptionTest, TransformsShapes) {
   const auto sphere = std::get<Sphere>(shape(R"("sphere": {"center": [1, 0, 0], "radius": 1}, "transform":
       {"translate": [0, 0, 5], "rotate": {"axis": [0, 0, 3], "deg": 90}, "scale": 2})"));

@@ -1,0 +1,96 @@
+#include "io/value_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace abbe {
+namespace {
+
+std::string escaped(std::string_view key) {
+  std::string token;
+  for (const char c : key) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return token;
+}
+
+}  // namespace
+
+ValueTree::ValueTree(std::shared_ptr<const SourceText> source, std::string pointer, ErrorCode code,
+                     Diagnostics& diagnostics)
+    : source_(std::move(source)), pointer_(std::move(pointer)), code_(code), diagnostics_(diagnostics) {}
+
+void ValueTree::key(std::string name, std::size_t offset) {
+  key_ = std::move(name);
+  key_offset_ = offset;
+}
+
+bool ValueTree::add(decltype(JsonValue::value) value, std::size_t offset) {
+  std::string pointer = next_pointer();
+  if (pointer.size() > kMaxPointer)
+    return refuse(
+        offset,
+        fmt::format("keys too long (got a path of {} bytes, allowed {})", pointer.size(), kMaxPointer),
+        this->pointer());
+  last_ = place({std::move(value), {source_, offset, std::move(pointer)}});
+  return true;
+}
+
+bool ValueTree::open(decltype(JsonValue::value) container, std::size_t offset) {
+  if (open_.size() == kMaxDepth)
+    return refuse(offset, fmt::format("nesting too deep (allowed {} levels)", kMaxDepth), "");
+  if (!add(std::move(container), offset)) return false;
+  open_.push_back(last_);
+  return true;
+}
+
+void ValueTree::close() {
+  if (const auto* object = std::get_if<JsonValue::Object>(&open_.back()->value)) report_duplicates(*object);
+  open_.pop_back();
+}
+
+void ValueTree::report_duplicates(const JsonValue::Object& object) {
+  std::vector<const JsonValue::Member*> members;
+  for (const auto& member : object) members.push_back(&member);
+  std::stable_sort(members.begin(), members.end(), [](auto* a, auto* b) { return a->first < b->first; });
+  for (std::size_t i = 1; i < members.size(); ++i)
+    if (members[i]->first == members[i - 1]->first)
+      refuse(members[i]->second.key_offset, fmt::format("duplicate key \"{}\"", members[i]->first),
+             members[i]->second.where.pointer);
+}
+
+bool ValueTree::refuse(std::size_t offset, std::string message, std::string pointer) {
+  diagnostics_.error({source_, offset, std::move(pointer)}, std::move(message), code_);
+  refused_ = true;
+  return false;
+}
+
+bool ValueTree::refuse(std::size_t offset, std::string message) {
+  return refuse(offset, std::move(message), next_pointer());
+}
+
+std::string ValueTree::pointer() const {
+  return open_.empty() ? pointer_ : open_.back()->where.pointer;
+}
+
+std::string ValueTree::next_pointer() const {
+  if (open_.empty()) return pointer_;
+  const JsonValue& parent = *open_.back();
+  if (const auto* array = std::get_if<JsonValue::Array>(&parent.value))
+    return fmt::format("{}/{}", parent.where.pointer, array->size());
+  return fmt::format("{}/{}", parent.where.pointer, escaped(key_));
+}
+
+// The new value stays in place while it is open: its parent grows again only after it was closed.
+JsonValue* ValueTree::place(JsonValue value) {
+  if (open_.empty()) return &(root_ = std::move(value));
+  JsonValue& parent = *open_.back();
+  if (auto* array = std::get_if<JsonValue::Array>(&parent.value))
+    return &array->emplace_back(std::move(value));
+  value.key_offset = key_offset_;
+  auto& object = std::get<JsonValue::Object>(parent.value);
+  object.push_back({std::move(key_), std::move(value)});
+  return &object.back().second;
+}
+
+}  // namespace abbe
