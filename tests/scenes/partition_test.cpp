@@ -3,6 +3,8 @@
 #include <cstring>
 #include <random>
 
+#include <fmt/format.h>
+
 #include "io/exr.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/part.h"
@@ -15,10 +17,25 @@ namespace {
 
 constexpr int kSamples = 24;
 
-Scene small(const char* name) {
-  return test::load(name,
-                    {{"/sensor/resolution", "[40, 24]"}, {"/render/samples", std::to_string(kSamples)}});
+Scene small(const char* name, std::vector<Override> settings = {}) {
+  settings.push_back({"/sensor/resolution", "[40, 24]"});
+  settings.push_back({"/render/samples", std::to_string(kSamples)});
+  return test::load(name, settings);
 }
+
+/// A scene, perhaps before another sensor.
+struct Seen {
+  const char* scene;
+  const char* sensor = nullptr;
+
+  [[nodiscard]] Scene load() const {
+    return sensor == nullptr ? small(scene) : small(scene, {{"/sensor", sensor}});
+  }
+};
+// Everything a sensor may do to photons and camera paths: a mosaic, one of its filters tilting.
+constexpr Seen kMosaic{"glass_sphere.json", R"({"mosaic": [["R", "G", "B"], ["G", "B", "R"]],
+  "channels": {"R": {"band": [600, 700]}, "B": {"band": [400, 500]},
+    "G": {"filters": [{"transmittance": {"band": [500, 600]}, "effective_index": 1.8}], "exposure_s": 2}}})"};
 
 /// Cuts [0, kSamples) at random places.
 SampleRanges cut(int pieces, std::mt19937& random) {
@@ -34,17 +51,18 @@ SampleRanges cut(int pieces, std::mt19937& random) {
   return ranges;
 }
 
-class Partition : public testing::TestWithParam<const char*> {
+class Partition : public testing::TestWithParam<Seen> {
  protected:
-  const FilmIdentity identity_{{"sensor_channels", "R,G,B"}, {"scene", GetParam()}};
+  const Scene scene_ = GetParam().load();
+  const FilmIdentity identity_{{"sensor_channels", fmt::format("{}", fmt::join(scene_.film_planes(), ","))}};
 
   // Through a file, as parts travel.
-  RenderPart rendered(const Scene& scene, const SampleRange& range) const {
+  RenderPart rendered(const SampleRange& range) const {
     const auto path = std::filesystem::path(testing::TempDir()) /
                       ("abbe_partition_" + std::to_string(::getpid()) + ".abbepart");
     RenderOptions options;
     options.samples = range;
-    write_part(path, identity_, render(scene, options));
+    write_part(path, identity_, render(scene_, options));
     RenderPart part = read_part(path);
     std::filesystem::remove(path);
     return part;
@@ -65,12 +83,11 @@ class Partition : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Partition, AnyPartsInAnyOrderAndGroupingAreTheWhole) {
-  const Scene scene = small(GetParam());
-  const RenderPart whole{identity_, render(scene, {})};
+  const RenderPart whole{identity_, render(scene_, {})};
   std::mt19937 random(7);
   for (int trial = 0; trial < 7; ++trial) {
     std::vector<RenderPart> parts;
-    for (const SampleRange& range : cut(2 + trial, random)) parts.push_back(rendered(scene, range));
+    for (const SampleRange& range : cut(2 + trial, random)) parts.push_back(rendered(range));
     while (parts.size() > 1) {  // any two become one
       std::shuffle(parts.begin(), parts.end(), random);
       merge(parts[parts.size() - 2], parts.back(), "part");
@@ -81,21 +98,23 @@ TEST_P(Partition, AnyPartsInAnyOrderAndGroupingAreTheWhole) {
 }
 
 TEST_P(Partition, AnInterruptedRenderGoesOnAsItWouldHave) {
-  const Scene scene = small(GetParam());
-  const RenderPart whole{identity_, render(scene, {})};
-  RenderPart part = rendered(scene, {3, 9});
+  const RenderPart whole{identity_, render(scene_, {})};
+  RenderPart part = rendered({3, 9});
   RenderOptions options;
   options.samples = SampleRange{0, 17};
-  part.result = render(scene, options, std::move(part.result));
+  part.result = render(scene_, options, std::move(part.result));
   EXPECT_EQ(to_text(part.result.samples), "0:17");
-  part.result = render(scene, {}, std::move(part.result));
+  part.result = render(scene_, {}, std::move(part.result));
   expect_same(part, whole);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Partition,
-                         testing::Values("prism.json", "cornell.json", "glass_sphere.json"),
+                         testing::Values(Seen{"prism.json"}, Seen{"cornell.json"}, Seen{"glass_sphere.json"},
+                                         kMosaic),
                          [](const auto& info) {
-                           return std::string(info.param, std::strchr(info.param, '.'));
+                           const char* name = info.param.scene;
+                           return std::string(name, std::strchr(name, '.')) +
+                                  (info.param.sensor == nullptr ? "" : "_mosaic");
                          });
 
 RenderResult copy(const RenderResult& result) {
