@@ -13,10 +13,10 @@ using Imath::V3d;
 using ChartFileTest = testing::DescriptionTest;
 using testing::Loaded;
 
-// A chart of 6 x 4 m seen squarely from 10 m, 10 pixels per metre.
+// A chart of 6 x 4 m seen squarely from 10 m, 20 pixels per metre.
 std::string chart_scene(const std::string& chart, const std::string& more = "") {
   return R"({"camera": {"pinhole": {"focal_length": 0.001}, "from": [0, 0, 10], "to": [0, 0, 0], "up": [0, 1, 0]},
-  "sensor": {"resolution": [80, 60], "pixel_pitch_um": 10, "channels": {"all": 1}},
+  "sensor": {"resolution": [160, 120], "pixel_pitch_um": 5, "channels": {"all": 1}},
   "shapes": [{"name": "c", "chart": {)" +
          chart + R"(}})" + more + "]}";
 }
@@ -30,11 +30,11 @@ V3d middle(const Quad& quad) {
   return quad.corner + (quad.edge_u + quad.edge_v) / 2;
 }
 
-// A film whose values are column + 100 row, each known to a variance of 2.
+// A film whose values are column + 1000 row, each known to a variance of 2.
 Image ramp() {
-  Image film{80, 60, {{"all", {}}, {"Variance.all", std::vector<float>(4800, 2)}}, {}};
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 80; ++x) film.channels[0].values.push_back(static_cast<float>(x + 100 * y));
+  Image film{160, 120, {{"all", {}}, {"Variance.all", std::vector<float>(19200, 2)}}, {}};
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) film.channels[0].values.push_back(static_cast<float>(x + 1000 * y));
   return film;
 }
 
@@ -108,13 +108,13 @@ TEST_F(ChartFileTest, ReadOutFindsEachPatchOnTheFilm) {
   ASSERT_TRUE(scene.scene);
   const std::vector<PatchReading> patches = read_patches(*scene.scene, scene->charts[0], ramp(), {"all"});
   ASSERT_EQ(patches.size(), 24U);
-  // The middle 0.602 m of the cell around (-2.5, 1.5) m: pixels 12 to 17 by 12 to 17 and what is whole of
-  // them.
+  // The middle 0.602 m of the cell around (-2.5, 1.5) m is 12.04 pixels wide: whole ones from 24 to 35, both
+  // ways.
   EXPECT_EQ(patches[0].name, "dark skin");
-  EXPECT_EQ(patches[0].pixels, 36U);
-  EXPECT_NEAR(patches[0].mean[0], 14.5 + 100 * 14.5, 1e-4);
-  EXPECT_NEAR(patches[0].variance[0], 2.0 / 36, 1e-9);
-  EXPECT_NEAR(patches[23].mean[0], 64.5 + 100 * 44.5, 1e-4);
+  EXPECT_EQ(patches[0].pixels, 144U);
+  EXPECT_NEAR(patches[0].mean[0], 29.5 + 1000 * 29.5, 1e-2);
+  EXPECT_NEAR(patches[0].variance[0], 2.0 / 144, 1e-9);
+  EXPECT_NEAR(patches[23].mean[0], 129.5 + 1000 * 89.5, 1e-2);
   EXPECT_NEAR((*patches[18].reflectance)(550), 0.9, 0.03);
 }
 
@@ -129,7 +129,10 @@ TEST_F(ChartFileTest, ReadOutRefusesOtherFilms) {
     }
   };
   const Loaded scene = load(chart_scene(kTable + kPlaced));
-  refused(*scene.scene, {2, 1, {{"all", {1, 2}}}, {}}, "all", "the film is none of this scene's camera");
+  refused(*scene.scene, {2, 120, {{"all", std::vector<float>(240)}}, {}}, "all",
+          "none of this scene's camera");
+  refused(*scene.scene, {160, 1, {{"all", std::vector<float>(160)}}, {}}, "all",
+          "none of this scene's camera");
   refused(*scene.scene, ramp(), "Y", "no channel Y");
   const Loaded aside =
       load(chart_scene(kTable + R"("corner": [3, -2, 0], "edge_u": [6, 0, 0], "edge_v": [0, 4, 0])"));

@@ -55,6 +55,7 @@ TEST(Report, HtmlIsSelfContainedAndEscaped) {
   const Planted planted;
   const std::string html = html_text(planted.report);
   EXPECT_NE(html.find("a &lt; b"), std::string::npos);
+  EXPECT_EQ(html.find("a < b"), std::string::npos);
   EXPECT_NE(html.find("1 of 2 cases fail"), std::string::npos);
   EXPECT_NE(html.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos)
       << "the picture is within";

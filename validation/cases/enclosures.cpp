@@ -32,7 +32,7 @@ std::vector<Case> integrating_sphere_cases() {
 std::vector<Case> concentric_cases() {
   const double share = 0.25;  // of the outer sphere's light that falls on the inner one
   const double outer = share / (1 - 0.5 * (1 - share));
-  const std::string source = "balance of two concentric spheres [Howell2010, C-124]";
+  const std::string source = "balance of two concentric spheres [Howell2010, app. C]";
   return {
       film_case("T9-outer", "concentric spheres, the outer one", source, "concentric.json", {}, outer, 64),
       film_case("T9-inner", "concentric spheres, the inner one", source, "concentric.json",
@@ -41,7 +41,7 @@ std::vector<Case> concentric_cases() {
 
 // Two plates of reflectance 0.5 between perfect mirrors, the lower one of exitance 1.
 std::vector<Case> plate_cases() {
-  const std::string source = "balance of two infinite plates [Howell2010, sec. 6]";
+  const std::string source = "balance of two infinite plates [Howell2010]";
   const double lower = 1 / (1 - 0.5 * 0.5);
   return {
       film_case("T10-upper", "infinite plates, the dark one", source, "infinite_plates.json", {}, lower, 64),
@@ -50,7 +50,7 @@ std::vector<Case> plate_cases() {
 }
 
 std::vector<Case> furnace_cases() {
-  const std::string source = "geometric series [Howell2010, sec. 6]";
+  const std::string source = "geometric series [Howell2010]";
   const auto truncated = [&](int vertices) {
     return film_case(fmt::format("T11-{}", vertices),
                      fmt::format("furnace, paths of at most {} vertices", vertices), source, "furnace.json",

@@ -142,9 +142,8 @@ std::vector<Case> form_factor_cases() {
 
 std::vector<Case> dome_cases() {
   const auto sphere_of = [](const std::string& material, const std::string& what) {
-    return film_case("T12-" + material, what + " sphere under a uniform dome",
-                     "nothing is lost [Pharr2023, sec. 13.3]", "dome.json",
-                     {{"/shapes/0/material", material}}, pinhole_exposure(12), 256);
+    return film_case("T12-" + material, what + " sphere under a uniform dome", "nothing is lost [Pharr2023]",
+                     "dome.json", {{"/shapes/0/material", material}}, pinhole_exposure(12), 256);
   };
   std::vector<Case> cases{sphere_of("glass", "glass"), sphere_of("diamond", "diamond"),
                           sphere_of("mirror", "mirror"), sphere_of("white", "white Lambertian")};
@@ -153,7 +152,7 @@ std::vector<Case> dome_cases() {
   const ColorMatching& cmf = color_matching(Observer::cie1931);
   const double blue = product(fl11, cmf.z).integral() / product(fl11, cmf.y).integral();
   cases.push_back(film_case("T12-FL11", "diamond sphere under a dome of a fluorescent lamp, blue channel",
-                            "nothing is lost [Pharr2023, sec. 13.3]", "dome.json",
+                            "nothing is lost [Pharr2023]", "dome.json",
                             {{"/shapes/0/material", "diamond"}, {"/lights/0/emission/illuminant", "FL11"}},
                             pinhole_exposure(12) * blue, 256, "Z"));
   return cases;

@@ -30,7 +30,7 @@ std::vector<Lab> rendered_lab(const Scene& scene, const Image& film, const XYZ& 
   return labs;
 }
 
-// How far the render is from every edition: those with spectra under any light, the others under D50.
+// How far the render is from the other editions: that with spectra under any light, the others under D50.
 std::vector<Remark> editions(const std::vector<Lab>& rendered, const std::string& illuminant) {
   std::vector<Remark> remarks;
   const auto add = [&](const std::string& name, const std::vector<Lab>& lab) {
@@ -38,8 +38,7 @@ std::vector<Remark> editions(const std::vector<Lab>& rendered, const std::string
     remarks.push_back({fmt::format("ΔE2000 to edition {}, mean", name), d.mean});
     remarks.push_back({fmt::format("ΔE2000 to edition {}, max", name), d.max});
   };
-  for (const char* edition : {"ohta1997", "iso17321-1"})
-    add(edition, chart_colors(fmt::format("colorchecker24_{}", edition), illuminant).lab);
+  add("ohta1997", chart_colors("colorchecker24_ohta1997", illuminant).lab);
   if (illuminant != "D50") return remarks;
   for (const char* edition : {"2005_xyY", "babelcolor_average_xyY", "before_nov2014", "after_nov2014"})
     add(edition, edition_lab(edition));
