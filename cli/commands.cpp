@@ -1,7 +1,6 @@
 #include "cli/commands.h"
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,10 +9,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "cli/arguments.h"
 #include "cli/bench.h"
 #include "cli/calibrate.h"
+#include "cli/command_options.h"
 #include "cli/compare.h"
+#include "cli/develop.h"
 #include "cli/info.h"
 #include "cli/merge.h"
 #include "cli/query.h"
@@ -25,74 +25,6 @@
 
 namespace abbe::cli {
 namespace {
-
-constexpr std::int64_t kMaxThreads = 1024;
-constexpr std::int64_t kMaxSamples = 1 << 24;
-constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  // as in scene files
-constexpr double kAnyNumber = std::numeric_limits<double>::max();
-
-// A subcommand with its own options, which outlive the parsing.
-template <typename Options>
-struct Sub {
-  CLI::App* app;
-  std::shared_ptr<Options> options = std::make_shared<Options>();
-
-  Sub(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
-      int (*run)(const Options&))
-      : app(parent.add_subcommand(name, help)) {
-    app->callback([&command, run, kept = options] { command = [run, kept] { return run(*kept); }; });
-  }
-  Options* operator->() const { return options.get(); }
-};
-
-// An option whose text `parse` turns into a value.
-template <typename T, typename Parse>
-CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
-                        const std::string& help, const std::string& type) {
-  return app
-      .add_option_function<std::string>(
-          flag, [&value, parse, flag](const std::string& text) { value = parse(flag, text); }, help)
-      ->type_name(type);
-}
-
-auto numbers_in(double low, double high) {
-  return [low, high](const std::string& option, const std::string& text) {
-    return parse_numbers(option, text, low, high);
-  };
-}
-
-auto number_in(double low, double high) {
-  return [low, high](const std::string& option, const std::string& text) {
-    const std::vector<double> numbers = parse_numbers(option, text, low, high);
-    if (numbers.size() != 1)
-      throw Error(ErrorCode::usage, option, "got \"" + text + "\", allowed one number");
-    return numbers.front();
-  };
-}
-
-template <typename T>
-auto integer_in(std::int64_t low, std::int64_t high) {
-  return [low, high](const std::string& option, const std::string& text) {
-    return static_cast<T>(parse_integer(option, text, low, high));
-  };
-}
-
-// One of some names, whose values count from 0 in their order.
-template <typename T>
-auto one_of(std::vector<std::string> names) {
-  return [names = std::move(names)](const std::string& option, const std::string& text) {
-    return static_cast<T>(parse_choice(option, text, names));
-  };
-}
-
-Imath::V3d parse_vector(const std::string& option, const std::string& text) {
-  const std::array<double, 3> v = parse_triple(option, text);
-  return {v[0], v[1], v[2]};
-}
-
-void add_json(CLI::App& app, bool& json) {
-  app.add_flag("--json", json, "Print one JSON object");
-}
 
 void add_at(CLI::App& app, std::vector<double>& at_nm) {
   add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air", "NM[,NM...]")
@@ -122,15 +54,7 @@ void add_render(CLI::App& app, Command& command) {
   add_parsed(render, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
              "Threads, 0 for one per processor", "N");
   add_parsed(render, "--crop", sub->crop, parse_crop, "Part of the film to render, in pixels", "X0,Y0,X1,Y1");
-  render
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [options = sub.options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) options->overrides.push_back(parse_override("--set", text));
-          },
-          "Replace a value of the scene file; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("/POINTER=VALUE");
+  add_overrides(render, sub.options, "Replace a value of the scene file; may be repeated");
   CLI::Option* range = add_parsed(render, "--sample-range", sub->sample_range, parse_sample_range,
                                   "Render only samples A to B - 1 of every pixel", "A:B");
   range->excludes(error)->excludes(time);
@@ -288,6 +212,28 @@ void add_characterisation(CLI::App& options, CharacterisationOptions& how) {
              "Of the cross-validation (default: one patch left out at a time)", "N");
 }
 
+void add_develop(CLI::App& app, Command& command) {
+  const Sub<DevelopOptions> sub(app, "develop", "Read a film out and show it, without rendering", command,
+                                develop);
+  CLI::App& options = *sub.app;
+  options.add_option("film", sub->film, "Film, as rendered or developed into parts, or spectral image")
+      ->required()
+      ->type_name("FILE.exr");
+  options
+      .add_option("-o,--output", sub->outputs,
+                  "Codes of the sensor, or all planes from exposure to preview (.exr); may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE.tif|FILE.png|FILE.exr");
+  options.add_option("--display", sub->display, "Write a picture for sRGB displays")->type_name("FILE.png");
+  options.add_option("--scene", sub->scene, "Scene whose camera and sensor look at a spectral image")
+      ->type_name("SCENE");
+  add_overrides(options, sub.options,
+                "Replace a value of the read-out, as /readout/bits=12; may be repeated");
+  add_parsed(options, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
+             "Seed of the noise (default: the render's)", "N");
+  add_json(options, sub->json);
+}
+
 void add_compare_and_calibrate(CLI::App& app, Command& command) {
   const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
   sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
@@ -412,6 +358,7 @@ void add_commands(CLI::App& app, Command& command) {
   add_merge(app, command);
   add_scene_commands(app, command);
   add_query(app, command);
+  add_develop(app, command);
   add_compare_and_calibrate(app, command);
   add_validate(app, command);
   add_bench(app, command);

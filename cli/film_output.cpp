@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/film_sensor.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
@@ -25,23 +26,9 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
       {"data_sha256", data_sha256()},
       {"seed", fmt::format("{}", scene.render.seed)},
       {"integrator", kIntegrators.at(static_cast<std::size_t>(scene.render.integrator))},
-      {"exposure_s", fmt::format("{}", scene.exposure_s)},
       {"replicates", fmt::format("{}", replicate_count(scene, how))},
   };
-  std::vector<std::string> names;
-  for (const Channel& channel : scene.channels) {
-    names.push_back(channel.name);
-    if (channel.exposure_ratio != 1)
-      identity["exposure_s." + channel.name] = fmt::format("{}", scene.exposure_s * channel.exposure_ratio);
-    identity["channel." + channel.name] = channel.kind == ResponseKind::quantum
-                                              ? "quantum, electrons per m^2"
-                                              : "energy, response-weighted J per m^2";
-  }
-  identity["sensor_channels"] = fmt::format("{}", fmt::join(scene.film_planes(), ","));
-  if (scene.mosaic) {
-    identity["mosaic"] = to_text(*scene.mosaic, names);
-    identity["mosaic_channels"] = fmt::format("{}", fmt::join(names, ","));
-  }
+  identity.merge(sensor_identity(scene));
   if (how.crop)
     identity["crop"] = fmt::format("{},{},{},{}", how.crop->x0, how.crop->y0, how.crop->x1, how.crop->y1);
   return identity;
@@ -75,7 +62,7 @@ void write_film(const std::filesystem::path& path, const RenderPart& part) {
   if (path.extension() == kPartExtension)
     write_part(path, part.identity, part.result);
   else
-    write_exr(path, image_of(part));
+    write_exr(path, film_image(part));
 }
 
 }  // namespace abbe::cli

@@ -10,6 +10,7 @@
 #include "calibration/output/display.h"
 #include "cli/answer.h"
 #include "cli/film_output.h"
+#include "cli/film_sensor.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
@@ -48,9 +49,6 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
   if (outputs.film.empty()) outputs.film = options.scene.stem().concat(".exr");
   if (outputs.display.empty()) outputs.display = scene.output.display;
   require_film_output(outputs.film);
-  if (scene.mosaic && !(outputs.display.empty() && outputs.gamut.empty()))
-    throw Error(ErrorCode::usage, (outputs.display.empty() ? outputs.gamut : outputs.display).string(),
-                "a mosaic's film has one colour a pixel and makes no picture");
   for (const fs::path& picture : {outputs.display, outputs.gamut}) {
     if (picture.empty()) continue;
     require_extension(picture, {".png", ".jpg", ".tif"});
@@ -174,11 +172,10 @@ void write_stats(const fs::path& path, const Scene& scene, const RenderResult& r
   write_atomically(path, text(answer, true));
 }
 
-DisplayTransform display_of(const Scene& scene, const RenderOptions& options) {
+DisplayTransform chosen_display(const Scene& scene, const RenderOptions& options) {
   ViewOptions view = options.view;
   if (view.config.empty()) view.config = users_configuration();
-  return make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission,
-                      view);
+  return display_of(scene, view);
 }
 
 void write_pictures(const Outputs& outputs, const DisplayTransform& display, const Scene& scene,
@@ -204,13 +201,15 @@ int render(const RenderOptions& options) {
        {outputs.film, outputs.display, outputs.gamut, outputs.stats, options.checkpoint})
     if (!output.empty()) locks.emplace_back(output);
   std::optional<DisplayTransform> display;
-  if (!outputs.display.empty() || !outputs.gamut.empty()) display = display_of(scene, options);
+  if (!outputs.display.empty() || !outputs.gamut.empty()) display = chosen_display(scene, options);
   if (options.explain) tell(describe(scene));
   warn_about_polarisation(scene.needs);
 
   const RenderPart part = develop(scene, options, watch);
   const RenderStats& stats = part.result.stats;
-  const auto write_display = [&] { write_pictures(outputs, *display, scene, image_of(part), options.quiet); };
+  const auto write_display = [&] {
+    write_pictures(outputs, *display, scene, shown_film(scene, part), options.quiet);
+  };
   std::vector<std::function<void()>> writers;
   if (!options.checkpoint.empty())
     writers.emplace_back([&] { write_part(options.checkpoint, part.identity, part.result); });

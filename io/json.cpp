@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <rapidjson/reader.h>
+#include <rapidjson/stringbuffer.h>
+#include <rapidjson/writer.h>
 
 #include <algorithm>
 #include <array>
@@ -199,7 +201,44 @@ JsonValue* reach(JsonValue& root, const std::string& pointer,
   return at;
 }
 
+using TextWriter = rapidjson::Writer<rapidjson::StringBuffer>;
+
+void put(TextWriter& writer, std::string_view text) {
+  writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
+}
+
+void write(TextWriter& writer, const JsonValue& json) {
+  if (const auto* array = std::get_if<JsonValue::Array>(&json.value)) {
+    writer.StartArray();
+    for (const JsonValue& element : *array) write(writer, element);
+    writer.EndArray();
+  } else if (const auto* object = std::get_if<JsonValue::Object>(&json.value)) {
+    writer.StartObject();
+    for (const auto& [key, member] : *object) {
+      put(writer, key);
+      write(writer, member);
+    }
+    writer.EndObject();
+  } else if (const auto* text = std::get_if<std::string>(&json.value)) {
+    put(writer, *text);
+  } else if (const auto* number = std::get_if<double>(&json.value)) {
+    const std::string digits = fmt::format("{}", *number);
+    writer.RawValue(digits.data(), digits.size(), rapidjson::kNumberType);
+  } else if (const auto* boolean = std::get_if<bool>(&json.value)) {
+    writer.Bool(*boolean);
+  } else {
+    writer.Null();
+  }
+}
+
 }  // namespace
+
+std::string to_text(const JsonValue& value) {
+  rapidjson::StringBuffer buffer;
+  TextWriter writer(buffer);
+  write(writer, value);
+  return {buffer.GetString(), buffer.GetSize()};
+}
 
 std::string_view JsonValue::kind() const {
   constexpr std::array<std::string_view, 6> kNames{"null",     "a boolean", "a number",

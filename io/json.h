@@ -43,6 +43,9 @@ struct JsonValue::Member {
 [[nodiscard]] std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source,
                                                   Diagnostics& diagnostics);
 
+/// The value as JSON in one line, numbers with the fewest digits that read back as the same.
+[[nodiscard]] std::string to_text(const JsonValue& value);
+
 /// Replaces or creates the value at a JSON pointer ("/render/samples") by `text`, which is JSON, or a bare
 /// word or path taken as a string. Objects on the way are created; the index after an array's last, or "-",
 /// appends. Reports, as usage errors, a pointer that passes through something that is no object or array, and

@@ -97,7 +97,7 @@ std::optional<SpectralName> parse_spectral_channel(std::string_view name, const 
   const int power = power_of_ten(parts[5].str());
   const double center_nm = parts[6] == "Hz" ? kLightSpeed / (number * std::pow(10.0, power)) * 1e9
                                             : number * std::pow(10.0, power + 9);
-  if (!(number > 0) || !std::isfinite(center_nm) || !(center_nm > 0))
+  if (!std::isfinite(center_nm) || !(center_nm > 0))
     refuse(where, fmt::format("channel \"{}\" names no wavelength", name));
   return SpectralName{parts[2].matched ? 'T' : parts[1].str().front(), center_nm};
 }

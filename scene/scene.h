@@ -17,6 +17,7 @@
 #include "scene/needs/needs.h"
 #include "scene/ray.h"
 #include "scene/shapes/shape.h"
+#include "sensor/film/spectral_film.h"
 #include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"
 #include "sensor/response/mosaic.h"
@@ -85,6 +86,9 @@ class Scene {
                            ///< pixel pitch^2 times this.
   /// What makes digital numbers of the film, if the scene says.
   std::optional<Readout> readout;
+  /// Whose channels are the channels, if the film is of radiance.
+  std::optional<SpectralBins> spectral;
+  std::string sensor_text;  ///< The sensor's description, as one line of JSON.
   RenderSettings render;
   OutputSettings output;
   Needs needs;

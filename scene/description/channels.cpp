@@ -188,28 +188,31 @@ void require_response(const Channel& channel, const SourcePosition& where, Readi
 
 }  // namespace
 
-std::vector<Channel> read_channels(ObjectReader& reader, double exposure_s, Reading& reading) {
-  const auto key = reader.exactly_one({"channels", "camera", "observer"});
-  const std::optional<Detector> detector = read_detector(reader, exposure_s, reading);
-  if (!key) return {};
+void read_channels(ObjectReader& reader, Sensor& sensor, Reading& reading) {
+  const auto key = reader.exactly_one({"channels", "camera", "observer", "spectral"});
+  const std::optional<Detector> detector = read_detector(reader, sensor.exposure_s, reading);
+  if (!key) return;
   const JsonValue& json = *reader.find(*key);
-  std::vector<Channel> channels;
   if (*key == "channels") {
-    channels = read_named(json, detector, reading);
+    sensor.channels = read_named(json, detector, reading);
   } else if (*key == "camera") {
     refuse(reader, {"quantum_efficiency"}, *key, reading);
-    channels = read_camera_channels(json, detector, reading);
+    sensor.channels = read_camera_channels(json, detector, reading);
+  } else if (*key == "spectral") {
+    refuse(reader, {"response", "quantum_efficiency", "filters", "lens_transmission", "mosaic"}, *key,
+           reading);
+    sensor.spectral = read_spectral(json, reading);
+    if (sensor.spectral) sensor.channels = spectral_channels(*sensor.spectral);
   } else {
     refuse(reader, {"response", "quantum_efficiency"}, *key, reading);
-    channels = read_observer(json, reading);
+    sensor.channels = read_observer(json, reading);
   }
-  for (Channel& channel : channels) {
+  for (Channel& channel : sensor.channels) {
     if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
     limit_angles(channel, 0);
     const JsonValue* own = json.find(channel.name);
     require_response(channel, own ? own->where : json.where, reading);
   }
-  return channels;
 }
 
 }  // namespace abbe::description

@@ -124,14 +124,17 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   const JsonValue* camera = reader.require("camera");
   const JsonValue* materials = reader.find("materials");
   Sensor sensor;
-  if (const JsonValue* json = reader.require("sensor"))
+  if (const JsonValue* json = reader.require("sensor")) {
     sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), reading);
+    scene.sensor_text = to_text(*json);
+  }
   if (camera)
     if (const auto found = read_camera(*camera, sensor, reading)) scene.camera = *found;
   scene.exposure_s = sensor.exposure_s;
   scene.readout = sensor.readout;
   scene.fill_factor = sensor.fill_factor;
   scene.mosaic = std::move(sensor.mosaic);
+  scene.spectral = sensor.spectral;
   scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
   for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
   if (materials) read_materials(*materials, reading, scene);

@@ -157,17 +157,21 @@ struct Sensor {
   std::vector<Channel> channels;
   std::optional<Readout> readout;
   std::optional<Mosaic> mosaic;
+  std::optional<SpectralBins> spectral;
 };
 /// `probe`: the sensor of an irradiance probe has one pixel unless it says otherwise.
 [[nodiscard]] Sensor read_sensor(const JsonValue& json, bool probe, Reading& reading);
+
+/// Bins of wavelength instead of channels.
+[[nodiscard]] std::optional<SpectralBins> read_spectral(const JsonValue& json, const Reading& reading);
 
 /// The electronics behind channels, which must count electrons.
 [[nodiscard]] std::optional<Readout> read_readout(const JsonValue& json, std::span<const Channel> channels,
                                                   Reading& reading);
 
-/// What the pixels of a sensor count, with its filters; an `exposure_s` is that of channels without their
-/// own.
-[[nodiscard]] std::vector<Channel> read_channels(ObjectReader& reader, double exposure_s, Reading& reading);
+/// What the pixels of a sensor count, with its filters; the sensor's exposure is that of channels without
+/// their own.
+void read_channels(ObjectReader& reader, Sensor& sensor, Reading& reading);
 
 [[nodiscard]] std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor,
                                                 Reading& reading);

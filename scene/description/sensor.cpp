@@ -81,8 +81,8 @@ Sensor read_sensor(const JsonValue& json, bool probe, Reading& reading) {
   sensor.pixel_pitch = reader.number_or("pixel_pitch_um", sensor.pixel_pitch * 1e6, kPitch) * 1e-6;
   sensor.exposure_s = reader.number_or("exposure_s", sensor.exposure_s, kExposure);
   sensor.fill_factor = reader.number_or("fill_factor", sensor.fill_factor, kFill);
-  sensor.channels = read_channels(reader, sensor.exposure_s, reading);
-  if (const JsonValue* mosaic = reader.find("mosaic"))
+  read_channels(reader, sensor, reading);
+  if (const JsonValue* mosaic = reader.find("mosaic"); mosaic && !sensor.spectral)
     sensor.mosaic = read_mosaic(*mosaic, sensor.channels, reading);
   if (const JsonValue* readout = reader.find("readout"))
     sensor.readout = read_readout(*readout, sensor.channels, reading);

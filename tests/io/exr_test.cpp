@@ -107,6 +107,14 @@ void put_announcement(const std::filesystem::path& path, int width, int height, 
   const Imf::OutputFile file(path.c_str(), header);
 }
 
+TEST(Exr, AFileWithoutAllItsPixelsIsTruncated) {
+  const auto path = test_folder() / "begun.exr";
+  std::string message;
+  put_announcement(path, 4, 4, 1);
+  EXPECT_EQ(reading_error(path, &message), ErrorCode::input);
+  EXPECT_EQ(message, path.string() + ": truncated");
+}
+
 TEST(Exr, LimitsHoldBeforeAllocation) {
   const auto path = test_folder() / "large.exr";
   std::string message;

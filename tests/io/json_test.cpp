@@ -143,5 +143,20 @@ TEST(JsonFaults, PathsAreLimited) {
       std::string::npos);
 }
 
+TEST(Json, TheTextOfAValueReadsBackAsTheSame) {
+  Diagnostics diagnostics;
+  const auto value = parse_json(source(R"({"a": [1, 0.1, -2.5e-300, 16777217, true, null], // text
+                 "b\"c": {"λ": "two\nlines \\ \u0001", "d": {}, "e": []}})"),
+                                diagnostics);
+  ASSERT_TRUE(value) << diagnostics.text();
+  const std::string text = to_text(*value);
+  EXPECT_EQ(
+      text,
+      R"({"a":[1,0.1,-2.5e-300,16777217,true,null],"b\"c":{"λ":"two\nlines \\ \u0001","d":{},"e":[]}})");
+  const auto again = parse_json(source(text), diagnostics);
+  ASSERT_TRUE(again) << diagnostics.text();
+  EXPECT_EQ(to_text(*again), text);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -66,7 +66,7 @@ TEST(SpectralExr, OtherChannelsAreLeftAlone) {
 
 TEST(SpectralExr, NamesThatOnlyLookSpectralAreRefused) {
   for (const char* name :
-       {"S0.nm", "S0.,nm", "S0.E5nm", "S0.0nm", "T.m", "S1.Hz", "S0.0,0E3um", "S0.1E999nm"})
+       {"S0.nm", "S0.,nm", "S0.E5nm", "S0.0nm", "S0.0THz", "T.m", "S1.Hz", "S0.0,0E3um", "S0.1E999nm"})
     EXPECT_EQ(complaint_of_channel(name), "a.exr: channel \"" + std::string(name) + "\" names no wavelength");
   for (const char* name : {"S0.550.5nm", "S0.-550nm", "S0.550 nm", "S0.5,5,0nm", "S0.550xm", "S0.fivem"})
     EXPECT_EQ(complaint_of_channel(name),
@@ -97,6 +97,12 @@ TEST(SpectralExr, EveryBitComesBackAndBandsAreSortedByNumber) {
   EXPECT_EQ(read.metadata.at("seed"), "7");
   EXPECT_EQ(read.metadata.at("spectralLayoutVersion"), "1.0");
   EXPECT_EQ(read.metadata.at("emissiveUnits"), "W.m^-2.sr^-1");
+}
+
+TEST(SpectralExr, AnImageIsSpectralByItsAttributeOrItsChannels) {
+  EXPECT_TRUE(is_spectral({1, 1, {{"R", {1}}}, {{"spectralLayoutVersion", "1.0"}}}));
+  EXPECT_TRUE(is_spectral({1, 1, {{"S0.550nm", {1}}}, {}}));
+  EXPECT_FALSE(is_spectral({1, 1, {{"R", {1}}, {"Variance.S0.550nm", {1}}}, {{"seed", "7"}}}));
 }
 
 TEST(SpectralExr, OpenImageIoReadsIt) {

@@ -204,9 +204,10 @@ TEST(Readout, TheSaturationSpeedFollowsIso12232) {
   const double per_lx_s =
       integral_of_product(daylight->curve, channels[1].weight) / photometric(daylight->curve);
   const double saturating_lx_s = 30000 / area / per_lx_s;
-  EXPECT_NEAR(saturation_speed(readout, channels, area, daylight->curve), 78 / saturating_lx_s, 1e-9);
+  const double sensitivity = sensitivity_e_per_lx_s(channels, area, daylight->curve);
+  EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s, 1e-9);
   readout.full_well_e = 60000;  // now the codes end first
-  EXPECT_NEAR(saturation_speed(readout, channels, area, daylight->curve), 78 / saturating_lx_s * 0.75, 1e-9);
+  EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s * 0.75, 1e-9);
   // 1 lx s of daylight is about 5 mJ/m^2 or 1.4e16 photons/m^2, of which this pixel counts 1.4e5.
   EXPECT_NEAR(78 / saturating_lx_s, 370, 40);
 }

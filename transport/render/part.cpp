@@ -114,7 +114,7 @@ void require_same_film(const fs::path& path, const FilmIdentity& identity, const
     return found == of.end() ? std::string("none") : found->second;
   };
   for (const auto& [key, unused] : all) {
-    if (key == "scene" || value(identity, key) == value(wanted, key)) continue;
+    if (key == "scene" || key == "to_xyz_d65" || value(identity, key) == value(wanted, key)) continue;
     throw Error(ErrorCode::input, path.string(),
                 fmt::format("is a part of another render: another {} (got {}, allowed {})", key,
                             value(identity, key), value(wanted, key)));

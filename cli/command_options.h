@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/arguments.h"
+#include "cli/usage.h"
+
+namespace abbe::cli {
+
+inline constexpr std::int64_t kMaxThreads = 1024;
+inline constexpr std::int64_t kMaxSamples = 1 << 24;
+inline constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  ///< As in scene files.
+inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
+
+/// A subcommand with its own options, which outlive the parsing.
+template <typename Options>
+struct Sub {
+  CLI::App* app;
+  std::shared_ptr<Options> options = std::make_shared<Options>();
+
+  Sub(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
+      int (*run)(const Options&))
+      : app(parent.add_subcommand(name, help)) {
+    app->callback([&command, run, kept = options] { command = [run, kept] { return run(*kept); }; });
+  }
+  Options* operator->() const { return options.get(); }
+};
+
+/// An option whose text `parse` turns into a value.
+template <typename T, typename Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
+                        const std::string& help, const std::string& type) {
+  return app
+      .add_option_function<std::string>(
+          flag, [&value, parse, flag](const std::string& text) { value = parse(flag, text); }, help)
+      ->type_name(type);
+}
+
+/// What `add_parsed` parses by: values within limits, both included.
+inline auto numbers_in(double low, double high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    return parse_numbers(option, text, low, high);
+  };
+}
+
+inline auto number_in(double low, double high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    const std::vector<double> numbers = parse_numbers(option, text, low, high);
+    if (numbers.size() != 1)
+      throw Error(ErrorCode::usage, option, "got \"" + text + "\", allowed one number");
+    return numbers.front();
+  };
+}
+
+template <typename T>
+auto integer_in(std::int64_t low, std::int64_t high) {
+  return [low, high](const std::string& option, const std::string& text) {
+    return static_cast<T>(parse_integer(option, text, low, high));
+  };
+}
+
+/// One of some names, whose values count from 0 in their order.
+template <typename T>
+auto one_of(std::vector<std::string> names) {
+  return [names = std::move(names)](const std::string& option, const std::string& text) {
+    return static_cast<T>(parse_choice(option, text, names));
+  };
+}
+
+inline Imath::V3d parse_vector(const std::string& option, const std::string& text) {
+  const std::array<double, 3> v = parse_triple(option, text);
+  return {v[0], v[1], v[2]};
+}
+
+inline void add_json(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "Print one JSON object");
+}
+
+/// `--set`, which may be repeated.
+template <typename Options>
+void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options, const std::string& help) {
+  app.add_option_function<std::vector<std::string>>(
+         "--set",
+         [options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) options->overrides.push_back(parse_override("--set", text));
+         },
+         help)
+      ->allow_extra_args(false)
+      ->type_name("/POINTER=VALUE");
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "scene/description/load.h"
+
+namespace abbe::cli {
+
+/// What `abbe develop` was asked for.
+struct DevelopOptions {
+  std::filesystem::path film;
+  std::vector<std::filesystem::path> outputs;  ///< Raw pictures and multi-part images.
+  std::filesystem::path display;               ///< Empty when no picture is wanted.
+  std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
+  std::vector<Override> overrides;             ///< Of the read-out.
+  std::optional<std::uint64_t> seed;           ///< Of the noise; that of the render when absent.
+  bool json = false;
+};
+
+/// A film to digital numbers, files and pictures without rendering; prints what the sensor's noise and the
+/// render's own error are. Returns the exit code.
+int develop(const DevelopOptions& options);
+
+}  // namespace abbe::cli

@@ -1,0 +1,203 @@
+#include "cli/film_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "cli/spectral.h"
+#include "io/error.h"
+#include "io/text.h"
+#include "scene/description/readout.h"
+#include "sensor/readout/demosaic.h"
+#include "sensor/readout/speed.h"
+#include "spectral/library.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr const char* kDaylight = "D55";
+
+// Standard attributes of EXR files are single precision.
+std::string single(double x) {
+  return fmt::format("{}", static_cast<float>(x));
+}
+
+std::optional<double> f_number(const Camera& camera) {
+  const auto* lens = std::get_if<LensCamera>(&camera.kind);
+  if (lens == nullptr) return std::nullopt;
+  const double focal_length = 1 / (1 / lens->image_distance + 1 / lens->focus_distance);
+  return focal_length / (2 * lens->aperture_radius);
+}
+
+std::vector<std::string> channel_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Channel& channel : scene.channels) names.push_back(channel.name);
+  return names;
+}
+
+void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
+  if (std::any_of(scene.channels.begin(), scene.channels.end(),
+                  [](const Channel& c) { return c.kind != ResponseKind::quantum; }))
+    return;
+  Diagnostics diagnostics;
+  const auto daylight = load_curve("illuminant", kDaylight, {}, diagnostics);
+  check(diagnostics);
+  const double sensitivity = sensitivity_e_per_lx_s(scene.channels, area_m2, daylight->curve);
+  identity["electrons_per_lx_s"] = fmt::format("{}", sensitivity);
+  if (scene.readout) identity["isoSpeed"] = single(saturation_speed(*scene.readout, sensitivity));
+}
+
+// Nothing for a sensor that no display can show.
+void add_display(const Scene& scene, FilmIdentity& identity) {
+  try {
+    const Matrix3 m = display_of(scene).to_xyz_d65();
+    identity["to_xyz_d65"] = fmt::format("{} {} {} {} {} {} {} {} {}", m[0][0], m[0][1], m[0][2], m[1][0],
+                                         m[1][1], m[1][2], m[2][0], m[2][1], m[2][2]);
+  } catch (const Error& error) {
+    if (error.code == ErrorCode::internal) throw;
+  }
+}
+
+// Metadata of one film, with words for what is missing or wrong.
+struct Metadata {
+  const Image& film;
+  const std::filesystem::path& path;
+
+  [[nodiscard]] std::optional<std::string> find(const std::string& key) const {
+    const auto found = film.metadata.find(key);
+    return found == film.metadata.end() ? std::nullopt : std::optional(found->second);
+  }
+  [[nodiscard]] std::string text(const std::string& key) const {
+    if (auto found = find(key)) return *std::move(found);
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("no attribute \"{}\": no film of a render, or one of an older version", key));
+  }
+  [[nodiscard]] std::optional<double> find_number(const std::string& key) const {
+    const auto found = find(key);
+    if (!found) return std::nullopt;
+    const auto number = parse_number(*found);
+    if (!number || *number <= 0) refuse(key);
+    return number;
+  }
+  [[nodiscard]] double number(const std::string& key) const {
+    (void)text(key);
+    return *find_number(key);
+  }
+  [[noreturn]] void refuse(const std::string& key) const {
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("attribute \"{}\" makes no sense (got \"{}\")", key, text(key)));
+  }
+};
+
+void read_planes(const Metadata& data, FilmSensor& sensor) {
+  sensor.planes = split(data.text("sensor_channels"), ',');
+  sensor.channels = sensor.planes;
+  const double exposure_s = data.number("exposure_s");
+  for (const std::string& plane : sensor.planes)
+    sensor.exposure_s.push_back(data.find_number("exposure_s." + plane).value_or(exposure_s));
+  if (!data.find("mosaic")) return;
+  sensor.channels = split(data.text("mosaic_channels"), ',');
+  sensor.mosaic = parse_mosaic(data.text("mosaic"), sensor.channels);
+  if (!sensor.mosaic || sensor.planes.size() != 1) data.refuse("mosaic");
+}
+
+std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& sensor,
+                                       std::span<const Override> overrides) {
+  Diagnostics diagnostics;
+  const auto source =
+      std::make_shared<const SourceText>(SourceText{data.path.string() + ": sensor", data.text("sensor")});
+  std::optional<JsonValue> json = parse_json(source, diagnostics);
+  check(diagnostics);
+  for (const Override& o : overrides) {
+    if (o.pointer != "/readout" && !o.pointer.starts_with("/readout/"))
+      throw Error(
+          ErrorCode::usage, "--set",
+          fmt::format("the film was rendered with it (got {}, allowed /readout and below)", o.pointer));
+    set_json(*json, o.pointer, o.value, diagnostics);
+  }
+  check(diagnostics);
+  const JsonValue* readout = json->find("readout");
+  if (readout == nullptr) return std::nullopt;
+  for (const std::string& channel : sensor.channels)
+    if (!data.text("channel." + channel).starts_with("quantum"))
+      throw Error(ErrorCode::input, data.path.string(),
+                  fmt::format("channel \"{}\" counts no electrons to read out", channel));
+  return accepted(read_readout(*readout, diagnostics), diagnostics);
+}
+
+std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor) {
+  const auto text = data.find("to_xyz_d65");
+  if (!text) return std::nullopt;
+  std::vector<double> numbers;
+  for (const std::string& word : split(*text, ' '))
+    if (const auto number = parse_number(word)) numbers.push_back(*number);
+  if (numbers.size() != 9 || (sensor.channels.size() != 1 && sensor.channels.size() != 3))
+    data.refuse("to_xyz_d65");
+  Matrix3 m;
+  for (int i = 0; i < 9; ++i) m[i / 3][i % 3] = numbers[static_cast<std::size_t>(i)];
+  return DisplayTransform(sensor.channels, m, {}, {users_configuration(), {}, {}});
+}
+
+}  // namespace
+
+FilmIdentity sensor_identity(const Scene& scene) {
+  const double area_m2 = gathering_area(scene.camera.pixel_pitch, scene.fill_factor);
+  FilmIdentity identity{{"sensor", scene.sensor_text},
+                        {"exposure_s", fmt::format("{}", scene.exposure_s)},
+                        {"expTime", single(scene.exposure_s)},
+                        {"gathering_area_m2", fmt::format("{}", area_m2)}};
+  if (const auto n = f_number(scene.camera)) identity["aperture"] = single(*n);
+  const std::vector<std::string> names = channel_names(scene);
+  for (const Channel& channel : scene.channels) {
+    if (channel.exposure_ratio != 1)
+      identity["exposure_s." + channel.name] = fmt::format("{}", scene.exposure_s * channel.exposure_ratio);
+    identity["channel." + channel.name] = channel.kind == ResponseKind::quantum
+                                              ? "quantum, electrons per m^2"
+                                              : "energy, response-weighted J per m^2";
+  }
+  identity["sensor_channels"] = fmt::format("{}", fmt::join(scene.film_planes(), ","));
+  if (scene.mosaic) {
+    identity["mosaic"] = to_text(*scene.mosaic, names);
+    identity["mosaic_channels"] = fmt::format("{}", fmt::join(names, ","));
+  }
+  add_speed(scene, area_m2, identity);
+  add_display(scene, identity);
+  if (const auto exposure = scene.output.display_exposure)
+    identity["display_exposure"] = fmt::format("{}", *exposure);
+  if (scene.spectral) add_spectral_identity(scene, identity);
+  return identity;
+}
+
+FilmSensor film_sensor(const Image& film, const std::filesystem::path& path,
+                       std::span<const Override> overrides) {
+  const Metadata data{film, path};
+  FilmSensor sensor;
+  read_planes(data, sensor);
+  sensor.gathering_area_m2 = data.number("gathering_area_m2");
+  sensor.readout = read_readout_of(data, sensor, overrides);
+  sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
+  sensor.display = read_display(data, sensor);
+  sensor.display_exposure = data.find_number("display_exposure");
+  return sensor;
+}
+
+DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
+  if (scene.spectral) return display_of_radiance(view);
+  return make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission,
+                      view);
+}
+
+Image film_image(const RenderPart& part) {
+  Image film = image_of(part);
+  return film.metadata.contains(kSpectralBinsKey) ? spectral_film_image(film) : film;
+}
+
+Image shown_film(const Scene& scene, const RenderPart& part) {
+  Image film = film_image(part);
+  return scene.mosaic ? demosaic(film, kRawPlane, *scene.mosaic, channel_names(scene)) : film;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,128 @@
+#include "cli/spectral.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibration/output/color_spaces.h"
+#include "cli/film_sensor.h"
+#include "io/error.h"
+#include "io/text.h"
+#include "sensor/film/spectral_film.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
+constexpr const char* kDistanceKey = "image_distance_px";
+
+double axis_weight(const Camera& camera) {
+  const Imath::V2f center(static_cast<float>(camera.width) / 2, static_cast<float>(camera.height) / 2);
+  return static_cast<double>(sample_ray(camera, center, {0.5F, 0.5F}).weight);
+}
+
+// Lens to film in pixels, by which light falls off towards the corners; nothing for a probe.
+std::optional<double> image_distance(const Camera& camera) {
+  const auto* lens = std::get_if<LensCamera>(&camera.kind);
+  return lens ? std::optional(lens->image_distance / camera.pixel_pitch) : std::nullopt;
+}
+
+// A camera that weighs radiance as the one that made a film did.
+Camera camera_of(const Image& film) {
+  const double axis = parse_number(film.metadata.at(kAxisKey)).value();
+  Camera camera{IrradianceProbe{}, film.width, film.height, 1};
+  if (const auto distance = film.metadata.find(kDistanceKey); distance != film.metadata.end()) {
+    LensCamera lens;
+    lens.image_distance = parse_number(distance->second).value();
+    lens.aperture_radius = lens.image_distance * std::sqrt(axis / std::numbers::pi);
+    camera.kind = lens;
+  }
+  return camera;
+}
+
+std::vector<double> exposure_per_radiance(const Camera& camera, double exposure_s) {
+  std::vector<double> factors;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const Imath::V2f center(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      factors.push_back(exposure_s * static_cast<double>(sample_ray(camera, center, {0.5F, 0.5F}).weight));
+    }
+  return factors;
+}
+
+SpectralBins bins_of(const Image& film) {
+  const std::vector<std::string> words = split(film.metadata.at(kSpectralBinsKey), ' ');
+  return {parse_number(words.at(0)).value(), parse_number(words.at(1)).value(),
+          static_cast<int>(parse_number(words.at(2)).value())};
+}
+
+}  // namespace
+
+void add_spectral_identity(const Scene& scene, FilmIdentity& identity) {
+  identity[kSpectralBinsKey] =
+      fmt::format("{} {} {}", scene.spectral->from_nm, scene.spectral->step_nm, scene.spectral->count);
+  identity[kAxisKey] = fmt::format("{}", axis_weight(scene.camera));
+  if (const auto distance = image_distance(scene.camera))
+    identity[kDistanceKey] = fmt::format("{}", *distance);
+  identity["whiteLuminance"] = "1";  // cd/m^2 that 1 in all channels of the preview stands for
+}
+
+Image spectral_film_image(const Image& film) {
+  const double exposure_s = parse_number(film.metadata.at("exposure_s")).value();
+  SpectralImage image =
+      spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_s));
+  for (ImageChannel& channel : observed(image).channels) image.others.push_back(std::move(channel));
+  return spectral_layout(image);
+}
+
+Image observed(const SpectralImage& image) {
+  constexpr std::array kNames{"R", "G", "B"};
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const SpectralImage bands{image.width, image.height, image.bands, {}, {}};
+  const Image xyz = expose(bands, observer_channels(Observer::cie1931), std::vector<double>(pixels, 1.0));
+  const Matrix3 to_rgb = rgb_to_xyz(kRec709).inverse(true);
+  Image rgb{image.width, image.height, {}, image.metadata};
+  for (int k = 0; k < 3; ++k) {
+    ImageChannel& channel =
+        rgb.channels.emplace_back(ImageChannel{kNames.at(static_cast<std::size_t>(k)), {}});
+    for (std::size_t i = 0; i < pixels; ++i)
+      channel.values.push_back(static_cast<float>(to_rgb[k][0] * xyz.channels[0].values[i] +
+                                                  to_rgb[k][1] * xyz.channels[1].values[i] +
+                                                  to_rgb[k][2] * xyz.channels[2].values[i]));
+  }
+  return rgb;
+}
+
+DisplayTransform display_of_radiance(const ViewOptions& view) {
+  return {{"R", "G", "B"}, rgb_to_xyz_d65(kRec709), {}, view};
+}
+
+Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path) {
+  const Camera& camera = scene.camera;
+  if (scene.spectral)
+    throw Error(ErrorCode::usage, "--scene", "its sensor is spectral itself (allowed: one that counts)");
+  if (camera.width != image.width || camera.height != image.height)
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
+                            image.height, camera.width, camera.height));
+  const auto theirs = image.metadata.find(kDistanceKey);
+  const std::optional<double> ours = image_distance(camera);
+  if (theirs != image.metadata.end() && ours &&
+      std::abs(parse_number(theirs->second).value_or(0) / *ours - 1) > 1e-6)
+    throw Error(
+        ErrorCode::input, path.string(),
+        fmt::format("was seen in another field of view (got an image distance of {} pixels, allowed {})",
+                    theirs->second, *ours));
+  Image film = expose(image, scene.channels, exposure_per_radiance(camera, scene.exposure_s));
+  film.metadata = image.metadata;
+  for (const char* key :
+       {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", kSpectralBinsKey, kAxisKey, kDistanceKey})
+    film.metadata.erase(key);
+  for (const auto& [key, value] : sensor_identity(scene)) film.metadata[key] = value;
+  return film;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "calibration/output/display.h"
+#include "io/spectral_exr.h"
+#include "scene/scene.h"
+#include "transport/render/part.h"
+
+namespace abbe::cli {
+
+/// Metadata that a film of spectral bins has and others have not.
+inline constexpr const char* kSpectralBinsKey = "spectral_bins";
+
+/// What it takes to make radiances of the films of a scene whose sensor is spectral.
+void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
+
+/// The film of a spectral sensor as radiances in the layout of spectral files, with their preview.
+[[nodiscard]] Image spectral_film_image(const Image& film);
+
+/// Linear Rec.709 [cd/m^2] of radiances, channels R, G, B, as the CIE 1931 observer sees them.
+[[nodiscard]] Image observed(const SpectralImage& image);
+
+/// Takes that to pictures.
+[[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view);
+
+/// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
+/// the metadata of both. Throws Error{input} when sensor and image have different pixels or fields of view,
+/// Error{usage} for a scene whose sensor is spectral itself.
+[[nodiscard]] Image seen_by(const Scene& scene, const SpectralImage& image,
+                            const std::filesystem::path& path);
+
+}  // namespace abbe::cli

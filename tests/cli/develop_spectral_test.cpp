@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/exr.h"
+#include "io/picture.h"
+#include "io/spectral_exr.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// Spectral films, and sensors that look at them.
+
+namespace abbe::test {
+namespace {
+
+constexpr const char* kBins = R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 5})";
+const std::string kCamera =
+    R"("response": "quantum", "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}})";
+
+// A dome of 0.5 W/(m^2 sr nm) from 400 to 700 nm through a fast wide-angle lens.
+std::string scene(const std::string& name, const std::string& sensor,
+                  const std::string& focal_length = "0.02") {
+  return scratch()
+      .write(name, fmt::format(R"({{"abbe": 1,
+        "camera": {{"thin_lens": {{"focal_length": {}, "f_number": 2, "focus_distance": "infinity"}},
+                    "from": [0, 0, 0], "to": [0, 0, 1], "up": [0, 1, 0]}},
+        "sensor": {{"resolution": [24, 16], "pixel_pitch_um": 1000, "exposure_s": 0.02, {}}},
+        "lights": [{{"environment": {{}}, "emission": {{"spectrum": {{"band": [400, 700], "value": 0.5}}}}}}],
+        "render": {{"samples": 64}}}})",
+                               focal_length, sensor))
+      .string();
+}
+std::string film(const std::string& name, const std::string& sensor, const std::string& options = "") {
+  const std::string path = file(name + ".exr");
+  const Outcome run = abbe("render " + scene(name + ".json", sensor) + " --quiet -o " + path + " " + options);
+  EXPECT_EQ(run.code, 0) << run.err;
+  return path;
+}
+
+TEST(DevelopSpectral, BinsHoldTheRadianceThatIsSeenFromCornerToCorner) {
+  const std::string path = film("bins", kBins, "--spp 1024");
+  const SpectralImage image = spectral_image(read_exr(path), path);
+  ASSERT_EQ(image.bands.size(), 60U);
+  EXPECT_EQ(image.metadata.at("expTime"), "0.02");
+  EXPECT_EQ(image.metadata.at("whiteLuminance"), "1");
+  double sum = 0;
+  double corner = 0;
+  for (const SpectralBand& band : image.bands) {
+    double mean = 0;
+    for (const float radiance : band.radiance) mean += static_cast<double>(radiance) / 384;
+    EXPECT_NEAR(mean, 2.5, 0.025) << band.center_nm;
+    sum += mean;
+    corner += static_cast<double>(band.radiance.front());
+  }
+  EXPECT_NEAR(sum, 150, 0.2);  // less 0.08 %, by which cos^4 falls from the centre of so large a pixel
+  EXPECT_NEAR(corner, 150, 0.3) << "the lens darkens its corners to a half, the scene does not";
+}
+
+// A dome of 0.5 W/(m^2 sr nm) over all the visible is 683 lm/W x 0.5 x 106.8 nm.
+TEST(DevelopSpectral, ThePreviewIsInCandelas) {
+  const std::string path = film("dome", kBins);
+  const Image image = read_exr(path);
+  const double luminance = 0.2126 * image.find("R")->values[200] + 0.7152 * image.find("G")->values[200] +
+                           0.0722 * image.find("B")->values[200];
+  EXPECT_NEAR(luminance, 683 * 0.5 * 106.8, 200);
+  EXPECT_EQ(abbe("develop " + path + " --display " + file("dome.png")).code, 0);
+  EXPECT_EQ(read_picture(file("dome.png")).channels.size(), 3U);
+}
+
+TEST(DevelopSpectral, RenderAndDevelopShowTheSame) {
+  const std::string text = scene("shown.json", kBins);
+  ASSERT_EQ(
+      abbe("render " + text + " --quiet -o " + file("shown.exr") + " --display " + file("render.png")).code,
+      0);
+  ASSERT_EQ(abbe("develop " + file("shown.exr") + " --display " + file("develop.png")).code, 0);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(read_picture(file("render.png")).channels[k].values,
+              read_picture(file("develop.png")).channels[k].values);
+}
+
+TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {
+  const std::string spectral = film("later", kBins);
+  const std::string direct = film("direct", kCamera);
+  const Outcome run = abbe("develop " + spectral + " --scene " + scene("sensor.json", kCamera) + " -o " +
+                           file("seen.exr") + " --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Image seen = read_exr_parts(file("seen.exr")).front().image;
+  const Image rendered = read_exr(direct);
+  for (const char* channel : {"R", "G", "B"})
+    for (const std::size_t pixel : {0U, 200U, 383U})
+      EXPECT_NEAR(seen.find(channel)->values[pixel] / rendered.find(channel)->values[pixel], 1, 0.01)
+          << channel << pixel;
+  EXPECT_EQ(seen.metadata.at("scene_sha256"), read_exr(spectral).metadata.at("scene_sha256"));
+  EXPECT_EQ(seen.metadata.count("spectralLayoutVersion"), 0U);
+  EXPECT_EQ(seen.metadata.at("channel.R"), "quantum, electrons per m^2");
+  const Outcome raw = abbe("develop " + spectral + " --scene " + scene("sensor.json", kCamera) +
+                           R"( --set '/readout={"gain_e_per_dn": 1e6, "bits": 16}' -o )" + file("seen.tif"));
+  EXPECT_EQ(raw.code, 0) << raw.err;
+}
+
+TEST(DevelopSpectral, PartsOfASpectralFilmMerge) {
+  const std::string text = scene("merged.json", kBins);
+  for (const char* range : {"0:32", "32:64"})
+    ASSERT_EQ(abbe("render " + text + " --quiet --sample-range " + range + " -o " +
+                   file(std::string(range) + ".abbepart"))
+                  .code,
+              0);
+  ASSERT_EQ(
+      abbe("merge " + file("0:32.abbepart") + " " + file("32:64.abbepart") + " -o " + file("merged.exr"))
+          .code,
+      0);
+  ASSERT_EQ(abbe("render " + text + " --quiet -o " + file("at_once.exr")).code, 0);
+  EXPECT_EQ(read_file(file("merged.exr")), read_file(file("at_once.exr")));
+}
+
+TEST(DevelopSpectral, WhatDoesNotFitIsRefused) {
+  const std::string spectral = film("fits", kBins);
+  const auto says = [](const std::string& arguments, int code, const std::string& words) {
+    const Outcome run = abbe("develop " + arguments);
+    EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
+    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+  };
+  says(spectral + " -o " + file("no.tif"), 2, "a spectral film needs a sensor that looks at it: --scene");
+  says(spectral + " --scene " + scene("same.json", kBins), 2, "its sensor is spectral itself");
+  says(spectral + " --scene " + scene("far.json", kCamera, "0.03"), 4, "was seen in another field of view");
+  std::string small = read_file(scene("small.json", kCamera));
+  small.replace(small.find("[24, 16]"), 8, "[12, 8]");
+  says(spectral + " --scene " + scratch().write("small.json", small).string(), 4,
+       "has other pixels than the sensor (got 24 x 16, allowed 12 x 8)");
+  says(spectral + " --scene " + file("absent.json"), 4, "absent.json");
+  says(film("counted", kCamera) + " --scene " + scene("sensor.json", kCamera), 2, "only a spectral film");
+  const std::string tilting =
+      R"("response": "quantum", "channels": {"t": {"filters": [{"transmittance": {"band": [500, 510]}, "effective_index": 2}]}})";
+  says(spectral + " --scene " + scene("tilting.json", tilting) + " -o " + file("no.exr"), 2,
+       "by the angle of the light");
+  Image image = read_exr(spectral);
+  image.metadata.erase("emissiveUnits");
+  write_exr(file("unitless.exr"), image);
+  says(file("unitless.exr"), 4, "unitless.exr: no attribute \"emissiveUnits\"");
+  image.metadata["emissiveUnits"] = "W.m^-2.sr^-1";
+  image.channels.push_back({"S0.nm", image.channels.front().values});
+  write_exr(file("unnamed.exr"), image);
+  says(file("unnamed.exr"), 4, "unnamed.exr: channel \"S0.nm\" names no wavelength");
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,118 @@
+#include "sensor/film/spectral_film.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "io/error.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+const SpectralBins kBins{400, 10, 3};
+
+TEST(SpectralFilm, BinsFillTheirRange) {
+  const std::vector<Channel> channels = spectral_channels(kBins);
+  ASSERT_EQ(channels.size(), 3U);
+  EXPECT_EQ(channels[0].name, "405nm");
+  EXPECT_EQ(channels[2].name, "425nm");
+  for (double nm = 395.5; nm < 435; nm += 1) {
+    double sum = 0;
+    for (const Channel& channel : channels) sum += channel.weight(nm);
+    EXPECT_EQ(sum, nm > 400 && nm < 430 ? 1 : 0) << nm;
+  }
+  EXPECT_EQ(channels[1].weight(415), 1);
+  EXPECT_EQ(channels[1].kind, ResponseKind::energy);
+  EXPECT_EQ(spectral_channels({1000, 0.01, 2})[1].name, "1000.015nm");
+}
+
+Image film() {
+  Image image{2, 1, {}, {{"seed", "7"}}};
+  for (const char* prefix : {"", "Variance."})
+    for (const int nm : {405, 415, 425})
+      image.channels.push_back(
+          {prefix + std::to_string(nm) + "nm", {static_cast<float>(nm), static_cast<float>(2 * nm)}});
+  return image;
+}
+
+TEST(SpectralFilm, ValuesBecomeRadiancesAndVariancesTheirs) {
+  const std::vector<double> factors{0.5, 0.25};
+  const SpectralImage image = spectral_film(film(), kBins, factors);
+  ASSERT_EQ(image.bands.size(), 3U);
+  EXPECT_EQ(image.metadata.at("seed"), "7");
+  EXPECT_EQ(image.bands[1].center_nm, 415);
+  EXPECT_EQ(image.bands[1].radiance, (std::vector<float>{830, 3320}));
+  ASSERT_EQ(image.others.size(), 3U);
+  EXPECT_EQ(image.others[1].name, "Variance.S0.415,000000nm");
+  EXPECT_EQ(image.others[1].values, (std::vector<float>{1660, 13280}));
+}
+
+TEST(SpectralFilm, AFilmWithoutABinIsABug) {
+  Image image = film();
+  image.channels[1].name = "411nm";
+  EXPECT_THROW((void)spectral_film(image, kBins, std::vector<double>{1, 1}), Error);
+}
+
+SpectralImage radiances() {
+  SpectralImage image{1, 1, {}, {}, {}};
+  for (int bin = 0; bin < 3; ++bin) {
+    image.bands.push_back({kBins.center_nm(bin), {static_cast<float>(bin + 1)}});
+    image.others.push_back({"Variance." + spectral_channel(kBins.center_nm(bin)), {0.04F}});
+  }
+  return image;
+}
+
+// The light of a bin is spread over it: what a filter cuts from a bin it cuts from its energy.
+TEST(SpectralFilm, ASensorCountsTheEnergyThatItsFiltersPass) {
+  const std::vector channels{energy_channel("all", Curve(1.0)), energy_channel("half", band(405, 415)),
+                             energy_channel("ramp", Curve({{400, 0}, {430, 30}})),
+                             energy_channel("signed", Curve(-2.0))};
+  const Image seen = expose(radiances(), channels, std::vector<double>{0.5});
+  EXPECT_FLOAT_EQ(seen.find("all")->values[0], 0.5F * 6);
+  EXPECT_FLOAT_EQ(seen.find("half")->values[0], 0.5F * (0.5F * 1 + 0.5F * 2));
+  EXPECT_FLOAT_EQ(seen.find("ramp")->values[0], 0.5F * (5 + 15 * 2 + 25 * 3));
+  EXPECT_FLOAT_EQ(seen.find("signed")->values[0], -0.5F * 12);
+  // Deviations of 0.2 in all bins, added up.
+  EXPECT_FLOAT_EQ(seen.find("Variance.all")->values[0], 0.25F * 0.36F);
+  EXPECT_FLOAT_EQ(seen.find("Variance.signed")->values[0], 0.25F * 1.44F);
+}
+
+TEST(SpectralFilm, WithoutVariancesThereIsNoError) {
+  SpectralImage image = radiances();
+  image.others.clear();
+  const std::vector channels{energy_channel("all", Curve(1.0))};
+  EXPECT_EQ(expose(image, channels, std::vector<double>{1}).find("Variance.all")->values[0], 0);
+  image.others = radiances().others;
+  image.others.pop_back();
+  try {
+    (void)expose(image, channels, std::vector<double>{1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::input);
+  }
+}
+
+TEST(SpectralFilm, WhatLiesBeyondTheWavelengthsCarriedIsNotSeen) {
+  const SpectralImage image{1, 1, {{290, {1}}, {310, {1}}, {1090, {1}}, {1190, {1}}}, {}, {}};
+  const std::vector channels{energy_channel("all", Curve(1.0))};
+  // Bands [280, 300], [300, 700], [700, 1140] and [1140, 1240], of which those parts lie in [300, 1100].
+  EXPECT_FLOAT_EQ(expose(image, channels, std::vector<double>{1}).find("all")->values[0], 1 + 400 / 440.0F);
+}
+
+TEST(SpectralFilm, AnglesAreLost) {
+  const std::vector channels{
+      behind(energy_channel("tilting", Curve(1.0)), {Curve(1.0), {{band(410, 420), 2}}})};
+  try {
+    (void)expose(radiances(), channels, std::vector<double>{1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::usage);
+    EXPECT_NE(std::string(error.what()).find("by the angle"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
