@@ -25,6 +25,7 @@ p { margin: 6px 0; }
 a { color: inherit; }
 .soft, .source { color: var(--soft); }
 .source { font-size: 12.5px; white-space: normal; }
+.close { white-space: nowrap; }
 .verdict { font-size: 18px; font-weight: 600; padding: 9px 14px; border-radius: 6px; margin: 14px 0; color: #fff; }
 .verdict.pass { background: var(--pass); }
 .verdict.fail { background: var(--fail); }
@@ -150,7 +151,7 @@ std::string worst_cells(const Case& item, const CaseResult& result) {
   return fmt::format(
       "<td class=\"n\">{}<div class=\"source\">{}</div></td>"
       "<td class=\"n\">{}<div class=\"source\">{}</div></td>"
-      "<td class=\"n\">{:.1e}<div class=\"source\">of ± {}{}</div></td>",
+      "<td class=\"n\">{:.1e}<div class=\"source close\">of ± {}{}</div></td>",
       number(worst.measured.mean), escaped(worst.what), number(worst.reference), escaped(item.unit),
       worst.deviation(), margin_text(worst.margin.value_or(result.margin)), cost);
 }
@@ -173,13 +174,21 @@ std::string picture(const Image& image, const std::string& caption) {
       escaped(caption), image.width, image.height, base64(encoded_picture(".png", image)));
 }
 
+std::string chart_caption(const RenderedChart& chart, const CaseResult& result) {
+  double worst = 0;  // of the patches, behind their mean
+  for (std::size_t i = 1; i < result.figures.size(); ++i)
+    worst = std::max(worst, result.figures[i].measured.mean);
+  return fmt::format("{}: ΔE2000 {:.3f} in mean, {:.3f} at most", chart.illuminant,
+                     result.figures.at(0).measured.mean, worst);
+}
+
 std::string suite_pictures(const ValidationReport& report, Suite suite) {
   std::string charts;
   std::string maps;
   for (const Outcome& outcome : report.outcomes) {
     if (outcome.item->suite != suite || !outcome.result.picture) continue;
-    if (std::holds_alternative<RenderedChart>(outcome.item->method))
-      charts += picture(*outcome.result.picture, outcome.item->title);
+    if (const auto* chart = std::get_if<RenderedChart>(&outcome.item->method))
+      charts += picture(*outcome.result.picture, chart_caption(*chart, outcome.result));
     else
       maps += picture(*outcome.result.picture, outcome.item->id + ": " + outcome.item->title);
   }

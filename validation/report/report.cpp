@@ -29,7 +29,7 @@ Specimen render_specimen(const std::string& file, const std::string& caption,
 }
 
 std::vector<Specimen> render_specimens(const ValidationSettings& settings) {
-  const Override samples{"/render/samples", settings.quick ? "64" : "1024"};
+  const Override samples{"/render/samples", settings.quick ? "64" : "256"};
   const Override observer{"/sensor",
                           R"({"observer": "1931", "resolution": [480, 270], "pixel_pitch_um": 18})"};
   return {render_specimen("prism.json",
