@@ -24,8 +24,8 @@ struct Grid {
     if (i == 0) return 0;
     if (i == 2 * cells + 1) return 1;
     const double margin = (1 - kPatchShare) / 2;
-    const auto cell = static_cast<double>((i - 1) / 2);
-    return (cell + (i % 2 == 1 ? margin : 1 - margin)) / n;
+    const std::size_t cell = (i - 1) / 2;
+    return (static_cast<double>(cell) + (i % 2 == 1 ? margin : 1 - margin)) / n;
   }
   [[nodiscard]] Imath::V3d at(std::size_t i, std::size_t j) const {
     return quad.corner + quad.edge_u * line(i, kColumns) + quad.edge_v * line(j, rows);
