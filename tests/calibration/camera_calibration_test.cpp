@@ -39,6 +39,9 @@ TEST(CameraCalibration, ProfileShowsWhatTheFitSays) {
     const CameraCalibration calibration = calibrate_camera(tungsten, options);
     const CameraProfile& profile = calibration.profile;
     EXPECT_EQ(profile.light, "A");
+    const std::vector<double> diffuser = diffuser_values(tungsten.channels, tungsten.light);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(profile.gains[k] / profile.gains[1] * diffuser[k] / diffuser[1], 1, 0.005);
     const Raw white{1 / profile.gains[0], 1 / profile.gains[1], 1 / profile.gains[2]};
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(to_xyz_d65(profile, white)[i], unit_xyz(kD65)[i], 1e-12);

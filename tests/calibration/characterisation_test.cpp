@@ -40,6 +40,21 @@ TEST(Characterisation, EveryCameraIsAsTheDocumentationSays) {
   }
 }
 
+TEST(Characterisation, EveryTableOfReflectancesTrains) {
+  for (const auto& [name, patches] : {std::pair{"colorchecker24_ohta1997", 24},
+                                      {"colorchecker24_iso17321-1", 24},
+                                      {"cie224_ces01-99_5nm", 99},
+                                      {"rawtoaces_190_patches", 190},
+                                      {"pmc_chart_luo2024", 30},
+                                      {"cri_tcs01-14", 14}}) {
+    const PatchColors colors = integrate(test::chart(name), test::camera(), test::illuminant("D65"));
+    EXPECT_EQ(colors.raw.size(), static_cast<std::size_t>(patches)) << name;
+    const CorrectionFit fit = fit_correction(colors);
+    EXPECT_LT(fit.errors.mean, fit.start.mean) << name;
+    EXPECT_LT(fit.errors.mean, 2) << name;
+  }
+}
+
 TEST(Characterisation, IndexOfAnObserverIsOneHundred) {
   EXPECT_NEAR(sensitivity_index(observer_channels(Observer::cie1931)), 100, 1e-4);
   EXPECT_LT(sensitivity_index(test::camera()), 95);

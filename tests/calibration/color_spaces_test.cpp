@@ -19,6 +19,14 @@ TEST(ColorSpaces, EveryAdaptationTakesWhiteToWhite) {
   }
 }
 
+// From the published matrix [Li2017], worked out outside this program.
+TEST(ColorSpaces, Cat16FromAToD65) {
+  const Matrix3 expected(0.9506814642, -0.1874060997, 0.2629224878, -0.0256698866, 1.0323135659,
+                         -0.0115667695, -0.0027424281, 0.0910143911, 2.8135491680);
+  const auto m = adaptation(unit_xyz({0.44758, 0.40745}), unit_xyz(kD65), Adaptation::cat16);
+  EXPECT_TRUE(m.value().equalWithAbsError(expected, 1e-9));
+}
+
 TEST(ColorSpaces, NothingAdaptsToAWhiteWithoutConeResponse) {
   EXPECT_FALSE(adaptation({0, 0, 0}, unit_xyz(kD65)));
 }

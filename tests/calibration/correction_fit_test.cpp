@@ -96,6 +96,19 @@ TEST(CorrectionFit, EachObjectiveIsBestInItsOwnMeasure) {
   EXPECT_LT(squares(m), squares(linear_part(by_2000.correction)));
 }
 
+// Where the two differences disagree about what is better.
+TEST(CorrectionFit, IsJudgedByItsOwnObjective) {
+  CorrectionOptions options;
+  options.objective = Objective::delta_e_76;
+  for (const char* name :
+       {"Sigma_SD1_Merrill_NPL_Darrodi2015", "Canon_PowerShot_S90", "Fujifilm_X-T4", "ARRI_D21"})
+    for (const char* light : {"A", "FL11", "HP1"}) {
+      const CorrectionFit fit =
+          fit_correction(integrate(test::chart(), test::camera(name), test::illuminant(light)), options);
+      EXPECT_LT(fit.errors.mean_76, fit.start.mean_76) << name << light;
+    }
+}
+
 TEST(CorrectionFit, RootPolynomialRecoversAPlantedOne) {
   PatchColors colors = nikon("D65");
   const ColorCorrection planted{CorrectionModel::root_polynomial_2,

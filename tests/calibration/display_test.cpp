@@ -197,6 +197,10 @@ TEST(Display, ShowsThroughTheViewAskedFor) {
   EXPECT_NEAR(code({"", kRec1886Display, kPlainView}), std::pow(0.18, 1 / 2.4), 2e-6);
   EXPECT_NEAR(code({"", kP3Display, ""}), std::pow(0.18, 1 / 2.6), 2e-6);
   EXPECT_NEAR(std::pow(code({"", kRec1886Display, kAcesView}), 2.4), 0.104, 1e-3);
+  // A view that maps tones is given what is brighter than white.
+  const Image bright = film_of({"X", "Y", "Z"}, {unit_xyz(kD65)});
+  const DisplayTransform aces({"X", "Y", "Z"}, Matrix3(), {}, {"", "", kAcesView});
+  EXPECT_GT(pixel(aces(bright, 4.0), 0)[1], pixel(aces(bright, 1.0), 0)[1] + 0.05);
   test::expect_error(
       [&] {
         code({"", "paper", ""});

@@ -80,6 +80,19 @@ TEST_F(Measured, RecoversTheMatrixOfAMeasuredCamera) {
     EXPECT_NEAR(by_greys.gains[k] / balanced.gains[k], 1, 0.03) << "the chart's greys are not quite neutral";
 }
 
+TEST_F(Measured, BalancesOnNeutralPatchesAlone) {
+  const XYZ white{0.9, 1, 0.8};
+  const ChartTargets chart{
+      {"grey", "red", "dark"}, {{0.45, 0.5, 0.4}, {0.4, 0.35, 0.2}, {0.09, 0.1, 0.08}}, white};
+  const BalancedPatches balanced =
+      balance(chart, {{"dark", "grey", "red"}, {{0.02, 0.1, 0.05}, {0.1, 0.5, 0.25}, {0.3, 0.1, 0.1}}});
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(balanced.gains[k], Raw({5, 1, 2})[k], 1e-12);
+    EXPECT_NEAR(balanced.colors.raw[0][k], 0.5, 1e-12);
+    EXPECT_NEAR(balanced.colors.raw[1][k], Raw({1.5, 0.1, 0.2})[k], 1e-12);
+  }
+}
+
 TEST_F(Measured, SaysWhatIsMissing) {
   const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
   const auto few = read("patch,R,G,B\nperfect diffuser,1,1,1\ndark skin,0.1,0.1,0.1\n");
