@@ -55,6 +55,16 @@ std::array<double, 2> chromaticity(const XYZ& xyz) {
   return {xyz[0] / total, xyz[1] / total};
 }
 
+XYZ lab_to_xyz(const Lab& lab, const XYZ& white) {
+  const auto inverse = [](double f) {
+    constexpr double kDelta = 6.0 / 29.0;
+    return f > kDelta ? f * f * f : 3 * kDelta * kDelta * (f - 4.0 / 29.0);
+  };
+  const double fy = (lab[0] + 16) / 116;
+  return {white[0] * inverse(fy + lab[1] / 500), white[1] * inverse(fy),
+          white[2] * inverse(fy - lab[2] / 200)};
+}
+
 double photometric(const Curve& spectral) {
   return kLuminousEfficacy * integral_of_product(color_matching(Observer::cie1931).y, spectral);
 }

@@ -47,6 +47,9 @@ struct SumRange {
 template <typename T>
 [[nodiscard]] std::array<T, 3> xyz_to_lab(const std::array<T, 3>& xyz, const XYZ& white);
 
+/// The inverse of `xyz_to_lab`.
+[[nodiscard]] XYZ lab_to_xyz(const Lab& lab, const XYZ& white);
+
 /// Photometric integral of a spectral radiometric curve [X/nm] (exact, not a sum): lm, lx, cd, or cd/m^2 for
 /// W, W/m^2, W/sr, W/(m^2 sr).
 [[nodiscard]] double photometric(const Curve& spectral);

@@ -48,16 +48,6 @@ XYZ from_xyy(const std::array<double, 3>& c) {
   return {c[0] / c[1] * c[2], c[2], (1 - c[0] - c[1]) / c[1] * c[2]};
 }
 
-XYZ from_lab(const std::array<double, 3>& lab, const XYZ& white) {
-  const auto inverse = [](double f) {
-    constexpr double kDelta = 6.0 / 29.0;
-    return f > kDelta ? f * f * f : 3 * kDelta * kDelta * (f - 4.0 / 29.0);
-  };
-  const double fy = (lab[0] + 16) / 116;
-  return {white[0] * inverse(fy + lab[1] / 500), white[1] * inverse(fy),
-          white[2] * inverse(fy - lab[2] / 200)};
-}
-
 std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagnostics) {
   const auto key = table.keys.find("white_xy");
   std::vector<double> xy;
@@ -76,7 +66,7 @@ std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagn
   if (!names || !values) return std::nullopt;
   ChartTargets colors{*std::move(names), {}, from_xyy({xy[0], xy[1], 1})};
   for (const std::array<double, 3>& c : *values)
-    colors.xyz.push_back(is_lab ? from_lab(c, colors.white) : from_xyy(c));
+    colors.xyz.push_back(is_lab ? lab_to_xyz(c, colors.white) : from_xyy(c));
   return colors;
 }
 

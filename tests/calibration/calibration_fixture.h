@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/chart/patches.h"
+#include "calibration/fit/correction.h"
 #include "io/error.h"
 #include "spectral/library.h"
 
@@ -31,6 +32,15 @@ inline std::vector<Channel> camera(const std::string& name = "Nikon_D5100") {
   EXPECT_TRUE(loaded.has_value()) << diagnostics.text();
   return loaded.value_or(std::vector<Channel>{});
 }
+
+/// A correction with all six terms, planted and made configurations of.
+inline const ColorCorrection kRootPolynomial{CorrectionModel::root_polynomial_2,
+                                             {{0.5, 0.2, 0.05},
+                                              {0.1, 0.6, -0.1},
+                                              {0.1, -0.1, 0.9},
+                                              {0.15, 0.25, -0.05},
+                                              {0.05, 0.1, 0.05},
+                                              {0.05, -0.05, 0.25}}};
 
 /// The Error that `f` throws must have this code and contain this text.
 template <typename F>

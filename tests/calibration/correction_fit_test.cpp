@@ -111,13 +111,7 @@ TEST(CorrectionFit, IsJudgedByItsOwnObjective) {
 
 TEST(CorrectionFit, RootPolynomialRecoversAPlantedOne) {
   PatchColors colors = nikon("D65");
-  const ColorCorrection planted{CorrectionModel::root_polynomial_2,
-                                {{0.5, 0.2, 0.05},
-                                 {0.1, 0.6, -0.1},
-                                 {0.1, -0.1, 0.9},
-                                 {0.15, 0.25, -0.05},
-                                 {0.05, 0.1, 0.05},
-                                 {0.05, -0.05, 0.25}}};
+  const ColorCorrection& planted = test::kRootPolynomial;
   colors.white = planted({1, 1, 1});
   for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.xyz[i] = planted(colors.raw[i]);
   const CorrectionFit fit = fit_correction(colors, root_polynomial());

@@ -21,14 +21,6 @@ namespace OCIO = OCIO_NAMESPACE;
 using Rgb = std::array<double, 3>;
 
 const ColorCorrection kMatrix = linear_correction(Matrix3(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2));
-const ColorCorrection kRoot{CorrectionModel::root_polynomial_2,
-                            {{0.5, 0.2, 0.05},
-                             {0.1, 0.6, -0.1},
-                             {0.1, -0.1, 0.9},
-                             {0.15, 0.25, -0.05},
-                             {0.05, 0.1, 0.05},
-                             {0.05, -0.05, 0.25}}};
-
 CameraProfile profile(const std::string& light = "D65", const ColorCorrection& correction = kMatrix) {
   CameraProfile p{light,      "test camera",
                   {},         {1.1, 0.9, 1.2},
@@ -70,7 +62,7 @@ class OcioFolder : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::filesystem::path(testing::TempDir()) / ("abbe_ocio_test_" + std::to_string(::getpid())) /
               "nested";
-    const CameraProfile profiles[] = {profile(), profile("blackbody:3200", kRoot)};
+    const CameraProfile profiles[] = {profile(), profile("blackbody:3200", test::kRootPolynomial)};
     written_ = write_ocio_config(folder_, profiles);
     config_ = OCIO::Config::CreateFromFile((folder_ / "config.ocio").c_str());
   }
@@ -126,7 +118,7 @@ TEST_F(OcioFolder, AcesInputTransformAgreesWithDoublePrecision) {
 TEST_F(OcioFolder, CubeOfARootPolynomialIsFineEnough) {
   EXPECT_GT(written_.bake_error, 0);
   EXPECT_LT(written_.bake_error, 0.1);
-  const CameraProfile root = profile("blackbody:3200", kRoot);
+  const CameraProfile root = profile("blackbody:3200", test::kRootPolynomial);
   const auto processor = config_->getProcessor("Camera blackbody:3200", "Linear XYZ-D65");
   const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
   clf->setSrc("camera_blackbody_3200.clf");

@@ -23,6 +23,13 @@ TEST(Colorimetry, lab_of_white_black_and_the_dark_branch) {
   EXPECT_NEAR(xyz_to_lab(XYZ{0, 0.5, 0}, white)[0], 903.2963 * 0.005, 1e-5);
 }
 
+TEST(Colorimetry, lab_and_back) {
+  const XYZ white{0.9, 1, 0.8};
+  for (const XYZ& xyz : {XYZ{0.3, 0.4, 0.1}, XYZ{0.001, 0.002, 0.004}, XYZ{}, white})
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(lab_to_xyz(xyz_to_lab(xyz, white), white)[i], xyz[i], 1e-14);
+}
+
 TEST(Colorimetry, chromaticity_of_black) {
   EXPECT_EQ(chromaticity({0, 0, 0}), (std::array<double, 2>{0, 0}));
 }

@@ -11,17 +11,6 @@ namespace {
 
 constexpr std::size_t kSteps = 256;
 
-// The inverse of `xyz_to_lab` for a white of Y = 1.
-XYZ lab_to_xyz(const Lab& lab, const XYZ& white) {
-  const auto inverse = [](double f) {
-    constexpr double kDelta = 6.0 / 29.0;
-    return f > kDelta ? f * f * f : 3 * kDelta * kDelta * (f - 4.0 / 29.0);
-  };
-  const double fy = (lab[0] + 16) / 116;
-  return {white[0] * inverse(fy + lab[1] / 500), white[1] * inverse(fy),
-          white[2] * inverse(fy - lab[2] / 200)};
-}
-
 LinearRgb linear_rgb_of(double lightness, double chroma, double hue) {
   static const Matrix3 from_xyz = rgb_to_xyz(kRec709).inverse();
   return multiply(from_xyz,
