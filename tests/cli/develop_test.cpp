@@ -221,8 +221,10 @@ TEST(Develop, WithoutAReadOutThePictureIsTheRenders) {
 TEST(Develop, TheRawFileMakesThePictureOfTheFilm) {
   for (const char* mosaic : {"", R"(, "mosaic": [["R", "G"], ["G", "B"]])"}) {
     const std::string path = film("fine", kRgb + mosaic, "--display " + file("film.png"));
-    developed(path + R"( --set '/readout={"gain_e_per_dn": 1, "bits": 16, "offset_dn": 300}' --display )" +
-              file("raw_picture.png"));
+    developed(
+        path +
+        R"( --set '/readout={"gain_e_per_dn": 1, "bits": 16, "offset_dn": 300, "dark_e_per_s": 100000}' --display )" +
+        file("raw_picture.png"));
     const Image a = read_picture(file("film.png"));
     const Image b = read_picture(file("raw_picture.png"));
     for (std::size_t k = 0; k < 3; ++k)

@@ -206,6 +206,8 @@ TEST(Readout, TheSaturationSpeedFollowsIso12232) {
   const double saturating_lx_s = 30000 / area / per_lx_s;
   const double sensitivity = sensitivity_e_per_lx_s(channels, area, daylight->curve);
   EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s, 1e-9);
+  const std::vector longer{exposed(channels[1], 4)};  // whose exposure in lx s is longer too
+  EXPECT_NEAR(sensitivity_e_per_lx_s(longer, area, daylight->curve) / sensitivity, 1, 1e-9);
   readout.full_well_e = 60000;  // now the codes end first
   EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s * 0.75, 1e-9);
   // 1 lx s of daylight is about 5 mJ/m^2 or 1.4e16 photons/m^2, of which this pixel counts 1.4e5.
