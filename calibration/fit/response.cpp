@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "calibration/fit/response_model.h"
+#include "calibration/fit/response_samples.h"
 #include "io/error.h"
 
 namespace abbe {
@@ -25,50 +26,12 @@ constexpr double kFirstRoughness = 1;
 constexpr double kCauchy = 2.385;  // in deviations: 95 % efficient for Gaussian errors [Holland1977]
 constexpr double kMadToDeviation = 1.4826;
 constexpr double kLeastDeviation = 2e-5;  // of a code: what even exact values are taken to be uncertain by
-constexpr double kDarkMargin = 8;         // deviations from black, below which the curve of noise is no noise
-constexpr double kBrightMargin = 4;       // deviations from full scale
 constexpr double kSlopeDrift =
     0.01;  // weight of first differences, which carry the slope on where no sample lies
 constexpr std::size_t kMinSamples = 32;
 
-struct Sample {
-  std::size_t patch;
-  double code;
-  double deviation;
-  double log_time;
-};
-
-// Whether noise of this deviation cannot have brought a code from black or from beyond full scale.
-bool within_margins(double code, double deviation) {
-  return code > kDarkMargin * deviation && code < 1 - kBrightMargin * deviation;
-}
-
-// Black and clipped codes say nothing of the exposure, nor do those of longer times than one that clipped, or
-// of shorter ones than one that was black: noise alone moves them off the ends. With margins, codes within a
-// few known deviations of either end are left out too.
-std::vector<Sample> usable_samples(const ExposureSeries& series, bool with_margins) {
-  std::vector<Sample> samples;
-  for (std::size_t i = 0; i < series.codes.size(); ++i) {
-    double black_s = 0;
-    double clipped_s = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < series.times_s.size(); ++j) {
-      if (series.codes[i][j] <= 0) black_s = std::max(black_s, series.times_s[j]);
-      if (series.codes[i][j] >= 1) clipped_s = std::min(clipped_s, series.times_s[j]);
-    }
-    for (std::size_t j = 0; j < series.times_s.size(); ++j) {
-      const double code = series.codes[i][j];
-      const double time = series.times_s[j];
-      const double known = series.deviations.empty() ? 0 : series.deviations[i][j];
-      if (!(time > black_s && time < clipped_s && code > 0 && code < 1)) continue;
-      if (with_margins && !within_margins(code, known)) continue;
-      samples.push_back({i, code, series.deviations.empty() ? 1 : known, std::log(time)});
-    }
-  }
-  return samples;
-}
-
 struct SampleResidual {
-  Sample sample;
+  ResponseSample sample;
   double weight;
 
   template <typename T>
@@ -100,12 +63,12 @@ struct Unknowns {
 };
 
 // A straight line in the curve's coordinate, and the patches where it puts them.
-Unknowns start(const std::vector<Sample>& samples, std::size_t patches) {
+Unknowns start(const std::vector<ResponseSample>& samples, std::size_t patches) {
   Unknowns unknowns;
   unknowns.log_exposure.assign(patches, 0.0);
   std::vector<int> counts(patches, 0);
   const ResponseModel<double> model = unknowns.model();
-  for (const Sample& s : samples) {
+  for (const ResponseSample& s : samples) {
     unknowns.log_exposure[s.patch] += model(s.code) - s.log_time;
     ++counts[s.patch];
   }
@@ -119,7 +82,7 @@ void require(bool condition, const std::string& message) {
 
 // Samples with what their residuals are multiplied by, so that their deviation is 1.
 struct Weighted {
-  std::vector<Sample> samples;
+  std::vector<ResponseSample> samples;
   std::vector<double> weights;
   double loss = 0;  // width of the Cauchy loss
 };
@@ -171,17 +134,17 @@ double median(std::vector<double> values) {
 }
 
 // Errors of the code values, absolute.
-std::vector<double> code_errors(const std::vector<Sample>& samples, const Unknowns& unknowns) {
+std::vector<double> code_errors(const std::vector<ResponseSample>& samples, const Unknowns& unknowns) {
   const ResponseModel<double> model = unknowns.model();
   std::vector<double> sizes;
-  for (const Sample& s : samples)
+  for (const ResponseSample& s : samples)
     sizes.push_back(std::abs(model(s.code) - unknowns.log_exposure[s.patch] - s.log_time) /
                     model.slope(s.code));
   return sizes;
 }
 
 // Where on the curve the patch's exposure is, by bisection.
-double predicted_code(const Unknowns& unknowns, const Sample& s) {
+double predicted_code(const Unknowns& unknowns, const ResponseSample& s) {
   const ResponseModel<double> model = unknowns.model();
   const double target = unknowns.log_exposure[s.patch] + s.log_time;
   double low = 0;
@@ -194,7 +157,8 @@ double predicted_code(const Unknowns& unknowns, const Sample& s) {
 }
 
 // How much larger errors are than their stated deviations; few outliers do not tell.
-double noise_scale(const std::vector<Sample>& samples, const Unknowns& unknowns, std::size_t unknown_count) {
+double noise_scale(const std::vector<ResponseSample>& samples, const Unknowns& unknowns,
+                   std::size_t unknown_count) {
   std::vector<double> sizes = code_errors(samples, unknowns);
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] /= samples[i].deviation;
   const double count = static_cast<double>(samples.size());
@@ -202,10 +166,10 @@ double noise_scale(const std::vector<Sample>& samples, const Unknowns& unknowns,
          std::sqrt(count / std::max(1.0, count - static_cast<double>(unknown_count)));
 }
 
-Weighted weigh(const std::vector<Sample>& all, const Unknowns& unknowns, double scale) {
+Weighted weigh(const std::vector<ResponseSample>& all, const Unknowns& unknowns, double scale) {
   Weighted data{{}, {}, kCauchy};
   const ResponseModel<double> model = unknowns.model();
-  for (const Sample& s : all) {
+  for (const ResponseSample& s : all) {
     const double deviation = std::max(kLeastDeviation, scale * s.deviation);
     // Chosen by the curve, since a choice by the noisy code itself would favour one side.
     const double expected = predicted_code(unknowns, s);
@@ -339,16 +303,16 @@ std::vector<double> tabulate(const Unknowns& unknowns, std::size_t size) {
   return table;
 }
 
-void require_samples(const std::vector<Sample>& samples) {
+void require_samples(const std::vector<ResponseSample>& samples) {
   require(samples.size() >= kMinSamples,
           fmt::format("only {} code values are neither black nor clipped (needed {})", samples.size(),
                       kMinSamples));
 }
 
 // The first pass knows neither slopes nor the size of errors.
-Weighted first_weights(const std::vector<Sample>& samples) {
+Weighted first_weights(const std::vector<ResponseSample>& samples) {
   Weighted data{samples, {}, 1};
-  for (const Sample& s : samples)
+  for (const ResponseSample& s : samples)
     data.weights.push_back(ResponseModel<double>::sensitivity(s.code) / kFirstScale);
   return data;
 }
@@ -361,7 +325,7 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   require(std::all_of(series.times_s.begin(), series.times_s.end(),
                       [](double t) { return t > 0 && std::isfinite(t); }),
           "exposure times must be positive");
-  const std::vector<Sample> samples = usable_samples(series, false);
+  const std::vector<ResponseSample> samples = usable_samples(series, false);
   Weighted data = first_weights(usable_samples(series, true));
   require_samples(data.samples);
   Unknowns unknowns = start(data.samples, series.codes.size());
