@@ -183,7 +183,7 @@ std::vector<Case> slab_cases() {
                 unit * plate(0, 1.5, std::exp(-1.0)).reflectance, 1024),
       film_case("T16-outside", "glass in diffuse light, seen from outside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json", {},
-                kPi * 0.09177796, 256),
+                kPi * 0.09177796, 2048),
       film_case("T16-inside", "glass in diffuse light, as seen from inside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json",
                 {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}}, kPi * 0.59634576, 64),
