@@ -130,6 +130,10 @@ void add_matter_queries(CLI::App& query, Command& command) {
   add_at(*reflectance.app, reflectance->at_nm);
   add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
              "Angles of incidence (default 0)", "DEG[,DEG...]");
+  reflectance.app
+      ->add_option("--coating", reflectance->coating,
+                   "Thin films on it, from outside inwards; T is then told too")
+      ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
   add_json(*reflectance.app, reflectance->json);
 
   const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,

@@ -27,12 +27,13 @@ int query_critical(const IndexOptions& options);
 /// Polarising angle of light from outside, atan(n).
 int query_brewster(const IndexOptions& options);
 
-/// `query reflectance`: of a polished surface, for light from air.
+/// `query reflectance`: of a polished surface, perhaps under thin films, for light from air.
 struct ReflectanceOptions {
   std::string name;
   std::vector<double> at_nm;
   std::vector<double> angles_deg{0};
   bool json = false;
+  std::string coating = {};  ///< Films on it, from outside inwards, as "MATERIAL:NM,MATERIAL:NM".
 };
 int query_reflectance(const ReflectanceOptions& options);
 

@@ -6,8 +6,9 @@
 
 #include "cli/answer.h"
 #include "cli/query.h"
+#include "io/text.h"
+#include "materials/coating.h"
 #include "materials/index/library.h"
-#include "materials/interface/fresnel.h"
 #include "materials/interface/prism.h"
 
 namespace abbe::cli {
@@ -48,11 +49,28 @@ int answer_angle(const IndexOptions& options, F angle) {
   return 0;
 }
 
-FresnelPower<double> reflect_from_air(const RefractiveIndex& index, double nm, double angle_deg) {
+// "MATERIAL:NM,..." from outside inwards.
+Coating parse_coating(const std::string& text, const std::vector<double>& at_nm) {
+  Coating coating;
+  if (text.empty()) return coating;
+  for (const std::string& layer : split(text, ',')) {
+    const std::size_t colon = layer.rfind(':');
+    const auto thickness = parse_number(colon == std::string::npos ? "" : layer.substr(colon + 1));
+    if (!thickness || !(*thickness > 0) || coating.layers.size() == Coating::kMaxMatters)
+      throw Error(
+          ErrorCode::usage, "--coating",
+          fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES", text, Coating::kMaxMatters));
+    NamedIndex matter = find(layer.substr(0, colon), at_nm);
+    coating.layers.push_back({static_cast<std::uint32_t>(coating.matters.size()), *thickness});
+    coating.matters.push_back({std::move(matter.name), std::move(matter.index)});
+  }
+  return coating;
+}
+
+FresnelPower<double> reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
+                                      double angle_deg) {
   const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);
-  const double k = index.k(nm);
-  return k > 0 ? fresnel_conductor(cos_i, index.catalogued_n(nm), k)
-               : fresnel_dielectric(cos_i, index.catalogued_n(nm));
+  return coated_power(coating, nm, index.catalogued_n(nm), index.k(nm), cos_i, false);
 }
 
 }  // namespace
@@ -84,11 +102,12 @@ int query_brewster(const IndexOptions& options) {
 
 int query_reflectance(const ReflectanceOptions& options) {
   const NamedIndex matter = find(options.name, options.at_nm);
+  const Coating coating = parse_coating(options.coating, options.at_nm);
   const auto rows = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
       Json row = Json::array();
       for (const double angle : options.angles_deg)
-        row.push_back(quantity(reflect_from_air(matter.index, nm, angle)));
+        row.push_back(quantity(reflect_from_air(matter.index, coating, nm, angle)));
       return one_or_all(std::move(row));
     });
   };
@@ -99,6 +118,7 @@ int query_reflectance(const ReflectanceOptions& options) {
   answer["Rs"] = rows([](const auto& f) { return f.Rs; });
   answer["Rp"] = rows([](const auto& f) { return f.Rp; });
   answer["R"] = rows([](const auto& f) { return f.R(); });
+  if (!coating.layers.empty()) answer["T"] = rows([](const auto& f) { return f.transmitted(); });
   print(answer, options.json);
   return 0;
 }

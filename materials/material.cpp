@@ -7,9 +7,13 @@ Bsdf make_bsdf(const Material& material, const SampledSpectrum& wavelengths_nm) 
     const SampledSpectrum& nm;
     Bsdf operator()(const DiffuseMaterial& m) const { return DiffuseBsdf{m.reflectance(nm)}; }
     Bsdf operator()(const DielectricMaterial& m) const {
+      if (!m.coating.layers.empty()) return CoatedDielectricBsdf{nm, &m.index, &m.coating};
       return DielectricBsdf{m.index.n(nm), m.index.dispersive()};
     }
-    Bsdf operator()(const ConductorMaterial& m) const { return ConductorBsdf{m.index.n(nm), m.index.k(nm)}; }
+    Bsdf operator()(const ConductorMaterial& m) const {
+      if (!m.coating.layers.empty()) return CoatedConductorBsdf{nm, &m.index, &m.coating};
+      return ConductorBsdf{m.index.n(nm), m.index.k(nm)};
+    }
   } const make{wavelengths_nm};
   return std::visit(make, material.model);
 }

@@ -14,10 +14,12 @@ struct DiffuseMaterial {
 struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
+  Coating coating = {};
 };
 struct ConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
+  Coating coating = {};
 };
 
 /// What a surface is made of, over all wavelengths.
@@ -26,7 +28,8 @@ struct Material {
   std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial> model;
 };
 
-/// The scattering of `material` at the wavelengths of a packet, against air outside.
+/// The scattering of `material` at the wavelengths of a packet, against air outside. It may refer to the
+/// material, which must outlive it.
 [[nodiscard]] Bsdf make_bsdf(const Material& material, const SampledSpectrum& wavelengths_nm);
 
 /// Only delta scattering: light connections to it are pointless.

@@ -8,6 +8,7 @@
 #include <ImathVec.h>
 
 #include "materials/bsdf/warp.h"
+#include "materials/coating.h"
 #include "spectral/packet.h"
 
 namespace abbe {
@@ -73,9 +74,38 @@ struct ConductorBsdf {
   [[nodiscard]] static constexpr bool delta() { return true; }
 };
 
+/// Smooth dielectric interface under thin films, which may absorb; it refers to the material and sees the
+/// packet `wavelengths_nm`.
+struct CoatedDielectricBsdf {
+  SampledSpectrum wavelengths_nm;
+  const RefractiveIndex* index;
+  const Coating* coating;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr bool delta() { return true; }
+};
+
+/// Smooth conductor under thin films.
+struct CoatedConductorBsdf {
+  SampledSpectrum wavelengths_nm;
+  const RefractiveIndex* index;
+  const Coating* coating;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr bool delta() { return true; }
+};
+
 /// The closed list of scattering models, evaluated at one packet of wavelengths. A new model is a file pair,
 /// an entry here, and one in `materials/material.h`; the statistical tests iterate the list.
-using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf>;
+using Bsdf =
+    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf, CoatedConductorBsdf>;
+static_assert(sizeof(Bsdf) <= 3 * sizeof(SampledSpectrum));  // every vertex of a path holds one
 
 [[nodiscard]] std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo, const BsdfRandom& u,
                                                int hero, TransportMode mode);
@@ -85,6 +115,9 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf>;
 /// Density with which `sample` would draw wi were each lane the hero [1/sr]; 0 for delta models.
 [[nodiscard]] SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi);
 [[nodiscard]] bool is_delta(const Bsdf& bsdf);
+/// Index of the matter behind a surface that lets light in, relative to what is outside, at one lane; 1 for
+/// the others.
+[[nodiscard]] float index_inside(const Bsdf& bsdf, int lane);
 /// Whether nothing leaves, whatever arrives.
 [[nodiscard]] bool is_black(const Bsdf& bsdf);
 
@@ -126,6 +159,12 @@ inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::
 
 inline bool is_delta(const Bsdf& bsdf) {
   return std::visit([](const auto& model) { return model.delta(); }, bsdf);
+}
+
+inline float index_inside(const Bsdf& bsdf, int lane) {
+  if (const auto* dielectric = std::get_if<DielectricBsdf>(&bsdf)) return dielectric->n[lane];
+  const auto* coated = std::get_if<CoatedDielectricBsdf>(&bsdf);
+  return coated != nullptr ? coated->index->n(coated->wavelengths_nm)[lane] : 1.0F;
 }
 
 inline bool is_black(const Bsdf& bsdf) {

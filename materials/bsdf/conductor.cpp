@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/smooth.h"
 #include "materials/interface/fresnel.h"
 
 namespace abbe {
@@ -12,7 +12,7 @@ std::optional<BsdfSample> ConductorBsdf::sample(const Imath::V3f& wo, const Bsdf
   const float cos_i = std::min(std::abs(wo.z), 1.0F);
   const auto reflectance = [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); };
   return BsdfSample{
-      .wi = {-wo.x, -wo.y, wo.z}, .weight = SampledSpectrum::map(n, k, reflectance), .pdf = 1, .delta = true};
+      .wi = mirrored(wo), .weight = SampledSpectrum::map(n, k, reflectance), .pdf = 1, .delta = true};
 }
 
 SampledSpectrum ConductorBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/smooth.h"
 #include "materials/interface/fresnel.h"
 
 namespace abbe {
@@ -10,26 +10,18 @@ namespace {
 // Reflection leaves in the same direction at every wavelength, so the packet stays together: each lane would
 // have drawn it with its own reflectance as probability, and carries that share.
 BsdfSample reflected(const Imath::V3f& wo, const SampledSpectrum& ratio, float probability) {
-  return {.wi = {-wo.x, -wo.y, wo.z}, .weight = ratio, .lane_pdf = ratio, .pdf = probability, .delta = true};
+  return {.wi = mirrored(wo), .weight = ratio, .lane_pdf = ratio, .pdf = probability, .delta = true};
 }
 
 // Refraction goes where the hero goes; the other lanes could not have come along unless the index is the same
 // for all.
 BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float eta, TransportMode mode) {
   const float probability = 1 - f.R();
-  const float scale = mode == TransportMode::radiance ? 1 / (eta * eta) : 1.0F;
-  return {.wi = {-wo.x / eta, -wo.y / eta, std::copysign(f.cos_t, -wo.z)},
-          .weight = SampledSpectrum(f.transmitted() / probability * scale),
+  return {.wi = refracted_direction(wo, eta, f.cos_t),
+          .weight = SampledSpectrum(f.transmitted() / probability * refraction_scale(eta, mode)),
           .pdf = probability,
           .delta = true,
           .transmitted = true};
-}
-
-BsdfSample only_lane(BsdfSample s, int hero) {
-  s.weight = SampledSpectrum::only(hero, s.weight[hero]);
-  s.lane_pdf = SampledSpectrum::only(hero, 1);
-  s.dispersive = true;
-  return s;
 }
 
 }  // namespace

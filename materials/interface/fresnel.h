@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include "materials/interface/complex.h"
 #include "materials/interface/snell.h"
 
 namespace abbe {
@@ -27,6 +28,11 @@ template <typename T>
 /// T holds the absorptance, what enters the medium. [Born1999, sec. 14.2]
 template <typename T>
 [[nodiscard]] FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k);
+
+/// The refracted wave's component along the normal, sqrt((eta + ik)^2 - sin_i^2), relative to the wave number
+/// of the medium of incidence; both its parts are 0 or more.
+template <typename T>
+[[nodiscard]] Complex<T> normal_component(const T& cos_i, const T& eta, const T& k);
 
 /// Complex amplitude coefficients r_s, r_p, t_s, t_p for a relative index eta (Im eta > 0 absorbing); r_p and
 /// r_s have opposite signs at normal incidence, and fields go as exp(-i omega t).
@@ -61,7 +67,7 @@ FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
 }
 
 template <typename T>
-FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
+Complex<T> normal_component(const T& cos_i, const T& eta, const T& k) {
   using std::sqrt;
   using W = typename Wider<T>::type;
   // a + ib = sqrt(z), z = (eta + ik)^2 - sin_i^2: the larger of a, b by a sum, the other from their product
@@ -74,7 +80,12 @@ FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
   const T smaller = larger > T(0) ? half_im / larger : T(0);
   const T a = re < T(0) ? smaller : larger;
   const T b = re < T(0) ? larger : smaller;
+  return {a, b};
+}
 
+template <typename T>
+FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
+  const auto [a, b] = normal_component(cos_i, eta, k);
   const T& c = cos_i;
   const T sin2 = (T(1) - c) * (T(1) + c);
   const T s = (a + c) * (a + c) + b * b;

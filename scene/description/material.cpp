@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -30,7 +31,7 @@ struct Ior {
 };
 
 std::optional<Ior> constant_ior(double n, double k) {
-  return Ior{fmt::format("{}", n), RefractiveIndex(n, k), true};
+  return Ior{k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k), true};
 }
 
 std::optional<Ior> read_ior(const JsonValue& json, Range allowed, Reading& reading) {
@@ -62,15 +63,75 @@ std::optional<DiffuseMaterial> read_diffuse(const JsonValue& json, Reading& read
   return DiffuseMaterial{std::move(*reflectance)};
 }
 
+constexpr Range kFilmThickness{0, 1e5, true, false};  // [nm]; nothing thicker is coherent
+constexpr Range kRepeats{1, static_cast<double>(Coating::kMaxLayers)};
+
+// The number of the matter `json` names among those of `coating`, added if it is new: the same words name the
+// same matter.
+std::optional<std::uint32_t> film_matter(const JsonValue& json, Coating& coating, Reading& reading) {
+  auto ior = read_ior(json, kIndex, reading);
+  if (!ior) return std::nullopt;
+  const auto* words = std::get_if<std::string>(&json.value);
+  const std::string name = words ? *words : ior->name;
+  const auto known = std::find_if(coating.matters.begin(), coating.matters.end(),
+                                  [&](const Coating::Matter& matter) { return matter.index_name == name; });
+  const auto number = static_cast<std::uint32_t>(known - coating.matters.begin());
+  if (known != coating.matters.end()) return number;
+  if (number == Coating::kMaxMatters) {
+    reading.diagnostics.error(
+        json.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMatters));
+    return std::nullopt;
+  }
+  coating.matters.push_back({name, std::move(ior->index)});
+  return number;
+}
+
+// Layers and repeated groups of them, from the outside inwards.
+void read_layers(const JsonValue& json, Coating& coating, Reading& reading) {
+  const JsonValue::Array* entries = read_array(json, "layers", 1, reading);
+  if (!entries) return;
+  for (const JsonValue& entry : *entries) {
+    ObjectReader reader(entry, reading.diagnostics);
+    const std::size_t first = coating.layers.size();
+    std::int64_t repeats = 1;
+    if (const JsonValue* group = reader.find("layers")) {
+      repeats = reader.integer("repeat", kRepeats).value_or(1);
+      read_layers(*group, coating, reading);
+    } else {
+      const JsonValue* ior = reader.require("ior");
+      const auto thickness = reader.require_number("thickness_nm", kFilmThickness);
+      const auto matter = ior ? film_matter(*ior, coating, reading) : std::nullopt;
+      if (matter && thickness) coating.layers.push_back({*matter, *thickness});
+    }
+    reader.finish();
+    const std::size_t last = coating.layers.size();
+    if (first + (last - first) * static_cast<std::size_t>(repeats) > Coating::kMaxLayers) {
+      reading.diagnostics.error(entry.where,
+                                fmt::format("too many layers (allowed {})", Coating::kMaxLayers));
+      return;
+    }
+    for (; repeats > 1; --repeats)
+      for (std::size_t i = first; i < last; ++i) coating.layers.push_back(coating.layers[i]);
+  }
+}
+
+// The layers under a key, if it is there.
+Coating read_coating(const JsonValue* layers, Reading& reading) {
+  Coating coating;
+  if (layers) read_layers(*layers, coating, reading);
+  return coating;
+}
+
 std::optional<DielectricMaterial> read_dielectric(const JsonValue& json, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   const JsonValue* value = reader.require("ior");
   const JsonValue* absorption = reader.find("absorption_per_m");
+  Coating coating = read_coating(reader.find("coating"), reading);
   reader.finish();
   if (!value) return std::nullopt;
   auto ior = read_ior(*value, kIndex, reading);
   if (!ior) return std::nullopt;
-  if (!absorption) return DielectricMaterial{std::move(ior->name), std::move(ior->index)};
+  if (!absorption) return DielectricMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
   if (!ior->constant || ior->index.absorbing()) {
     reading.diagnostics.error(absorption->where,
                               "absorption_per_m goes with a constant real index; this one brings its own k");
@@ -81,30 +142,42 @@ std::optional<DielectricMaterial> read_dielectric(const JsonValue& json, Reading
   return DielectricMaterial{
       std::move(ior->name),
       RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha), IndexMedium::air,
-                      kMinWavelengthNm, kMaxWavelengthNm)};
+                      kMinWavelengthNm, kMaxWavelengthNm),
+      std::move(coating)};
 }
 
 std::optional<ConductorMaterial> read_conductor(const JsonValue& json, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   const JsonValue* value = reader.require("ior");
+  Coating coating = read_coating(reader.find("coating"), reading);
   reader.finish();
   if (!value) return std::nullopt;
   auto ior = read_ior(*value, kMetalIndex, reading);
   if (!ior) return std::nullopt;
-  return ConductorMaterial{std::move(ior->name), std::move(ior->index)};
+  return ConductorMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
+}
+
+// A film with air on both sides, such as a soap bubble's: a coating on nothing.
+std::optional<DielectricMaterial> read_film(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  Coating coating = read_coating(reader.require("layers"), reading);
+  reader.finish();
+  return DielectricMaterial{"air", RefractiveIndex(1), std::move(coating)};
 }
 
 // A material that cannot be read stands as black, so that the shapes naming it are not reported as well.
 Material read_material(const std::string& name, const JsonValue& json, Reading& reading) {
   Material material{name, DiffuseMaterial{Curve(0.0)}};
   ObjectReader reader(json, reading.diagnostics);
-  const auto key = reader.exactly_one({"diffuse", "dielectric", "conductor"});
+  const auto key = reader.exactly_one({"diffuse", "dielectric", "conductor", "film"});
   if (!key) return material;
   const JsonValue& model = *reader.find(*key);
   if (*key == "diffuse") {
     if (auto diffuse = read_diffuse(model, reading)) material.model = std::move(*diffuse);
   } else if (*key == "dielectric") {
     if (auto dielectric = read_dielectric(model, reading)) material.model = std::move(*dielectric);
+  } else if (*key == "film") {
+    if (auto film = read_film(model, reading)) material.model = std::move(*film);
   } else if (auto conductor = read_conductor(model, reading)) {
     material.model = std::move(*conductor);
   }
@@ -180,24 +253,26 @@ std::uint32_t black_material(Reading& reading, Scene& scene) {
 
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene) {
   Support sensor;
-  for (const Channel& channel : scene.channels) extend(sensor, reach(channel));
-  for (const Material& material : scene.materials) {
-    const RefractiveIndex* index = nullptr;
-    std::string name;
-    if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
-      index = &dielectric->index;
-      name = dielectric->index_name;
-    } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
-      index = &conductor->index;
-      name = conductor->index_name;
-    }
-    if (!index || (index->low_nm() <= sensor.low && sensor.high <= index->high_nm())) continue;
+  for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
+  const auto check = [&](const Material& material, const std::string& name, const RefractiveIndex& index) {
+    if (index.low_nm() <= sensor.low && sensor.high <= index.high_nm()) return;
     const JsonValue* at = json.find(material.name);
     reading.diagnostics.warning(
         at ? at->where : json.where,
         fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
                     "held from the nearer end",
-                    name, index->low_nm(), index->high_nm(), sensor.low, sensor.high));
+                    name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
+  };
+  const auto check_all = [&](const Material& material, const auto& model) {
+    check(material, model.index_name, model.index);
+    for (const Coating::Matter& matter : model.coating.matters)
+      check(material, matter.index_name, matter.index);
+  };
+  for (const Material& material : scene.materials) {
+    if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model))
+      check_all(material, *dielectric);
+    else if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model))
+      check_all(material, *conductor);
   }
 }
 

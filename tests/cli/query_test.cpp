@@ -115,6 +115,23 @@ TEST(QueryIor, InternalTransmittanceOfAThickness) {
               std::pow(ten["internal_transmittance"][0].get<double>(), 2.5), 1e-12);
 }
 
+TEST(QueryReflectance, OfACoatedSurface) {
+  cli::ReflectanceOptions options{"N-BK7", {550}, {0, 60}};
+  const json bare = ask(cli::query_reflectance, options);
+  EXPECT_FALSE(bare.contains("T"));
+  options.coating = "MgF2:99.6";
+  const json coated = ask(cli::query_reflectance, options);
+  EXPECT_NEAR(coated["R"][0].get<double>(), 0.0126, 1e-4);
+  EXPECT_LT(coated["R"][1], bare["R"][1]);
+  EXPECT_NEAR(coated["R"][1].get<double>() + coated["T"][1].get<double>(), 1, 1e-12);
+  options.coating = "MgF2:1e-9,rutile:1e-9";
+  EXPECT_NEAR(ask(cli::query_reflectance, options)["R"][1].get<double>(), bare["R"][1].get<double>(), 1e-9);
+  for (const char* wrong : {"MgF2", "MgF2:", "MgF2:-3", "MgF2:a", ":3"}) {
+    options.coating = wrong;
+    EXPECT_THROW(cli::query_reflectance(options), Error) << wrong;
+  }
+}
+
 TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
   const json glass = ask(cli::query_list, {"glass"});
   ASSERT_EQ(glass["glass"].size(), 1634U);

@@ -270,6 +270,57 @@ TEST_F(DescriptionTest, ReadsMaterials) {
   EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
 }
 
+TEST_F(DescriptionTest, ReadsCoatings) {
+  const Loaded loaded = load(R"({"materials": {
+    "lens": {"dielectric": {"ior": "N-BK7", "coating": [{"ior": "MgF2", "thickness_nm": 99.6}]}},
+    "stack": {"conductor": {"ior": "Al_Rakic", "coating": [{"ior": 1.5, "thickness_nm": 10},
+       {"repeat": 3, "layers": [{"ior": 2.3, "thickness_nm": 20}, {"ior": {"n": 1.5, "k": 0.1}, "thickness_nm": 30}]},
+       {"ior": 2.3, "thickness_nm": 40}]}},
+    "bubble": {"film": {"layers": [{"ior": "water", "thickness_nm": 400}]}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const Coating& coat = std::get<DielectricMaterial>(loaded->materials[0].model).coating;
+  ASSERT_EQ(coat.layers.size(), 1U);
+  EXPECT_EQ(coat.layers[0].thickness_nm, 99.6);
+  EXPECT_NEAR(coat.matters[0].index.n(587.5618), 1.3777439, 1e-6);
+  const Coating& stack = std::get<ConductorMaterial>(loaded->materials[1].model).coating;
+  ASSERT_EQ(stack.matters.size(), 3U) << "one for each of 1.5, 2.3 and 1.5 + 0.1i";
+  std::vector<double> thicknesses;
+  for (const Coating::Layer& layer : stack.layers) thicknesses.push_back(layer.thickness_nm);
+  EXPECT_EQ(thicknesses, (std::vector<double>{10, 20, 30, 20, 30, 20, 30, 40}));
+  EXPECT_EQ(stack.matters[stack.layers[2].matter].index.k(500), 0.1);
+  EXPECT_EQ(stack.matters[stack.layers[7].matter].index.n(500.0), 2.3);
+  const auto& bubble = std::get<DielectricMaterial>(loaded->materials[2].model);
+  EXPECT_EQ(bubble.index.n(500.0), 1);
+  EXPECT_EQ(bubble.coating.layers.size(), 1U);
+  const std::string narrow = load(R"({"materials": {"m": {"dielectric": {"ior": 1.5, "coating":
+      [{"ior": "diamond", "thickness_nm": 9}]}}}})")
+                                 .text();
+  EXPECT_NE(narrow.find("diamond holds on [226, 760] nm"), std::string::npos) << narrow;
+}
+
+TEST_F(DescriptionTest, RefusesImpossibleCoatings) {
+  const auto told = [&](const std::string& layers) {
+    const Loaded loaded =
+        load(R"({"materials": {"m": {"dielectric": {"ior": 1.5, "coating": )" + layers + "}}}}");
+    EXPECT_FALSE(loaded.scene) << layers;
+    return loaded.text();
+  };
+  const auto holds = [](const std::string& text, const std::string& words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  holds(told("[]"), "/materials/m/dielectric/coating: error: expected an array of layers");
+  holds(told(R"([{"ior": 1.4, "thickness_nm": 0}])"), "/coating/0/thickness_nm: error");
+  holds(told(R"([{"ior": 1.4}])"), "thickness_nm");
+  holds(told(R"([{"ior": "MgF3", "thickness_nm": 9}])"), "MgF2");
+  holds(told(R"([{"repeat": 86, "layers": [{"ior": 1.4, "thickness_nm": 9}, {"ior": 1.5, "thickness_nm": 9},
+      {"ior": 1.6, "thickness_nm": 9}]}])"),
+        "too many layers (allowed 256)");
+  std::string many;
+  for (int i = 0; i < 17; ++i)
+    many += fmt::format("{}{{\"ior\": 1.{:02}, \"thickness_nm\": 9}}", i ? ", " : "", i + 1);
+  holds(told("[" + many + "]"), "too many materials in a coating (allowed 16)");
+}
+
 // A scene named by a path relative to the working directory, as on the command line.
 TEST_F(DescriptionTest, FindsIndicesBesideTheScene) {
   write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.6\n1100,1.6\n");

@@ -118,7 +118,7 @@ class CameraPath {
     if (event.transmitted) {
       const bool entering = vertex.wo.z > 0;
       medium_ = crossed_into(scene_, vertex.hit.shape, entering, lambda());
-      const float n = std::get<DielectricBsdf>(vertex.bsdf).n[kHero];
+      const float n = index_inside(vertex.bsdf, kHero);
       eta_scale_ *= entering ? n * n : 1 / (n * n);
     }
     ray_ = spawn(vertex.hit.point, vertex.hit.normal, direction);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/interface/fresnel.h"
 #include "materials/interface/snell.h"
 
 namespace abbe {
@@ -20,14 +19,15 @@ struct Turn {
   Passage passage;
 };
 
-Turn refract_or_reflect(const RefractiveIndex& index, const Imath::V3d& wo, const Imath::V3d& outward,
+Turn refract_or_reflect(const DielectricMaterial& glass, const Imath::V3d& wo, const Imath::V3d& outward,
                         double wavelength_nm) {
   const bool entering = wo.dot(outward) > 0;
   const Imath::V3d normal = entering ? outward : -outward;
-  const double inside = index.n(wavelength_nm);
+  const double inside = glass.index.n(wavelength_nm);
   const double n_from = entering ? 1 : inside;
   const double n_to = entering ? inside : 1;
-  const FresnelPower<double> power = fresnel_dielectric(normal.dot(wo), n_to / n_from);
+  const FresnelPower<double> power =
+      coated_power(glass.coating, wavelength_nm, inside, 0, normal.dot(wo), !entering);
   const std::optional<Imath::V3d> through = refract(wo, normal, n_to / n_from);
   const Imath::V3d direction = through ? *through : reflect(wo, normal);
   return {through ? Kind::refract : Kind::total_reflection,
@@ -36,12 +36,12 @@ Turn refract_or_reflect(const RefractiveIndex& index, const Imath::V3d& wo, cons
            power.Rp}};
 }
 
-Turn mirror(const RefractiveIndex& index, const Imath::V3d& wo, const Imath::V3d& outward,
+Turn mirror(const ConductorMaterial& metal, const Imath::V3d& wo, const Imath::V3d& outward,
             double wavelength_nm) {
   const Imath::V3d normal = wo.dot(outward) > 0 ? outward : -outward;
-  const double n = index.n(wavelength_nm);
-  const double k = index.k(wavelength_nm);
-  const FresnelPower<double> power = fresnel_conductor(normal.dot(wo), n, k);
+  const double n = metal.index.n(wavelength_nm);
+  const double k = metal.index.k(wavelength_nm);
+  const FresnelPower<double> power = coated_power(metal.coating, wavelength_nm, n, k, normal.dot(wo), false);
   const Imath::V3d direction = reflect(wo, normal);
   return {Kind::reflect,
           direction,
@@ -51,9 +51,9 @@ Turn mirror(const RefractiveIndex& index, const Imath::V3d& wo, const Imath::V3d
 std::optional<Turn> turn(const Material& material, const Imath::V3d& wo, const Imath::V3d& outward,
                          double wavelength_nm) {
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.model))
-    return refract_or_reflect(glass->index, wo, outward, wavelength_nm);
+    return refract_or_reflect(*glass, wo, outward, wavelength_nm);
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.model))
-    return mirror(metal->index, wo, outward, wavelength_nm);
+    return mirror(*metal, wo, outward, wavelength_nm);
   return std::nullopt;
 }
 

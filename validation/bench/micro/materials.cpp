@@ -47,6 +47,31 @@ BENCHMARK_CAPTURE(sample_bsdf, diffuse, DiffuseBsdf{SampledSpectrum(0.5F)});
 BENCHMARK_CAPTURE(sample_bsdf, dielectric, DielectricBsdf{SampledSpectrum(1.5F), false});
 BENCHMARK_CAPTURE(sample_bsdf, conductor, ConductorBsdf{SampledSpectrum(0.96F), SampledSpectrum(6.69F)});
 
+// One film, and the 21 layers of a mirror, on glass and on metal; from a packet of its own each time.
+struct CoatedMatter {
+  RefractiveIndex index;
+  Coating coating;
+};
+Coating films(int pairs) {
+  Coating coating{{{"low", index_of("MgF2")}, {"high", RefractiveIndex(2.35)}}, {}};
+  for (int i = 0; i < pairs; ++i) coating.layers.insert(coating.layers.end(), {{1, 58.5}, {0, 99.6}});
+  coating.layers.push_back({pairs > 0 ? 1U : 0U, 99.6});
+  return coating;
+}
+template <typename Model>
+void sample_coated(benchmark::State& state, const char* matter, int pairs) {
+  const CoatedMatter coated{index_of(matter), films(pairs)};
+  micro::Stream u;
+  for (auto _ : state) {
+    const Bsdf bsdf = Model{u.packet(), &coated.index, &coated.coating};
+    const Imath::V3f wo = cosine_hemisphere(u.pair());
+    benchmark::DoNotOptimize(sample(bsdf, wo, {u.next(), u.pair()}, 0, TransportMode::radiance));
+  }
+}
+BENCHMARK_CAPTURE(sample_coated<CoatedDielectricBsdf>, coated_glass, "N-BK7", 0);
+BENCHMARK_CAPTURE(sample_coated<CoatedDielectricBsdf>, mirror_on_glass, "N-BK7", 10);
+BENCHMARK_CAPTURE(sample_coated<CoatedConductorBsdf>, coated_metal, "Al_Rakic", 0);
+
 // f and pdf together, as light sampling asks for them.
 void evaluate_diffuse(benchmark::State& state) {
   const Bsdf bsdf = DiffuseBsdf{SampledSpectrum(0.5F)};

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+
+#include "materials/bsdf/smooth.h"
+
+namespace abbe {
+namespace {
+
+float cosine_of(const Imath::V3f& wo) {
+  return std::min(std::abs(wo.z), 1.0F);
+}
+
+// What the surface gives back and lets through, lane by lane.
+struct Powers {
+  SampledSpectrum R, T;
+};
+
+Powers all_lanes(const CoatingAt& at, const SampledSpectrum& n, float cos_i, bool inside) {
+  SampledSpectrum::Values R, T;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const FresnelPower<float> f = at.power(lane, n[lane], 0, cos_i, inside);
+    R[static_cast<std::size_t>(lane)] = f.R();
+    T[static_cast<std::size_t>(lane)] = f.transmitted();
+  }
+  return {SampledSpectrum(R), SampledSpectrum(T)};
+}
+
+// The share of `part` in `all`: the probability of its event.
+float share(float part, float all) {
+  return all > 0 ? part / all : 0.0F;
+}
+
+// An event that all lanes could have drawn, each with the share of `part` in R + T, and which the hero drew
+// with `probability`.
+BsdfSample together(const Imath::V3f& wi, const SampledSpectrum& part, const Powers& powers, int hero,
+                    float probability) {
+  const SampledSpectrum shares = SampledSpectrum::map(part, powers.R + powers.T, share);
+  return {.wi = wi,
+          .weight = part * (1 / probability),
+          .lane_pdf = shares * (1 / shares[hero]),
+          .pdf = probability,
+          .delta = true};
+}
+
+}  // namespace
+
+// Light is mirrored with the probability R/(R + T), and passes otherwise; the weights carry what the films
+// absorb.
+std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                       TransportMode mode) const {
+  if (wo.z == 0) return std::nullopt;
+  const float cos_i = cosine_of(wo);
+  const bool inside = wo.z < 0;
+  const SampledSpectrum n = index->n(wavelengths_nm);
+  const CoatingAt at(*coating, wavelengths_nm);
+  const FresnelPower<float> f = at.power(hero, n[hero], 0, cos_i, inside);
+  const float mirrors = share(f.R(), f.R() + f.transmitted());
+  if (u.lobe < mirrors) {
+    const Powers powers = all_lanes(at, n, cos_i, inside);
+    return together(mirrored(wo), powers.R, powers, hero, mirrors);
+  }
+  if (!(f.transmitted() > 0)) return std::nullopt;
+  const float eta = inside ? 1 / n[hero] : n[hero];
+  const Imath::V3f wi = refracted_direction(wo, eta, f.cos_t);
+  BsdfSample s;
+  if (index->dispersive()) {
+    s = {.wi = wi,
+         .weight = SampledSpectrum(f.transmitted() / (1 - mirrors)),
+         .pdf = 1 - mirrors,
+         .delta = true};
+    s = only_lane(s, hero);
+  } else {
+    const Powers powers = all_lanes(at, n, cos_i, inside);
+    s = together(wi, powers.T, powers, hero, 1 - mirrors);
+  }
+  s.weight *= refraction_scale(eta, mode);
+  s.transmitted = true;
+  return s;
+}
+
+SampledSpectrum CoatedDielectricBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
+  return {};
+}
+
+SampledSpectrum CoatedDielectricBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
+  return {};
+}
+
+std::optional<BsdfSample> CoatedConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/,
+                                                      int /*hero*/, TransportMode /*mode*/) const {
+  if (wo.z == 0) return std::nullopt;
+  const CoatingAt at(*coating, wavelengths_nm);
+  const SampledSpectrum n = index->n(wavelengths_nm);
+  const SampledSpectrum k = index->k(wavelengths_nm);
+  SampledSpectrum::Values R;
+  for (int lane = 0; lane < kLanes; ++lane)
+    R[static_cast<std::size_t>(lane)] = at.power(lane, n[lane], k[lane], cosine_of(wo), false).R();
+  return BsdfSample{.wi = mirrored(wo), .weight = SampledSpectrum(R), .pdf = 1, .delta = true};
+}
+
+SampledSpectrum CoatedConductorBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
+  return {};
+}
+
+SampledSpectrum CoatedConductorBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
+  return {};
+}
+
+}  // namespace abbe

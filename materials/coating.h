@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "materials/index/refractive_index.h"
+#include "materials/interface/fresnel.h"
+
+namespace abbe {
+
+/// Coherent layers on a smooth surface, from the outside inwards; none of them is the bare surface. Layers of
+/// one matter share it.
+struct Coating {
+  struct Matter {
+    std::string index_name;
+    RefractiveIndex index;
+  };
+  struct Layer {
+    std::uint32_t matter;
+    double thickness_nm;
+  };
+  static constexpr std::size_t kMaxMatters = 16;
+  static constexpr std::size_t kMaxLayers = 256;
+
+  std::vector<Matter> matters;
+  std::vector<Layer> layers;
+};
+
+/// Reflectance and transmittance of the surface of matter of index n + ik under `coating`, for light from
+/// outside, or, when `inside`, from within matter of real index n. All indices are relative to what is
+/// outside.
+[[nodiscard]] FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n,
+                                                double k, double cos_i, bool inside);
+
+/// The same at the lanes of a packet: the coating's indices are looked up once for all of them.
+class CoatingAt {
+ public:
+  CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm);
+
+  [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
+
+ private:
+  const Coating& coating_;
+  SampledSpectrum wavelengths_nm_;
+  std::array<SampledSpectrum, Coating::kMaxMatters> n_;
+  std::array<SampledSpectrum, Coating::kMaxMatters> k_;
+};
+
+}  // namespace abbe

@@ -1,0 +1,44 @@
+#pragma once
+
+namespace abbe {
+
+/// A complex number of any scalar; std::complex is for the built-in ones, and looks for NaN in every product.
+template <typename T>
+struct Complex {
+  T re, im;
+};
+
+template <typename T>
+Complex<T> operator+(const Complex<T>& a, const Complex<T>& b) {
+  return {a.re + b.re, a.im + b.im};
+}
+template <typename T>
+Complex<T> operator*(const Complex<T>& a, const Complex<T>& b) {
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+template <typename T>
+T norm(const Complex<T>& a) {
+  return a.re * a.re + a.im * a.im;
+}
+template <typename T>
+Complex<T> scaled(const Complex<T>& a, const T& s) {
+  return {a.re * s, a.im * s};
+}
+template <typename T>
+Complex<T> operator/(const Complex<T>& a, const Complex<T>& b) {
+  return scaled(a * Complex<T>{b.re, -b.im}, T(1) / norm(b));
+}
+
+/// -i a.
+template <typename T>
+Complex<T> minus_i(const Complex<T>& a) {
+  return {a.im, -a.re};
+}
+
+/// (re + i im)^2.
+template <typename T>
+Complex<T> square(const T& re, const T& im) {
+  return {(re - im) * (re + im), T(2) * re * im};
+}
+
+}  // namespace abbe
