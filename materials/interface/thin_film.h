@@ -91,7 +91,7 @@ FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers,
     const Complex<T> cosine{c * even, -d * odd};
     const Complex<T> sine{d * even, c * odd};
     // At the critical angle of a layer q is 0 and sin(length q)/q its length.
-    const Complex<T> over = sine / q;
+    const Complex<T> over = norm(q) > T(0) ? sine / q : Complex<T>{length, T(0)};
     const Complex<T> eps = square(layer->eta, layer->k);
     film::cross(s, {cosine, over, sine * q}, decay);
     film::cross(p, {cosine, over * eps, sine * q / eps}, decay);

@@ -211,7 +211,8 @@ TEST(ThinFilm, HoldsAtTheCriticalAngleOfALayer) {
   EXPECT_NEAR(at.Rp, beside.Rp, 1e-7);
   EXPECT_NEAR(at.Rs + at.Ts, 1, 1e-12);
   EXPECT_GT(at.Ts, 0.1);
-  const auto grazing = stack(0, {{1, 0, 0.4}}, 1.5);  // the wave in the layer has no component along the normal
+  const auto grazing =
+      stack(0, {{1, 0, 0.4}}, 1.5);  // the wave in the layer has no component along the normal
   EXPECT_EQ(grazing.Rs, 1);
   EXPECT_EQ(grazing.Rp, 1);
   EXPECT_EQ(grazing.transmitted(), 0);
