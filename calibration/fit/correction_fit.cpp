@@ -196,16 +196,12 @@ CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions&
   const auto mean = options.objective == Objective::delta_e_76 ? &PatchErrors::mean_76 : &PatchErrors::mean;
   std::mt19937_64 random(options.seed);
   std::normal_distribution<double> jitter(0, options.jitter);
-  std::string report;
   for (int k = 0; k < options.starts; ++k) {
     Parameters parameters = least_squares;
     if (k > 0)
       for (double& p : parameters) p += jitter(random);
     const Attempt attempt = solve(colors, parameters, options);
-    if (k == 0) {
-      fit.initial_cost = fit.final_cost = attempt.summary.initial_cost;
-      report = attempt.summary.BriefReport();
-    }
+    if (k == 0) fit.initial_cost = fit.final_cost = attempt.summary.initial_cost;
     if (!usable(attempt)) continue;
     ++fit.usable;
     ColorCorrection candidate = correction_of(options.model, attempt.parameters, colors.white);
@@ -215,7 +211,10 @@ CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions&
     fit.errors = std::move(errors);
     fit.final_cost = attempt.summary.final_cost;
   }
-  if (fit.usable == 0) throw Error(ErrorCode::input, "colour correction", "no start converged: " + report);
+  if (fit.usable == 0)
+    throw Error(ErrorCode::input, "colour correction",
+                fmt::format("the fit to {} patches does not converge from {} starts of {} iterations",
+                            colors.raw.size(), options.starts, options.max_iterations));
   return fit;
 }
 

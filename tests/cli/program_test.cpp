@@ -142,6 +142,9 @@ TEST(Calibrate, FromTheCommandLine) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.json()["bits"], 10);
   EXPECT_LT(run.json()["dE00_mean"], 1.5);
+  const Outcome ideal = abbe("calibrate --camera box:600-700,500-600,400-500 --json");
+  ASSERT_EQ(ideal.code, 0) << ideal.err;
+  EXPECT_EQ(ideal.json()["correction"]["usable_starts"], 16);
   EXPECT_EQ(abbe("calibrate --camera box:400-500").code, 2);
   EXPECT_EQ(abbe("calibrate").code, 2);
   const Outcome cubic = abbe("calibrate --camera Nikon_D5100 --correction root-polynomial-3");
