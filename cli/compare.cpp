@@ -32,30 +32,36 @@ Json patch_answer(const std::vector<PatchDifference>& patches, const std::string
   for (const PatchDifference& patch : patches)
     list.push_back({{"patch", patch.name},
                     {"pixels", patch.pixels},
-                    {"Lab", patch.image},
-                    {"reference_Lab", patch.reference},
-                    {key, patch.delta_e}});
+                    {"Lab", patch.image ? Json(*patch.image) : Json()},
+                    {"reference_Lab", patch.reference ? Json(*patch.reference) : Json()},
+                    {key, patch.delta_e ? Json(*patch.delta_e) : Json()}});
   return list;
+}
+
+std::string lab_cells(const std::optional<Lab>& lab) {
+  return lab ? fmt::format(" {:>9.3f} {:>9.3f} {:>9.3f}", (*lab)[0], (*lab)[1], (*lab)[2])
+             : fmt::format(" {0:>9} {0:>9} {0:>9}", "-");
 }
 
 void print_patches(const std::vector<PatchDifference>& patches, const std::string& key) {
   fmt::print("{:<24} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "patch", "pixels", "L*", "a*", "b*",
              "ref L*", "ref a*", "ref b*", key);
   for (const PatchDifference& p : patches)
-    fmt::print("{:<24} {:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f}\n", p.name,
-               p.pixels, p.image[0], p.image[1], p.image[2], p.reference[0], p.reference[1], p.reference[2],
-               p.delta_e);
+    fmt::print("{:<24} {:>7}{}{} {:>8}\n", p.name, p.pixels, lab_cells(p.image), lab_cells(p.reference),
+               p.delta_e ? fmt::format("{:.4f}", *p.delta_e) : "-");
 }
 
 void add_patch_summary(Json& answer, const std::vector<PatchDifference>& patches, const std::string& key) {
   double sum = 0;
   double largest = 0;
+  bool known = true;
   for (const PatchDifference& patch : patches) {
-    sum += patch.delta_e;
-    largest = std::max(largest, patch.delta_e);
+    known = known && patch.delta_e;
+    sum += patch.delta_e.value_or(0);
+    largest = std::max(largest, patch.delta_e.value_or(0));
   }
-  answer["patches_" + key + "_mean"] = sum / static_cast<double>(patches.size());
-  answer["patches_" + key + "_max"] = largest;
+  answer["patches_" + key + "_mean"] = known ? Json(sum / static_cast<double>(patches.size())) : Json();
+  answer["patches_" + key + "_max"] = known ? Json(largest) : Json();
 }
 
 Json write_maps(const std::filesystem::path& folder, const std::vector<DifferenceMap>& maps) {

@@ -53,9 +53,7 @@ void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
 // Nothing for a sensor that no display can show.
 void add_display(const Scene& scene, FilmIdentity& identity) {
   try {
-    const Matrix3 m = display_of(scene).to_xyz_d65();
-    identity["to_xyz_d65"] = fmt::format("{} {} {} {} {} {} {} {} {}", m[0][0], m[0][1], m[0][2], m[1][0],
-                                         m[1][1], m[1][2], m[2][0], m[2][1], m[2][2]);
+    identity["to_xyz_d65"] = to_text(display_of(scene).to_xyz_d65());
   } catch (const Error& error) {
     if (error.code == ErrorCode::internal) throw;
   }
@@ -131,14 +129,9 @@ std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& s
 std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor) {
   const auto text = data.find("to_xyz_d65");
   if (!text) return std::nullopt;
-  std::vector<double> numbers;
-  for (const std::string& word : split(*text, ' '))
-    if (const auto number = parse_number(word)) numbers.push_back(*number);
-  if (numbers.size() != 9 || (sensor.channels.size() != 1 && sensor.channels.size() != 3))
-    data.refuse("to_xyz_d65");
-  Matrix3 m;
-  for (int i = 0; i < 9; ++i) m[i / 3][i % 3] = numbers[static_cast<std::size_t>(i)];
-  return DisplayTransform(sensor.channels, m, {}, {users_configuration(), {}, {}});
+  const std::optional<Matrix3> matrix = parse_matrix3(*text);
+  if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3)) data.refuse("to_xyz_d65");
+  return DisplayTransform(sensor.channels, *matrix, {}, {users_configuration(), {}, {}});
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include <Imath/ImathMatrix.h>
 
@@ -16,6 +19,11 @@ using Matrix3 = Imath::M33d;
     y[static_cast<std::size_t>(i)] = m[i][0] * x[0] + m[i][1] * x[1] + m[i][2] * x[2];
   return y;
 }
+
+/// Its elements, row by row, as the attributes of films hold them.
+[[nodiscard]] std::string to_text(const Matrix3& m);
+/// Reads that; nothing unless `text` is nine numbers with a blank between them.
+[[nodiscard]] std::optional<Matrix3> parse_matrix3(std::string_view text);
 
 /// The matrix with `d` on its diagonal.
 [[nodiscard]] inline Matrix3 diagonal(const std::array<double, 3>& d) {

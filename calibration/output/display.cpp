@@ -95,14 +95,6 @@ Gamut gamut_of(bool own, const std::string& display, const std::string& view) {
   return Gamut(display == kP3Display ? kP3D65 : kRec709, 1);
 }
 
-// Adaptation of the light's white, as the standard observer sees it, to the display's; a lamp of spectral
-// lines, to whose colour no eye adapts, is shown as it looks beside daylight.
-Matrix3 light_adaptation(const Curve& illuminant) {
-  XYZ white = tristimulus(illuminant, Curve(1.0), Observer::cie1931);
-  for (double& v : white) v /= 100;
-  return adaptation(white, unit_xyz(kD65)).value_or(Matrix3());
-}
-
 DisplayTransform grey_display(const Channel& channel, const ViewOptions& options) {
   const XYZ white = unit_xyz(kD65);
   return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), {}, options};
@@ -205,6 +197,12 @@ double DisplayTransform::automatic_scale(const Image& film) const {
   double bright = brightness[static_cast<std::size_t>(rank)];
   if (!(bright > 0)) bright = *std::max_element(brightness.begin(), brightness.end());
   return bright > 0 ? 1 / bright : 1;
+}
+
+Matrix3 light_adaptation(const Curve& illuminant) {
+  XYZ white = tristimulus(illuminant, Curve(1.0), Observer::cie1931);
+  for (double& v : white) v /= 100;
+  return adaptation(white, unit_xyz(kD65)).value_or(Matrix3());
 }
 
 DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,

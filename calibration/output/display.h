@@ -69,6 +69,10 @@ class DisplayTransform {
   std::shared_ptr<const Processor> processor_;
 };
 
+/// Adaptation of a light's white, as the standard observer sees it, to D65 (Bradford); none for a lamp of
+/// spectral lines, to whose colour no eye adapts: it is shown as it looks beside daylight.
+[[nodiscard]] Matrix3 light_adaptation(const Curve& illuminant);
+
 /// The display transform of a sensor in the light of a scene. Three channels named X, Y, Z are the observer:
 /// only the light's white is adapted to D65 (Bradford). Other three channels are white balanced on the light
 /// and corrected by the white-preserving matrix fitted on the ColorChecker (BabelColor average) in that

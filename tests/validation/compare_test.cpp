@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "calibration/chart/patches.h"
+#include "calibration/output/color_spaces.h"
 #include "cli/compare.h"
+#include "cli/film_sensor.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
@@ -98,7 +102,8 @@ TEST(CompareCommand, MapsAreWritten) {
 // A film that holds exactly what the chart's spectra give, times 3, but for the first patch, which is
 // brighter.
 Image planted_film(const Scene& scene, double brighter) {
-  Image film{scene.camera.width, scene.camera.height, {{"X", {}}, {"Y", {}}, {"Z", {}}}, {}};
+  Image film{scene.camera.width, scene.camera.height, {}, cli::sensor_identity(scene)};
+  for (const Channel& channel : scene.channels) film.channels.push_back({channel.name, {}});
   const Curve& light = scene.lights.front().emission;
   for (ImageChannel& channel : film.channels) channel.values.assign(film.pixels(), 0);
   for (int y = 0; y < film.height; ++y)
@@ -110,37 +115,129 @@ Image planted_film(const Scene& scene, double brighter) {
       if (column < 0 || column >= 6 || row < 0 || row >= 4) continue;
       const auto patch = static_cast<std::size_t>(row) * 6 + static_cast<std::size_t>(column);
       const auto& material = scene.materials[scene.shapes[patch].material];
-      const XYZ xyz =
-          tristimulus(light, std::get<DiffuseMaterial>(material.model).reflectance, Observer::cie1931);
-      for (std::size_t c = 0; c < 3; ++c)
+      const std::vector<double> seen =
+          camera_raw(scene.channels, light, std::get<DiffuseMaterial>(material.model).reflectance);
+      for (std::size_t c = 0; c < seen.size(); ++c)
         film.channels[c].values[static_cast<std::size_t>(y * film.width + x)] =
-            static_cast<float>(3 * xyz[c] * (patch == 0 ? brighter : 1));
+            static_cast<float>(3 * seen[c] * (patch == 0 ? brighter : 1));
     }
   return film;
 }
 
-TEST(CompareChart, PatchesAreComparedWithTheirSpectra) {
-  const auto file = data_directory() / "scenes" / "validation" / "colorchecker.json";
+std::filesystem::path chart_file() {
+  return data_directory() / "scenes" / "validation" / "colorchecker.json";
+}
+
+// The scene of the chart, with the sensor and the light given.
+Scene chart_scene(const std::string& sensor = R"({"observer": "1931", "resolution": [96, 64]})",
+                  const std::string& illuminant = "D65") {
   Diagnostics diagnostics;
-  const Scene scene = load_scene(file, {}, diagnostics).value();
+  const std::vector<Override> overrides{{"/sensor", sensor}, {"/lights/0/emission/illuminant", illuminant}};
+  auto scene = load_scene(chart_file(), overrides, diagnostics);
+  EXPECT_TRUE(scene) << diagnostics.text();
+  return *std::move(scene);
+}
+
+constexpr const char* kNikon = R"({"camera": "Nikon_D5100", "resolution": [96, 64]})";
+
+double mean_delta_e(const std::vector<PatchDifference>& patches) {
+  double sum = 0;
+  for (const PatchDifference& patch : patches) sum += patch.delta_e.value();
+  return sum / static_cast<double>(patches.size());
+}
+
+TEST(CompareChart, PatchesAreComparedWithTheirSpectra) {
+  const Scene scene = chart_scene();
   for (const PatchDifference& patch : compare_chart(scene, planted_film(scene, 1), nullptr, DeltaE::cie2000))
-    EXPECT_LT(patch.delta_e, 1e-4) << patch.name;
+    EXPECT_LT(patch.delta_e.value(), 1e-4) << patch.name;
   const auto off = compare_chart(scene, planted_film(scene, 1.1), nullptr, DeltaE::cie76);
-  EXPECT_GT(off[0].delta_e, 1);
-  EXPECT_GT(off[0].image[0], off[0].reference[0] + 1);
-  EXPECT_LT(off[5].delta_e, 0.2) << "only the common factor moves the others";
+  EXPECT_GT(off[0].delta_e.value(), 1);
+  EXPECT_GT(off[0].image.value()[0], off[0].reference.value()[0] + 1);
+  EXPECT_LT(off[5].delta_e.value(), 0.2) << "only the common factor moves the others";
+}
+
+TEST(CompareChart, AFilmOfACameraIsReadByItsOwnMatrix) {
+  for (const char* illuminant : {"D65", "A"}) {
+    const Scene scene = chart_scene(kNikon, illuminant);
+    const Image film = planted_film(scene, 1);
+    EXPECT_LT(mean_delta_e(compare_chart(scene, film, nullptr, DeltaE::cie2000)), 1.5) << illuminant;
+    const Scene seen = chart_scene(R"({"observer": "1931", "resolution": [96, 64]})", illuminant);
+    const Image reference = planted_film(seen, 1);
+    EXPECT_LT(mean_delta_e(compare_chart(seen, film, &reference, DeltaE::cie2000)), 1.5) << illuminant;
+  }
+}
+
+TEST(CompareChart, TheMatrixTakesTheSensorsOrderOfChannels) {
+  const Scene scene = chart_scene(kNikon);
+  Image film = planted_film(scene, 1);
+  const double before = mean_delta_e(compare_chart(scene, film, nullptr, DeltaE::cie2000));
+  Matrix3 m = parse_matrix3(film.metadata["to_xyz_d65"]).value();
+  for (int row = 0; row < 3; ++row) std::swap(m[row][0], m[row][2]);
+  film.metadata["to_xyz_d65"] = to_text(m);
+  film.metadata["sensor_channels"] = "B,G,R";
+  EXPECT_NEAR(mean_delta_e(compare_chart(scene, film, nullptr, DeltaE::cie2000)), before, 1e-9);
+}
+
+TEST(CompareCommand, FilmsOfASensorWithoutAMatrixHaveNoColours) {
+  Image film = planted_film(chart_scene(kNikon), 1);
+  const auto whole = saved("whole.exr", film);
+  film.metadata.erase("to_xyz_d65");
+  const auto bare = saved("bare.exr", film);
+  film.metadata["to_xyz_d65"] = "1 0 0 0 1 0 0 0";
+  const auto broken = saved("broken.exr", film);
+  EXPECT_EQ(ask(cli::compare, {whole, whole})["dE00_mean"], 0);
+  for (const auto& other : {bare, broken}) {
+    const json answer = ask(cli::compare, {other, whole, DeltaE::cie2000, chart_file()});
+    for (const char* key : {"dE00_mean", "dE00_p95", "dE00_max", "patches_dE00_mean", "patches_dE00_max"})
+      EXPECT_TRUE(answer.contains(key) && answer[key].is_null()) << key << " of " << other;
+    EXPECT_EQ(answer["relMSE"], 0);
+    ASSERT_EQ(answer["patches"].size(), 24U);
+    EXPECT_TRUE(answer["patches"][0]["Lab"].is_null());
+    EXPECT_TRUE(answer["patches"][0]["dE00"].is_null());
+    EXPECT_TRUE(answer["patches"][0]["reference_Lab"].is_array());
+  }
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(cli::compare({bare, {}, DeltaE::cie2000, chart_file()}), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("patches_dE00_mean  -"), std::string::npos);
+}
+
+TEST(ColorDifference, EachFilmGoesByItsOwnMatrix) {
+  Image a = grey({1, 0.5F});
+  Image b = a;
+  a.metadata = {{"channel.R", "quantum, electrons per m^2"}, {"sensor_channels", "R,G,B"}};
+  a.metadata["to_xyz_d65"] = "0.95 0 0 0 1 0 0 0 1.09";
+  b.metadata = a.metadata;
+  b.metadata["to_xyz_d65"] = "0.95 0 0 0 2 0 0 0 1.09";
+  const Lab white = xyz_to_lab(XYZ{0.475, 0.5, 0.545}, unit_xyz(kD65));
+  const Lab green = xyz_to_lab(XYZ{0.475, 1, 0.545}, unit_xyz(kD65));
+  EXPECT_NEAR(color_difference(a, b, DeltaE::cie76)->pixels[0], delta_e(DeltaE::cie76, green, white), 1e-9)
+      << "the reference's Y of 2 is 100";
+  EXPECT_EQ(color_difference(a, a)->max, 0);
+}
+
+TEST(ColorDifference, ImagesOfNoSensorAreRec709) {
+  Image a = grey({1, 0.5F});
+  a.metadata["to_xyz_d65"] = "1 0 0 0 0 0 0 0 0";
+  EXPECT_NEAR(tristimuli(a)[0][0], unit_xyz(kD65)[0], 1e-6);
+  EXPECT_NEAR(tristimuli(a)[0][1], 1, 1e-6);
+}
+
+TEST(ColorDifference, TheObserversChannelsAreTakenAsTheyAre) {
+  const Image film = planted_film(chart_scene(R"({"observer": "1931", "resolution": [96, 64]})", "A"), 1);
+  ASSERT_TRUE(film.metadata.contains("to_xyz_d65"));
+  const std::size_t middle = film.pixels() / 2 + 30;
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(tristimuli(film)[middle][c], film.channels[c].values[middle]);
 }
 
 TEST(CompareChart, TwoFilmsAreScaledAlike) {
-  const auto file = data_directory() / "scenes" / "validation" / "colorchecker.json";
-  Diagnostics diagnostics;
-  const Scene scene = load_scene(file, {}, diagnostics).value();
+  const Scene scene = chart_scene();
   const Image reference = planted_film(scene, 1);
   const auto patches = compare_chart(scene, planted_film(scene, 1.1), &reference, DeltaE::cie76);
-  EXPECT_GT(patches[0].delta_e, 1);
-  for (std::size_t i = 1; i < patches.size(); ++i) EXPECT_LT(patches[i].delta_e, 1e-4) << patches[i].name;
+  EXPECT_GT(patches[0].delta_e.value(), 1);
+  for (std::size_t i = 1; i < patches.size(); ++i)
+    EXPECT_LT(patches[i].delta_e.value(), 1e-4) << patches[i].name;
   const json answer = ask(cli::compare, {saved("film.exr", planted_film(scene, 1.1)),
-                                         saved("other.exr", reference), DeltaE::cie2000, file});
+                                         saved("other.exr", reference), DeltaE::cie2000, chart_file()});
   EXPECT_EQ(answer["patches"].size(), 24U);
   EXPECT_EQ(answer["patches"][0]["patch"], "dark skin");
   EXPECT_EQ(answer["patches_dE00_max"], answer["patches"][0]["dE00"]);

@@ -2,26 +2,28 @@
 
 #include <numeric>
 
-#include "calibration/output/color_spaces.h"
+#include "calibration/output/display.h"
 #include "scene/chart/readout.h"
+#include "validation/statistics/film_colors.h"
 
 namespace abbe {
 namespace {
 
 struct ChartFilm {
   std::vector<PatchReading> patches;
-  std::vector<XYZ> xyz;
+  std::optional<std::vector<XYZ>> xyz;
 };
 
 ChartFilm read_film(const Scene& scene, const Image& film) {
-  const bool observer = film.find("X") != nullptr;
-  const std::vector<std::string> channels =
-      observer ? std::vector<std::string>{"X", "Y", "Z"} : std::vector<std::string>{"R", "G", "B"};
-  ChartFilm read{read_patches(scene, scene.charts.front(), film, channels), {}};
-  for (const PatchReading& patch : read.patches) {
-    const XYZ values{patch.mean[0], patch.mean[1], patch.mean[2]};
-    read.xyz.push_back(observer ? values : multiply(rgb_to_xyz(kRec709), values));
-  }
+  const FilmColors colors = film_colors(film);
+  ChartFilm read{read_patches(scene, scene.charts.front(), film, colors.channels), {}};
+  if (!colors.to_xyz) return read;
+  Matrix3 to_xyz = *colors.to_xyz;
+  // The patches are judged as they look in the scene's light, which the film's matrix took to D65.
+  if (colors.adapted) to_xyz = light_adaptation(scene.lights.front().emission).inverse(true) * to_xyz;
+  read.xyz.emplace();
+  for (const PatchReading& patch : read.patches)
+    read.xyz->push_back(multiply(to_xyz, {patch.mean[0], patch.mean[1], patch.mean[2]}));
   return read;
 }
 
@@ -30,7 +32,10 @@ double sum_of_y(const std::vector<XYZ>& colors) {
                          [](double sum, const XYZ& xyz) { return sum + xyz[1]; });
 }
 
-Lab scaled_lab(XYZ xyz, double factor, const XYZ& white) {
+std::optional<Lab> scaled_lab(const std::optional<std::vector<XYZ>>& colors, std::size_t patch, double factor,
+                              const XYZ& white) {
+  if (!colors) return std::nullopt;
+  XYZ xyz = (*colors)[patch];
   for (double& v : xyz) v *= factor;
   return xyz_to_lab(xyz, white);
 }
@@ -47,14 +52,16 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
   std::vector<XYZ> integrated;
   for (const PatchReading& patch : film.patches)
     integrated.push_back(tristimulus(light, *patch.reflectance, Observer::cie1931));
-  const std::vector<XYZ> other = reference != nullptr ? read_film(scene, *reference).xyz : integrated;
-  const double factor = sum_of_y(integrated) / sum_of_y(reference != nullptr ? other : film.xyz);
+  const auto other = reference != nullptr ? read_film(scene, *reference).xyz : std::optional(integrated);
+  const auto& exposed = reference != nullptr ? other : film.xyz;
+  const double factor = exposed ? sum_of_y(integrated) / sum_of_y(*exposed) : 1;
   std::vector<PatchDifference> differences;
   for (std::size_t i = 0; i < film.patches.size(); ++i) {
-    const Lab wanted = scaled_lab(other[i], reference != nullptr ? factor : 1, white);
-    const Lab found = scaled_lab(film.xyz[i], factor, white);
+    const auto wanted = scaled_lab(other, i, reference != nullptr ? factor : 1, white);
+    const auto found = scaled_lab(film.xyz, i, factor, white);
     differences.push_back(
-        {film.patches[i].name, film.patches[i].pixels, wanted, found, delta_e(formula, wanted, found)});
+        {film.patches[i].name, film.patches[i].pixels, wanted, found,
+         wanted && found ? std::optional(delta_e(formula, *wanted, *found)) : std::nullopt});
   }
   return differences;
 }

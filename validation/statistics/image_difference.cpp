@@ -1,7 +1,6 @@
 #include "validation/statistics/image_difference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
 #include "spectral/colorimetry.h"
+#include "validation/statistics/film_colors.h"
 
 namespace abbe {
 namespace {
@@ -86,20 +86,15 @@ double percentile(std::vector<double> values, double quantile) {
 }
 
 std::vector<XYZ> tristimuli(const Image& image) {
-  const Matrix3 from_rgb = rgb_to_xyz(kRec709);
-  for (const auto& names : {std::array{"X", "Y", "Z"}, std::array{"R", "G", "B"}}) {
-    const ImageChannel* a = image.find(names[0]);
-    const ImageChannel* b = image.find(names[1]);
-    const ImageChannel* c = image.find(names[2]);
-    if (a == nullptr || b == nullptr || c == nullptr) continue;
-    std::vector<XYZ> pixels(image.pixels());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const XYZ value{a->values[i], b->values[i], c->values[i]};
-      pixels[i] = *names[0] == 'X' ? value : multiply(from_rgb, value);
-    }
-    return pixels;
-  }
-  return {};
+  const FilmColors colors = film_colors(image);
+  const ImageChannel* a = image.find(colors.channels[0]);
+  const ImageChannel* b = image.find(colors.channels[1]);
+  const ImageChannel* c = image.find(colors.channels[2]);
+  if (!colors.to_xyz || a == nullptr || b == nullptr || c == nullptr) return {};
+  std::vector<XYZ> pixels(image.pixels());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = multiply(*colors.to_xyz, {a->values[i], b->values[i], c->values[i]});
+  return pixels;
 }
 
 double delta_e(DeltaE formula, const Lab& standard, const Lab& sample) {

@@ -31,13 +31,13 @@ struct Comparison {
 /// finite.
 [[nodiscard]] Comparison compare_images(const Image& image, const Image& reference);
 
-/// For images with X, Y, Z (the observer), or R, G, B taken as linear sRGB: both scaled so that the 99th
-/// percentile of the reference's Y is 100, and seen against a D65 white of Y = 100. Nothing for other images,
-/// and for a black reference.
+/// For images with X, Y, Z or R, G, B, each read as `film_colors` has it: both scaled so that the 99th
+/// percentile of the reference's Y is 100, and seen against a D65 white of Y = 100. Nothing for images
+/// whose colours are not known, and for a black reference.
 [[nodiscard]] std::optional<ColorDifference> color_difference(const Image& image, const Image& reference,
                                                               DeltaE formula = DeltaE::cie2000);
 
-/// XYZ of every pixel of such an image, in its own scale; nothing for other images.
+/// XYZ of every pixel of such an image, in its own scale; nothing where its colours are not known.
 [[nodiscard]] std::vector<XYZ> tristimuli(const Image& image);
 
 /// The smallest value that at least a share `quantile` in (0, 1] of `values`, of which there is one or more,

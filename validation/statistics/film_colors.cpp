@@ -1,0 +1,25 @@
+#include "validation/statistics/film_colors.h"
+
+#include <algorithm>
+
+#include "calibration/output/color_spaces.h"
+#include "io/text.h"
+
+namespace abbe {
+
+FilmColors film_colors(const Image& image) {
+  const std::vector<std::string> observer{"X", "Y", "Z"};
+  if (std::all_of(observer.begin(), observer.end(),
+                  [&](const std::string& name) { return image.find(name) != nullptr; }))
+    return {observer, Matrix3()};
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  if (!image.metadata.contains("channel.R")) return {rgb, rgb_to_xyz(kRec709)};
+  const auto matrix = image.metadata.find("to_xyz_d65");
+  const auto names = image.metadata.find("sensor_channels");
+  if (matrix == image.metadata.end() || names == image.metadata.end()) return {rgb, {}};
+  const std::vector<std::string> channels = split(names->second, ',');
+  if (!std::is_permutation(channels.begin(), channels.end(), rgb.begin(), rgb.end())) return {rgb, {}};
+  return {channels, parse_matrix3(matrix->second), true};
+}
+
+}  // namespace abbe

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/chart/matrix3.h"
+#include "io/image.h"
+
+namespace abbe {
+
+/// How the colours of an image are read.
+struct FilmColors {
+  std::vector<std::string> channels;  ///< Three of them; the image may lack some.
+  std::optional<Matrix3> to_xyz;      ///< From their values; nothing where nobody knows.
+  bool adapted = false;               ///< XYZ relative to D65 for the white of the scene's light.
+};
+
+/// X, Y, Z are the observer. R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own
+/// matrix `to_xyz_d65`, in the order of `sensor_channels`; without one that can be read, nothing is known of
+/// their colours. R, G, B of any other image are linear Rec.709.
+[[nodiscard]] FilmColors film_colors(const Image& image);
+
+}  // namespace abbe
