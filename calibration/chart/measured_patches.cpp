@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -42,6 +44,16 @@ std::optional<std::vector<std::string>> patch_names(const Table& table, Diagnost
   std::vector<std::string> names;
   for (const std::vector<std::string>& row : table.rows) names.push_back(row[*column]);
   return names;
+}
+
+// Whether no patch was measured twice, which of the values would count being anyone's guess.
+bool each_once(const std::vector<std::string>& names, const Table& table, Diagnostics& diagnostics) {
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!seen.insert(names[i]).second)
+      diagnostics.error(table.position(i), fmt::format("patch \"{}\" is named twice", names[i]),
+                        ErrorCode::input);
+  return seen.size() == names.size();
 }
 
 XYZ from_xyy(const std::array<double, 3>& c) {
@@ -98,7 +110,7 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   if (!table) return std::nullopt;
   auto names = patch_names(*table, diagnostics);
   auto values = triples(*table, {"R", "G", "B"}, diagnostics);
-  if (!names || !values) return std::nullopt;
+  if (!names || !values || !each_once(*names, *table, diagnostics)) return std::nullopt;
   return MeasuredPatches{*std::move(names), *std::move(values)};
 }
 

@@ -24,7 +24,7 @@ struct ChartTargets {
                                                              const SourcePosition& where,
                                                              Diagnostics& diagnostics);
 
-/// A camera's values of named patches, from a table with the columns `patch`, `R`, `G`, `B`.
+/// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;

@@ -109,6 +109,13 @@ TEST_F(Measured, SaysWhatIsMissing) {
   EXPECT_NE(diagnostics_.text().find("no column \"B\""), std::string::npos);
 }
 
+TEST_F(Measured, NamesEachPatchOnce) {
+  EXPECT_FALSE(read("patch,R,G,B\ngrey,0.1,0.1,0.1\nred,0.3,0.1,0.1\ngrey,0.2,0.2,0.2\n"));
+  EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
+  EXPECT_NE(diagnostics_.text().find(".csv:5:1: error: patch \"grey\" is named twice"), std::string::npos)
+      << diagnostics_.text();
+}
+
 TEST(ChartTargets, ReflectancesCannotBeMadeFromColours) {
   Diagnostics diagnostics;
   EXPECT_FALSE(load_chart("colorchecker24_after_nov2014", {}, diagnostics));
