@@ -138,11 +138,14 @@ int calibrate(const CalibrateOptions& options) {
   if (int{options.all_cameras} + int{!options.camera.empty()} + int{is_real} != 1)
     throw Error(ErrorCode::usage, "calibrate",
                 "needs one of --camera, --all-cameras, or --measured, --series or both");
+  if (options.camera.empty() && options.illuminants.find(',') != std::string::npos)
+    throw Error(ErrorCode::usage, "--illuminant",
+                fmt::format("got {}, allowed one light, or several with --camera", options.illuminants));
   if (options.all_cameras) return calibrate_all(options);
   if (is_real && options.measured.empty()) return calibrate_response(options);
   std::vector<CalibrationCase> cases;
   for (const std::string& illuminant : split(options.illuminants, ','))
-    cases.push_back(options.measured.empty() ? simulate(options, illuminant) : measure(options, illuminant));
+    cases.push_back(is_real ? measure(options, illuminant) : simulate(options, illuminant));
   Json report{{"calibrations", Json::array()}};
   for (const CalibrationCase& one : cases) report["calibrations"].push_back(json_of(one));
   if (!options.output.empty()) write_all(options, cases, report);

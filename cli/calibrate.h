@@ -15,7 +15,7 @@ struct CalibrateOptions {
   bool all_cameras = false;
   std::filesystem::path measured;   ///< Values of a real camera's photograph of the chart.
   std::filesystem::path series;     ///< Photographs of a real camera with their exposure times.
-  std::string illuminants = "D65";  ///< One or more names, with commas between them.
+  std::string illuminants = "D65";  ///< One name, or for `camera` several with commas between them.
   std::string chart = "colorchecker24_babelcolor_average";
   std::string test;                            ///< Another chart that the fitted correction is tried on.
   std::string planted_response = "gamma:2.2";  ///< "linear", "gamma:G" or "s-curve".

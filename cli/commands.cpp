@@ -238,7 +238,7 @@ void add_develop(CLI::App& app, Command& command) {
   add_json(options, sub->json);
 }
 
-void add_compare_and_calibrate(CLI::App& app, Command& command) {
+void add_compare(CLI::App& app, Command& command) {
   const Sub<CompareOptions> sub(app, "compare", "Compare an image with a reference", command, compare);
   sub.app->add_option("image", sub->image, "Image")->required()->type_name("FILE.exr");
   sub.app->add_option("reference", sub->reference, "Reference; with --chart, the chart's own spectra without")
@@ -250,7 +250,9 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
   sub.app->add_option("--maps", sub->maps, "Folder for maps and histograms of the differences")
       ->type_name("FOLDER");
   add_json(*sub.app, sub->json);
+}
 
+void add_calibrate(CLI::App& app, Command& command) {
   const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
                                           calibrate);
   CLI::App& options = *calibration.app;
@@ -258,17 +260,20 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
       .add_option("--camera", calibration->camera,
                   "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
       ->type_name("CAMERA");
+  CLI::Option* measured =
+      options
+          .add_option("--measured", calibration->measured,
+                      "A real camera's values of the chart, linear or to be made so by --series")
+          ->type_name("FILE.csv");
+  CLI::Option* series =
+      options
+          .add_option("--series", calibration->series,
+                      "Photographs with their exposure times, which the response is recovered from")
+          ->type_name("FILE.json");
+  CLI::Option* all = options.add_flag("--all-cameras", calibration->all_cameras,
+                                      "How well each shipped camera can be calibrated");
   options
-      .add_option("--measured", calibration->measured,
-                  "A real camera's values of the chart, linear or to be made so by --series")
-      ->type_name("FILE.csv");
-  options
-      .add_option("--series", calibration->series,
-                  "Photographs with their exposure times, which the response is recovered from")
-      ->type_name("FILE.json");
-  options.add_flag("--all-cameras", calibration->all_cameras,
-                   "How well each shipped camera can be calibrated");
-  options.add_option("--illuminant", calibration->illuminants, "Light on the chart, or several")
+      .add_option("--illuminant", calibration->illuminants, "Light on the chart, or several with --camera")
       ->capture_default_str()
       ->type_name("ILLUMINANT[,...]");
   options
@@ -276,14 +281,19 @@ void add_compare_and_calibrate(CLI::App& app, Command& command) {
                   "Table of patch reflectances, or of measured patches' colours")
       ->capture_default_str()
       ->type_name("TABLE");
-  options.add_option("--test", calibration->test, "Another chart to try the correction on")
-      ->type_name("TABLE");
-  options
-      .add_option("--response", calibration->planted_response, "linear, gamma:G or s-curve, to be recovered")
-      ->capture_default_str()
-      ->type_name("CURVE");
-  add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
-             "Of the code values, 0 for no rounding (default 12)", "N");
+  CLI::Option* test =
+      options.add_option("--test", calibration->test, "Another chart to try the correction on")
+          ->type_name("TABLE");
+  CLI::Option* response = options
+                              .add_option("--response", calibration->planted_response,
+                                          "linear, gamma:G or s-curve, to be recovered")
+                              ->capture_default_str()
+                              ->type_name("CURVE");
+  CLI::Option* bits = add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
+                                 "Of the code values, 0 for no rounding (default 12)", "N");
+  // Only a simulated camera can look at another chart or be given a response.
+  for (CLI::Option* simulated : {test, response, bits})
+    simulated->excludes(measured)->excludes(series)->excludes(all);
   add_characterisation(options, calibration->how);
   options
       .add_option("-o,--output", calibration->output,
@@ -363,7 +373,8 @@ void add_commands(CLI::App& app, Command& command) {
   add_scene_commands(app, command);
   add_query(app, command);
   add_develop(app, command);
-  add_compare_and_calibrate(app, command);
+  add_compare(app, command);
+  add_calibrate(app, command);
   add_validate(app, command);
   add_bench(app, command);
   add_help(app, command);

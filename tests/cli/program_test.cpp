@@ -234,6 +234,19 @@ TEST(Calibrate, MeasuredCamera) {
   EXPECT_EQ(abbe("calibrate --camera Nikon_D5100 --measured " + file.string()).code, 2);
 }
 
+// What only a simulated camera can do.
+TEST(Calibrate, OptionsWithoutEffectAreRefused) {
+  for (const char* real : {"--measured x.csv", "--series x.json", "--all-cameras"})
+    for (const char* option :
+         {"--test colorchecker24_ohta1997", "--response linear", "--bits 10", "--illuminant D65,A"}) {
+      const Outcome run = abbe(fmt::format("calibrate {} {}", real, option));
+      EXPECT_EQ(run.code, 2) << real << ' ' << option;
+      const std::string name(option, std::string_view(option).find(' '));
+      EXPECT_NE(run.err.find(name), std::string::npos) << run.err;
+      EXPECT_TRUE(run.out.empty()) << real << ' ' << option;
+    }
+}
+
 TEST(Trace, FromTheCommandLine) {
   const std::string trace =
       "trace " + scratch().write("prism.json", prism_scene()).string() + " --origin -100,0,-20 ";
