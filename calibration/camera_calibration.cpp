@@ -54,7 +54,7 @@ void require_setup(const CalibrationSetup& setup) {
         ErrorCode::usage, "camera",
         fmt::format("calibration needs three channels (got {} of {})", setup.channels.size(), setup.camera));
   if (setup.bits < 0 || setup.bits > 16)
-    throw Error(ErrorCode::usage, "bits", fmt::format("expected 0 to 16 (got {})", setup.bits));
+    throw Error(ErrorCode::usage, "--bits", fmt::format("expected 0 to 16 (got {})", setup.bits));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ PlantedResponse::PlantedResponse(const std::string& description) {
   const std::optional<double> gamma =
       description.starts_with(kGamma) ? parse_number(description.substr(kGamma.size())) : std::nullopt;
   if (!gamma || !(*gamma >= 0.2 && *gamma <= 5))
-    throw Error(ErrorCode::usage, "response",
+    throw Error(ErrorCode::usage, "--response",
                 fmt::format("expected linear, s-curve or gamma:G with G in [0.2, 5] (got {})", description));
   power_ = 1 / *gamma;
 }

@@ -179,7 +179,7 @@ PatchErrors patch_errors(const PatchColors& colors, const ColorCorrection& corre
 void require_enough_patches(CorrectionModel model, std::size_t patches) {
   const std::size_t needed = kPatchesPerTerm * term_count(model);
   if (model == CorrectionModel::linear || patches >= needed) return;
-  throw Error(ErrorCode::usage, "correction",
+  throw Error(ErrorCode::usage, "--correction",
               fmt::format("{} terms on {} patches would follow the patches and not the camera: patches left "
                           "out of the fit are shown worse than by a matrix (allowed from {} patches on)",
                           term_count(model), patches, needed));

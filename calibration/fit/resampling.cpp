@@ -48,7 +48,8 @@ Interval percentiles(std::vector<double> values) {
 PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& options, std::size_t folds) {
   const std::size_t count = colors.raw.size();
   if (folds < 2 || folds > count)
-    throw Error(ErrorCode::usage, "folds", fmt::format("got {}, allowed 2 to the {} patches", folds, count));
+    throw Error(ErrorCode::usage, "--folds",
+                fmt::format("got {}, allowed 2 to the {} patches", folds, count));
   CorrectionOptions how = options;
   how.starts = std::min(how.starts, kStarts);
   PatchErrors unseen;

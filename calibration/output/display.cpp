@@ -128,9 +128,9 @@ DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matr
         own ? OCIO::Config::CreateFromStream(text) : OCIO::Config::CreateFromFile(options.config.c_str());
     // All displays, not the active ones: $OCIO_ACTIVE_DISPLAYS is about a user's configuration.
     const std::string display =
-        choose("display", options.display, own ? config->getNumDisplaysAll() : config->getNumDisplays(),
+        choose("--screen", options.display, own ? config->getNumDisplaysAll() : config->getNumDisplays(),
                [&](int i) { return own ? config->getDisplayAll(i) : config->getDisplay(i); });
-    const std::string view = choose("view", options.view, config->getNumViews(display.c_str()),
+    const std::string view = choose("--view", options.view, config->getNumViews(display.c_str()),
                                     [&](int i) { return config->getView(display.c_str(), i); });
     const std::string input = own ? kReferenceSpace : aces_space(*config, options.config.string());
     const Gamut gamut = gamut_of(own, display, view);

@@ -73,7 +73,7 @@ TEST(CameraCalibration, JudgesPatchesItHasNotSeen) {
 
 TEST(CameraCalibration, RefusesBadSetups) {
   test::expect_error([] { static_cast<void>(calibrate_camera(setup("linear", 17))); }, ErrorCode::usage,
-                     "bits: expected 0 to 16 (got 17)");
+                     "--bits: expected 0 to 16 (got 17)");
   CalibrationSetup one = setup("linear");
   one.channels.resize(1);
   test::expect_error([&] { static_cast<void>(calibrate_camera(one)); }, ErrorCode::usage,
@@ -85,7 +85,7 @@ TEST(CameraCalibration, RefusesBadSetups) {
   CharacterisationOptions folds;
   folds.folds = 25;
   test::expect_error([&] { static_cast<void>(calibrate_camera(setup("linear"), folds)); }, ErrorCode::usage,
-                     "folds: got 25, allowed 2 to the 24 patches");
+                     "--folds: got 25, allowed 2 to the 24 patches");
 }
 
 }  // namespace

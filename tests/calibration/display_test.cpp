@@ -205,12 +205,12 @@ TEST(Display, ShowsThroughTheViewAskedFor) {
       [&] {
         code({"", "paper", ""});
       },
-      ErrorCode::usage, "display: got paper, allowed sRGB - Display, ");
+      ErrorCode::usage, "--screen: got paper, allowed sRGB - Display, ");
   test::expect_error(
       [&] {
         code({"", "", "film"});
       },
-      ErrorCode::usage, "view: got film, allowed Un-tone-mapped, ");
+      ErrorCode::usage, "--view: got film, allowed Un-tone-mapped, ");
 }
 
 TEST(Display, P3ShowsColoursThatSrgbCannot) {
