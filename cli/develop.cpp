@@ -89,6 +89,11 @@ void require_planes(const Image& film, const FilmSensor& sensor, const fs::path&
         throw Error(ErrorCode::input, path.string(), fmt::format("has no channel \"{}\"", name));
 }
 
+// What the picture is shown by; a user's configuration matters to nothing else.
+ViewOptions view_of(const DevelopOptions& options) {
+  return options.display.empty() ? ViewOptions{} : ViewOptions{users_configuration(), {}, {}};
+}
+
 /// A film and the sensor it was exposed on.
 struct Exposed {
   Image film;
@@ -102,14 +107,15 @@ Exposed expose_spectral(Image file, const DevelopOptions& options) {
     const std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics);
     if (!scene) check(diagnostics);  // warnings are about what nobody renders here
     Image film = seen_by(*scene, image, options.film);
-    FilmSensor sensor = film_sensor(film, options.scene, options.overrides);
+    FilmSensor sensor = film_sensor(film, options.scene, options.overrides, view_of(options));
+    require_planes(film, sensor, options.film);
     return {std::move(film), std::move(sensor)};
   }
   if (!options.outputs.empty())
     throw Error(ErrorCode::usage, "-o", "a spectral film needs a sensor that looks at it: --scene");
   FilmSensor sensor;
   sensor.planes = sensor.channels = {"R", "G", "B"};
-  sensor.display = display_of_radiance({users_configuration(), {}, {}});
+  sensor.display = display_of_radiance(view_of(options));
   return {observed(image), std::move(sensor)};
 }
 
@@ -119,7 +125,7 @@ Exposed load(const DevelopOptions& options) {
   if (is_spectral(film)) return expose_spectral(std::move(film), options);
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
-  FilmSensor sensor = film_sensor(film, options.film, options.overrides);
+  FilmSensor sensor = film_sensor(film, options.film, options.overrides, view_of(options));
   require_planes(film, sensor, options.film);
   return {std::move(film), std::move(sensor)};
 }

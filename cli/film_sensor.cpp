@@ -32,12 +32,6 @@ std::optional<double> f_number(const Camera& camera) {
   return focal_length / (2 * lens->aperture_radius);
 }
 
-std::vector<std::string> channel_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Channel& channel : scene.channels) names.push_back(channel.name);
-  return names;
-}
-
 void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
   if (std::any_of(scene.channels.begin(), scene.channels.end(),
                   [](const Channel& c) { return c.kind != ResponseKind::quantum; }))
@@ -126,12 +120,13 @@ std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& s
   return accepted(read_readout(*readout, diagnostics), diagnostics);
 }
 
-std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor) {
+std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor,
+                                             const ViewOptions& view) {
   const auto text = data.find("to_xyz_d65");
   if (!text) return std::nullopt;
   const std::optional<Matrix3> matrix = parse_matrix3(*text);
   if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3)) data.refuse("to_xyz_d65");
-  return DisplayTransform(sensor.channels, *matrix, {}, {users_configuration(), {}, {}});
+  return DisplayTransform(sensor.channels, *matrix, {}, view);
 }
 
 }  // namespace
@@ -143,7 +138,7 @@ FilmIdentity sensor_identity(const Scene& scene) {
                         {"expTime", single(scene.exposure_s)},
                         {"gathering_area_m2", fmt::format("{}", area_m2)}};
   if (const auto n = f_number(scene.camera)) identity["aperture"] = single(*n);
-  const std::vector<std::string> names = channel_names(scene);
+  const std::vector<std::string> names = scene.channel_names();
   for (const Channel& channel : scene.channels) {
     if (channel.exposure_ratio != 1)
       identity["exposure_s." + channel.name] = fmt::format("{}", scene.exposure_s * channel.exposure_ratio);
@@ -165,14 +160,14 @@ FilmIdentity sensor_identity(const Scene& scene) {
 }
 
 FilmSensor film_sensor(const Image& film, const std::filesystem::path& path,
-                       std::span<const Override> overrides) {
+                       std::span<const Override> overrides, const ViewOptions& view) {
   const Metadata data{film, path};
   FilmSensor sensor;
   read_planes(data, sensor);
   sensor.gathering_area_m2 = data.number("gathering_area_m2");
   sensor.readout = read_readout_of(data, sensor, overrides);
   sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
-  sensor.display = read_display(data, sensor);
+  sensor.display = read_display(data, sensor, view);
   sensor.display_exposure = data.find_number("display_exposure");
   return sensor;
 }
@@ -190,7 +185,7 @@ Image film_image(const RenderPart& part) {
 
 Image shown_film(const Scene& scene, const RenderPart& part) {
   Image film = film_image(part);
-  return scene.mosaic ? demosaic(film, kRawPlane, *scene.mosaic, channel_names(scene)) : film;
+  return scene.mosaic ? demosaic(film, kRawPlane, *scene.mosaic, scene.channel_names()) : film;
 }
 
 }  // namespace abbe::cli

@@ -33,7 +33,7 @@ struct FilmSensor {
 /// description. Throws Error{input} naming `path` when something is missing, Error{usage} for a `--set` of
 /// what a render has used already.
 [[nodiscard]] FilmSensor film_sensor(const Image& film, const std::filesystem::path& path,
-                                     std::span<const Override> overrides);
+                                     std::span<const Override> overrides, const ViewOptions& view);
 
 /// Takes what `shown_film` gives to pictures. Throws what `make_display` throws.
 [[nodiscard]] DisplayTransform display_of(const Scene& scene, const ViewOptions& view = {});

@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include "calibration/output/color_spaces.h"
+#include "cli/answer.h"
 #include "cli/film_sensor.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "sensor/film/spectral_film.h"
+#include "sensor/readout/demosaic.h"
 
 namespace abbe::cli {
 namespace {
@@ -57,6 +59,36 @@ SpectralBins bins_of(const Image& film) {
   const std::vector<std::string> words = split(film.metadata.at(kSpectralBinsKey), ' ');
   return {parse_number(words.at(0)).value(), parse_number(words.at(1)).value(),
           static_cast<int>(parse_number(words.at(2)).value())};
+}
+
+// Only files of other programs do not tell how their radiances were seen.
+void require_same_view(const SpectralImage& image, const Camera& camera, const std::filesystem::path& path) {
+  if (!image.metadata.contains(kAxisKey)) return;
+  const auto found = image.metadata.find(kDistanceKey);
+  const bool lens = found != image.metadata.end();
+  const std::optional<double> ours = image_distance(camera);
+  if (lens != ours.has_value())
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("was seen by another camera (got {}, allowed {})", lens ? "a lens" : "a meter",
+                            lens ? "a meter" : "a lens"));
+  if (lens && std::abs(parse_number(found->second).value_or(0) / *ours - 1) > 1e-6)
+    throw Error(
+        ErrorCode::input, path.string(),
+        fmt::format("was seen in another field of view (got an image distance of {} pixels, allowed {})",
+                    found->second, *ours));
+}
+
+// Light that the image does not have cannot be counted.
+void check_coverage(const SpectralImage& image, const Channel& channel, const std::filesystem::path& path) {
+  constexpr double kNegligible = 1e-3;
+  const std::vector<double> edges = band_edges(image.bands);
+  const double missing = 1 - channel.weight.integral(edges.front(), edges.back()) / channel.weight.integral();
+  if (!(missing > kNegligible)) return;
+  const std::string text =
+      fmt::format("covers {} to {} nm only, where {:.3g} % of the response of channel \"{}\" is not",
+                  edges.front(), edges.back(), 100 * missing, channel.name);
+  if (missing > 1 - kNegligible) throw Error(ErrorCode::input, path.string(), text);
+  say(fmt::format("warning: {}: {}", path.string(), text));
 }
 
 }  // namespace
@@ -108,15 +140,10 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
     throw Error(ErrorCode::input, path.string(),
                 fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
                             image.height, camera.width, camera.height));
-  const auto theirs = image.metadata.find(kDistanceKey);
-  const std::optional<double> ours = image_distance(camera);
-  if (theirs != image.metadata.end() && ours &&
-      std::abs(parse_number(theirs->second).value_or(0) / *ours - 1) > 1e-6)
-    throw Error(
-        ErrorCode::input, path.string(),
-        fmt::format("was seen in another field of view (got an image distance of {} pixels, allowed {})",
-                    theirs->second, *ours));
+  require_same_view(image, camera, path);
+  for (const Channel& channel : scene.channels) check_coverage(image, channel, path);
   Image film = expose(image, scene.channels, exposure_per_radiance(camera, scene.exposure_s));
+  if (scene.mosaic) film = mosaicked(film, *scene.mosaic, scene.channel_names());
   film.metadata = image.metadata;
   for (const char* key :
        {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", kSpectralBinsKey, kAxisKey, kDistanceKey})

@@ -26,8 +26,9 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
 [[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view);
 
 /// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
-/// the metadata of both. Throws Error{input} when sensor and image have different pixels or fields of view,
-/// Error{usage} for a scene whose sensor is spectral itself.
+/// the metadata of both; with a mosaic, its one plane. Says which channels respond beyond the image's bands.
+/// Throws Error{input} when sensor and image have different pixels or fields of view, or a channel sees
+/// nothing of the bands, Error{usage} for a scene whose sensor is spectral itself.
 [[nodiscard]] Image seen_by(const Scene& scene, const SpectralImage& image,
                             const std::filesystem::path& path);
 

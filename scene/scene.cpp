@@ -7,11 +7,14 @@
 
 namespace abbe {
 
-std::vector<std::string> Scene::film_planes() const {
-  if (mosaic) return {kRawPlane};
+std::vector<std::string> Scene::channel_names() const {
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   return names;
+}
+
+std::vector<std::string> Scene::film_planes() const {
+  return mosaic ? std::vector<std::string>{kRawPlane} : channel_names();
 }
 
 std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {

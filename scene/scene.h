@@ -97,6 +97,7 @@ class Scene {
   Imath::Box3d bounds;  ///< Of the shapes.
   std::string sha256;   ///< Of the scene file after overrides, and of every file it names.
 
+  [[nodiscard]] std::vector<std::string> channel_names() const;
   /// Names of the film's planes: the channels, or the one plane of a mosaic.
   [[nodiscard]] std::vector<std::string> film_planes() const;
 

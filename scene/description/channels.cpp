@@ -10,6 +10,7 @@ namespace {
 
 // Above 1 by what a measurement may err, far below a percentage.
 constexpr Range kTransmittance{0, 1.05};
+constexpr Range kQuantumEfficiency{0, 10};  // above 1 for energetic photons; per cent are more
 constexpr Range kEffectiveIndex{1, 10};
 
 // As EXR files can name channels and what is said of them.
@@ -76,7 +77,7 @@ std::optional<Detector> read_detector(ObjectReader& reader, double exposure_s, R
     reading.diagnostics.error(efficiency->where,
                               "a quantum_efficiency makes the response quantum (got \"energy\")");
   if (efficiency)
-    detector.quantum_efficiency = read_curve(*efficiency, {"camera", Range::non_negative()}, reading);
+    detector.quantum_efficiency = read_curve(*efficiency, {"camera", kQuantumEfficiency}, reading);
   if (filters) detector.filters = read_filters(*filters, reading);
   const auto transmission =
       lens ? read_curve(*lens, {"filter", kTransmittance}, reading) : std::optional<Curve>();

@@ -43,7 +43,31 @@ float weighted_mean(const Image& image, const std::vector<float>& raw, int x, in
   return weights > 0 ? sum / weights : 0;
 }
 
+std::vector<float> own_values(const Image& planes, const Mosaic& mosaic, const std::string& prefix,
+                              std::span<const std::string> channels) {
+  std::vector<const ImageChannel*> found;
+  for (const std::string& channel : channels) {
+    found.push_back(planes.find(prefix + channel));
+    if (found.back() == nullptr) throw Error(ErrorCode::input, "film", "has no plane " + prefix + channel);
+  }
+  std::vector<float> values;
+  values.reserve(planes.pixels());
+  for (int y = 0; y < planes.height; ++y)
+    for (int x = 0; x < planes.width; ++x)
+      values.push_back(found[static_cast<std::size_t>(mosaic.at(x, y))]->values[values.size()]);
+  return values;
+}
+
 }  // namespace
+
+Image mosaicked(const Image& planes, const Mosaic& mosaic, std::span<const std::string> channels) {
+  constexpr const char* kVariance = "Variance.";
+  return {planes.width,
+          planes.height,
+          {{kRawPlane, own_values(planes, mosaic, "", channels)},
+           {std::string(kVariance) + kRawPlane, own_values(planes, mosaic, kVariance, channels)}},
+          planes.metadata};
+}
 
 Image demosaic(const Image& image, const std::string& raw, const Mosaic& mosaic,
                std::span<const std::string> channels) {

@@ -8,6 +8,12 @@
 
 namespace abbe {
 
+/// The plane a mosaic makes of planes of all its channels: each pixel's own channel, and of the `Variance.`
+/// planes its variance, as `kRawPlane` and its variance. Metadata are kept. Throws Error{input} when a plane
+/// is missing.
+[[nodiscard]] Image mosaicked(const Image& planes, const Mosaic& mosaic,
+                              std::span<const std::string> channels);
+
 /// A plane for each channel of a mosaic from the one that holds each pixel's own: linear interpolation. A
 /// channel's value at a pixel that has another filter is the mean of the channel's pixels around it, weighted
 /// by (1 - |dx|/w)(1 - |dy|/h) within one pattern of w by h pixels; for the pattern R G / G B that is

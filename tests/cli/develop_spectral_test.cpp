@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -99,6 +100,48 @@ TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {
   EXPECT_EQ(raw.code, 0) << raw.err;
 }
 
+TEST(DevelopSpectral, AMosaicLooksThroughEachPixelsOwnFilter) {
+  const std::string spectral = film("for_mosaic", kBins);
+  const auto seen = [&](const std::string& name, const std::string& sensor) {
+    const Outcome run = abbe("develop " + spectral + " --scene " + scene(name + ".json", sensor) + " -o " +
+                             file(name + ".exr"));
+    EXPECT_EQ(run.code, 0) << run.err;
+    return read_exr_parts(file(name + ".exr"));
+  };
+  const std::vector<ImagePart> all = seen("all_channels", kCamera);
+  const std::vector<ImagePart> own = seen("bayer", kCamera + R"(, "mosaic": [["R", "G"], ["G", "B"]])");
+  ASSERT_GE(own.size(), 2U);
+  for (const int part : {0, 1}) {
+    const auto plane = [&](const std::vector<ImagePart>& parts, const std::string& name) {
+      const ImageChannel* found =
+          parts[static_cast<std::size_t>(part)].image.find((part == 0 ? "" : "Variance.") + name);
+      return found == nullptr ? std::vector<float>(384) : found->values;
+    };
+    for (const auto& [pixel, name] :
+         std::map<std::size_t, std::string>{{0, "R"}, {1, "G"}, {24, "G"}, {25, "B"}}) {
+      EXPECT_GT(plane(own, "raw")[pixel], 0) << pixel;
+      EXPECT_EQ(plane(own, "raw")[pixel], plane(all, name)[pixel]) << pixel;
+    }
+  }
+}
+
+TEST(DevelopSpectral, ResponsesBeyondTheBandsAreTold) {
+  const std::string spectral = film("narrow", R"("spectral": {"from_nm": 500, "to_nm": 600, "step_nm": 10})");
+  const auto seen = [&](const std::string& band) {
+    return abbe("develop " + spectral + " --scene " +
+                scene("band.json", R"("response": "quantum", "channels": {"W": {"band": )" + band + "}}"));
+  };
+  EXPECT_EQ(seen("[510, 590]").err, "");
+  const Outcome half = seen("[550, 650]");
+  EXPECT_EQ(half.code, 0);
+  EXPECT_NE(half.err.find("covers 500 to 600 nm only, where 52.1 % of the response of channel \"W\" is not"),
+            std::string::npos)
+      << half.err;
+  const Outcome none = seen("[610, 650]");
+  EXPECT_EQ(none.code, 4);
+  EXPECT_NE(none.err.find("where 100 % of the response"), std::string::npos) << none.err;
+}
+
 TEST(DevelopSpectral, PartsOfASpectralFilmMerge) {
   const std::string text = scene("merged.json", kBins);
   for (const char* range : {"0:32", "32:64"})
@@ -124,6 +167,12 @@ TEST(DevelopSpectral, WhatDoesNotFitIsRefused) {
   says(spectral + " -o " + file("no.tif"), 2, "a spectral film needs a sensor that looks at it: --scene");
   says(spectral + " --scene " + scene("same.json", kBins), 2, "its sensor is spectral itself");
   says(spectral + " --scene " + scene("far.json", kCamera, "0.03"), 4, "was seen in another field of view");
+  std::string meter = read_file(scene("meter.json", kCamera));
+  const std::size_t camera = meter.find("{\"thin_lens\"");
+  meter.replace(camera, meter.find("\"sensor\"") - camera,
+                R"({"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}}, )");
+  says(spectral + " --scene " + scratch().write("meter.json", meter).string(), 4,
+       "was seen by another camera");
   std::string small = read_file(scene("small.json", kCamera));
   small.replace(small.find("[24, 16]"), 8, "[12, 8]");
   says(spectral + " --scene " + scratch().write("small.json", small).string(), 4,
