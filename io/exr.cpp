@@ -118,7 +118,8 @@ std::vector<ImagePart> read(const std::filesystem::path& path) {
   std::size_t bytes = 0;
   for (int i = 0; i < file.parts(); ++i) {
     const Imf::Header& header = file.header(i);
-    ImagePart& part = parts.emplace_back(header.hasName() ? header.name() : "", announced(header, name));
+    ImagePart& part =
+        parts.emplace_back(ImagePart{header.hasName() ? header.name() : "", announced(header, name)});
     bytes += part.image.pixels() * part.image.channels.size() * sizeof(float);
     if (bytes > kMaxImageBytes)
       throw Error(ErrorCode::resource, name,

@@ -58,7 +58,7 @@ bool is_tiff(const std::filesystem::path& path) {
 }
 
 OIIO::ImageSpec described(const std::filesystem::path& path, const Image& image, std::size_t channels,
-                          OIIO::TypeDesc format) {
+                          const OIIO::TypeDesc& format) {
   if (image.channels.empty() || image.pixels() == 0)
     throw Error(ErrorCode::internal, path.string(), "a picture without pixels");
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels), format);

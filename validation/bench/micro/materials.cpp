@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include <benchmark/benchmark.h>
 
 #include "materials/bsdf/bsdf.h"
@@ -59,7 +61,8 @@ Coating films(int pairs) {
   return coating;
 }
 template <typename Model>
-void sample_coated(benchmark::State& state, const char* matter, int pairs) {
+void sample_coated(benchmark::State& state, std::type_identity<Model> /*model*/, const char* matter,
+                   int pairs) {
   const CoatedMatter coated{index_of(matter), films(pairs)};
   micro::Stream u;
   for (auto _ : state) {
@@ -68,9 +71,9 @@ void sample_coated(benchmark::State& state, const char* matter, int pairs) {
     benchmark::DoNotOptimize(sample(bsdf, wo, {u.next(), u.pair()}, 0, TransportMode::radiance));
   }
 }
-BENCHMARK_CAPTURE(sample_coated<CoatedDielectricBsdf>, coated_glass, "N-BK7", 0);
-BENCHMARK_CAPTURE(sample_coated<CoatedDielectricBsdf>, mirror_on_glass, "N-BK7", 10);
-BENCHMARK_CAPTURE(sample_coated<CoatedConductorBsdf>, coated_metal, "Al_Rakic", 0);
+BENCHMARK_CAPTURE(sample_coated, coated_glass, std::type_identity<CoatedDielectricBsdf>(), "N-BK7", 0);
+BENCHMARK_CAPTURE(sample_coated, mirror_on_glass, std::type_identity<CoatedDielectricBsdf>(), "N-BK7", 10);
+BENCHMARK_CAPTURE(sample_coated, coated_metal, std::type_identity<CoatedConductorBsdf>(), "Al_Rakic", 0);
 
 // f and pdf together, as light sampling asks for them.
 void evaluate_diffuse(benchmark::State& state) {
