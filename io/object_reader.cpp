@@ -161,7 +161,7 @@ std::optional<std::vector<double>> ObjectReader::require_numbers(std::string_vie
   return require(key) ? numbers(key, count, allowed) : std::nullopt;
 }
 
-std::optional<std::string> ObjectReader::exactly_one(std::initializer_list<std::string_view> keys) {
+std::optional<std::string> ObjectReader::exactly_one(const std::vector<std::string_view>& keys) {
   std::vector<std::string> present;
   for (const std::string_view key : keys)
     if (find(key)) present.emplace_back(key);

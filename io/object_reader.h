@@ -69,7 +69,7 @@ class ObjectReader {
                                                                    Range allowed = Range::any());
 
   /// The one present among `keys`; none (or a misspelt one), or more than one, is reported.
-  [[nodiscard]] std::optional<std::string> exactly_one(std::initializer_list<std::string_view> keys);
+  [[nodiscard]] std::optional<std::string> exactly_one(const std::vector<std::string_view>& keys);
 
   /// Reports the unknown keys. Call once, after the last getter.
   void finish();

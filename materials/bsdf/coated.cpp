@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "materials/bsdf/smooth.h"
+#include "materials/bsdf/coated.h"
+#include "materials/bsdf/mirror.h"
 
 namespace abbe {
 namespace {
@@ -78,14 +79,6 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
   return s;
 }
 
-SampledSpectrum CoatedDielectricBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
-  return {};
-}
-
-SampledSpectrum CoatedDielectricBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
-  return {};
-}
-
 std::optional<BsdfSample> CoatedConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/,
                                                       int /*hero*/, TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
@@ -96,14 +89,6 @@ std::optional<BsdfSample> CoatedConductorBsdf::sample(const Imath::V3f& wo, cons
   for (int lane = 0; lane < kLanes; ++lane)
     R[static_cast<std::size_t>(lane)] = at.power(lane, n[lane], k[lane], cosine_of(wo), false).R();
   return BsdfSample{.wi = mirrored(wo), .weight = SampledSpectrum(R), .pdf = 1, .delta = true};
-}
-
-SampledSpectrum CoatedConductorBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
-  return {};
-}
-
-SampledSpectrum CoatedConductorBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
-  return {};
 }
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/bsdf/mirror.h"
 #include "materials/bsdf/smooth.h"
 #include "materials/interface/fresnel.h"
 
@@ -13,14 +14,6 @@ std::optional<BsdfSample> ConductorBsdf::sample(const Imath::V3f& wo, const Bsdf
   const auto reflectance = [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); };
   return BsdfSample{
       .wi = mirrored(wo), .weight = SampledSpectrum::map(n, k, reflectance), .pdf = 1, .delta = true};
-}
-
-SampledSpectrum ConductorBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
-  return {};
-}
-
-SampledSpectrum ConductorBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
-  return {};
 }
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/bsdf/mirror.h"
 #include "materials/bsdf/smooth.h"
 #include "materials/interface/fresnel.h"
 
@@ -40,14 +41,6 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const Bsd
   if (!dispersive) return reflected(wo, SampledSpectrum(1), f.R());
   return reflected(wo, SampledSpectrum::map(n, [&](float lane_n) { return fresnel(lane_n).R() / f.R(); }),
                    f.R());
-}
-
-SampledSpectrum DielectricBsdf::eval(const Imath::V3f&, const Imath::V3f&, TransportMode) const {
-  return {};
-}
-
-SampledSpectrum DielectricBsdf::pdf(const Imath::V3f&, const Imath::V3f&) const {
-  return {};
 }
 
 }  // namespace abbe

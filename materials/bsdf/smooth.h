@@ -1,33 +1,29 @@
 #pragma once
 
-#include <cmath>
+#include <optional>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/event.h"
 
 namespace abbe {
 
-/// What smooth surfaces have in common.
+/// Smooth dielectric interface with the normal towards the outside; `n` is the inside index relative to the
+/// outside.
+struct DielectricBsdf {
+  SampledSpectrum n;
+  bool dispersive;
 
-[[nodiscard]] inline Imath::V3f mirrored(const Imath::V3f& wo) {
-  return {-wo.x, -wo.y, wo.z};
-}
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
+};
 
-/// Through the surface, eta = n_t/n_i, cos_t of the refracted angle.
-[[nodiscard]] inline Imath::V3f refracted_direction(const Imath::V3f& wo, float eta, float cos_t) {
-  return {-wo.x / eta, -wo.y / eta, std::copysign(cos_t, -wo.z)};
-}
+/// Smooth conductor, opaque, reflecting on both sides.
+struct ConductorBsdf {
+  SampledSpectrum n;
+  SampledSpectrum k;
 
-/// What refraction does to the quantity carried.
-[[nodiscard]] inline float refraction_scale(float eta, TransportMode mode) {
-  return mode == TransportMode::radiance ? 1 / (eta * eta) : 1.0F;
-}
-
-/// `s` for the hero alone: the other lanes could not have come along.
-[[nodiscard]] inline BsdfSample only_lane(BsdfSample s, int hero) {
-  s.weight = SampledSpectrum::only(hero, s.weight[hero]);
-  s.lane_pdf = SampledSpectrum::only(hero, 1);
-  s.dispersive = true;
-  return s;
-}
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+};
 
 }  // namespace abbe

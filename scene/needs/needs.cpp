@@ -58,7 +58,7 @@ struct SpecularCenter {
 std::vector<SpecularCenter> specular_centers(const Scene& scene) {
   std::vector<SpecularCenter> centers;
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
-    if (is_specular(material_of(scene, scene.shapes[i])))
+    if (lobes(material_of(scene, scene.shapes[i])).delta)
       centers.push_back({bounds(scene.shapes[i].shape).center(), i});
   std::sort(centers.begin(), centers.end(),
             [](const SpecularCenter& a, const SpecularCenter& b) { return a.at.x < b.at.x; });
@@ -86,7 +86,7 @@ const ShapeInstance* chained_interface(const Scene& scene) {
   int specular = 0;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
-    if (!is_specular(material)) continue;
+    if (!lobes(material).delta) continue;
     const bool refracts = interior(material) != nullptr;
     if (++specular >= 2 || plain<Mesh>(instance.shape) || (refracts && plain<Sphere>(instance.shape)))
       return &instance;
@@ -102,10 +102,9 @@ void analyse_matter(const Scene& scene, Needs& needs) {
     const RefractiveIndex* inside = interior(material);
     require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
     require(needs, &Needs::media, inside != nullptr && inside->absorbing(), "shape", instance.name);
-    if (!is_specular(material))
-      scattering = true;
-    else if (specular == nullptr)
-      specular = &instance;
+    const Lobes sent = lobes(material);
+    scattering = scattering || sent.spread;
+    if (sent.delta && specular == nullptr) specular = &instance;
   }
   const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
                                [](const Light& light) { return !light.is_environment() && emits(light); });
@@ -195,7 +194,7 @@ Needs analyse(const Scene& scene) {
 std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool light_tracing_active) {
   const bool specular =
       std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                  [&](const ShapeInstance& instance) { return is_specular(material_of(scene, instance)); });
+                  [&](const ShapeInstance& instance) { return lobes(material_of(scene, instance)).delta; });
   std::vector<PathClass> classes;
   const auto add = [&classes](const std::string& lights, std::string_view expression,
                               std::string_view words) {

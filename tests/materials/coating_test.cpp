@@ -67,16 +67,17 @@ TEST(Coating, IsTheSameForPackets) {
 TEST(Coating, MakesItsMaterialsScatterByIt) {
   SampledSpectrum nm(550.0F);
   const Material coated{"lens", DielectricMaterial{"N-BK7", index_of("N-BK7"), coat()}};
-  const Bsdf lens = make_bsdf(coated, nm);
+  const Bsdf lens = make_bsdf(coated, {nm});
   ASSERT_TRUE(std::holds_alternative<CoatedDielectricBsdf>(lens));
   EXPECT_FLOAT_EQ(index_inside(lens, 3), static_cast<float>(index_of("N-BK7").n(550.0)));
-  EXPECT_FLOAT_EQ(index_inside(make_bsdf({"m", DielectricMaterial{"", RefractiveIndex(1.5)}}, nm), 3), 1.5F);
-  EXPECT_EQ(index_inside(make_bsdf({"m", ConductorMaterial{"", RefractiveIndex(0.1, 3)}}, nm), 3), 1);
+  EXPECT_FLOAT_EQ(index_inside(make_bsdf({"m", DielectricMaterial{"", RefractiveIndex(1.5)}}, {nm}), 3),
+                  1.5F);
+  EXPECT_EQ(index_inside(make_bsdf({"m", ConductorMaterial{"", RefractiveIndex(0.1, 3)}}, {nm}), 3), 1);
   const auto s = sample(lens, {0, 0, 1}, {0, {}}, 0, TransportMode::radiance);
   ASSERT_TRUE(s);
   EXPECT_NEAR(s->pdf, coated_power(coat(), 550, index_of("N-BK7").n(550.0), 0, 1, false).R(), 1e-6);
   const Material oxide{"steel", ConductorMaterial{"", RefractiveIndex(2.9, 3), mirror()}};
-  const auto r = sample(make_bsdf(oxide, nm), direction(0.5, 0), {0, {}}, 0, TransportMode::radiance);
+  const auto r = sample(make_bsdf(oxide, {nm}), direction(0.5, 0), {0, {}}, 0, TransportMode::radiance);
   ASSERT_TRUE(r);
   EXPECT_NEAR(r->weight[4], coated_power(mirror(), 550, 2.9, 3, 0.5, false).R(), 1e-6);
   EXPECT_GT(std::abs(double(r->weight[4]) - fresnel_conductor(0.5, 2.9, 3.0).R()), 0.01);

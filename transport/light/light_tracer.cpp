@@ -46,10 +46,9 @@ class PhotonPath {
       if (depth == 0) medium_ = crossed_into(scene_, hit->shape, vertex.wo.z < 0, lambda());
       medium_.attenuate(packet_.throughput, hit->t);
       if (is_black(vertex.bsdf)) return;
-      const bool specular = is_delta(vertex.bsdf);
-      if (depth == 0 && !specular && !plan_.light_owns_all) return;
-      if (!specular) connect(vertex, depth);
-      if (!scatter(vertex, depth)) return;
+      const bool owned = depth > 0 || plan_.light_owns_all;
+      if (owned && scatters(vertex.bsdf)) connect(vertex, depth);
+      if (!scatter(vertex, depth, owned)) return;
     }
   }
 
@@ -78,11 +77,12 @@ class PhotonPath {
     splat_(x, y, exposure_.values());
   }
 
-  bool scatter(const Vertex& vertex, int depth) {
+  // `owned`: whether paths that scatter here in more than a single direction are.
+  bool scatter(const Vertex& vertex, int depth, bool owned) {
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
     const std::optional<BsdfSample> event =
         sample(vertex.bsdf, vertex.wo, {u[2], {u[0], u[1]}}, kHero, TransportMode::power);
-    if (!event) return false;
+    if (!event || !(owned || event->delta)) return false;
     packet_.throughput *= event->weight;
     packet_.lane_pdf *= event->lane_pdf;
     if (packet_.throughput.is_zero()) return false;

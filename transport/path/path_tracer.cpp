@@ -55,7 +55,6 @@ class CameraPath {
       if (depth >= scene_.render.max_depth) return;
       const Vertex vertex(scene_, *hit, ray_.direction, lambda());
       if (is_black(vertex.bsdf)) return;
-      if (depth == 0) first_specular_ = is_delta(vertex.bsdf);
       if (!scatter(vertex, depth)) return;
     }
   }
@@ -100,11 +99,12 @@ class CameraPath {
   // In line in the loop of `trace`: left to itself the compiler makes it a call, for the meter's sake, which
   // costs every path more than all else it does not need.
   [[gnu::always_inline]] bool scatter(const Vertex& vertex, int depth) {
-    if (!is_delta(vertex.bsdf)) add_direct(vertex, depth);
+    if (scatters(vertex.bsdf)) add_direct(vertex, depth);
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
     const std::optional<BsdfSample> sampled =
         sample(vertex.bsdf, vertex.wo, {u[2], {u[0], u[1]}}, kHero, TransportMode::radiance);
     if (!sampled) return false;
+    if (depth == 0) first_specular_ = sampled->delta;
     follow(vertex, *sampled);
     return survives(depth, u[3]);
   }
@@ -116,10 +116,9 @@ class CameraPath {
     packet_.lane_pdf *= event.lane_pdf;
     const Imath::V3f direction = vertex.frame.to_world(event.wi);
     if (event.transmitted) {
-      const bool entering = vertex.wo.z > 0;
-      medium_ = crossed_into(scene_, vertex.hit.shape, entering, lambda());
+      medium_ = side_of(vertex, event.wi);
       const float n = index_inside(vertex.bsdf, kHero);
-      eta_scale_ *= entering ? n * n : 1 / (n * n);
+      eta_scale_ *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
     }
     ray_ = spawn(vertex.hit.point, vertex.hit.normal, direction);
   }
@@ -143,7 +142,7 @@ class CameraPath {
     if (!towards) return;
     const Imath::V3f wi = vertex.frame.to_local(towards->wi);
     SampledSpectrum contribution = eval(vertex.bsdf, vertex.wo, wi, TransportMode::radiance);
-    if (contribution.is_zero() || wi.z * vertex.wo.z <= 0) return;
+    if (contribution.is_zero()) return;
     contribution *=
         packet_.throughput * emission_from(light, towards->wi, lambda()) * (std::abs(wi.z) * towards->factor);
     const float light_density = pick.probability * towards->pdf;
@@ -151,9 +150,15 @@ class CameraPath {
         light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
     const float balance = (packet_.lane_pdf * (SampledSpectrum(light_density) + scatter_density)).sum();
     if (!(balance > 0) || blocked(vertex, *towards)) return;
-    medium_.attenuate(contribution, towards->distance);
+    side_of(vertex, wi).attenuate(contribution, towards->distance);
     if (depth == kMeterDepth) exposure_.at_angle(wi.z);
     exposure_.deposit(contribution * (1 / balance));
+  }
+
+  // The medium that light from the local direction `wi` comes through.
+  [[nodiscard]] Medium side_of(const Vertex& vertex, const Imath::V3f& wi) const {
+    if (wi.z * vertex.wo.z > 0) return medium_;
+    return crossed_into(scene_, vertex.hit.shape, wi.z < 0, lambda());
   }
 
   [[nodiscard]] bool blocked(const Vertex& vertex, const LightSample& towards) {

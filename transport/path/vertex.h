@@ -33,7 +33,7 @@ struct Vertex {
       : hit(surface),
         frame(surface.normal),
         wo(frame.to_local(-incoming)),
-        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], wavelengths_nm)) {}
+        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm})) {}
 };
 
 /// The matter a path segment runs through.

@@ -21,7 +21,7 @@ double scene_radius(const Scene& scene) {
 Imath::Box3d specular_bounds(const Scene& scene) {
   Imath::Box3d box;
   for (const ShapeInstance& shape : scene.shapes)
-    if (is_specular(scene.materials[shape.material])) box.extendBy(bounds(shape.shape));
+    if (lobes(scene.materials[shape.material]).delta) box.extendBy(bounds(shape.shape));
   return box;
 }
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "materials/bsdf/event.h"
+#include "materials/coating.h"
+
+namespace abbe {
+
+/// Smooth dielectric interface under thin films, which may absorb; it refers to the material and sees the
+/// packet `wavelengths_nm`.
+struct CoatedDielectricBsdf {
+  SampledSpectrum wavelengths_nm;
+  const RefractiveIndex* index;
+  const Coating* coating;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] float index_inside(int lane) const { return index->n(wavelengths_nm)[lane]; }
+};
+
+/// Smooth conductor under thin films.
+struct CoatedConductorBsdf {
+  SampledSpectrum wavelengths_nm;
+  const RefractiveIndex* index;
+  const Coating* coating;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+};
+
+}  // namespace abbe

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "spectral/packet.h"
+
+namespace abbe {
+
+/// Where on a surface, and at which wavelengths, its scattering is asked for.
+struct SurfaceLookup {
+  const SampledSpectrum& wavelengths_nm;
+};
+
+/// In which ways a material sends light on; black matter in none.
+struct Lobes {
+  bool delta = false;   ///< In single directions, as mirrors and smooth glass do: light may be focused.
+  bool spread = false;  ///< In all directions of some range: connecting to lights pays.
+};
+
+}  // namespace abbe

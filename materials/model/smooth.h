@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/index/refractive_index.h"
+#include "materials/model/lookup.h"
+
+namespace abbe {
+
+struct DiffuseMaterial {
+  Curve reflectance;  ///< In [0, 1].
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+};
+struct DielectricMaterial {
+  std::string index_name;
+  RefractiveIndex index;
+  Coating coating = {};
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
+};
+struct ConductorMaterial {
+  std::string index_name;
+  RefractiveIndex index;
+  Coating coating = {};
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+};
+
+}  // namespace abbe

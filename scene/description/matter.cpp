@@ -1,0 +1,100 @@
+#include "scene/description/matter.h"
+
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "materials/index/library.h"
+
+namespace abbe::description {
+namespace {
+
+constexpr Range kExtinction{0, 100};
+
+// k of an absorption coefficient alpha [1/m]: alpha lambda/(4 pi), lambda in metres.
+Curve extinction(const Curve& absorption_per_m) {
+  const auto k = [](double nm) { return nm * 1e-9 / (4 * std::numbers::pi); };
+  const Curve per_alpha(
+      std::vector<Knot>{{kMinWavelengthNm, k(kMinWavelengthNm)}, {kMaxWavelengthNm, k(kMaxWavelengthNm)}});
+  return product(absorption_per_m, per_alpha);
+}
+
+std::optional<Ior> constant_ior(double n, double k) {
+  return Ior{k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k), true};
+}
+
+}  // namespace
+
+std::optional<Ior> read_ior(const JsonValue& json, Range allowed, Reading& reading) {
+  if (std::holds_alternative<double>(json.value)) {
+    const auto n = read_number(json, allowed, reading.diagnostics);
+    return n ? constant_ior(*n, 0) : std::nullopt;
+  }
+  if (std::holds_alternative<JsonValue::Object>(json.value)) {
+    ObjectReader reader(json, reading.diagnostics);
+    const auto n = reader.require_number("n", allowed);
+    const double k = reader.number_or("k", 0, kExtinction);
+    reader.finish();
+    return n ? constant_ior(*n, k) : std::nullopt;
+  }
+  const auto name = reading.table(json);
+  if (!name) return std::nullopt;
+  auto named = load_index(*name, json.where, reading.diagnostics);
+  if (!named) return std::nullopt;
+  return Ior{std::move(named->name), std::move(named->index), false};
+}
+
+std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const JsonValue* value = reader.require("reflectance");
+  reader.finish();
+  if (!value) return std::nullopt;
+  auto reflectance = read_curve(*value, {"reflectance", Range::unit()}, reading);
+  if (!reflectance) return std::nullopt;
+  return DiffuseMaterial{std::move(*reflectance)};
+}
+
+std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const JsonValue* value = reader.require("ior");
+  const JsonValue* absorption = reader.find("absorption_per_m");
+  Coating coating = read_coating(reader.find("coating"), reading);
+  reader.finish();
+  if (!value) return std::nullopt;
+  auto ior = read_ior(*value, kIndex, reading);
+  if (!ior) return std::nullopt;
+  if (!absorption) return DielectricMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
+  if (!ior->constant || ior->index.absorbing()) {
+    reading.diagnostics.error(absorption->where,
+                              "absorption_per_m goes with a constant real index; this one brings its own k");
+    return std::nullopt;
+  }
+  const auto alpha = read_curve(*absorption, {"filter", kPower}, reading);
+  if (!alpha) return std::nullopt;
+  return DielectricMaterial{
+      std::move(ior->name),
+      RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha), IndexMedium::air,
+                      kMinWavelengthNm, kMaxWavelengthNm),
+      std::move(coating)};
+}
+
+std::optional<MaterialModel> read_conductor(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  const JsonValue* value = reader.require("ior");
+  Coating coating = read_coating(reader.find("coating"), reading);
+  reader.finish();
+  if (!value) return std::nullopt;
+  auto ior = read_ior(*value, kMetalIndex, reading);
+  if (!ior) return std::nullopt;
+  return ConductorMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
+}
+
+std::optional<MaterialModel> read_film(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  Coating coating = read_coating(reader.require("layers"), reading);
+  reader.finish();
+  return DielectricMaterial{"air", RefractiveIndex(1), std::move(coating)};
+}
+
+}  // namespace abbe::description

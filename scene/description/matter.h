@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+
+// Every measured index lies well inside.
+inline constexpr Range kIndex{0, 100, true, false};
+inline constexpr Range kMetalIndex{0, 100};  ///< n = 0 is the perfect mirror.
+
+/// A refractive index, and what it is called.
+struct Ior {
+  std::string name;
+  RefractiveIndex index;
+  bool constant;
+};
+/// A number, an object of n and k, or the name of a table; n within `allowed`.
+[[nodiscard]] std::optional<Ior> read_ior(const JsonValue& json, Range allowed, Reading& reading);
+
+/// The layers under a key, none if it is not there.
+[[nodiscard]] Coating read_coating(const JsonValue* layers, Reading& reading);
+
+/// Each material of the list from what stands under its key; none after an error.
+using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_conductor(const JsonValue& json, Reading& reading);
+/// A film with air on both sides, such as a soap bubble's: a coating on nothing.
+[[nodiscard]] std::optional<MaterialModel> read_film(const JsonValue& json, Reading& reading);
+
+}  // namespace abbe::description

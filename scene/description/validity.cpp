@@ -1,0 +1,50 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+namespace {
+
+// Where a curve differs from zero: [low, high] nm, empty when it never does.
+struct Support {
+  double low = kMaxWavelengthNm;
+  double high = kMinWavelengthNm;
+};
+void extend(Support& support, const Curve& curve) {
+  const auto knots = curve.knots();
+  if (curve.is_constant() && curve.max() != 0) support = {kMinWavelengthNm, kMaxWavelengthNm};
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    if (knots[i].value == 0 && knots[i + 1].value == 0) continue;
+    support.low = std::min(support.low, knots[i].wavelength_nm);
+    support.high = std::max(support.high, knots[i + 1].wavelength_nm);
+  }
+}
+
+}  // namespace
+
+void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene) {
+  Support sensor;
+  for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
+  const auto check = [&](const Material& material, const std::string& name, const RefractiveIndex& index) {
+    if (index.low_nm() <= sensor.low && sensor.high <= index.high_nm()) return;
+    const JsonValue* at = json.find(material.name);
+    reading.diagnostics.warning(
+        at ? at->where : json.where,
+        fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
+                    "held from the nearer end",
+                    name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
+  };
+  for (const Material& material : scene.materials)
+    std::visit(
+        [&](const auto& model) {
+          if constexpr (requires { model.index_name; }) check(material, model.index_name, model.index);
+          if constexpr (requires { model.coating; })
+            for (const Coating::Matter& matter : model.coating.matters)
+              check(material, matter.index_name, matter.index);
+        },
+        material.model);
+}
+
+}  // namespace abbe::description

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <vector>
+
+#include "materials/bsdf/bsdf.h"
+
+namespace abbe {
+
+/// Some instances of a scattering model, for the laws that all of them obey: a test over the list does not
+/// compile before its newest member has them.
+template <typename Model>
+std::vector<Model> examples();
+
+inline SampledSpectrum ramp(float first, float last) {
+  SampledSpectrum::Values s;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    s[j] = first + (last - first) * static_cast<float>(j) / (kLanes - 1);
+  return SampledSpectrum(s);
+}
+
+template <>
+inline std::vector<DiffuseBsdf> examples() {
+  return {{SampledSpectrum(1)}, {ramp(0, 0.8F)}};
+}
+template <>
+inline std::vector<DielectricBsdf> examples() {
+  return {{SampledSpectrum(1.5F), false},
+          {ramp(1.45F, 1.9F), true},
+          {ramp(0.8F, 0.6F), true},
+          {SampledSpectrum(1), true}};
+}
+template <>
+inline std::vector<ConductorBsdf> examples() {
+  return {{ramp(0.1F, 1.4F), ramp(7, 2)}, {SampledSpectrum(1.5F), SampledSpectrum(0)}};
+}
+
+// Matter under films that live as long as the tests: a broad coat, a mirror stack, an absorbing film; on
+// glass, on plain matter, on nothing.
+struct Coated {
+  RefractiveIndex index;
+  Coating coating;
+};
+inline const RefractiveIndex& dispersive_glass() {
+  static const RefractiveIndex glass(Curve({{300, 1.6}, {1100, 1.45}}), Curve(0.0), IndexMedium::air, 300,
+                                     1100);
+  return glass;
+}
+inline Coating broad_coat() {
+  return {{{"low", RefractiveIndex(1.38)}}, {{0, 100}}};
+}
+inline Coating mirror_stack() {
+  return {{{"high", RefractiveIndex(2.35)}, {"low", RefractiveIndex(1.38)}}, {{0, 60}, {1, 100}, {0, 60}}};
+}
+inline Coating absorbing_film() {
+  return {{{"grey", RefractiveIndex(1.9, 0.4)}, {"low", RefractiveIndex(1.38)}}, {{0, 40}, {1, 250}}};
+}
+inline SampledSpectrum packet() {
+  return ramp(390, 770);
+}
+template <>
+inline std::vector<CoatedDielectricBsdf> examples() {
+  static const std::vector<Coated> all{{dispersive_glass(), broad_coat()},
+                                       {RefractiveIndex(1.5), absorbing_film()},
+                                       {RefractiveIndex(1), mirror_stack()},
+                                       {dispersive_glass(), absorbing_film()},
+                                       {RefractiveIndex(0.7), mirror_stack()}};
+  std::vector<CoatedDielectricBsdf> models;
+  for (const Coated& c : all) models.push_back({packet(), &c.index, &c.coating});
+  return models;
+}
+template <>
+inline std::vector<CoatedConductorBsdf> examples() {
+  static const std::vector<Coated> all{{RefractiveIndex(0.2, 3), absorbing_film()},
+                                       {RefractiveIndex(3, 3), broad_coat()}};
+  std::vector<CoatedConductorBsdf> models;
+  for (const Coated& c : all) models.push_back({packet(), &c.index, &c.coating});
+  return models;
+}
+
+}  // namespace abbe
