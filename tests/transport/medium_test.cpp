@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "transport/path/vertex.h"
+#include "transport/path/medium.h"
 
 namespace abbe {
 namespace {
@@ -39,6 +39,50 @@ TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {
   medium().attenuate(lanes, std::numeric_limits<float>::infinity());
   EXPECT_EQ(lanes[0], 0);
   EXPECT_EQ(lanes[3], 0.5F);
+}
+
+std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {
+  const Enclosures inside = enclosing(scene, point);
+  return {inside.shapes().begin(), inside.shapes().end()};
+}
+
+// A ball of glass within another, beside a cube, a card and a pane of glass that encloses nothing.
+TEST(Enclosures, AreFoundFromTheOutermost) {
+  Scene scene{};
+  scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
+                     {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
+  Mesh cube;
+  for (int i = 0; i < 8; ++i) cube.vertices.emplace_back(9 + (i & 1), (i >> 1) & 1, i >> 2);
+  cube.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  scene.shapes = {{"inner", Sphere{{0.5, 0, 0}, 1}, 1},
+                  {"outer", Sphere{{0, 0, 0}, 3}, 1},
+                  {"cube", cube, 1},
+                  {"ball", Sphere{{0.5, 0, 0}, 0.5}, 0},
+                  {"pane", Quad{{-50, -50, 20}, {100, 0, 0}, {0, 100, 0}}, 1}};
+  scene.commit();
+  using Shapes = std::vector<std::uint32_t>;
+  EXPECT_EQ(around(scene, {0.5F, 0, 0.2F}), (Shapes{1, 0}));
+  EXPECT_EQ(around(scene, {-0.7F, 0, 0}), Shapes{1});
+  EXPECT_EQ(around(scene, {0, 3.5F, 0}), Shapes{});
+  EXPECT_EQ(around(scene, {9.5F, 0.4F, 0.7F}), Shapes{2});
+  EXPECT_EQ(around(scene, {0, 0, 10}), Shapes{});
+}
+
+TEST(Enclosures, ReturnToWhatIsAround) {
+  Enclosures inside;
+  inside.cross(7, false);  // from behind a surface that encloses nothing
+  EXPECT_TRUE(inside.empty());
+  inside.cross(3, true);
+  inside.cross(5, true);
+  inside.cross(5, true);
+  EXPECT_EQ(inside.innermost(), 5U);
+  inside.cross(5, false);
+  EXPECT_EQ(inside.innermost(), 3U);
+  for (std::uint32_t shape = 100; shape < 100 + Enclosures::kMost; ++shape) inside.cross(shape, true);
+  EXPECT_EQ(inside.shapes().size(), Enclosures::kMost);
+  EXPECT_EQ(inside.shapes().front(), 100U);
+  EXPECT_EQ(inside.innermost(), 99 + Enclosures::kMost);
 }
 
 }  // namespace

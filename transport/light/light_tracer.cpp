@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "transport/path/medium.h"
 #include "transport/path/packet.h"
 #include "transport/path/vertex.h"
 #include "transport/render/threads.h"
@@ -35,15 +36,15 @@ class PhotonPath {
     packet_.wavelengths = wavelengths;
   }
 
-  void trace(const Ray& start, const SampledSpectrum& power) {
+  void trace(const Ray& start, const SampledSpectrum& power, const Enclosures& inside) {
     ray_ = start;
+    inside_ = inside;
+    if (!inside_.empty()) medium_ = medium_within(scene_, inside_, lambda());
     packet_.throughput = power;
     for (int depth = 0; depth < scene_.render.max_depth; ++depth) {
       const std::optional<SurfaceHit> hit = caster_.intersect(ray_);
       if (!hit) return;
       const Vertex vertex(scene_, *hit, ray_.direction, lambda());
-      // Lights may stand inside glass: a first surface met from behind tells what the photon started in.
-      if (depth == 0) medium_ = crossed_into(scene_, hit->shape, vertex.wo.z < 0, lambda());
       medium_.attenuate(packet_.throughput, hit->t);
       if (is_black(vertex.bsdf)) return;
       const bool owned = depth > 0 || plan_.light_owns_all;
@@ -86,7 +87,10 @@ class PhotonPath {
     packet_.throughput *= event->weight;
     packet_.lane_pdf *= event->lane_pdf;
     if (packet_.throughput.is_zero()) return false;
-    if (event->transmitted) medium_ = crossed_into(scene_, vertex.hit.shape, vertex.wo.z > 0, lambda());
+    if (event->transmitted) {
+      inside_.cross(vertex.hit.shape, vertex.wo.z > 0);
+      medium_ = medium_within(scene_, inside_, lambda());
+    }
     ray_ = spawn(vertex.hit.point, vertex.hit.normal, vertex.frame.to_world(event->wi));
     return survives(*event, depth, u[3]);
   }
@@ -108,7 +112,8 @@ class PhotonPath {
   const Splat& splat_;
   Ray ray_;
   PathPacket packet_;
-  Medium medium_;
+  Enclosures inside_;
+  Medium medium_;  // within them
 };
 
 // A photon that shows where to aim others, by what it adds to the film.
@@ -158,7 +163,7 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
   const float factor = cosine / (pick.probability * from.pdf_area * aimed.pdf);
   const Ray ray = area ? spawn(from.point, from.normal, aimed.wi) : Ray{from.point, aimed.wi};
   PhotonPath(plan, caster, sampler, wavelengths, share, exposure, splat)
-      .trace(ray, light.emission(wavelengths.lambda_nm) * factor);
+      .trace(ray, light.emission(wavelengths.lambda_nm) * factor, plan.light_inside[pick.light]);
   return start;
 }
 

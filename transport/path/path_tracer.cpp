@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "transport/path/medium.h"
 #include "transport/path/packet.h"
 #include "transport/path/vertex.h"
 
@@ -31,8 +32,10 @@ class CameraPath {
         caster_(caster),
         sampler_(sampler),
         exposure_(exposure),
-        ray_(start.ray) {
+        ray_(start.ray),
+        inside_(plan.camera_inside) {
     packet_.wavelengths = wavelengths;
+    if (!inside_.empty()) medium_ = medium_within(scene_, inside_, lambda());
     exposure_.begin(wavelengths, start.weight * static_cast<float>(scene_.exposure_s));
   }
 
@@ -116,7 +119,8 @@ class CameraPath {
     packet_.lane_pdf *= event.lane_pdf;
     const Imath::V3f direction = vertex.frame.to_world(event.wi);
     if (event.transmitted) {
-      medium_ = side_of(vertex, event.wi);
+      inside_.cross(vertex.hit.shape, vertex.wo.z > 0);
+      medium_ = medium_within(scene_, inside_, lambda());
       const float n = index_inside(vertex.bsdf, kHero);
       eta_scale_ *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
     }
@@ -158,7 +162,9 @@ class CameraPath {
   // The medium that light from the local direction `wi` comes through.
   [[nodiscard]] Medium side_of(const Vertex& vertex, const Imath::V3f& wi) const {
     if (wi.z * vertex.wo.z > 0) return medium_;
-    return crossed_into(scene_, vertex.hit.shape, wi.z < 0, lambda());
+    Enclosures beyond = inside_;
+    beyond.cross(vertex.hit.shape, wi.z < 0);
+    return medium_within(scene_, beyond, lambda());
   }
 
   [[nodiscard]] bool blocked(const Vertex& vertex, const LightSample& towards) {
@@ -174,7 +180,8 @@ class CameraPath {
   PathExposure& exposure_;
   Ray ray_;
   PathPacket packet_;
-  Medium medium_;
+  Enclosures inside_;
+  Medium medium_;  // within them
   float eta_scale_ = 1;
   // Sum of lane densities before the last scattering over the hero's density of it: what a unit of
   // light-sampling density weighs.

@@ -36,29 +36,6 @@ struct Vertex {
         bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm})) {}
 };
 
-/// The matter a path segment runs through.
-struct Medium {
-  bool absorbing = false;
-  SampledSpectrum absorption_per_m;
-
-  /// Attenuates the lanes over a distance [m], perhaps an infinite one, by Beer's law.
-  void attenuate(SampledSpectrum& throughput, float distance) const {
-    if (!absorbing) return;
-    // Where nothing is absorbed an infinite distance makes no difference.
-    throughput *= exp_of_negative(
-        SampledSpectrum::map(absorption_per_m, [distance](float a) { return a > 0 ? -a * distance : 0; }));
-  }
-};
-
-/// The matter behind a surface just crossed: the shape's own inside when `entering`, else air. Shapes do not
-/// nest.
-[[nodiscard]] inline Medium crossed_into(const Scene& scene, std::uint32_t shape, bool entering,
-                                         const SampledSpectrum& wavelengths_nm) {
-  const RefractiveIndex* index = entering ? interior(scene.materials[scene.shapes[shape].material]) : nullptr;
-  if (index == nullptr || !index->absorbing()) return {};
-  return {true, index->absorption_per_m(wavelengths_nm)};
-}
-
 /// Survival probability of Russian roulette, the same whichever lane is the hero: min(1, max(0.1, largest
 /// throughput)), where the throughput counts what refraction into glass takes off radiance as still there.
 /// [Marschner2021, sec. 14.4]

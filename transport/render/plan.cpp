@@ -173,7 +173,11 @@ Plan make_plan(const Scene& scene, int threads) {
             light_active,
             light_only,
             nominal_value(scene, emissions),
-            make_own_wavelengths(scene, emissions)};
+            make_own_wavelengths(scene, emissions),
+            around_camera(scene),
+            std::vector<Enclosures>(scene.lights.size())};
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
   plan.light_active = light_active && !plan.traced_lights.empty();
   if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
   if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed, threads);

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "spectral/wavelength_distribution.h"
 #include "transport/light/aim.h"
+#include "transport/path/medium.h"
 
 namespace abbe {
 
@@ -43,6 +44,8 @@ struct Plan {
   bool light_owns_all;                                  ///< The light tracer alone renders the scene.
   double nominal_value;                                 ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
+  Enclosures camera_inside;                             ///< Where camera paths start,
+  std::vector<Enclosures> light_inside;                 ///< and photons, per light.
 
   /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
   /// `wavelengths`.

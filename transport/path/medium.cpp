@@ -1,0 +1,93 @@
+#include "transport/path/medium.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "scene/ray.h"
+
+namespace abbe {
+namespace {
+
+bool filled(const Scene& scene, std::uint32_t shape) {
+  return interior(scene.materials[scene.shapes[shape].material]) != nullptr;
+}
+
+// How often more a ray leaves a shape than it enters it, and where it does so last.
+struct Crossings {
+  int exits = 0;
+  float last_exit = 0;
+};
+
+std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3f& from,
+                                             const Imath::V3f& direction) {
+  std::map<std::uint32_t, Crossings> found;
+  Ray ray{from, direction};
+  while (const std::optional<SurfaceHit> hit = scene.intersect(ray)) {
+    if (filled(scene, hit->shape)) {
+      Crossings& of = found[hit->shape];
+      const bool leaves = hit->normal.dot(direction) > 0;
+      of.exits += leaves ? 1 : -1;
+      if (leaves) of.last_exit = (hit->point - from).length();
+    }
+    ray = spawn(hit->point, hit->normal, direction);
+  }
+  return found;
+}
+
+}  // namespace
+
+void Enclosures::enter(std::uint32_t shape) {
+  const auto end = shapes_.begin() + static_cast<std::ptrdiff_t>(count_);
+  if (std::find(shapes_.begin(), end, shape) != end) return;
+  if (count_ == kMost) leave(shapes_.front());
+  shapes_[count_++] = shape;
+}
+
+void Enclosures::leave(std::uint32_t shape) {
+  const auto end = shapes_.begin() + static_cast<std::ptrdiff_t>(count_);
+  count_ = static_cast<std::size_t>(std::remove(shapes_.begin(), end, shape) - shapes_.begin());
+}
+
+Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
+  Enclosures inside;
+  bool any = false;
+  for (std::uint32_t i = 0; i < scene.shapes.size() && !any; ++i) any = filled(scene, i);
+  if (!any) return inside;
+  const Imath::V3f askew = Imath::V3f(0.3618F, 0.5119F, 0.7791F).normalized();
+  const auto ahead = crossings(scene, point, askew);
+  const auto behind = crossings(scene, point, -askew);
+  std::vector<std::pair<float, std::uint32_t>> around;
+  for (const auto& [shape, of] : ahead) {
+    const auto other = behind.find(shape);
+    if (of.exits > 0 && other != behind.end() && other->second.exits > 0)
+      around.emplace_back(of.last_exit, shape);
+  }
+  std::sort(around.rbegin(), around.rend());  // from the outermost
+  for (const auto& [exit, shape] : around) inside.cross(shape, true);
+  return inside;
+}
+
+Enclosures around_camera(const Scene& scene) {
+  if (const auto* lens = std::get_if<LensCamera>(&scene.camera.kind))
+    return enclosing(scene, Imath::V3f(lens->frame.position));
+  const auto& probe = std::get<IrradianceProbe>(scene.camera.kind);
+  const Imath::V3f middle(probe.corner + (probe.edge_u + probe.edge_v) * 0.5);
+  const Imath::V3f normal(probe.normal);
+  return enclosing(scene, offset_point(middle, normal, normal));
+}
+
+Enclosures around_light(const Scene& scene, const Light& light) {
+  if (light.is_environment()) return {};
+  const EmissionPoint at = sample_emission_point(light, scene.shapes, {0.5F, 0.5F});
+  return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
+}
+
+Medium medium_within(const Scene& scene, const Enclosures& inside, const SampledSpectrum& wavelengths_nm) {
+  if (inside.empty()) return {};
+  const RefractiveIndex* index = interior(scene.materials[scene.shapes[inside.innermost()].material]);
+  if (index == nullptr || !index->absorbing()) return {};
+  return {true, index->absorption_per_m(wavelengths_nm)};
+}
+
+}  // namespace abbe

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "scene/scene.h"
+#include "spectral/packet.h"
+
+namespace abbe {
+
+/// The closed shapes filled with matter that a point of a path lies in, outermost first. What is around the
+/// point is the innermost one's matter, or air where there is none.
+class Enclosures {
+ public:
+  /// Of more than this many the outermost are forgotten.
+  static constexpr std::size_t kMost = 16;
+
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  /// Not of air.
+  [[nodiscard]] std::uint32_t innermost() const { return shapes_[count_ - 1]; }
+  [[nodiscard]] std::span<const std::uint32_t> shapes() const { return {shapes_.data(), count_}; }
+
+  /// The path crosses the surface of `shape`, which it comes to be inside of or leaves. Where it is already,
+  /// as through a surface that is not closed, nothing changes.
+  void cross(std::uint32_t shape, bool entering) {
+    if (entering)
+      enter(shape);
+    else
+      leave(shape);
+  }
+
+ private:
+  void enter(std::uint32_t shape);
+  void leave(std::uint32_t shape);
+
+  std::array<std::uint32_t, kMost> shapes_{};
+  std::size_t count_ = 0;
+};
+
+/// Those around a point in the scene, found along a ray from there and its opposite: a shape encloses the
+/// point if both leave it more often than they enter.
+[[nodiscard]] Enclosures enclosing(const Scene& scene, const Imath::V3f& point);
+/// Around where a scene's camera stands, its lens or the middle of its probe, and around where a light does:
+/// neither may stand in two matters at once.
+[[nodiscard]] Enclosures around_camera(const Scene& scene);
+[[nodiscard]] Enclosures around_light(const Scene& scene, const Light& light);
+
+/// The matter a path segment runs through, at the path's wavelengths.
+struct Medium {
+  bool absorbing = false;
+  SampledSpectrum absorption_per_m;
+
+  /// Attenuates the lanes over a distance [m], perhaps an infinite one, by Beer's law.
+  void attenuate(SampledSpectrum& throughput, float distance) const {
+    if (!absorbing) return;
+    // Where nothing is absorbed an infinite distance makes no difference.
+    throughput *= exp_of_negative(
+        SampledSpectrum::map(absorption_per_m, [distance](float a) { return a > 0 ? -a * distance : 0; }));
+  }
+};
+
+/// What is inside them.
+[[nodiscard]] Medium medium_within(const Scene& scene, const Enclosures& inside,
+                                   const SampledSpectrum& wavelengths_nm);
+
+}  // namespace abbe
