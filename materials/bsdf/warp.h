@@ -8,6 +8,12 @@
 
 namespace abbe {
 
+/// Unit vector of the given cosine to z and azimuth [rad].
+[[nodiscard]] inline Imath::V3f direction_at(double cos_theta, double phi) {
+  const double sin_theta = std::sqrt(std::max(0.0, (1 - cos_theta) * (1 + cos_theta)));
+  return Imath::V3f(Imath::V3d(sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta));
+}
+
 /// Sine and cosine of an angle within an eighth of a turn either way, by their series to float precision.
 struct SineCosine {
   float sine, cosine;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "materials/bsdf/bsdf.h"
@@ -10,6 +12,23 @@ namespace abbe {
 /// compile before its newest member has them.
 template <typename Model>
 std::vector<Model> examples();
+
+/// How far from 1 what leaves may be in all, if nothing is absorbed; nothing for matter that absorbs.
+template <typename Model>
+std::optional<double> lossless_within(const Model& /*model*/) {
+  return std::nullopt;
+}
+template <>
+inline std::optional<double> lossless_within(const DielectricBsdf& /*model*/) {
+  return 1e-3;
+}
+template <>
+inline std::optional<double> lossless_within(const CoatedDielectricBsdf& model) {
+  const auto& films = model.coating->matters;
+  const bool absorbing = std::any_of(films.begin(), films.end(),
+                                     [](const Coating::Matter& matter) { return matter.index.absorbing(); });
+  return absorbing ? std::nullopt : std::optional(1e-3);
+}
 
 inline SampledSpectrum ramp(float first, float last) {
   SampledSpectrum::Values s;

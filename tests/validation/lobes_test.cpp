@@ -1,0 +1,130 @@
+// The lab's instruments must be able to see a fault.
+#include "validation/lab/lobes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/warp.h"
+#include "validation/lab/sphere_cells.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3f;
+
+constexpr double kPi = std::numbers::pi;
+
+std::optional<BsdfSample> event(const V3f& wi) {
+  return BsdfSample{.wi = wi, .weight = {}, .pdf = 1};
+}
+
+TEST(SphereCells, CoverTheSphereOnce) {
+  std::vector<V3f> narrow;
+  for (int i = 0; i < 10000; ++i) {
+    const double angle = 1e-3 * std::sqrt((i + 0.5) / 10000);
+    narrow.push_back(direction_at(std::cos(angle), 2.4 * i));
+  }
+  const SphereCells cells(narrow, 100);
+  EXPECT_GT(cells.count(), 200);
+  double area = 0;
+  for (const double part : cells.integrate([](const V3f&) { return 1.0; })) area += part;
+  EXPECT_NEAR(area, 4 * kPi, 1e-9);
+  std::vector<int> held(cells.count(), 0);
+  for (const V3f& w : narrow) ++held[cells.of(w)];
+  for (const int h : held) EXPECT_LE(h, 100);
+}
+
+TEST(SphereCells, IntegrateALobeAsNarrowAsANeedle) {
+  // A Gaussian of 1e-3 about the pole, in the plane of its tangent.
+  const double sigma = 1e-3;
+  std::vector<V3f> guides;
+  for (int i = 0; i < 20000; ++i) {
+    const double radius = sigma * std::sqrt(-2 * std::log((i + 0.5) / 20000));
+    guides.push_back(direction_at(std::sqrt(1 - radius * radius), 2.39996 * i));
+  }
+  const SphereCells cells(guides, 50);
+  double total = 0;
+  for (const double part : cells.integrate([&](const V3f& w) {
+         const double r2 = static_cast<double>(w.x) * w.x + static_cast<double>(w.y) * w.y;
+         return w.z > 0 ? std::exp(-r2 / (2 * sigma * sigma)) / (2 * kPi * sigma * sigma) * w.z : 0.0;
+       }))
+    total += part;
+  EXPECT_NEAR(total, 1, 1e-3);
+}
+
+// Directions even over a hemisphere against densities that are and are not.
+TEST(CheckDensity, SeesAFewPerCentOfTilt) {
+  const LobeSampler uniform = [](const BsdfRandom& u, int) {
+    return event(
+        direction_at(static_cast<double>(u.direction.x), 2 * kPi * static_cast<double>(u.direction.y)));
+  };
+  const auto flat = [](const V3f& w) { return w.z > 0 ? 0.5 / kPi : 0.0; };
+  const DensityCheck good = check_density(uniform, flat, 0);
+  EXPECT_GT(good.p, 1e-3);
+  EXPECT_NEAR(good.integral, 1, 1e-9);
+  EXPECT_LT(check_density(
+                uniform, [](const V3f& w) { return std::max(0.0F, w.z) / kPi; }, 0)
+                .p,
+            1e-12);
+  EXPECT_LT(check_density(
+                uniform, [&](const V3f& w) { return flat(w) * (1 + 0.05 * w.x); }, 0)
+                .p,
+            1e-6);
+}
+
+TEST(CheckDensity, SeesEventsThatAreMissing) {
+  const LobeSampler some = [](const BsdfRandom& u, int) -> std::optional<BsdfSample> {
+    if (u.lobe < 0.02F) return std::nullopt;
+    return event(cosine_hemisphere(u.direction));
+  };
+  const auto lambert = [](const V3f& w) { return std::max(0.0F, w.z) / kPi; };
+  EXPECT_LT(check_density(some, lambert, 0).p, 1e-12);
+  EXPECT_GT(check_density(
+                some, [&](const V3f& w) { return 0.98 * lambert(w); }, 0)
+                .p,
+            1e-3);
+}
+
+TEST(Albedo, SeesLanesLeftOutOfTheBalance) {
+  SampledSpectrum::Values n;
+  for (std::size_t j = 0; j < kLanes; ++j) n[j] = 1.45F + 0.06F * static_cast<float>(j);
+  const DielectricBsdf glass{SampledSpectrum(n), true};
+  const V3f wo = direction_at(0.4, 0);
+  const auto worst = [&](auto spoil) {
+    const Albedo all = albedo(
+        [&](const BsdfRandom& u, int hero) {
+          auto s = glass.sample(wo, u, hero, TransportMode::power);
+          spoil(*s, hero);
+          return s;
+        },
+        wo);
+    double error = 0;
+    for (int j = 0; j < kLanes; ++j) error = std::max(error, std::abs(all.total(j) - 1));
+    return error;
+  };
+  EXPECT_LT(worst([](BsdfSample&, int) {}), 1e-3);
+  EXPECT_GT(worst([](BsdfSample& s, int) { s.lane_pdf = SampledSpectrum(1); }), 0.01);
+  EXPECT_GT(worst([](BsdfSample& s, int hero) {
+              if (!s.transmitted) s.weight = SampledSpectrum::only(hero, s.weight[hero]);
+            }),
+            0.01);
+}
+
+TEST(Albedo, TellsReflectionFromTransmission) {
+  const DielectricBsdf glass{SampledSpectrum(1.5F), false};
+  const V3f wo(0, 0, -1);
+  const Albedo all = albedo(sampler_of(glass, wo, TransportMode::power), wo, 1 << 14);
+  EXPECT_NEAR(all.reflected[2].mean, 0.04, 2e-4);
+  EXPECT_NEAR(all.transmitted[2].mean, 0.96, 2e-4);
+}
+
+TEST(Reciprocity, OfLambertIsExact) {
+  const Asymmetry error = reciprocity_error(DiffuseBsdf{SampledSpectrum(0.5F)});
+  EXPECT_EQ(error.largest, 0);
+  EXPECT_EQ(error.mean, 0);
+}
+
+}  // namespace
+}  // namespace abbe

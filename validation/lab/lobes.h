@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "materials/bsdf/bsdf.h"
+#include "validation/lab/sphere_cells.h"
+#include "validation/statistics/equivalence.h"
+
+namespace abbe {
+
+/// Scattering seen from one direction, as sampling gives it.
+using LobeSampler = std::function<std::optional<BsdfSample>(const BsdfRandom& u, int hero)>;
+
+/// That of a model.
+[[nodiscard]] LobeSampler sampler_of(const Bsdf& bsdf, const Imath::V3f& wo, TransportMode mode);
+
+/// How well samples follow a density.
+struct DensityCheck {
+  double p;         ///< Probability of samples at least as far from the density, were they drawn from it.
+  double integral;  ///< Of the density over the sphere: the probability of an event that is not delta.
+};
+/// Chi-square of the events of `sampler` that are not delta against `density`, over cells refined by other
+/// samples; what expects fewer than 5 is pooled, and what sends nothing, or a delta event, counts as a cell.
+[[nodiscard]] DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero,
+                                         int samples = 200000, std::uint64_t seed = 0);
+
+/// What leaves of light that arrives along `wo`: the directional-hemispherical reflectance and transmittance,
+/// lane by lane, by the balanced estimator with a hero drawn evenly. Photons carry it (TransportMode::power),
+/// so that lossless matter sends 1 in all.
+struct Albedo {
+  std::array<Estimate, kLanes> reflected;
+  std::array<Estimate, kLanes> transmitted;
+
+  [[nodiscard]] double total(int lane) const {
+    const auto i = static_cast<std::size_t>(lane);
+    return reflected[i].mean + transmitted[i].mean;
+  }
+};
+[[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
+                            std::uint64_t seed = 0);
+
+/// How far a model is from being symmetric, over pairs of directions it connects.
+struct Asymmetry {
+  double largest;  ///< Of |f(a, b) - f(b, a)| / max(f(a, b), f(b, a)), counting only pairs that matter.
+  double mean;     ///< Of |f(a, b) - f(b, a)| over that of f(a, b) + f(b, a) halved.
+};
+/// Of Helmholtz's reciprocity: f(a, b) = f(b, a), and f/n^2 of the side light leaves to, across the surface.
+[[nodiscard]] Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
+/// Of what camera paths see, f(a, b) of radiance, and what photons do on the same way, f(b, a) of power: 0
+/// for every model, reciprocal or not.
+[[nodiscard]] Asymmetry adjoint_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
+
+}  // namespace abbe
