@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
+#include "cli/commands.h"
 #include "cli/usage.h"
 
 namespace abbe::cli {

@@ -177,6 +177,22 @@ Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples, std
   return result;
 }
 
+std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int hero, TransportMode mode) {
+  constexpr int kChoices = 64;
+  constexpr float kLast = 0x1.fffffep-1F;
+  std::vector<BsdfSample> events;
+  for (int i = 0; i <= kChoices; ++i) {
+    const float lobe = std::min(static_cast<float>(i) / kChoices, kLast);
+    const auto s = sample(bsdf, wo, {lobe, {0.5F, 0.5F}}, hero, mode);
+    if (!s || !s->delta) continue;
+    const bool known = std::any_of(events.begin(), events.end(), [&](const BsdfSample& event) {
+      return event.wi == s->wi && event.pdf == s->pdf;
+    });
+    if (!known) events.push_back(*s);
+  }
+  return events;
+}
+
 Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs, std::uint64_t seed) {
   const auto forth = [&](const Imath::V3f& a, const Imath::V3f& b) {
     return eval(bsdf, a, b, TransportMode::power);

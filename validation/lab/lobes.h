@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "materials/bsdf/bsdf.h"
 #include "validation/lab/sphere_cells.h"
@@ -41,6 +42,11 @@ struct Albedo {
 };
 [[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
                             std::uint64_t seed = 0);
+
+/// The single directions light leaves in, each with its probability and weights, by trying choices of lobe:
+/// an event that fewer than one in 64 choices lead to may be missed in the midst of others.
+[[nodiscard]] std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int hero,
+                                                   TransportMode mode);
 
 /// How far a model is from being symmetric, over pairs of directions it connects.
 struct Asymmetry {

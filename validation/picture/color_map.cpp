@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "calibration/output/color_spaces.h"
+#include <vector>
 
 namespace abbe {
 namespace {
@@ -12,9 +11,7 @@ namespace {
 constexpr std::size_t kSteps = 256;
 
 LinearRgb linear_rgb_of(double lightness, double chroma, double hue) {
-  static const Matrix3 from_xyz = rgb_to_xyz(kRec709).inverse();
-  return multiply(from_xyz,
-                  lab_to_xyz({lightness, chroma * std::cos(hue), chroma * std::sin(hue)}, unit_xyz(kD65)));
+  return linear_rgb({lightness, chroma * std::cos(hue), chroma * std::sin(hue)});
 }
 
 bool displayable(const LinearRgb& rgb) {
@@ -32,11 +29,6 @@ double gamut_chroma(double lightness, double hue) {
   return low;
 }
 
-// The transfer function of IEC 61966-2-1.
-double code_value(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
 DisplayColor computed_color(double share) {
   constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kFirstHue = -75 * kDegree;  // blue; the turn passes red at 30 degrees
@@ -46,9 +38,7 @@ DisplayColor computed_color(double share) {
   const double lightness = 12 + 80 * share;
   const double hue = kFirstHue + (kLastHue - kFirstHue) * share;
   const double chroma = std::min(kMostChroma, kShareOfGamut * gamut_chroma(lightness, hue));
-  DisplayColor color = linear_rgb_of(lightness, chroma, hue);
-  for (double& v : color) v = code_value(v);
-  return color;
+  return display_code(linear_rgb_of(lightness, chroma, hue));
 }
 
 }  // namespace

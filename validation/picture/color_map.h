@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
 #include <span>
-#include <vector>
 
 #include "io/image.h"
+#include "validation/picture/display_color.h"
 
 namespace abbe {
-
-/// sRGB code values, each in [0, 1].
-using DisplayColor = std::array<double, 3>;
 
 /// A colour for a share in [0, 1] of a scale, clamped there: CIE 1976 lightness grows evenly from 12 to 92
 /// while hue turns from blue over red to yellow, at most of what chroma sRGB has there, so that order shows

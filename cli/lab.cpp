@@ -1,0 +1,107 @@
+#include "cli/lab.h"
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "io/atomic_file.h"
+#include "io/picture.h"
+#include "scene/description/load_material.h"
+#include "spectral/library.h"
+#include "validation/lab/map.h"
+#include "validation/lab/measure.h"
+#include "validation/lab/plot.h"
+
+namespace abbe::cli {
+namespace {
+
+LabSettings settings_of(const LabOptions& options) {
+  Diagnostics diagnostics;
+  NamedCurve illuminant = accepted(load_illuminant(options.illuminant, {}, diagnostics), diagnostics);
+  return {options.at_nm,    options.angles_deg, options.inside, std::move(illuminant.curve),
+          options.observer, options.samples};
+}
+
+Json means(const std::vector<Estimate>& estimates) {
+  Json list = Json::array();
+  for (const Estimate& e : estimates) list.push_back(e.mean);
+  return list;
+}
+
+Json errors(const std::vector<Estimate>& estimates) {
+  Json list = Json::array();
+  for (const Estimate& e : estimates) list.push_back(e.standard_error);
+  return list;
+}
+
+// One row per angle.
+Json rows_of(const LabReport& report) {
+  Json rows = Json::array();
+  for (const LabAngle& at : report.angles)
+    rows.push_back({{"angle_deg", at.angle_deg},
+                    {"R", means(at.reflected)},
+                    {"R_error", errors(at.reflected)},
+                    {"T", means(at.transmitted)},
+                    {"T_error", errors(at.transmitted)},
+                    {"reflected_Lab", at.reflected_color},
+                    {"transmitted_Lab", at.transmitted_color},
+                    {"sampling_p", at.sampling_p},
+                    {"spread", at.spread_integral}});
+  return rows;
+}
+
+Json answer_of(const std::string& name, const LabOptions& options, const LabReport& report) {
+  return {{"name", name},
+          {"wavelength_nm", options.at_nm},
+          {"side", options.inside ? "inside" : "outside"},
+          {"illuminant", options.illuminant},
+          {"single_directions", report.lobes.delta},
+          {"spread_directions", report.lobes.spread},
+          {"dispersive", report.dispersive},
+          {"reciprocity_error_max", report.reciprocity.largest},
+          {"reciprocity_error_mean", report.reciprocity.mean},
+          {"energy_max", report.most_energy},
+          {"angles", rows_of(report)}};
+}
+
+std::string cells(const std::vector<Estimate>& estimates) {
+  std::string all;
+  for (const Estimate& e : estimates) all += fmt::format("{:>10.6f}", e.mean);
+  return all;
+}
+
+void print_table(const Json& answer, const LabOptions& options, const LabReport& report) {
+  Json head = answer;
+  head.erase("angles");
+  head.erase("wavelength_nm");
+  print(head, false);
+  const auto columns = [&](const char* what) {
+    std::string all;
+    for (const double nm : options.at_nm) all += fmt::format("{:>10}", fmt::format("{}({:g})", what, nm));
+    return all;
+  };
+  fmt::print("\n{:>7}{}{}   L*     a*     b*   sampling p\n", "angle", columns("R"), columns("T"));
+  for (const LabAngle& at : report.angles)
+    fmt::print("{:>7g}{}{}{:>7.2f}{:>7.2f}{:>7.2f}   {}\n", at.angle_deg, cells(at.reflected),
+               cells(at.transmitted), at.reflected_color[0], at.reflected_color[1], at.reflected_color[2],
+               report.lobes.spread ? fmt::format("{:.3f}", at.sampling_p) : "-");
+}
+
+}  // namespace
+
+int lab(const LabOptions& options) {
+  Diagnostics diagnostics;
+  const Material material = accepted(load_material(options.material, diagnostics), diagnostics);
+  const LabSettings settings = settings_of(options);
+  const LabReport report = measure(material, settings);
+  const Json answer = answer_of(material.name, options, report);
+  if (!options.plot.empty())
+    write_atomically(options.plot, lobe_plot(material, settings, report, material.name));
+  if (!options.map.empty()) write_picture(options.map, lobe_map(material, settings));
+  if (options.json)
+    print(answer, true);
+  else
+    print_table(answer, options, report);
+  return 0;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,135 @@
+#include "cli/matter_commands.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/command_options.h"
+#include "cli/lab.h"
+#include "cli/query.h"
+
+namespace abbe::cli {
+namespace {
+
+void add_at(CLI::App& app, std::vector<double>& at_nm) {
+  add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air", "NM[,NM...]")
+      ->required();
+}
+
+constexpr const char* kMaterialHelp = "Material, FILE.csv or FILE.yml of refractiveindex.info";
+
+Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
+                                  Command& command, int (*run)(const IndexOptions&)) {
+  Sub<IndexOptions> sub(query, name, help, command, run);
+  sub.app->add_option("name", sub->name, kMaterialHelp)->required()->type_name("MATERIAL");
+  add_at(*sub.app, sub->at_nm);
+  add_json(*sub.app, sub->json);
+  return sub;
+}
+
+void add_matter_queries(CLI::App& query, Command& command) {
+  const Sub<IndexOptions> ior =
+      add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
+  add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
+             "Also tell the internal transmittance of that many millimetres", "MM");
+  add_index_query(query, "critical", "Critical angle from inside", command, query_critical);
+  add_index_query(query, "brewster", "Brewster's angle from outside", command, query_brewster);
+
+  const Sub<ReflectanceOptions> reflectance(query, "reflectance", "Reflectance of a polished surface in air",
+                                            command, query_reflectance);
+  reflectance.app->add_option("name", reflectance->name, kMaterialHelp)->required()->type_name("MATERIAL");
+  add_at(*reflectance.app, reflectance->at_nm);
+  add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
+             "Angles of incidence (default 0)", "DEG[,DEG...]");
+  reflectance.app
+      ->add_option("--coating", reflectance->coating,
+                   "Thin films on it, from outside inwards; T is then told too")
+      ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
+  add_json(*reflectance.app, reflectance->json);
+
+  const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
+                                query_prism);
+  prism.app->add_option("name", prism->name, kMaterialHelp)->required()->type_name("MATERIAL");
+  add_at(*prism.app, prism->at_nm);
+  add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
+      ->required();
+  add_parsed(*prism.app, "--incidence", prism->incidence_deg, number_in(-90 + 1e-6, 90 - 1e-6),
+             "Incidence at the first face (default: least deviation)", "DEG");
+  add_json(*prism.app, prism->json);
+}
+
+void add_color_queries(CLI::App& query, Command& command) {
+  const Sub<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
+                                query_color);
+  color.app->add_option("--illuminant", color->illuminant, "Illuminant, blackbody:K or daylight:K")
+      ->required()
+      ->type_name("ILLUMINANT");
+  add_parsed(*color.app, "--observer", color->observer, one_of<Observer>({"1931", "1964"}),
+             "Standard observer (default 1931)", "1931|1964");
+  color.app
+      ->add_option("--reflectance", color->reflectance, "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->type_name("REFLECTANCE");
+  add_json(*color.app, color->json);
+
+  const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
+  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_triple, "First colour", "L,a,b")->required();
+  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_triple, "Second colour", "L,a,b")->required();
+  add_json(*delta_e.app, delta_e->json);
+
+  const Sub<CameraOptions> camera(query, "camera", "Raw values of a camera, green of the perfect diffuser 1",
+                                  command, query_camera);
+  camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("CAMERA");
+  camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
+      ->required()
+      ->type_name("ILLUMINANT");
+  camera.app
+      ->add_option("--reflectance", camera->reflectance,
+                   "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->type_name("REFLECTANCE");
+  add_json(*camera.app, camera->json);
+}
+
+}  // namespace
+
+void add_query(CLI::App& app, Command& command) {
+  CLI::App* query = app.add_subcommand("query", "Ask the data and the closed forms");
+  auto options = std::make_shared<ListOptions>();
+  CLI::Option* list =
+      query->add_option("--list", options->kind, "List the names of all kinds of data, or of one")
+          ->expected(0, 1)
+          ->type_name("[KIND]");
+  query->add_flag("--json", options->json, "Print the list as one JSON object")->needs(list);
+  add_matter_queries(*query, command);
+  add_color_queries(*query, command);
+  query->callback([query, list, options, &command] {
+    if (!query->get_subcommands().empty()) return;
+    if (list->count() == 0) throw CLI::RequiredError("query: a question or --list");
+    command = [options] { return query_list(*options); };
+  });
+}
+
+void add_lab(CLI::App& app, Command& command) {
+  const Sub<LabOptions> sub(app, "lab", "Measure how a material scatters", command, lab);
+  CLI::App& options = *sub.app;
+  options
+      .add_option("material", sub->material,
+                  "Scene file and name of one of its materials, a file of one material, or its JSON")
+      ->required()
+      ->type_name("FILE.json[:NAME]|JSON");
+  add_parsed(options, "--at", sub->at_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
+             "Wavelengths in standard air (default 450,550,650)", "NM[,NM...]");
+  add_parsed(options, "--angle", sub->angles_deg, numbers_in(0, 89.9),
+             "Angles of incidence (default 0,15,30,45,60,75,85)", "DEG[,DEG...]");
+  options.add_flag("--inside", sub->inside, "Let the beam come from within");
+  options.add_option("--illuminant", sub->illuminant, "Illuminant of the colours (default D65)")
+      ->type_name("ILLUMINANT");
+  add_parsed(options, "--observer", sub->observer, one_of<Observer>({"1931", "1964"}),
+             "Standard observer (default 1931)", "1931|1964");
+  add_parsed(options, "--samples", sub->samples, integer_in<int>(256, kMaxSamples),
+             "Samples per angle and eight wavelengths (default 8192)", "N");
+  options.add_option("--plot", sub->plot, "Write polar plots of the lobes")->type_name("FILE.svg");
+  options.add_option("--map", sub->map, "Write pictures of the hemispheres")->type_name("FILE.png");
+  add_json(options, sub->json);
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+
+namespace abbe::cli {
+
+/// `abbe query` with all its questions.
+void add_query(CLI::App& app, Command& command);
+/// `abbe lab`.
+void add_lab(CLI::App& app, Command& command);
+
+}  // namespace abbe::cli

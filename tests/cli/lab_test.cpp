@@ -1,0 +1,117 @@
+#include "cli/lab.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "cli/query.h"
+#include "io/picture.h"
+#include "tests/cli/ask.h"
+#include "tests/cli/program.h"
+
+namespace abbe {
+namespace {
+
+using test::ask;
+using test::fault;
+using test::json;
+using test::scratch;
+
+cli::LabOptions about(const std::string& material) {
+  cli::LabOptions options;
+  options.material = material;
+  options.samples = 1024;
+  return options;
+}
+
+TEST(Lab, SmoothGlassIsFresnelsToTheLastDigitOfFloat) {
+  cli::LabOptions options = about(R"({"dielectric": {"ior": "N-BK7"}})");
+  options.at_nm = {450, 550};
+  options.angles_deg = {0, 60};
+  const json lab = ask(cli::lab, options);
+  const json exact = ask(cli::query_reflectance, {"N-BK7", options.at_nm, options.angles_deg});
+  for (std::size_t angle : {0U, 1U})
+    for (std::size_t nm : {0U, 1U}) {
+      const double R = lab["angles"][angle]["R"][nm].get<double>();
+      EXPECT_NEAR(R, exact["R"][nm][angle].get<double>(), 2e-7);
+      EXPECT_NEAR(R + lab["angles"][angle]["T"][nm].get<double>(), 1, 2e-7);
+    }
+  EXPECT_EQ(lab["single_directions"], true);
+  EXPECT_EQ(lab["spread_directions"], false);
+  EXPECT_EQ(lab["dispersive"], true);
+}
+
+// From inside, 60 degrees lie beyond the critical angle.
+TEST(Lab, LooksFromWithinToo) {
+  cli::LabOptions options = about(R"({"dielectric": {"ior": 1.5}})");
+  options.inside = true;
+  options.angles_deg = {0, 60};
+  const json lab = ask(cli::lab, options);
+  EXPECT_NEAR(lab["angles"][0]["R"][0].get<double>(), 0.04, 1e-7);
+  EXPECT_EQ(lab["angles"][1]["R"][0], 1);
+  EXPECT_EQ(lab["angles"][1]["T"][0], 0);
+}
+
+TEST(Lab, PaintHasItsReflectanceAndColour) {
+  const json lab = ask(cli::lab, about(R"({"diffuse": {"reflectance": 0.5}})"));
+  for (const json& row : lab["angles"]) {
+    EXPECT_NEAR(row["R"][1].get<double>(), 0.5, 1e-6);
+    EXPECT_EQ(row["T"][1], 0);
+    EXPECT_NEAR(row["reflected_Lab"][0].get<double>(), 76.0693, 1e-3);  // 116 cbrt(0.5) - 16
+    EXPECT_NEAR(row["reflected_Lab"][1].get<double>(), 0, 1e-4);
+    EXPECT_GT(row["sampling_p"].get<double>(), 1e-4);
+    EXPECT_NEAR(row["spread"].get<double>(), 1, 1e-4);
+  }
+  EXPECT_EQ(lab["reciprocity_error_max"], 0);
+  EXPECT_NEAR(lab["energy_max"].get<double>(), 0.5, 1e-6);
+}
+
+TEST(Lab, TakesAMaterialOutOfAScene) {
+  const auto scene = scratch().write(
+      "two.json",
+      R"({"materials": {"a": {"diffuse": {"reflectance": 0.2}}, "b": {"diffuse": {"reflectance": 0.7}}}})");
+  const json lab = ask(cli::lab, about(scene.string() + ":b"));
+  EXPECT_EQ(lab["name"], "b");
+  EXPECT_NEAR(lab["energy_max"].get<double>(), 0.7, 1e-6);
+  const auto one = scratch().write("one.json", R"({"diffuse": {"reflectance": 0.3}})");
+  EXPECT_NEAR(ask(cli::lab, about(one.string()))["energy_max"].get<double>(), 0.3, 1e-6);
+}
+
+TEST(Lab, SaysWhatIsWrongWithAMaterial) {
+  const auto scene = scratch().write(
+      "two.json",
+      R"({"materials": {"a": {"diffuse": {"reflectance": 0.2}}, "b": {"diffuse": {"reflectance": 0.7}}}})");
+  const auto of = [](const std::string& words) { return [words] { (void)cli::lab(about(words)); }; };
+  EXPECT_EQ(fault(of(scene.string()), "several materials: add :NAME, one of a, b"), ErrorCode::scene);
+  EXPECT_EQ(fault(of(scene.string() + ":c"), "unknown material \"c\""), ErrorCode::scene);
+  EXPECT_EQ(fault(of(R"({"diffuse": {"reflectance": 1.5}})"), "MATERIAL:1:29: /diffuse/reflectance"),
+            ErrorCode::scene);
+  EXPECT_EQ(fault(of("nowhere.json"), "nowhere.json"), ErrorCode::input);
+  EXPECT_EQ(fault(of(R"({"diffuse": )"), "MATERIAL:1"), ErrorCode::scene);
+}
+
+TEST(Lab, DrawsLobesAndHemispheres) {
+  cli::LabOptions options = about(R"({"diffuse": {"reflectance": 0.5}})");
+  options.angles_deg = {0, 45};
+  options.plot = scratch() / "lobes.svg";
+  options.map = scratch() / "lobes.png";
+  (void)ask(cli::lab, options);
+  const std::string svg = test::read_file(options.plot);
+  std::size_t lines = 0;
+  for (std::size_t at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 2 * 3);  // angles by wavelengths
+  const Image map = read_picture(options.map);
+  ASSERT_EQ(map.width, 2 * 96);
+  ASSERT_EQ(map.height, 2 * 96);
+  const auto green = [&](int x, int y) {
+    return map.channels[1].values[static_cast<std::size_t>(y * map.width + x)];
+  };
+  EXPECT_NEAR(green(48, 48), 1, 0.01);  // cos: brightest along the normal
+  EXPECT_LT(green(48, 4), 0.5);         // and dark at the rim
+  EXPECT_GT(green(48, 4), 0.05);
+  EXPECT_EQ(green(48, 96 + 48), 0);  // nothing passes
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,98 @@
+#include "validation/lab/map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "materials/bsdf/warp.h"
+#include "validation/picture/display_color.h"
+
+namespace abbe {
+namespace {
+
+constexpr int kDisc = 96;  // edge of a disc [pixels]
+
+// The material at packets of wavelengths that cover the visible, with what each lane adds to XYZ, 1 for the
+// perfect mirror's Y.
+class Eye {
+ public:
+  Eye(const Material& material, const LabSettings& settings) {
+    std::vector<double> visible;
+    for (double nm = 390; nm <= 730; nm += 10) visible.push_back(nm);
+    for (std::size_t first = 0; first < visible.size(); first += kLanes)
+      packets_.push_back(packet_of(visible, first));
+    for (const SampledSpectrum& packet : packets_) models_.push_back(make_bsdf(material, {packet}));
+    const ColorMatching& eye = color_matching(settings.observer);
+    for (const double nm : visible) {
+      const double light = settings.illuminant(nm);
+      weights_.push_back({light * eye.x(nm), light * eye.y(nm), light * eye.z(nm)});
+      for (std::size_t k = 0; k < 3; ++k) white_[k] += weights_.back()[k];
+    }
+  }
+
+  // Of f cos.
+  [[nodiscard]] XYZ see(const Imath::V3f& wo, const Imath::V3f& wi) const {
+    XYZ xyz{};
+    for (std::size_t p = 0; p < models_.size(); ++p) {
+      const SampledSpectrum f = eval(models_[p], wo, wi, TransportMode::power) * std::abs(wi.z);
+      for (std::size_t j = 0; j < kLanes && p * kLanes + j < weights_.size(); ++j)
+        for (std::size_t k = 0; k < 3; ++k)
+          xyz[k] += static_cast<double>(f[static_cast<int>(j)]) * weights_[p * kLanes + j][k];
+    }
+    return xyz;
+  }
+  [[nodiscard]] const XYZ& white() const { return white_; }
+
+ private:
+  std::vector<SampledSpectrum> packets_;
+  std::vector<Bsdf> models_;
+  std::vector<XYZ> weights_;
+  XYZ white_{};
+};
+
+// Direction by its place in an equal-area disc, x and y in [-1, 1]; nothing outside.
+std::optional<Imath::V3f> from_disc(double x, double y, bool above) {
+  const double r2 = x * x + y * y;
+  if (r2 >= 1) return std::nullopt;
+  return direction_at(above ? 1 - r2 : r2 - 1, std::atan2(y, x));
+}
+
+// Two discs, one above the other.
+std::vector<XYZ> column(const Eye& eye, const Imath::V3f& wo) {
+  std::vector<XYZ> colors;
+  for (int y = 0; y < 2 * kDisc; ++y)
+    for (int x = 0; x < kDisc; ++x) {
+      const bool same_side = y < kDisc;
+      const auto wi =
+          from_disc(2 * (x + 0.5) / kDisc - 1, 1 - 2 * (y % kDisc + 0.5) / kDisc, same_side == (wo.z > 0));
+      colors.push_back(wi ? eye.see(wo, *wi) : XYZ{});
+    }
+  return colors;
+}
+
+}  // namespace
+
+Image lobe_map(const Material& material, const LabSettings& settings) {
+  const Eye eye(material, settings);
+  const int columns = static_cast<int>(settings.angles_deg.size());
+  Image map{columns * kDisc, 2 * kDisc, {}, {}};
+  for (const char* name : {"R", "G", "B"})
+    map.channels.push_back({name, std::vector<float>(map.pixels(), 0.0F)});
+  for (int i = 0; i < columns; ++i) {
+    const std::vector<XYZ> colors =
+        column(eye, incidence(settings, settings.angles_deg[static_cast<std::size_t>(i)]));
+    double most = 0;
+    for (const XYZ& color : colors) most = std::max(most, color[1] / eye.white()[1]);
+    for (std::size_t pixel = 0; most > 0 && pixel < colors.size(); ++pixel) {
+      XYZ color = colors[pixel];
+      for (double& v : color) v /= most;
+      const DisplayColor code = display_code(linear_rgb(xyz_to_lab(color, eye.white())));
+      const std::size_t at = pixel / kDisc * static_cast<std::size_t>(map.width) +
+                             static_cast<std::size_t>(i) * kDisc + pixel % kDisc;
+      for (std::size_t k = 0; k < 3; ++k) map.channels[k].values[at] = static_cast<float>(code[k]);
+    }
+  }
+  return map;
+}
+
+}  // namespace abbe

@@ -1,0 +1,105 @@
+#include "validation/lab/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/warp.h"
+
+namespace abbe {
+namespace {
+
+// What matter without spread lobes sends on: nothing needs to be sampled.
+Albedo exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
+  Albedo all{};
+  for (int lane = 0; lane < kLanes; ++lane)
+    for (const BsdfSample& event : delta_events(bsdf, wo, lane, TransportMode::power)) {
+      auto& side = event.transmitted ? all.transmitted : all.reflected;
+      side[static_cast<std::size_t>(lane)].mean += static_cast<double>(event.pdf * event.weight[lane]);
+    }
+  return all;
+}
+
+// Reflectance and transmittance at many wavelengths, packet by packet.
+struct Spectra {
+  std::vector<Estimate> reflected, transmitted;
+};
+Spectra spectra(const Material& material, const std::vector<double>& wavelengths_nm, const Imath::V3f& wo,
+                int samples) {
+  Spectra all;
+  for (std::size_t first = 0; first < wavelengths_nm.size(); first += kLanes) {
+    const SampledSpectrum packet = packet_of(wavelengths_nm, first);
+    const Bsdf bsdf = make_bsdf(material, {packet});
+    const Albedo part = scatters(bsdf) ? albedo(sampler_of(bsdf, wo, TransportMode::power), wo, samples)
+                                       : exact_albedo(bsdf, wo);
+    for (std::size_t j = 0; j < kLanes && first + j < wavelengths_nm.size(); ++j) {
+      all.reflected.push_back(part.reflected[j]);
+      all.transmitted.push_back(part.transmitted[j]);
+    }
+  }
+  return all;
+}
+
+Curve curve_of(const std::vector<double>& wavelengths_nm, const std::vector<Estimate>& values) {
+  std::vector<Knot> knots;
+  for (std::size_t i = 0; i < values.size(); ++i) knots.push_back({wavelengths_nm[i], values[i].mean});
+  return Curve(std::move(knots));
+}
+
+Lab color_of(const Curve& spectrum, const LabSettings& settings) {
+  const XYZ white = tristimulus(settings.illuminant, Curve(1.0), settings.observer);
+  return xyz_to_lab(tristimulus(settings.illuminant, spectrum, settings.observer), white);
+}
+
+void add_colors(const Material& material, const Imath::V3f& wo, const LabSettings& settings, LabAngle& at) {
+  constexpr double kStep_nm = 10;
+  std::vector<double> visible;
+  for (double nm = SumRange{}.low_nm; nm <= SumRange{}.high_nm; nm += kStep_nm) visible.push_back(nm);
+  const Spectra found = spectra(material, visible, wo, std::max(settings.samples / 4, 256));
+  at.reflected_color = color_of(curve_of(visible, found.reflected), settings);
+  at.transmitted_color = color_of(curve_of(visible, found.transmitted), settings);
+}
+
+LabAngle measure_angle(const Material& material, const LabSettings& settings, double angle_deg) {
+  const Imath::V3f wo = incidence(settings, angle_deg);
+  Spectra found = spectra(material, settings.wavelengths_nm, wo, settings.samples);
+  LabAngle at{angle_deg, std::move(found.reflected), std::move(found.transmitted), {}, {}, 1, 0};
+  add_colors(material, wo, settings, at);
+  const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
+  const Bsdf bsdf = make_bsdf(material, {packet});
+  if (!scatters(bsdf)) return at;
+  const DensityCheck check = check_density(
+      sampler_of(bsdf, wo, TransportMode::radiance),
+      [&](const Imath::V3f& wi) { return static_cast<double>(pdf(bsdf, wo, wi)[0]); }, 0);
+  at.sampling_p = check.p;
+  at.spread_integral = check.integral;
+  return at;
+}
+
+}  // namespace
+
+Imath::V3f incidence(const LabSettings& settings, double angle_deg) {
+  const double cosine = std::cos(angle_deg * std::numbers::pi / 180);
+  return direction_at(settings.from_inside ? -cosine : cosine, std::numbers::pi);
+}
+
+SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first) {
+  SampledSpectrum::Values packet;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    packet[j] = static_cast<float>(wavelengths_nm[std::min(first + j, wavelengths_nm.size() - 1)]);
+  return SampledSpectrum(packet);
+}
+
+LabReport measure(const Material& material, const LabSettings& settings) {
+  LabReport report{lobes(material), is_dispersive(material), {}, {}, 0};
+  for (const double angle : settings.angles_deg)
+    report.angles.push_back(measure_angle(material, settings, angle));
+  const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
+  report.reciprocity = reciprocity_error(make_bsdf(material, {packet}));
+  for (const LabAngle& at : report.angles)
+    for (std::size_t i = 0; i < at.reflected.size(); ++i)
+      report.most_energy = std::max(report.most_energy, at.reflected[i].mean + at.transmitted[i].mean);
+  return report;
+}
+
+}  // namespace abbe

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "materials/material.h"
+#include "spectral/colorimetry.h"
+#include "validation/lab/lobes.h"
+
+namespace abbe {
+
+/// How the bench looks at a material.
+struct LabSettings {
+  std::vector<double> wavelengths_nm{450, 550, 650};
+  std::vector<double> angles_deg{0, 15, 30, 45, 60, 75, 85};  ///< Of incidence, in [0, 90).
+  bool from_inside = false;                                   ///< Against the normal.
+  Curve illuminant;                                           ///< Relative, of the colours.
+  Observer observer = Observer::cie1931;
+  int samples = 1 << 13;  ///< Per angle and eight wavelengths.
+};
+
+/// What a beam at one angle turns into.
+struct LabAngle {
+  double angle_deg;
+  std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance, by wavelength.
+  std::vector<Estimate> transmitted;  ///< The same of what passes.
+  Lab reflected_color;                ///< Of the hemisphere's light, relative to the perfect diffuser.
+  Lab transmitted_color;
+  double sampling_p;       ///< Of chi-square, sampled against stated density; 1 where nothing spreads.
+  double spread_integral;  ///< Of that density: the probability of leaving in no single direction.
+};
+
+/// What the bench found.
+struct LabReport {
+  Lobes lobes;
+  bool dispersive;
+  std::vector<LabAngle> angles;
+  Asymmetry reciprocity;  ///< Of f(a, b) and f(b, a), by `reciprocity_error`.
+  double most_energy;     ///< Largest R + T over angles and wavelengths.
+};
+
+/// Where the beam of an angle comes from: the side of -x.
+[[nodiscard]] Imath::V3f incidence(const LabSettings& settings, double angle_deg);
+/// The packet of up to eight of the wavelengths from the `first` on; the last one fills up.
+[[nodiscard]] SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first);
+
+[[nodiscard]] LabReport measure(const Material& material, const LabSettings& settings);
+
+}  // namespace abbe

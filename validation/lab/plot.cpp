@@ -1,0 +1,128 @@
+#include "validation/lab/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "validation/picture/display_color.h"
+#include "validation/picture/svg.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPanel = 220;  // edge of a panel [pixels]
+constexpr double kRadius = 92;
+constexpr double kTop = 40;
+constexpr double kSwatch = 24;
+
+// A line's colour: that of its wavelength, as far as displays go.
+std::string line_color(double nm, Observer observer) {
+  const ColorMatching& eye = color_matching(observer);
+  LinearRgb linear = linear_rgb_of_xyz({eye.x(nm), eye.y(nm), eye.z(nm)});
+  const double most = std::max({linear[0], linear[1], linear[2]});
+  if (!(most > 0.02)) return "#555555";  // unseen
+  for (double& v : linear) v /= most;
+  return css_color(display_code(linear));
+}
+
+// f cos around the plane of incidence, by wavelength.
+struct Slice {
+  static constexpr int kSteps = 720;
+  std::vector<std::vector<double>> values;
+  double most = 0;
+};
+Slice slice(const Material& material, const LabSettings& settings, const Imath::V3f& wo) {
+  Slice all;
+  for (std::size_t i = 0; i < settings.wavelengths_nm.size(); ++i) {
+    const SampledSpectrum packet = packet_of(settings.wavelengths_nm, i);
+    const Bsdf bsdf = make_bsdf(material, {packet});
+    std::vector<double>& line = all.values.emplace_back();
+    for (int step = 0; step < Slice::kSteps; ++step) {
+      const double angle = 360 * kDegree * (step + 0.5) / Slice::kSteps;
+      const Imath::V3f wi = direction_at(std::cos(angle), angle < 180 * kDegree ? 0 : std::numbers::pi);
+      line.push_back(static_cast<double>(eval(bsdf, wo, wi, TransportMode::power)[0] * std::abs(wi.z)));
+      all.most = std::max(all.most, line.back());
+    }
+  }
+  return all;
+}
+
+std::string polyline(const std::vector<double>& line, double most, double x, double y,
+                     const std::string& color) {
+  std::string points;
+  for (std::size_t step = 0; step < line.size(); ++step) {
+    const double angle = 360 * kDegree * (static_cast<double>(step) + 0.5) / static_cast<double>(line.size());
+    const double radius = kRadius * std::sqrt(line[step] / most);
+    points += fmt::format("{:.2f},{:.2f} ", x + radius * std::sin(angle), y - radius * std::cos(angle));
+  }
+  return fmt::format("<polygon points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", points,
+                     color);
+}
+
+// The single directions of the first wavelength, as long as the root of their shares.
+std::string arrows(const Material& material, const LabSettings& settings, const Imath::V3f& wo, double x,
+                   double y) {
+  const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
+  std::string all;
+  for (const BsdfSample& event : delta_events(make_bsdf(material, {packet}), wo, 0, TransportMode::power)) {
+    const double length = kRadius * std::sqrt(static_cast<double>(event.pdf * event.weight[0]));
+    all += svg_line(x, y, x + length * static_cast<double>(event.wi.x),
+                    y - length * static_cast<double>(event.wi.z), "stroke=\"#333333\" stroke-width=\"2.5\"");
+  }
+  return all;
+}
+
+std::string panel(const Material& material, const LabSettings& settings, const LabAngle& at, double left) {
+  const double x = left + kPanel / 2;
+  const double y = kTop + kPanel / 2;
+  const Imath::V3f wo = incidence(settings, at.angle_deg);
+  std::string all =
+      fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#dddddd\"/>\n", x, y, kRadius);
+  all += svg_line(x - kRadius, y, x + kRadius, y, "stroke=\"#888888\"");
+  all +=
+      svg_line(x + (kRadius + 12) * static_cast<double>(wo.x), y - (kRadius + 12) * static_cast<double>(wo.z),
+               x, y, "stroke=\"#bbbbbb\" stroke-dasharray=\"4 3\"");
+  const Slice lines = slice(material, settings, wo);
+  if (lines.most > 0)
+    for (std::size_t i = 0; i < lines.values.size(); ++i)
+      all += polyline(lines.values[i], lines.most, x, y,
+                      line_color(settings.wavelengths_nm[i], settings.observer));
+  all += arrows(material, settings, wo, x, y);
+  const double bottom = kTop + kPanel;
+  all += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"#888888\"/>\n",
+                     x - kSwatch, bottom, 2 * kSwatch, kSwatch,
+                     css_color(display_code(linear_rgb(at.reflected_color))));
+  const std::string middle = "text-anchor=\"middle\"";
+  all += svg_text(x, kTop, fmt::format("{:g}\u00b0", at.angle_deg), middle);
+  return all + svg_text(x, bottom + kSwatch + 16,
+                        lines.most > 0 ? fmt::format("largest f cos {:.3g}/sr", lines.most) : "", middle);
+}
+
+}  // namespace
+
+std::string lobe_plot(const Material& material, const LabSettings& settings, const LabReport& report,
+                      const std::string& title) {
+  const double width = kPanel * static_cast<double>(report.angles.size());
+  const double height = kTop + kPanel + kSwatch + 50;
+  std::string all = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" "
+      "height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+      width, height);
+  all += svg_text(10, 20, title, "font-size=\"15\" font-weight=\"bold\"");
+  double legend = 10;
+  for (const double nm : settings.wavelengths_nm) {
+    all += svg_line(legend, height - 14, legend + 20, height - 14,
+                    fmt::format("stroke=\"{}\" stroke-width=\"2\"", line_color(nm, settings.observer)));
+    all += svg_text(legend + 24, height - 10, fmt::format("{:g} nm", nm), "");
+    legend += 90;
+  }
+  for (std::size_t i = 0; i < report.angles.size(); ++i)
+    all += panel(material, settings, report.angles[i], kPanel * static_cast<double>(i));
+  return all + "</svg>\n";
+}
+
+}  // namespace abbe
