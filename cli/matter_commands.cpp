@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_options.h"
 #include "cli/lab.h"
 #include "cli/query.h"
 

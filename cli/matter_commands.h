@@ -1,8 +1,6 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "cli/commands.h"
+#include "cli/command_options.h"
 
 namespace abbe::cli {
 
