@@ -53,11 +53,16 @@ FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
   // so that what cancels in the numerators (all of r_s at eta = 1, r_p but for Brewster's zero) cancels on
   // paper.
   const T eta2_1 = (eta - T(1)) * (eta + T(1));
-  const T sin2_i = (T(1) - cos_i) * (T(1) + cos_i);
   const T s = cos_i + eta * cos_t;
   const T p = eta * cos_i + cos_t;
   const T rs = eta2_1 / s / s;
-  const T rp = eta2_1 / p * ((cos_i * cos_i - sin2_i / (eta * eta)) / p);
+  // (eta cos_i)^2 - sin_i^2, which vanishes at Brewster's angle; close to that is the critical angle of a
+  // small eta, where r_p is large again.
+  using W = typename Wider<T>::type;
+  const W c_w(cos_i);
+  const W eta_w(eta);
+  const T brewster = T(c_w * c_w * (eta_w * eta_w + W(1)) - W(1));
+  const T rp = eta2_1 / p * (brewster / (eta * eta) / p);
   const T Ts = T(4) * (cos_i / s) * (eta * cos_t / s);
   const T Tp = T(4) * (eta * cos_i / p) * (cos_t / p);
   const auto R = [](const T& r, const T& transmitted) {

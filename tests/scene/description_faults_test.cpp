@@ -76,6 +76,10 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        "(got 0, allowed (0, 100])"},
       {"21 index -1", R"({"materials": {"m": {"dielectric": {"ior": {"n": -1}}}}})", ErrorCode::scene,
        "(got -1, allowed (0, 100])"},
+      {"21 index NaN", R"({"materials": {"m": {"dielectric": {"ior": NaN}}}})", ErrorCode::scene,
+       "(got NaN, allowed finite numbers)"},
+      {"21 index of a metal", R"({"materials": {"m": {"conductor": {"ior": {"n": 0.2, "k": -3}}}}})",
+       ErrorCode::scene, "/materials/m/conductor/ior/k: error: expected a number (got -3, allowed [0, 100])"},
       {"23 reflectance", painted("1.2"), ErrorCode::scene,
        "/materials/m/diffuse/reflectance: error: curve out of range at 300 nm (got 1.2, allowed [0, 1])"},
       {"23 reflectance", painted("-0.1"), ErrorCode::scene, "(got -0.1, allowed [0, 1])"},
@@ -95,6 +99,9 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"25 emission", lit(R"({"spectrum": -1})"), ErrorCode::scene, "(got -1, allowed [0, 1e+30])"},
       {"26 absorption", R"({"materials": {"m": {"dielectric": {"ior": 1.5, "absorption_per_m": -1}}}})",
        ErrorCode::scene, "(got -1, allowed [0, 1e+30])"},
+      {"26 thickness",
+       R"({"materials": {"m": {"dielectric": {"ior": 1.5, "coating": [{"ior": 1.38, "thickness_nm": -1}]}}}})",
+       ErrorCode::scene, "thickness_nm: error: expected a number (got -1, allowed"},
       {"27 empty band", sensed(R"("resolution": [1, 1], "channels": {"R": {"band": [600, 600]}})"),
        ErrorCode::scene,
        "/sensor/channels/R/band: error: an empty band (got [600, 600] nm, allowed low < high)"},
@@ -190,6 +197,7 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
   EXPECT_TRUE(dark.scene);
   EXPECT_NE(dark.text().find("warning: no light: the image will be black"), std::string::npos);
 
+  // 22: the user is told that an index is held beyond its measurements.
   const std::string lamp = R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}],)";
   const Loaded beyond = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}}})");
   EXPECT_NE(beyond.text().find(

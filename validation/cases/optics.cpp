@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -145,6 +147,40 @@ std::vector<Figure> metals_at_three_angles() {
           at("Ag", n, k, 60, .981033),           at("Ag", n, k, 80, .983150)};
 }
 
+// The largest error of Schlick's approximation and the angle it occurs at, tenth by tenth of a degree.
+std::pair<double, double> worst_of_schlick(double n, double k) {
+  const double r0 = fresnel_conductor(1.0, n, k).R();
+  std::pair<double, double> worst{0, 0};
+  for (int tenth = 0; tenth < 900; ++tenth) {
+    const double c = cosine(tenth / 10.0);
+    worst = std::max(worst, {std::abs(schlick(c, r0) - fresnel_conductor(c, n, k).R()), tenth / 10.0});
+  }
+  return worst;
+}
+
+std::vector<Figure> schlick_errors() {
+  std::vector<Figure> figures;
+  const auto add = [&](const std::string& what, double n, double k, double reference) {
+    figures.push_back(exact_figure(what, reference, worst_of_schlick(n, k).first));
+  };
+  const auto add_metal = [&](const char* name, double nm, double reference) {
+    const RefractiveIndex index = shipped_index(name);
+    add(fmt::format("{} {} nm", name, nm), index.catalogued_n(nm), index.k(nm), reference);
+  };
+  add("n = 1.5", 1.5, 0, .0357);
+  add("water", shipped_index("water_20.0C").catalogued_n(kLineD_nm), 0, .0591);
+  add("diamond, n = 2.417", 2.417, 0, .0754);
+  add_metal("Al_Rakic", 650, .1296);
+  add_metal("Au_Johnson", 550, .0103);
+  add_metal("Cu_Johnson", 450, .0396);
+  for (const auto& [what, n, degrees] :
+       {std::tuple{"n = 1.5, angle [°]", 1.5, 85.0}, std::tuple{"n = 1.333, angle [°]", 1.333, 83.8}}) {
+    figures.push_back(exact_figure(what, degrees, worst_of_schlick(n, 0).second));
+    figures.back().margin = Margin{0.11};
+  }
+  return figures;
+}
+
 std::vector<Figure> metal_colours() {
   const ReferenceTable table("metal_colour_normal_incidence");
   std::vector<Figure> figures;
@@ -228,6 +264,9 @@ std::vector<Case> optics_cases() {
                "Fresnel's formulas with n + ik [Born1999, sec. 14.2]", "", printed, metal_reflectances),
       computed("fresnel-angles", "aluminium and silver at 0°, 60° and 80°",
                "Fresnel's formulas with n + ik [Born1999, sec. 14.2]", "", {1e-6}, metals_at_three_angles),
+      computed("schlick", "largest errors of Schlick's approximation",
+               "[Schlick1994] against Fresnel's formulas [Born1999, sec. 14.2]", "", {0.51e-4},
+               schlick_errors),
       computed("metal-colour", "colour of metals at normal incidence, XYZ and L*a*b*",
                "Fresnel's formulas and 1 nm sums [CIE15, sec. 7.1]", "", {2e-5}, metal_colours),
       computed("beer", "internal transmittance of glass and water", "exp(-4πkd/λ) [Born1999, sec. 14.1]", "",

@@ -1,0 +1,133 @@
+// Renders where numbers are at their worst. docs/validation.md lists all stress tests.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "materials/interface/prism.h"
+#include "scene/shapes/basis.h"
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The furthest a pixel of the film is from 1, when `unit` is what radiance 1 exposes.
+double furthest_from_one(const Film& film, const Film& unit) {
+  double furthest = 0;
+  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(film.width() * film.height()); ++pixel)
+    for (int channel = 0; channel < film.channels(); ++channel)
+      furthest = std::max(furthest, std::abs(film.mean(pixel, channel) / unit.mean(pixel, channel) - 1));
+  return furthest;
+}
+
+// A camera in light of radiance 1 from everywhere, and perhaps other things; no path is ended by chance.
+Scene furnace(const std::string& rest, const std::string& from = "0, 0, -4", int samples = 16) {
+  return test::load_text(fmt::format(R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 20}}, "from": [{}], "to": [0, 0, 0], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [16, 16], "response": "energy", "channels": {{"all": 1}}}},
+    "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
+    {}
+    "render": {{"samples": {}, "max_depth": 1000, "roulette_depth": -1, "integrator": "path"}}}})",
+                                     from, rest, samples));
+}
+const Film& empty_furnace() {
+  static const Film film = render(furnace(""), {}).film;
+  return film;
+}
+
+// A sphere around the camera that emits a thousandth and reflects everything: a path of a thousand vertices
+// collects 1. The area of a sphere seen from within has the density of the cosine, so each sample is exact.
+TEST(Stress, FurnaceOfAlbedoOneAddsUpAThousandVertices) {
+  Scene scene = test::load(
+      "furnace.json",
+      {{"/materials/wall/diffuse/reflectance", "1"},
+       {"/shapes/0/emission/spectrum", "0.001"},
+       {"/sensor", R"({"resolution": [8, 8], "channels": {"all": 1}})"},
+       {"/render", R"({"samples": 4, "max_depth": 999, "roulette_depth": -1, "integrator": "path"})"}});
+  const Film thousand = render(scene, {}).film;
+  scene.render.max_depth = 0;  // the emission seen directly
+  const Film one = render(scene, {}).film;
+  double mean = 0;
+  for (std::size_t pixel = 0; pixel < 64; ++pixel)
+    mean += thousand.mean(pixel, 0) / (1000 * one.mean(pixel, 0)) / 64;
+  EXPECT_NEAR(mean, 1, 1e-4);
+}
+
+TEST(Stress, GlassSphereInAFurnaceIsNotSeen) {
+  for (const char* ior : {"1.5", "2.417", "0.7", "\"hikari/F2\""}) {
+    const Scene scene = furnace(fmt::format(
+        R"("materials": {{"glass": {{"dielectric": {{"ior": {}}}}}}},
+           "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "glass"}}],)",
+        ior));
+    EXPECT_LT(furthest_from_one(render(scene, {}).film, empty_furnace()), 1e-4) << ior;
+  }
+}
+
+// The render's own steps, in float: Embree's hits, the material's refraction, the next ray.
+TEST(Stress, PrismAtLeastDeviationOfTwentyWavelengths) {
+  const Scene scene = furnace(
+      R"("materials": {"glass": {"dielectric": {"ior": "N-SF11"}}},
+         "shapes": [{"prism": {"apex_deg": 60, "side": 1, "length": 1}, "material": "glass"}],)");
+  const Material& glass = scene.materials[0];
+  for (int i = 0; i < 20; ++i) {
+    const double nm = 400 + 18 * i;
+    const auto least = prism_minimum(interior(glass)->n(nm), 60);
+    ASSERT_TRUE(least) << nm;
+    const double elevation = (least->incidence_deg - 30) * kDegree;
+    const Imath::V3f start_direction(static_cast<float>(std::cos(elevation)), 0,
+                                     static_cast<float>(std::sin(elevation)));
+    Ray ray{Imath::V3f(-0.25F, 0.1F, 0) - start_direction, start_direction};
+    const SampledSpectrum wavelengths(static_cast<float>(nm));
+    for (int face = 0; face < 2; ++face) {
+      const auto hit = scene.intersect(ray);
+      ASSERT_TRUE(hit) << nm;
+      const Basis<float> frame(hit->normal);
+      const auto s = sample(make_bsdf(glass, {wavelengths}), frame.to_local(-ray.direction),
+                            {0x1.fffffep-1F, {}}, 0, TransportMode::radiance);
+      ASSERT_TRUE(s && s->transmitted) << nm;
+      ray = spawn(hit->point, hit->normal, frame.to_world(s->wi));
+    }
+    const Imath::V3d a(start_direction);
+    const Imath::V3d b(ray.direction);
+    EXPECT_NEAR(std::atan2(a.cross(b).length(), a.dot(b)), least->deviation_deg * kDegree, 1e-4) << nm;
+  }
+}
+
+// Black walls, lamps without power, sensors that see none of the light: exactly 0, and every sample finite.
+TEST(Stress, BlackMatterAndZeroSpectraGiveExactlyZero) {
+  const auto dark = [](const std::string& reflectance, const std::string& emission,
+                       const std::string& channel, const std::string& other) {
+    const RenderResult result = render(test::load_text(fmt::format(R"({{"abbe": 1,
+      "camera": {{"pinhole": {{"fov_deg": 40}}, "from": [0, 0, -4], "to": [0, 0, 0], "up": [0, 1, 0]}},
+      "sensor": {{"resolution": [16, 16], "channels": {{"all": {2}}}}},
+      "materials": {{"wall": {{"diffuse": {{"reflectance": {0}}}}}, "other": {3}}},
+      "lights": [{{"point": {{"at": [2, 2, -3]}}, "emission": {{"spectrum": {1}}}}},
+                 {{"sphere": {{"center": [0, 3, 0], "radius": 0.5}}, "emission": {{"spectrum": {1}}}}}],
+      "shapes": [{{"quad": {{"corner": [-9, -9, 3], "edge_u": [0, 18, 0], "edge_v": [18, 0, 0]}}, "material": "wall"}},
+                 {{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "other"}}],
+      "render": {{"samples": 64}}}})",
+                                                                   reflectance, emission, channel, other)),
+                                       {});
+    EXPECT_EQ(result.stats.nonfinite_samples, 0U);
+    double largest = 0;
+    for (std::size_t pixel = 0; pixel < 256; ++pixel)
+      largest = std::max({largest, std::abs(result.film.mean(pixel, 0)), result.film.variance(pixel, 0)});
+    return largest;
+  };
+  const char* kBlack = R"({"diffuse": {"reflectance": 0}})";
+  const char* kGlass = R"({"dielectric": {"ior": "N-BK7"}})";
+  const char* kOpaque = R"({"dielectric": {"ior": 1.5, "absorption_per_m": 1e30}})";
+  const char* kMetal = R"({"conductor": {"ior": "Ag_Johnson"}})";
+  EXPECT_GT(dark("0.5", "1", "1", kGlass), 0);
+  EXPECT_EQ(dark("0", "1", "1", kBlack), 0);
+  for (const char* other : {kBlack, kGlass, kOpaque, kMetal}) {
+    EXPECT_EQ(dark("0.5", "0", "1", other), 0) << other;
+    EXPECT_EQ(dark("0.5", R"({"band": [900, 1000]})", R"({"band": [500, 600]})", other), 0) << other;
+    EXPECT_EQ(dark(R"({"band": [800, 900]})", R"({"band": [500, 600]})", "1", kBlack), 0) << other;
+  }
+}
+
+}  // namespace
+}  // namespace abbe
