@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "calibration/output/color_spaces.h"
 #include "materials/bsdf/warp.h"
 #include "validation/picture/display_color.h"
 
@@ -30,8 +31,8 @@ class Eye {
     }
   }
 
-  // Of f cos.
-  [[nodiscard]] XYZ see(const Imath::V3f& wo, const Imath::V3f& wi) const {
+  // Of f cos, under the display's white.
+  [[nodiscard]] LinearRgb see(const Imath::V3f& wo, const Imath::V3f& wi) const {
     XYZ xyz{};
     for (std::size_t p = 0; p < models_.size(); ++p) {
       const SampledSpectrum f = eval(models_[p], wo, wi, TransportMode::power) * std::abs(wi.z);
@@ -39,9 +40,10 @@ class Eye {
         for (std::size_t k = 0; k < 3; ++k)
           xyz[k] += static_cast<double>(f[static_cast<int>(j)]) * weights_[p * kLanes + j][k];
     }
-    return xyz;
+    const XYZ shown = unit_xyz(kD65);
+    for (std::size_t k = 0; k < 3; ++k) xyz[k] *= shown[k] / white_[k];
+    return linear_rgb_of_xyz(xyz);
   }
-  [[nodiscard]] const XYZ& white() const { return white_; }
 
  private:
   std::vector<SampledSpectrum> packets_;
@@ -58,14 +60,14 @@ std::optional<Imath::V3f> from_disc(double x, double y, bool above) {
 }
 
 // Two discs, one above the other.
-std::vector<XYZ> column(const Eye& eye, const Imath::V3f& wo) {
-  std::vector<XYZ> colors;
+std::vector<LinearRgb> column(const Eye& eye, const Imath::V3f& wo) {
+  std::vector<LinearRgb> colors;
   for (int y = 0; y < 2 * kDisc; ++y)
     for (int x = 0; x < kDisc; ++x) {
       const bool same_side = y < kDisc;
       const auto wi =
           from_disc(2 * (x + 0.5) / kDisc - 1, 1 - 2 * (y % kDisc + 0.5) / kDisc, same_side == (wo.z > 0));
-      colors.push_back(wi ? eye.see(wo, *wi) : XYZ{});
+      colors.push_back(wi ? eye.see(wo, *wi) : LinearRgb{});
     }
   return colors;
 }
@@ -79,14 +81,14 @@ Image lobe_map(const Material& material, const LabSettings& settings) {
   for (const char* name : {"R", "G", "B"})
     map.channels.push_back({name, std::vector<float>(map.pixels(), 0.0F)});
   for (int i = 0; i < columns; ++i) {
-    const std::vector<XYZ> colors =
+    const std::vector<LinearRgb> colors =
         column(eye, incidence(settings, settings.angles_deg[static_cast<std::size_t>(i)]));
     double most = 0;
-    for (const XYZ& color : colors) most = std::max(most, color[1] / eye.white()[1]);
+    for (const LinearRgb& color : colors) most = std::max({most, color[0], color[1], color[2]});
     for (std::size_t pixel = 0; most > 0 && pixel < colors.size(); ++pixel) {
-      XYZ color = colors[pixel];
+      LinearRgb color = colors[pixel];
       for (double& v : color) v /= most;
-      const DisplayColor code = display_code(linear_rgb(xyz_to_lab(color, eye.white())));
+      const DisplayColor code = display_code(color);
       const std::size_t at = pixel / kDisc * static_cast<std::size_t>(map.width) +
                              static_cast<std::size_t>(i) * kDisc + pixel % kDisc;
       for (std::size_t k = 0; k < 3; ++k) map.channels[k].values[at] = static_cast<float>(code[k]);
