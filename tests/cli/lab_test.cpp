@@ -39,6 +39,7 @@ TEST(Lab, SmoothGlassIsFresnelsToTheLastDigitOfFloat) {
   EXPECT_EQ(lab["single_directions"], true);
   EXPECT_EQ(lab["spread_directions"], false);
   EXPECT_EQ(lab["dispersive"], true);
+  EXPECT_NEAR(lab["energy_max"].get<double>(), 1, 2e-7);
 }
 
 // From inside, 60 degrees lie beyond the critical angle.

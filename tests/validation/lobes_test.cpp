@@ -87,6 +87,36 @@ TEST(CheckDensity, SeesEventsThatAreMissing) {
             1e-3);
 }
 
+TEST(CheckDensity, LeavesSingleDirectionsOut) {
+  const LobeSampler half = [](const BsdfRandom& u, int) {
+    auto s = event(u.lobe < 0.5F ? V3f(0, 0, 1) : cosine_hemisphere(u.direction));
+    s->delta = u.lobe < 0.5F;
+    return s;
+  };
+  const DensityCheck check = check_density(
+      half, [](const V3f& w) { return std::max(0.0F, w.z) / (2 * kPi); }, 0);
+  EXPECT_GT(check.p, 1e-3);
+  EXPECT_NEAR(check.integral, 0.5, 1e-6);
+}
+
+// A lobe of 1e-4 about the normal, where z has hardly a digit left.
+TEST(CheckDensity, JudgesANeedle) {
+  const LobeSampler needle = [](const BsdfRandom& u, int) {
+    const double radius = 1e-4 * std::sqrt(-2 * std::log1p(-static_cast<double>(u.direction.x)));
+    const double phi = 2 * kPi * static_cast<double>(u.direction.y);
+    return event(
+        V3f(Imath::V3d(radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - radius * radius))));
+  };
+  const auto gaussian = [](double sigma) {
+    return [sigma](const V3f& w) {
+      const double r2 = static_cast<double>(w.x) * w.x + static_cast<double>(w.y) * w.y;
+      return w.z > 0 ? std::exp(-r2 / (2 * sigma * sigma)) / (2 * kPi * sigma * sigma) * w.z : 0.0;
+    };
+  };
+  EXPECT_GT(check_density(needle, gaussian(1e-4), 0).p, 1e-3);
+  EXPECT_LT(check_density(needle, gaussian(1.03e-4), 0).p, 1e-6);
+}
+
 TEST(Albedo, SeesLanesLeftOutOfTheBalance) {
   SampledSpectrum::Values n;
   for (std::size_t j = 0; j < kLanes; ++j) n[j] = 1.45F + 0.06F * static_cast<float>(j);
