@@ -9,6 +9,7 @@
 
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/exr.h"
 
 namespace abbe {
 namespace {
@@ -132,6 +133,10 @@ Image read_picture(const std::filesystem::path& path) {
     if (attribute.type() == OIIO::TypeDesc::STRING)
       image.metadata[attribute.name().string()] = attribute.get_string();
   return image;
+}
+
+Image read_image(const std::filesystem::path& path) {
+  return path.extension() == ".exr" ? read_exr(path) : read_picture(path);
 }
 
 }  // namespace abbe

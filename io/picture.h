@@ -23,4 +23,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image);
 /// Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& path);
 
+/// Any image file: .exr by `read_exr`, others by `read_picture`.
+[[nodiscard]] Image read_image(const std::filesystem::path& path);
+
 }  // namespace abbe

@@ -10,6 +10,17 @@ Lobes lobes(const Material& material) {
   return std::visit([](const auto& model) { return model.lobes(); }, material.model);
 }
 
+bool needs_coordinates(const Material& material) {
+  return std::visit(
+      [](const auto& model) {
+        if constexpr (requires { model.needs_coordinates(); })
+          return model.needs_coordinates();
+        else
+          return false;
+      },
+      material.model);
+}
+
 bool is_dispersive(const Material& material) {
   const RefractiveIndex* inside = interior(material);
   return inside && inside->dispersive();

@@ -8,7 +8,8 @@
 namespace abbe {
 
 /// The closed list of what surfaces are made of. Each model tells its `bsdf` at a lookup and its `lobes`, and
-/// its `interior` if light enters the closed surface.
+/// its `interior` if light enters the closed surface, `needs_coordinates` if its scattering may depend on
+/// them.
 using MaterialModel = std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial>;
 
 /// What a surface is made of, over all wavelengths.
@@ -21,6 +22,8 @@ struct Material {
 /// material, which must outlive it.
 [[nodiscard]] Bsdf make_bsdf(const Material& material, const SurfaceLookup& at);
 
+/// Whether its scattering depends on surface coordinates: by a texture, or by a direction along the surface.
+[[nodiscard]] bool needs_coordinates(const Material& material);
 /// In which ways light leaves it.
 [[nodiscard]] Lobes lobes(const Material& material);
 /// Sends different wavelengths different ways.

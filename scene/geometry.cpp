@@ -199,8 +199,8 @@ RTCGeometry geometry_of(RTCDevice device, const PlacedPart& placed) {
   return geometry;
 }
 
-SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape) {
-  return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape};
+SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape, std::uint32_t primitive) {
+  return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape, primitive};
 }
 
 // What Embree found, in double; nothing for the plane of a triangle that the ray does not cross.
@@ -211,16 +211,16 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context)
   const auto* instance = std::get_if<PlacedPart>(&part);
   const auto* set =
       instance == nullptr ? std::get_if<TriangleSet>(&part) : std::get_if<TriangleSet>(&instance->of->part);
-  if (set == nullptr) return surface_hit(context.nearest, shape);
+  if (set == nullptr) return surface_hit(context.nearest, shape, 0);
   const BasicRay<double>& ray = context.ray;
   const double t =
       plane_crossing(*set, hit.primID, instance == nullptr ? ray : to_prototype(*instance->at, ray));
   if (!(t > 0 && t < ray.t_max)) return std::nullopt;
   const Imath::V3d point = ray.origin + ray.direction * t;
   if (instance == nullptr)
-    return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape};
+    return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
   const Imath::V3d normal = normal_of(instance->of->prototype->shape, hit.primID);
-  return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape);
+  return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape, hit.primID);
 }
 
 std::size_t bytes_of(const TriangleSet& set) {

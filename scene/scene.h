@@ -68,6 +68,7 @@ struct SurfaceHit {
   Imath::V3f normal;  ///< Geometric, unit, outward.
   float t;
   std::uint32_t shape;
+  std::uint32_t primitive = 0;  ///< Which triangle of a mesh, in its own order.
 };
 
 /// Everything a render needs, in metres, recentred so that coordinates are small: `origin_m` is the

@@ -166,6 +166,10 @@ LinearRgb linear_rgb(const Curve& reflectance) {
   return rgb;
 }
 
+double srgb_decoded(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
 const RgbBasis& rgb_basis() {
   static const RgbBasis kBasis = make_basis();
   return kBasis;

@@ -17,6 +17,10 @@ inline constexpr std::array<std::array<double, 2>, 3> kRec709Primaries{
 /// table of D65, so that a reflectance of 1 is exactly (1, 1, 1).
 [[nodiscard]] LinearRgb linear_rgb(const Curve& reflectance);
 
+/// The linear value in [0, 1] of a code value in [0, 1] encoded as sRGB: x/12.92 up to 0.04045, beyond
+/// ((x + 0.055)/1.055)^2.4. [IEC61966, sec. 5.2]
+[[nodiscard]] double srgb_decoded(double code);
+
 /// Three smooth spectra in [0, 1] that add up to 1 everywhere and have the colours (1, 0, 0), (0, 1, 0) and
 /// (0, 0, 1) under `linear_rgb`, so that any mixture of them has the colour of its weights, and stays a
 /// reflectance while the weights are in [0, 1] [Mallett2019]. Here their logarithms differ by quadratics in

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "io/exr.h"
 #include "io/object_reader.h"
 #include "io/picture.h"
 #include "io/text.h"
@@ -88,10 +87,6 @@ std::vector<const ImageChannel*> responses(const Image& image) {
         channel.name.find('.') == std::string::npos)
       found.push_back(&channel);
   return found;
-}
-
-Image read_image(const std::filesystem::path& file) {
-  return file.extension() == ".exr" ? read_exr(file) : read_picture(file);
 }
 
 std::vector<Region> grid(int width, int height) {

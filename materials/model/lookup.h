@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ImathVec.h>
+
 #include "spectral/packet.h"
 
 namespace abbe {
@@ -7,6 +9,7 @@ namespace abbe {
 /// Where on a surface, and at which wavelengths, its scattering is asked for.
 struct SurfaceLookup {
   const SampledSpectrum& wavelengths_nm;
+  Imath::V2f uv{0, 0};  ///< Surface coordinates, known where a material asks for them.
 };
 
 /// In which ways a material sends light on; black matter in none.

@@ -3,7 +3,7 @@
 namespace abbe {
 
 Bsdf DiffuseMaterial::bsdf(const SurfaceLookup& at) const {
-  return DiffuseBsdf{reflectance(at.wavelengths_nm)};
+  return DiffuseBsdf{reflectance(at)};
 }
 
 Bsdf DielectricMaterial::bsdf(const SurfaceLookup& at) const {

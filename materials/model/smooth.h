@@ -5,14 +5,16 @@
 #include "materials/bsdf/bsdf.h"
 #include "materials/index/refractive_index.h"
 #include "materials/model/lookup.h"
+#include "materials/texture/spectral_texture.h"
 
 namespace abbe {
 
 struct DiffuseMaterial {
-  Curve reflectance;  ///< In [0, 1].
+  SpectralTexture reflectance;
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+  [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
 };
 struct DielectricMaterial {
   std::string index_name;

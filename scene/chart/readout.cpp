@@ -99,7 +99,7 @@ std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& 
       throw Error(ErrorCode::input, shape.name, "its middle holds no whole pixel: the film is too coarse");
     const auto& diffuse = std::get<DiffuseMaterial>(scene.materials[shape.material].model);
     PatchReading reading{
-        shape.name.substr(chart.name.size() + 1), pixels.size(), {}, {}, &diffuse.reflectance};
+        shape.name.substr(chart.name.size() + 1), pixels.size(), {}, {}, &diffuse.reflectance.curve()};
     for (const std::string& name : channels) add_channel(reading, film, name, pixels);
     readings.push_back(std::move(reading));
   }

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "io/exr.h"
 #include "io/picture.h"
 #include "scene/description/pieces.h"
 
@@ -45,7 +44,7 @@ std::optional<Sky> read_sky(const JsonValue& json, Reading& reading) {
   const std::string extension = path->extension().string();
   if (extension != ".exr" && extension != ".hdr")
     return refuse(fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", extension));
-  const Image image = extension == ".exr" ? read_exr(*path) : read_picture(*path);
+  const Image image = read_image(*path);
   const auto planes = find_planes(image);
   if (!planes) return refuse("no channels R, G, B or Y");
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),

@@ -50,7 +50,7 @@ std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& readin
   const JsonValue* value = reader.require("reflectance");
   reader.finish();
   if (!value) return std::nullopt;
-  auto reflectance = read_curve(*value, {"reflectance", Range::unit()}, reading);
+  auto reflectance = read_reflectance(*value, reading);
   if (!reflectance) return std::nullopt;
   return DiffuseMaterial{std::move(*reflectance)};
 }

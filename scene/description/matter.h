@@ -23,6 +23,10 @@ struct Ior {
 /// The layers under a key, none if it is not there.
 [[nodiscard]] Coating read_coating(const JsonValue* layers, Reading& reading);
 
+/// A quantity in [0, 1] over wavelength and surface: a curve, or an image whose channels weigh spectra. Throws
+/// Error{input} or Error{resource} for an image file that cannot be read or is too large.
+[[nodiscard]] std::optional<SpectralTexture> read_reflectance(const JsonValue& json, Reading& reading);
+
 /// Each material of the list from what stands under its key; none after an error.
 using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, Reading& reading);
 [[nodiscard]] std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& reading);

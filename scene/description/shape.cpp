@@ -57,12 +57,24 @@ std::optional<Mesh> read_inline_mesh(const JsonValue& json, const Reading& readi
   ObjectReader reader(json, reading.diagnostics);
   const auto vertices = read_rows<double, 3>(reader, "vertices", kCoordinate, reading);
   const auto triangles = read_rows<std::uint32_t, 3>(reader, "triangles", {0, 4294967295.0}, reading);
+  const JsonValue* given = reader.find("uv");
+  const auto uv =
+      given ? read_rows<double, 2>(reader, "uv", kCoordinate, reading) : std::vector<std::array<double, 2>>();
   reader.finish();
-  if (!vertices || !triangles) return std::nullopt;
+  if (!vertices || !triangles || !uv) return std::nullopt;
+  if (given && uv->size() != vertices->size()) {
+    reading.diagnostics.error(
+        given->where,
+        fmt::format("as many uv as vertices are needed (got {}, allowed {})", uv->size(), vertices->size()));
+    return std::nullopt;
+  }
   Mesh mesh;
   for (const auto& v : *vertices) mesh.vertices.emplace_back(v[0], v[1], v[2]);
   mesh.triangles = *triangles;
   if (!check_mesh(mesh, json.where, reading.diagnostics)) return std::nullopt;
+  const auto at = [&](std::uint32_t i) { return Imath::V2f(Imath::V2d((*uv)[i][0], (*uv)[i][1])); };
+  if (given)
+    for (const auto& [a, b, c] : mesh.triangles) mesh.coordinates.push_back({at(a), at(b), at(c)});
   return mesh;
 }
 
@@ -102,8 +114,10 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
   std::vector<Part> parts;
   const auto path = reading.file(file, json.where);
   if (!path) return parts;
-  auto found = load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, json.where,
-                              reading.diagnostics);
+  const bool mapped = material && needs_coordinates(scene.materials[*material]);
+  auto found =
+      load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, json.where,
+                     reading.diagnostics, mapped ? FileCoordinates::wanted : FileCoordinates::ignored);
   if (!found) return parts;
   reading.files.insert(reading.files.end(), found->others.begin(), found->others.end());
   for (MeshFile::Part& part : found->parts) {
@@ -123,6 +137,19 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
   return parts;
 }
 
+// Reports a mesh without the texture coordinates that its material needs.
+void require_coordinates(std::span<const Part> parts, const Material& material, const JsonValue& json,
+                         const std::string* file, const Reading& reading) {
+  if (!needs_coordinates(material)) return;
+  for (const Part& part : parts)
+    if (const auto* mesh = std::get_if<Mesh>(&part.shape); mesh && mesh->coordinates.empty())
+      reading.diagnostics.error(
+          json.where,
+          fmt::format("{}: no texture coordinates, which its material \"{}\" needs",
+                      file ? fmt::format("mesh \"{}\"", *file) : "the mesh", material.name),
+          file ? ErrorCode::input : ErrorCode::scene);
+}
+
 // The shape of the kind `key` before its transform.
 std::vector<Part> read_unplaced(ObjectReader& reader, std::string_view key, const std::string& name,
                                 Reading& reading, Scene& scene) {
@@ -139,6 +166,7 @@ std::vector<Part> read_unplaced(ObjectReader& reader, std::string_view key, cons
     auto shape = read_geometry(json, key, reading);
     if (shape && material) parts.push_back({name, std::move(*shape), *material});
   }
+  if (material) require_coordinates(parts, scene.materials[*material], json, file, reading);
   return parts;
 }
 

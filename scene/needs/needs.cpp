@@ -25,13 +25,14 @@ bool emits(const Light& light) {
   return light.emission.max() > 0;
 }
 
-constexpr std::array<NeedName, 10> kNeeds{{
+constexpr std::array<NeedName, 11> kNeeds{{
     {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
     {"media", &Needs::media, "matter absorbs along the path"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
     {"light_tracing", &Needs::light_tracing,
      "caustics of a light too small to be hit by chance, seen by a camera"},
     {"environment", &Needs::environment, "light from infinity all around"},
+    {"textures", &Needs::textures, "a material varies over its surface, or has a direction along it"},
     {"delta_lights", &Needs::delta_lights, "point or spot lights"},
     {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &Needs::polarisation_matters,
@@ -102,6 +103,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
     const RefractiveIndex* inside = interior(material);
     require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
     require(needs, &Needs::media, inside != nullptr && inside->absorbing(), "shape", instance.name);
+    require(needs, &Needs::textures, needs_coordinates(material), "shape", instance.name);
     const Lobes sent = lobes(material);
     scattering = scattering || sent.spread;
     if (sent.delta && specular == nullptr) specular = &instance;

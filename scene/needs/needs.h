@@ -19,6 +19,7 @@ struct Needs {
   bool light_tracing =
       false;  ///< Caustics, a camera that can be connected to, and a light too small to be hit by chance.
   bool environment = false;
+  bool textures = false;  ///< Some scattering depends on surface coordinates.
   bool delta_lights = false;
   bool narrow_bands = false;  ///< Some emission or response has features narrower than 10 nm.
   bool polarisation_matters =

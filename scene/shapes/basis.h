@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <ImathVec.h>
 
@@ -17,6 +18,13 @@ struct Basis {
     const T b = n.x * n.y * a;
     x = {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x};
     y = {b, sign + n.y * n.y * a, -n.y};
+  }
+  /// x along what of `along` is perpendicular to `n`, wherever that is anything.
+  Basis(const Imath::Vec3<T>& n, const Imath::Vec3<T>& along) : Basis(n) {
+    const Imath::Vec3<T> across = along - n * along.dot(n);
+    if (!(across.length2() > std::numeric_limits<T>::epsilon() * along.length2())) return;
+    x = across.normalized();
+    y = n.cross(x);
   }
   [[nodiscard]] Imath::Vec3<T> to_local(const Imath::Vec3<T>& v) const {
     return {v.dot(x), v.dot(y), v.dot(z)};

@@ -146,7 +146,9 @@ std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, int t
   if (!accessor) return refuse("there is none");
   if (accessor->sparse.isSparse) return refuse("sparse accessors are not read");
   if (accessor->type != type)
-    return refuse(fmt::format("wrong type (allowed {})", type == TINYGLTF_TYPE_VEC3 ? "VEC3" : "SCALAR"));
+    return refuse(fmt::format("wrong type (allowed {})", type == TINYGLTF_TYPE_VEC3   ? "VEC3"
+                                                         : type == TINYGLTF_TYPE_VEC2 ? "VEC2"
+                                                                                      : "SCALAR"));
   const auto* view = at(model.bufferViews, accessor->bufferView);
   const auto* buffer = view ? at(model.buffers, view->buffer) : nullptr;
   if (!buffer || view->byteOffset > buffer->data.size() ||
@@ -184,6 +186,40 @@ std::uint32_t index_at(const Numbers& numbers, std::size_t i) {
 
 /// What nodes have put together so far, by material.
 using Parts = std::map<std::optional<std::size_t>, Mesh>;
+
+// Texture coordinates of vertex `i`, as floats or as shares of the largest integer; v runs downwards in the
+// format.
+Imath::V2f coordinates_at(const Numbers& numbers, std::size_t i) {
+  Imath::V2f uv;
+  for (unsigned c = 0; c < 2; ++c) {
+    if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+      uv[static_cast<int>(c)] = static_cast<float>(number_at<std::uint8_t>(numbers, i, c)) / 255;
+    else if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+      uv[static_cast<int>(c)] = static_cast<float>(number_at<std::uint16_t>(numbers, i, c)) / 65535;
+    else
+      uv[static_cast<int>(c)] = number_at<float>(numbers, i, c);
+  }
+  return {uv.x, 1 - uv.y};
+}
+
+/// Those of a primitive's vertices: none when it has none, or nobody wants them. False after a fault.
+bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                      std::vector<Imath::V2f>& coordinates, MeshReading& reading) {
+  const auto named = primitive.attributes.find("TEXCOORD_0");
+  if (reading.coordinates == FileCoordinates::ignored || named == primitive.attributes.end()) return true;
+  const auto numbers = numbers_of(model, named->second, TINYGLTF_TYPE_VEC2, reading);
+  if (!numbers) return false;
+  if (numbers->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+      numbers->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+      numbers->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    return reading.refuse("texture coordinates must be floats, bytes or shorts");
+  for (std::size_t i = 0; i < numbers->count; ++i) {
+    coordinates.push_back(coordinates_at(*numbers, i));
+    if (!std::isfinite(coordinates.back().x) || !std::isfinite(coordinates.back().y))
+      return reading.refuse(fmt::format("texture coordinates of vertex {} are not finite", i));
+  }
+  return true;
+}
 
 // How a primitive's vertices follow each other in triangles; nothing for points and lines.
 std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
@@ -228,6 +264,10 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
         Imath::V3d(Imath::V3f(number_at<float>(*positions, i, 0), number_at<float>(*positions, i, 1),
                               number_at<float>(*positions, i, 2))) *
         map);
+  std::vector<Imath::V2f> coordinates;
+  if (!read_coordinates(model, primitive, coordinates, reading)) return false;
+  if (!coordinates.empty() && coordinates.size() != positions->count)
+    return reading.refuse("as many texture coordinates as positions are needed");
   const bool mirror = map.determinant() < 0;
   for (std::array<std::size_t, 3> triangle : triangles) {
     for (std::size_t& corner : triangle) {
@@ -239,6 +279,9 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
       corner += base;
     }
     if (mirror) std::swap(triangle[1], triangle[2]);
+    if (!coordinates.empty())
+      mesh.coordinates.push_back({coordinates[triangle[0] - base], coordinates[triangle[1] - base],
+                                  coordinates[triangle[2] - base]});
     mesh.triangles.push_back({static_cast<std::uint32_t>(triangle[0]),
                               static_cast<std::uint32_t>(triangle[1]),
                               static_cast<std::uint32_t>(triangle[2])});
@@ -377,6 +420,7 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
   }
   for (auto& [material, mesh] : parts) {
     if (mesh.triangles.empty()) continue;  // points and lines
+    if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();
     const std::size_t last = reading.file.materials.size();
     const bool wanted = reading.materials == FileMaterials::wanted;
     if (wanted && material && *material >= last) return reading.refuse("a material does not exist");

@@ -53,7 +53,8 @@ Imath::V3d area_vector(const Mesh& mesh, std::size_t triangle) {
 }
 
 std::size_t memory_bytes(const Mesh& mesh) {
-  return mesh.vertices.size() * sizeof(mesh.vertices[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  return mesh.vertices.size() * sizeof(mesh.vertices[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]) +
+         mesh.coordinates.size() * sizeof(mesh.coordinates[0]);
 }
 
 double area(const Mesh& mesh) {
@@ -108,6 +109,17 @@ Mesh make_prism(double apex_deg, double side, double length) {
     prism.vertices.emplace_back(0, y, height * 2 / 3);
   }
   prism.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {0, 2, 5}, {0, 5, 3}};
+  constexpr std::array<std::array<float, 2>, 3> kSection{{{0, 0}, {1, 0}, {0.5F, 1}}};
+  for (std::size_t i = 0; i < prism.triangles.size(); ++i) {
+    const auto at = [&](std::uint32_t vertex) {
+      const std::uint32_t corner = vertex % 3;
+      const auto [x, z] = kSection.at(corner);
+      if (i < 2) return Imath::V2f(i == 0 ? x : 1 - x, z);
+      return Imath::V2f(static_cast<float>(vertex / 3), corner == (i - 2) / 2 ? 0.0F : 1.0F);
+    };
+    const auto& [a, b, c] = prism.triangles[i];
+    prism.coordinates.push_back({at(a), at(b), at(c)});
+  }
   return prism;
 }
 

@@ -68,13 +68,9 @@ bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& 
   return true;
 }
 
-void add_fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles) {
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
-}
-
 std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMaterials materials,
-                                       const SourcePosition& where, Diagnostics& diagnostics) {
+                                       const SourcePosition& where, Diagnostics& diagnostics,
+                                       FileCoordinates coordinates) {
   const auto refuse = [&](const std::string& message) {
     diagnostics.error(where, fmt::format("mesh \"{}\": {}", path.string(), message), ErrorCode::input);
     return std::nullopt;
@@ -84,7 +80,7 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
   if (!known_format(path))
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .obj, .gltf, .glb)",
                               path.extension().string()));
-  MeshReading reading{path, materials, {}, {}};
+  MeshReading reading{path, materials, coordinates, {}, {}};
   if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
   if (reading.file.parts.empty()) return refuse("no faces");
   for (MeshFile::Part& part : reading.file.parts)
@@ -110,10 +106,15 @@ bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostic
     return false;
   }
   std::vector<std::array<std::uint32_t, 3>> kept;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (area_vector(mesh, i).length() > 0) kept.push_back(mesh.triangles[i]);
+  std::vector<std::array<Imath::V2f, 3>> kept_coordinates;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!(area_vector(mesh, i).length() > 0)) continue;
+    kept.push_back(mesh.triangles[i]);
+    if (!mesh.coordinates.empty()) kept_coordinates.push_back(mesh.coordinates[i]);
+  }
   const std::size_t dropped = mesh.triangles.size() - kept.size();
   mesh.triangles = std::move(kept);
+  mesh.coordinates = std::move(kept_coordinates);
   if (dropped > 0) diagnostics.warning(where, fmt::format("triangles of zero area dropped: {}", dropped));
   if (!mesh.triangles.empty()) return true;
   diagnostics.error(where, "a mesh without a triangle of any area", ErrorCode::input);

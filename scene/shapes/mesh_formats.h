@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct MeshReading {
   std::filesystem::path path;
   FileMaterials materials;
+  FileCoordinates coordinates;
   MeshFile file;
   std::string fault;
 
@@ -38,8 +38,12 @@ struct MeshReading {
 /// Bytes of a file that `reading`'s file names, which must lie beside it or below.
 [[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 
-/// Cuts a convex polygon into the fan around its first corner.
-void add_fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles);
+/// Cuts a convex polygon into the fan around its first corner; each corner may be anything.
+template <typename Corner>
+void add_fan(const std::vector<Corner>& polygon, std::vector<std::array<Corner, 3>>& triangles) {
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+}
 
 /// The most triangles of a file, counted after nodes have been followed: a small file can name many.
 inline constexpr double kMaxTriangles = 67108864;

@@ -22,12 +22,19 @@ namespace {
 /// Thrown out of the library, which knows no other way to stop; the fault is in the reading.
 struct Refused {};
 
+/// The faces of a material.
+struct Faces {
+  std::vector<Triangle> triangles;
+  std::vector<std::array<Imath::V2f, 3>> coordinates;
+};
+
 /// A file being read by the library, which calls back with what each line says.
 struct Obj {
   MeshReading& reading;
   std::istringstream stream;
   std::vector<Imath::V3d> vertices;
-  std::map<std::optional<std::size_t>, std::vector<Triangle>> triangles;  // by material
+  std::vector<Imath::V2f> coordinates;
+  std::map<std::optional<std::size_t>, Faces> faces;  // by material
   std::optional<std::size_t> material;
 
   /// What has been read, up to the end of the line that is called about.
@@ -49,10 +56,11 @@ struct Obj {
   }
 };
 
-// Three numbers at the start of a text. The library takes for 0 what is none.
-std::optional<std::array<double, 3>> three_numbers(const std::string& text) {
+// Numbers at the start of a text. The library takes for 0 what is none.
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers(const std::string& text) {
   std::istringstream words(text);
-  std::array<double, 3> v{};
+  std::array<double, N> v{};
   for (double& x : v) {
     std::string word;
     words >> word;
@@ -66,25 +74,45 @@ std::optional<std::array<double, 3>> three_numbers(const std::string& text) {
 void take_vertex(void* user, double x, double y, double z, double /*w*/) {
   Obj& obj = *static_cast<Obj*>(user);
   const auto suspect = [](double v) { return v == 0 || !std::isfinite(v); };
-  if ((suspect(x) || suspect(y) || suspect(z)) && !three_numbers(obj.rest()))
+  if ((suspect(x) || suspect(y) || suspect(z)) && !numbers<3>(obj.rest()))
     obj.refuse(fmt::format("a vertex needs three finite numbers (got {})", obj.rest()));
   obj.vertices.emplace_back(x, y, z);
 }
 
-// Vertices count from 1, or back from the last.
+void take_coordinates(void* user, double /*u*/, double /*v*/, double /*w*/) {
+  Obj& obj = *static_cast<Obj*>(user);
+  const auto at = numbers<2>(obj.rest());
+  const Imath::V2f uv = at ? Imath::V2f(Imath::V2d((*at)[0], (*at)[1])) : Imath::V2f(INFINITY);
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+    obj.refuse(fmt::format("texture coordinates need two finite numbers (got {})", obj.rest()));
+  obj.coordinates.push_back(uv);
+}
+
+// What a face names counts from 1, or back from the last.
+template <typename T>
+std::size_t position(const Obj& obj, const char* what, std::int64_t named, const std::vector<T>& list) {
+  const auto last = static_cast<std::int64_t>(list.size());
+  const std::int64_t number = named > 0 ? named : last + 1 + named;
+  if (named == 0 || number < 1 || number > last)
+    obj.refuse(fmt::format("no such {} (got {}, allowed [1, {}])", what, named, last));
+  return static_cast<std::size_t>(number - 1);
+}
+
 void take_face(void* user, tinyobj::index_t* indices, int count) {
   Obj& obj = *static_cast<Obj*>(user);
   if (count < 3) obj.refuse(fmt::format("a face of {} corners (allowed 3 or more)", count));
-  const auto last = static_cast<std::int64_t>(obj.vertices.size());
   std::vector<std::uint32_t> polygon;
+  std::vector<Imath::V2f> coordinates;
   for (int i = 0; i < count; ++i) {
-    const std::int64_t named = indices[i].vertex_index;
-    const std::int64_t vertex = named > 0 ? named : last + 1 + named;
-    if (named == 0 || vertex < 1 || vertex > last)
-      obj.refuse(fmt::format("no such vertex (got {}, allowed [1, {}])", named, last));
-    polygon.push_back(static_cast<std::uint32_t>(vertex - 1));
+    polygon.push_back(
+        static_cast<std::uint32_t>(position(obj, "vertex", indices[i].vertex_index, obj.vertices)));
+    const int named = indices[i].texcoord_index;
+    if (obj.reading.coordinates == FileCoordinates::wanted && named != 0)
+      coordinates.push_back(obj.coordinates[position(obj, "vt", named, obj.coordinates)]);
   }
-  add_fan(polygon, obj.triangles[obj.material]);
+  Faces& faces = obj.faces[obj.material];
+  add_fan(polygon, faces.triangles);
+  if (coordinates.size() == polygon.size()) add_fan(coordinates, faces.coordinates);
 }
 
 void use_material(void* user, const char* name, int number) {
@@ -144,7 +172,7 @@ bool check_colors(const std::string& name, const std::string& text, MeshReading&
     const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
     if (line.compare(key, 2, "Kd") != 0) continue;
     const std::string rest = split(std::string_view(line).substr(key + 2), '\n')[0];
-    const auto color = three_numbers(rest);
+    const auto color = numbers<3>(rest);
     if (!color || !std::all_of(color->begin(), color->end(), [](double x) { return x >= 0 && x <= 1; }))
       return reading.refuse(
           fmt::format("\"{}\" line {}: Kd (got {}, allowed three of [0, 1])", name, number, rest));
@@ -178,42 +206,47 @@ class MaterialFiles : public tinyobj::MaterialReader {
   const Obj& obj_;
 };
 
-// The triangles with the vertices they name and no others.
-Mesh compact(const std::vector<Imath::V3d>& vertices, std::vector<Triangle> triangles) {
+// The faces with the vertices they name and no others.
+Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces) {
   Mesh mesh;
   std::unordered_map<std::uint32_t, std::uint32_t> renamed;
-  for (Triangle& triangle : triangles)
+  for (Triangle& triangle : faces.triangles)
     for (std::uint32_t& corner : triangle) {
       const auto [at, added] = renamed.emplace(corner, static_cast<std::uint32_t>(mesh.vertices.size()));
       if (added) mesh.vertices.push_back(vertices[corner]);
       corner = at->second;
     }
-  mesh.triangles = std::move(triangles);
+  mesh.triangles = std::move(faces.triangles);
+  mesh.coordinates = std::move(faces.coordinates);
   return mesh;
 }
 
 }  // namespace
 
 bool read_obj(std::string&& bytes, MeshReading& reading) {
-  Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}};
+  Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}};
   MaterialFiles files(obj);
   const bool wanted = reading.materials == FileMaterials::wanted;
   tinyobj::callback_t take;
   take.vertex_cb = take_vertex;
   take.index_cb = take_face;
+  if (reading.coordinates == FileCoordinates::wanted) take.texcoord_cb = take_coordinates;
   if (wanted) take.usemtl_cb = use_material;
   try {
     tinyobj::LoadObjWithCallback(obj.stream, take, &obj, wanted ? &files : nullptr);
   } catch (const Refused&) {
     return false;
   }
-  if (obj.triangles.size() == 1) {
-    auto& [material, triangles] = *obj.triangles.begin();
-    reading.file.parts.push_back({{std::move(obj.vertices), std::move(triangles)}, material});
+  for (auto& [material, faces] : obj.faces)
+    if (faces.coordinates.size() < faces.triangles.size()) faces.coordinates.clear();
+  if (obj.faces.size() == 1) {
+    auto& [material, faces] = *obj.faces.begin();
+    reading.file.parts.push_back(
+        {{std::move(obj.vertices), std::move(faces.triangles), std::move(faces.coordinates)}, material});
     return true;
   }
-  for (auto& [material, triangles] : obj.triangles)
-    reading.file.parts.push_back({compact(obj.vertices, std::move(triangles)), material});
+  for (auto& [material, faces] : obj.faces)
+    reading.file.parts.push_back({compact(obj.vertices, std::move(faces)), material});
   return true;
 }
 

@@ -28,6 +28,8 @@ struct ShapeHit {
 struct Mesh {
   std::vector<Imath::V3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Of the corners of each triangle; none, or as many as triangles.
+  std::vector<std::array<Imath::V2f, 3>> coordinates = {};
 };
 struct Sphere {
   Imath::V3d center;
@@ -83,7 +85,8 @@ template <typename T>
 
 /// A right prism with an isosceles cross-section: apex angle [degrees] in (0, 180) between its two equal
 /// faces of width `side`. The apex edge is towards +z, the third face lies in a plane z = const, the edges of
-/// length `length` run along y. The origin is the centroid.
+/// length `length` run along y. The origin is the centroid. On the three faces the texture coordinate u runs
+/// along the length and v around it, 0 to 1 on each; on the ends they are shares of the cross-section.
 [[nodiscard]] Mesh make_prism(double apex_deg, double side, double length);
 
 /// A box around the shape; of an instance, that around its prototype's box.

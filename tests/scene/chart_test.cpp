@@ -56,7 +56,7 @@ TEST_F(ChartFileTest, PatchesStandRowByRowFromTheTopLeft) {
   EXPECT_NEAR(quad_of(*scene.scene, 0).edge_u.x, 0.86, 1e-12);
   EXPECT_GT(normal_of(quad_of(*scene.scene, 0)).z, 0.99) << "faces the reader";
   const auto& white = std::get<DiffuseMaterial>(scene->materials.at(scene->shapes[18].material).model);
-  EXPECT_NEAR(white.reflectance(550), 0.9, 0.03);
+  EXPECT_NEAR(white.reflectance.curve()(550), 0.9, 0.03);
 }
 
 TEST_F(ChartFileTest, PatchesAndSurroundFillTheRectangleOnce) {
@@ -78,7 +78,7 @@ TEST_F(ChartFileTest, ATableOfTheUsersMayHaveAnyNumberOfPatches) {
   ASSERT_TRUE(scene.scene) << scene.text();
   ASSERT_EQ(scene->shapes.size(), 3U);
   EXPECT_NEAR(middle(quad_of(*scene.scene, 1)).x + scene->origin_m.x, -1.5, 1e-12);
-  EXPECT_EQ(std::get<DiffuseMaterial>(scene->materials.at(scene->shapes[2].material).model).reflectance(500),
+  EXPECT_EQ(std::get<DiffuseMaterial>(scene->materials.at(scene->shapes[2].material).model).reflectance.curve()(500),
             0.5);
 }
 

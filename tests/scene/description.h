@@ -66,6 +66,8 @@ class DescriptionTest : public ::testing::Test {
     write(folder_ / "chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\n");
     write(folder_ / "chair.obj", "mtllib chair.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
+    write_exr(folder_ / "paint.exr", {2, 1, {{"a", {0.25F, 1}}, {"b", {0.5F, 0}}}, {}});
+    write_exr(folder_ / "photo.exr", {1, 1, {{"R", {0.2F}}, {"G", {0.4F}}, {"B", {0.6F}}}, {}});
     write(folder_ / "lamp.csv", "# unit: W/(m2 sr nm)\n# outside: zero\nwavelength_nm,L\n400,1\n700,3\n");
     write(folder_ / "filter.csv",
           "# unit: transmittance\n# outside: zero\nwavelength_nm,T\n500,0.2\n600,0.4\n");
@@ -105,7 +107,8 @@ class DescriptionTest : public ::testing::Test {
     const Loaded loaded =
         load(fmt::format(R"({{"materials": {{"m": {{"diffuse": {{"reflectance": {}}}}}}}}})", json));
     EXPECT_TRUE(loaded.scene) << loaded.text();
-    return loaded.scene ? std::get<DiffuseMaterial>(loaded->materials.at(0).model).reflectance : Curve(-1.0);
+    return loaded.scene ? std::get<DiffuseMaterial>(loaded->materials.at(0).model).reflectance.curve()
+                        : Curve(-1.0);
   }
 
   // The emission of a lamp: `kind` is one of the lights' geometries.

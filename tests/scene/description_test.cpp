@@ -212,7 +212,7 @@ TEST_F(DescriptionTest, LampsAreShapes) {
   }
   EXPECT_EQ(loaded->lights[2].name, "bulb");
   EXPECT_EQ(loaded->materials[loaded->shapes[2].material].name, "m");
-  EXPECT_EQ(std::get<DiffuseMaterial>(loaded->materials[loaded->shapes[1].material].model).reflectance.max(),
+  EXPECT_EQ(std::get<DiffuseMaterial>(loaded->materials[loaded->shapes[1].material].model).reflectance.curve().max(),
             0)
       << "a lamp without a material is black";
 }

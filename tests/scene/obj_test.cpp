@@ -44,7 +44,7 @@ TEST_F(ObjTest, BringsItsMaterials) {
   EXPECT_LT((second.vertices[along] - second.vertices[from] - Imath::V3d(0.02, 0, 0)).length(), 1e-12);
   const Material& red = loaded->materials[loaded->shapes[0].material];
   EXPECT_EQ(red.name, "a.obj:red paint");
-  const LinearRgb color = linear_rgb(std::get<DiffuseMaterial>(red.model).reflectance);
+  const LinearRgb color = linear_rgb(std::get<DiffuseMaterial>(red.model).reflectance.curve());
   EXPECT_NEAR(color[0], 0.8, 1e-3);
   EXPECT_NEAR(color[1], 0.1, 1e-3);
   EXPECT_NEAR(color[2], 0.05, 1e-3);

@@ -116,7 +116,7 @@ Image planted_film(const Scene& scene, double brighter) {
       const auto patch = static_cast<std::size_t>(row) * 6 + static_cast<std::size_t>(column);
       const auto& material = scene.materials[scene.shapes[patch].material];
       const std::vector<double> seen =
-          camera_raw(scene.channels, light, std::get<DiffuseMaterial>(material.model).reflectance);
+          camera_raw(scene.channels, light, std::get<DiffuseMaterial>(material.model).reflectance.curve());
       for (std::size_t c = 0; c < seen.size(); ++c)
         film.channels[c].values[static_cast<std::size_t>(y * film.width + x)] =
             static_cast<float>(3 * seen[c] * (patch == 0 ? brighter : 1));

@@ -8,7 +8,7 @@
 
 #include "materials/material.h"
 #include "scene/scene.h"
-#include "scene/shapes/basis.h"
+#include "scene/surface.h"
 #include "transport/path/packet.h"
 
 namespace abbe {
@@ -30,10 +30,15 @@ struct Vertex {
       : hit(surface), frame(axes), wo(outgoing), bsdf(std::move(scattering)) {}
   Vertex(const Scene& scene, const SurfaceHit& surface, const Imath::V3f& incoming,
          const SampledSpectrum& wavelengths_nm)
+      : Vertex(scene, surface, place_of(scene, surface), incoming, wavelengths_nm) {}
+
+ private:
+  Vertex(const Scene& scene, const SurfaceHit& surface, const SurfacePlace& place, const Imath::V3f& incoming,
+         const SampledSpectrum& wavelengths_nm)
       : hit(surface),
-        frame(surface.normal),
+        frame(place.frame),
         wo(frame.to_local(-incoming)),
-        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm})) {}
+        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm, place.uv})) {}
 };
 
 /// Survival probability of Russian roulette, the same whichever lane is the hero: min(1, max(0.1, largest

@@ -1,0 +1,24 @@
+#include "materials/texture/spectral_texture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/error.h"
+
+namespace abbe {
+
+SpectralTexture::SpectralTexture(TextureImage image, std::vector<Curve> spectra)
+    : image_(std::make_shared<const Weighted>(Weighted{std::move(image), std::move(spectra)})) {
+  if (image_->spectra.size() != image_->image.channels())
+    throw Error(ErrorCode::internal, "texture", "a spectrum is needed for each channel");
+}
+
+SampledSpectrum SpectralTexture::of_image(const SurfaceLookup& at) const {
+  const TextureImage::Blend blend = image_->image.blend(at.uv);
+  SampledSpectrum sum;
+  for (std::size_t c = 0; c < image_->spectra.size(); ++c)
+    sum += image_->spectra[c](at.wavelengths_nm) * image_->image.value(blend, c);
+  return SampledSpectrum::map(sum, [](float x) { return std::clamp(x, 0.0F, 1.0F); });
+}
+
+}  // namespace abbe

@@ -1,0 +1,59 @@
+#include "materials/texture/texture_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+/// Two neighbours along an axis, and the share of the second.
+struct Neighbours {
+  std::array<std::size_t, 2> index;
+  float second;
+};
+
+std::size_t wrapped(double index, double count, TextureWrap wrap) {
+  const double inside = wrap == TextureWrap::repeat ? index - count * std::floor(index / count)
+                                                    : std::clamp(index, 0.0, count - 1);
+  return static_cast<std::size_t>(std::min(inside, count - 1));  // rounding may reach the count itself
+}
+
+// `x` counts from one edge of the image to the other as 0 to 1.
+Neighbours neighbours(double x, std::size_t size, const TextureMapping& mapping) {
+  const auto count = static_cast<double>(size);
+  if (mapping.filter == TextureFilter::nearest) {
+    const std::size_t nearest = wrapped(std::floor(x * count), count, mapping.wrap);
+    return {{nearest, nearest}, 0};
+  }
+  const double from_center = x * count - 0.5;
+  const double first = std::floor(from_center);
+  return {{wrapped(first, count, mapping.wrap), wrapped(first + 1, count, mapping.wrap)},
+          static_cast<float>(from_center - first)};
+}
+
+}  // namespace
+
+TextureImage::TextureImage(std::size_t width, std::size_t height, std::size_t channels,
+                           std::vector<float> texels, const TextureMapping& mapping)
+    : width_(width), height_(height), channels_(channels), texels_(std::move(texels)), mapping_(mapping) {
+  if (texels_.empty() || texels_.size() != width * height * channels)
+    throw Error(ErrorCode::internal, "texture", "as many values as texels and channels are needed");
+}
+
+TextureImage::Blend TextureImage::blend(const Imath::V2f& uv) const {
+  const Imath::V2d at = mapping_.scale * Imath::V2d(uv) + mapping_.offset;
+  const Neighbours column = neighbours(at.x, width_, mapping_);
+  const Neighbours row = neighbours(1 - at.y, height_, mapping_);
+  const float right = column.second;
+  const float below = row.second;
+  const std::size_t above = row.index[0] * width_;
+  const std::size_t under = row.index[1] * width_;
+  return {
+      {above + column.index[0], above + column.index[1], under + column.index[0], under + column.index[1]},
+      {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
+}
+
+}  // namespace abbe

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "io/image.h"
+#include "materials/texture/texture_image.h"
+#include "scene/description/pieces.h"
+
+namespace abbe::description {
+
+/// How a file's values stand for numbers.
+enum class Encoding { linear, srgb };
+
+/// An image named by a scene, and how it lies on surfaces.
+struct TextureFile {
+  std::string name;
+  SourcePosition where;
+  Image image;
+  TextureMapping mapping;
+
+  /// The complaint `what` about this image, as an error of that kind.
+  void refuse(const std::string& what, ErrorCode code, Reading& reading) const;
+  /// Where texel number `i` is: "(column, row)" from the top left.
+  [[nodiscard]] std::string texel_name(std::size_t i) const;
+};
+
+/// The keys all textures have: "image", "filter", "wrap", "scale" and "offset". Throws Error{input} or
+/// Error{resource} for an image that cannot be read or is too large.
+[[nodiscard]] std::optional<TextureFile> read_texture_file(ObjectReader& reader, Reading& reading);
+
+/// Those channels, texel by texel; a channel that is not there and a value that is not finite are reported.
+[[nodiscard]] std::optional<std::vector<float>> read_texels(const TextureFile& file,
+                                                            std::span<const std::string> channels,
+                                                            Encoding encoding, Reading& reading);
+
+}  // namespace abbe::description

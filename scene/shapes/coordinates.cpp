@@ -1,0 +1,87 @@
+#include "scene/shapes/coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace abbe {
+namespace {
+
+constexpr double kTau = 2 * std::numbers::pi;
+
+/// A vector of a plane, as shares of two edges that span it.
+struct PlaneShares {
+  double first;
+  double second;
+
+  PlaneShares(const Imath::V3d& vector, const Imath::V3d& edge_a, const Imath::V3d& edge_b) {
+    const Imath::V3d normal = edge_a.cross(edge_b);
+    first = vector.cross(edge_b).dot(normal) / normal.length2();
+    second = edge_a.cross(vector).dot(normal) / normal.length2();
+  }
+};
+
+SurfaceCoordinates coordinates_on(const Quad& quad, const Imath::V3d& point, std::size_t /*triangle*/) {
+  const PlaneShares at(point - quad.corner, quad.edge_u, quad.edge_v);
+  return {{at.first, at.second}, quad.edge_u, quad.edge_v};
+}
+
+SurfaceCoordinates coordinates_on(const Disc& disc, const Imath::V3d& point, std::size_t /*triangle*/) {
+  constexpr double kNearZ = 0.9;
+  const Imath::V3d up = std::abs(disc.normal.z) > kNearZ ? Imath::V3d(0, 1, 0) : Imath::V3d(0, 0, 1);
+  const Imath::V3d u = up.cross(disc.normal).normalized();
+  const Imath::V3d v = disc.normal.cross(u);
+  const Imath::V3d from_center = point - disc.center;
+  const double size = 2 * disc.radius;
+  return {{0.5 + from_center.dot(u) / size, 0.5 + from_center.dot(v) / size}, u * size, v * size};
+}
+
+SurfaceCoordinates coordinates_on(const Sphere& sphere, const Imath::V3d& point, std::size_t /*triangle*/) {
+  const Imath::V3d p = point - sphere.center;
+  const double ring = std::hypot(p.x, p.y);
+  const double longitude = std::atan2(p.y, p.x);
+  SurfaceCoordinates at;
+  at.uv = {longitude / kTau + (longitude < 0 ? 1 : 0), 0.5 + std::atan2(p.z, ring) / std::numbers::pi};
+  if (ring == 0) return at;
+  at.dp_du = Imath::V3d(-p.y, p.x, 0) * kTau;
+  at.dp_dv = Imath::V3d(-p.x * p.z / ring, -p.y * p.z / ring, ring) * std::numbers::pi;
+  return at;
+}
+
+SurfaceCoordinates coordinates_on(const Mesh& mesh, const Imath::V3d& point, std::size_t triangle) {
+  if (mesh.coordinates.empty()) return {};
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Imath::V3d& origin = mesh.vertices[a];
+  const Imath::V3d edge_b = mesh.vertices[b] - origin;
+  const Imath::V3d edge_c = mesh.vertices[c] - origin;
+  const auto& [uv_a, uv_b, uv_c] = mesh.coordinates[triangle];
+  const Imath::V2d along_b = Imath::V2d(uv_b) - Imath::V2d(uv_a);
+  const Imath::V2d along_c = Imath::V2d(uv_c) - Imath::V2d(uv_a);
+  const PlaneShares share(point - origin, edge_b, edge_c);
+  SurfaceCoordinates at;
+  at.uv = Imath::V2d(uv_a) + along_b * share.first + along_c * share.second;
+  const double area = along_b.cross(along_c);
+  if (area == 0) return at;
+  at.dp_du = (edge_b * along_c.y - edge_c * along_b.y) / area;
+  at.dp_dv = (edge_c * along_b.x - edge_b * along_c.x) / area;
+  return at;
+}
+
+SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Imath::V3d& point, std::size_t triangle) {
+  const Imath::V3d inside = point * placed.at->to_prototype;
+  SurfaceCoordinates at = std::visit(
+      [&](const auto& shape) { return coordinates_on(shape, inside, triangle); }, placed.of->shape);
+  for (Imath::V3d* tangent : {&at.dp_du, &at.dp_dv}) {
+    const Imath::V3d moved = *tangent;
+    placed.at->to_world.multDirMatrix(moved, *tangent);
+  }
+  return at;
+}
+
+}  // namespace
+
+SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std::size_t triangle) {
+  return std::visit([&](const auto& s) { return coordinates_on(s, point, triangle); }, shape);
+}
+
+}  // namespace abbe
