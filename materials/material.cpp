@@ -11,6 +11,7 @@ Lobes lobes(const Material& material) {
 }
 
 bool needs_coordinates(const Material& material) {
+  if (material.relief) return true;
   return std::visit(
       [](const auto& model) {
         if constexpr (requires { model.needs_coordinates(); })

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 
 #include "materials/model/smooth.h"
+#include "materials/texture/relief.h"
 
 namespace abbe {
 
@@ -16,13 +18,15 @@ using MaterialModel = std::variant<DiffuseMaterial, DielectricMaterial, Conducto
 struct Material {
   std::string name;
   MaterialModel model;
+  std::shared_ptr<const Relief> relief = nullptr;  ///< Turns the normal that scattering sees.
 };
 
 /// The scattering of `material` at the wavelengths of a packet, against air outside. It may refer to the
 /// material, which must outlive it.
 [[nodiscard]] Bsdf make_bsdf(const Material& material, const SurfaceLookup& at);
 
-/// Whether its scattering depends on surface coordinates: by a texture, or by a direction along the surface.
+/// Whether its scattering depends on surface coordinates: by a texture, a relief, or a direction along the
+/// surface.
 [[nodiscard]] bool needs_coordinates(const Material& material);
 /// In which ways light leaves it.
 [[nodiscard]] Lobes lobes(const Material& material);

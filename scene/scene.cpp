@@ -6,6 +6,23 @@
 #include "scene/shapes/mesh.h"
 
 namespace abbe {
+namespace {
+
+// Of the images a material looks up.
+std::size_t texture_bytes(const Material& material) {
+  std::size_t bytes = 0;
+  if (material.relief)
+    bytes += std::visit([](const auto& map) { return map.image.memory_bytes(); }, *material.relief);
+  std::visit(
+      [&bytes](const auto& model) {
+        if constexpr (requires { model.reflectance.memory_bytes(); })
+          bytes += model.reflectance.memory_bytes();
+      },
+      material.model);
+  return bytes;
+}
+
+}  // namespace
 
 std::vector<std::string> Scene::channel_names() const {
   std::vector<std::string> names;
@@ -61,6 +78,7 @@ std::size_t Scene::memory_bytes() const {
   for (const Light& light : lights)
     if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind); sky && sky->image)
       bytes += sky->image->memory_bytes();
+  for (const Material& material : materials) bytes += texture_bytes(material);
   const Placement* last = nullptr;  // the shapes of one instance stand side by side and share theirs
   for (const ShapeInstance& instance : shapes) {
     if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) bytes += abbe::memory_bytes(*mesh);

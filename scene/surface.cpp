@@ -4,12 +4,37 @@
 
 namespace abbe {
 
+namespace {
+
+Imath::V3d turned(const NormalMap& map, const SurfaceCoordinates& at, const Imath::V3d& normal) {
+  const Basis<double> axes(normal, at.dp_du);
+  const Imath::V3d n = map.normal(Imath::V2f(at.uv));
+  return axes.to_world({n.x, axes.y.dot(at.dp_dv) < 0 ? -n.y : n.y, n.z});
+}
+
+// Off the normal against the gradient g along the surface, which has g.dp_du and g.dp_dv as slopes. The
+// curvature of the surface itself is left out. [Blinn1978]
+Imath::V3d turned(const BumpMap& map, const SurfaceCoordinates& at, const Imath::V3d& normal) {
+  const Imath::V3d area = at.dp_du.cross(at.dp_dv);
+  if (area.length2() == 0) return normal;
+  const Imath::V2d slope = map.slope(Imath::V2f(at.uv));
+  const Imath::V3d gradient =
+      (at.dp_dv.cross(area) * slope.x + area.cross(at.dp_du) * slope.y) / area.length2();
+  return (normal - gradient).normalized();
+}
+
+}  // namespace
+
 SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit) {
   const ShapeInstance& instance = scene.shapes[hit.shape];
   const Material& material = scene.materials[instance.material];
   if (!needs_coordinates(material)) return {Basis<float>(hit.normal)};
   const SurfaceCoordinates at = coordinates(instance.shape, Imath::V3d(hit.point), hit.primitive);
-  return {Basis<float>(hit.normal, Imath::V3f(at.dp_du.normalized())), Imath::V2f(at.uv)};
+  const Imath::V3f along(at.dp_du.normalized());
+  if (!material.relief) return {Basis<float>(hit.normal, along), Imath::V2f(at.uv)};
+  const Imath::V3d normal =
+      std::visit([&](const auto& map) { return turned(map, at, Imath::V3d(hit.normal)); }, *material.relief);
+  return {Basis<float>(Imath::V3f(normal), along), Imath::V2f(at.uv), true};
 }
 
 }  // namespace abbe

@@ -7,10 +7,12 @@
 
 namespace abbe {
 
-/// What scattering at a hit refers to: axes whose z is the outward normal, and the surface coordinates.
+/// What scattering at a hit refers to: axes whose z is the outward normal, or the one that a relief says, and
+/// the surface coordinates.
 struct SurfacePlace {
   Basis<float> frame;
   Imath::V2f uv{0, 0};
+  bool relief = false;  ///< z may differ from the normal of the shape.
 };
 
 /// Of a hit in a scene that has `needs.textures`. Where the material needs coordinates they are worked out,

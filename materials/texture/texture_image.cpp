@@ -43,8 +43,18 @@ TextureImage::TextureImage(std::size_t width, std::size_t height, std::size_t ch
     throw Error(ErrorCode::internal, "texture", "as many values as texels and channels are needed");
 }
 
-TextureImage::Blend TextureImage::blend(const Imath::V2f& uv) const {
-  const Imath::V2d at = mapping_.scale * Imath::V2d(uv) + mapping_.offset;
+Imath::V2d TextureImage::gradient(const Imath::V2f& uv, std::size_t channel) const {
+  const Imath::V2d at = on_image(uv);
+  const Imath::V2d size(static_cast<double>(width_), static_cast<double>(height_));
+  const auto change = [&](const Imath::V2d& half) {
+    return static_cast<double>(value(blend_at(at + half), channel)) -
+           static_cast<double>(value(blend_at(at - half), channel));
+  };
+  const Imath::V2d differences(change({0.5 / size.x, 0}), change({0, 0.5 / size.y}));
+  return differences * size * mapping_.scale;
+}
+
+TextureImage::Blend TextureImage::blend_at(const Imath::V2d& at) const {
   const Neighbours column = neighbours(at.x, width_, mapping_);
   const Neighbours row = neighbours(1 - at.y, height_, mapping_);
   const float right = column.second;

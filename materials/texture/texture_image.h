@@ -36,7 +36,7 @@ class TextureImage {
     std::array<std::size_t, 4> texel;
     std::array<float, 4> weight;
   };
-  [[nodiscard]] Blend blend(const Imath::V2f& uv) const;
+  [[nodiscard]] Blend blend(const Imath::V2f& uv) const { return blend_at(on_image(uv)); }
   [[nodiscard]] float value(const Blend& blend, std::size_t channel) const {
     float sum = 0;
     for (std::size_t i = 0; i < blend.texel.size(); ++i)
@@ -44,10 +44,19 @@ class TextureImage {
     return sum;
   }
 
+  /// How a channel changes with u and v: by differences across a texel, which bilinear values make
+  /// continuous.
+  [[nodiscard]] Imath::V2d gradient(const Imath::V2f& uv, std::size_t channel) const;
+
   [[nodiscard]] std::size_t channels() const { return channels_; }
   [[nodiscard]] std::size_t memory_bytes() const { return texels_.size() * sizeof(float); }
 
  private:
+  [[nodiscard]] Imath::V2d on_image(const Imath::V2f& uv) const {
+    return mapping_.scale * Imath::V2d(uv) + mapping_.offset;
+  }
+  [[nodiscard]] Blend blend_at(const Imath::V2d& at) const;
+
   std::size_t width_;
   std::size_t height_;
   std::size_t channels_;

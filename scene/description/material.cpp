@@ -27,6 +27,7 @@ Material read_material(const std::string& name, const JsonValue& json, Reading& 
   for (const auto& [known, read] : kReaders)
     if (key == known)
       if (auto model = read(*reader.find(known), reading)) material.model = std::move(*model);
+  material.relief = read_relief(reader, reading);
   if (key) reader.finish();
   return material;
 }

@@ -27,6 +27,9 @@ struct Ior {
 /// Error{input} or Error{resource} for an image file that cannot be read or is too large.
 [[nodiscard]] std::optional<SpectralTexture> read_reflectance(const JsonValue& json, Reading& reading);
 
+/// What is under "normal_map" or "bump_map" of a material, if either is there. Throws as `read_reflectance`.
+[[nodiscard]] std::shared_ptr<const Relief> read_relief(ObjectReader& reader, Reading& reading);
+
 /// Each material of the list from what stands under its key; none after an error.
 using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, Reading& reading);
 [[nodiscard]] std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& reading);

@@ -157,10 +157,8 @@ std::optional<SpectralTexture> read_reflectance(const JsonValue& json, Reading& 
   if (!weights) return std::nullopt;
   auto texels = read_texels(*file, weights->channels, weights->encoding, reading);
   if (!texels || !check_reflectances(*file, *weights, *texels, reading)) return std::nullopt;
-  return SpectralTexture(
-      TextureImage(static_cast<std::size_t>(file->image.width), static_cast<std::size_t>(file->image.height),
-                   weights->channels.size(), std::move(*texels), file->mapping),
-      std::move(weights->spectra));
+  return SpectralTexture(texture_image(*file, weights->channels.size(), std::move(*texels)),
+                         std::move(weights->spectra));
 }
 
 }  // namespace abbe::description

@@ -73,4 +73,9 @@ std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span
   return texels;
 }
 
+TextureImage texture_image(const TextureFile& file, std::size_t channels, std::vector<float> texels) {
+  return {static_cast<std::size_t>(file.image.width), static_cast<std::size_t>(file.image.height), channels,
+          std::move(texels), file.mapping};
+}
+
 }  // namespace abbe::description

@@ -35,4 +35,8 @@ struct TextureFile {
                                                             std::span<const std::string> channels,
                                                             Encoding encoding, Reading& reading);
 
+/// Those texels, laid as the file says.
+[[nodiscard]] TextureImage texture_image(const TextureFile& file, std::size_t channels,
+                                         std::vector<float> texels);
+
 }  // namespace abbe::description

@@ -32,7 +32,7 @@ constexpr std::array<NeedName, 11> kNeeds{{
     {"light_tracing", &Needs::light_tracing,
      "caustics of a light too small to be hit by chance, seen by a camera"},
     {"environment", &Needs::environment, "light from infinity all around"},
-    {"textures", &Needs::textures, "a material varies over its surface, or has a direction along it"},
+    {"textures", &Needs::textures, "a material or its relief varies over the surface, or has a direction along it"},
     {"delta_lights", &Needs::delta_lights, "point or spot lights"},
     {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &Needs::polarisation_matters,

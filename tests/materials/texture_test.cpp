@@ -67,6 +67,36 @@ TEST(TextureImage, ScaleAndOffsetMoveTheImage) {
   EXPECT_NEAR(at(moved, 0.1F, 0.2F), at(plain, 0.45F, 0.3F), 1e-6);
 }
 
+TEST(TextureImage, GradientIsExactOnRamps) {
+  const TextureImage wide(8, 8, 2,
+                          [] {
+                            std::vector<float> texels;
+                            for (int row = 0; row < 8; ++row)
+                              for (int column = 0; column < 8; ++column) {
+                                texels.push_back(7);
+                                texels.push_back(static_cast<float>(2 * column - 3 * row));
+                              }
+                            return texels;
+                          }(),
+                          {.scale = {0.5, -2}});
+  const Imath::V2d slope = wide.gradient({0.9F, -0.3F}, 1);
+  EXPECT_NEAR(slope.x, 16 * 0.5, 1e-4);
+  EXPECT_NEAR(slope.y, 24 * -2, 1e-4);
+  EXPECT_EQ(wide.gradient({0.9F, -0.3F}, 0), Imath::V2d(0, 0));
+}
+
+TEST(Relief, NormalsAreDecoded) {
+  const NormalMap map{TextureImage(1, 1, 3, {0.5F, 0.8F, 0.9F}, {})};
+  EXPECT_LT((map.normal({0.3F, 0.3F}) - Imath::V3d(0, 0.6, 0.8)).length(), 1e-6);
+}
+
+TEST(Relief, MaterialsAskForCoordinates) {
+  Material mirror{"mirror", ConductorMaterial{"silver", RefractiveIndex(0.1, 4)}};
+  EXPECT_FALSE(needs_coordinates(mirror));
+  mirror.relief = std::make_shared<const Relief>(BumpMap{TextureImage(1, 1, 1, {0.5F}, {}), 1});
+  EXPECT_TRUE(needs_coordinates(mirror));
+}
+
 TEST(TextureImage, RefusesTooFewTexels) {
   EXPECT_THROW(TextureImage(2, 2, 3, std::vector<float>(11), {}), Error);
   EXPECT_THROW(TextureImage(0, 0, 1, {}, {}), Error);

@@ -85,6 +85,13 @@ TEST_F(TextureTest, ColoursAreSaidToHaveNoSpectrum) {
       << loaded.text();
 }
 
+TEST_F(TextureTest, ImagesAreCountedAsMemory) {
+  const auto bytes = [&](const std::string& reflectance) {
+    return load(painted(reflectance))->memory_bytes();
+  };
+  EXPECT_EQ(bytes(R"({"image": "paint.exr", "weights": {"a": 1, "b": 0}})") - bytes("1"), 4 * sizeof(float));
+}
+
 TEST_F(TextureTest, SlightExcessIsCut) {
   write_exr(folder_ / "over.exr", {2, 1, {{"a", {0.5F, 1.0005F}}}, {}});
   const Loaded loaded = load(painted(R"({"image": "over.exr", "weights": {"a": 1}})"));

@@ -64,7 +64,7 @@ class PhotonPath {
     if (!lens) return;
     const Imath::V3f towards = (lens->lens_point - vertex.hit.point).normalized();
     const Imath::V3f wi = vertex.frame.to_local(towards);
-    SampledSpectrum contribution = eval(vertex.bsdf, vertex.wo, wi, TransportMode::power);
+    SampledSpectrum contribution = vertex.towards(towards, wi, TransportMode::power);
     if (contribution.is_zero()) return;
     const Imath::V3f from = offset_point(vertex.hit.point, vertex.hit.normal, towards);
     if (caster_.occluded(from, lens->lens_point)) return;
@@ -81,8 +81,7 @@ class PhotonPath {
   // `owned`: whether paths that scatter here in more than a single direction are.
   bool scatter(const Vertex& vertex, int depth, bool owned) {
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
-    const std::optional<BsdfSample> event =
-        sample(vertex.bsdf, vertex.wo, {u[2], {u[0], u[1]}}, kHero, TransportMode::power);
+    const std::optional<BsdfSample> event = vertex.scatter({u[2], {u[0], u[1]}}, TransportMode::power);
     if (!event || !(owned || event->delta)) return false;
     packet_.throughput *= event->weight;
     packet_.lane_pdf *= event->lane_pdf;

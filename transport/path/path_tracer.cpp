@@ -104,8 +104,7 @@ class CameraPath {
   [[gnu::always_inline]] bool scatter(const Vertex& vertex, int depth) {
     if (scatters(vertex.bsdf)) add_direct(vertex, depth);
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
-    const std::optional<BsdfSample> sampled =
-        sample(vertex.bsdf, vertex.wo, {u[2], {u[0], u[1]}}, kHero, TransportMode::radiance);
+    const std::optional<BsdfSample> sampled = vertex.scatter({u[2], {u[0], u[1]}}, TransportMode::radiance);
     if (!sampled) return false;
     if (depth == 0) first_specular_ = sampled->delta;
     follow(vertex, *sampled);
@@ -145,7 +144,7 @@ class CameraPath {
         sample_light(light, scene_.shapes, vertex.hit.point, {u[1], u[2]});
     if (!towards) return;
     const Imath::V3f wi = vertex.frame.to_local(towards->wi);
-    SampledSpectrum contribution = eval(vertex.bsdf, vertex.wo, wi, TransportMode::radiance);
+    SampledSpectrum contribution = vertex.towards(towards->wi, wi, TransportMode::radiance);
     if (contribution.is_zero()) return;
     contribution *=
         packet_.throughput * emission_from(light, towards->wi, lambda()) * (std::abs(wi.z) * towards->factor);

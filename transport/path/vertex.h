@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <ImathVec.h>
@@ -19,6 +20,8 @@ struct Vertex {
   Basis<float> frame;
   Imath::V3f wo;  ///< Local.
   Bsdf bsdf;
+  bool relief = false;    ///< The frame's z differs from the normal of the shape.
+  float cos_outside = 1;  ///< Of wo, with the normal of the shape.
 
   /// Where a meter stands: white, diffuse, and seen along its normal, so that the radiance leaving it is the
   /// irradiance over pi.
@@ -32,13 +35,43 @@ struct Vertex {
          const SampledSpectrum& wavelengths_nm)
       : Vertex(scene, surface, place_of(scene, surface), incoming, wavelengths_nm) {}
 
+  /// The model's event, worth what a relief leaves of it.
+  [[nodiscard]] std::optional<BsdfSample> scatter(const BsdfRandom& u, TransportMode mode) const {
+    std::optional<BsdfSample> event = sample(bsdf, wo, u, kHero, mode);
+    if (relief && event) event->weight *= worth(frame.to_world(event->wi), event->wi, mode);
+    return event;
+  }
+  /// Likewise of f towards a direction, in the world and local.
+  [[nodiscard]] SampledSpectrum towards(const Imath::V3f& world, const Imath::V3f& local,
+                                        TransportMode mode) const {
+    SampledSpectrum f = eval(bsdf, wo, local, mode);
+    if (relief) f *= worth(world, local, mode);
+    return f;
+  }
+
  private:
+  // On a relief, what scattering towards a direction is worth against what the model says. It is 0 for
+  // directions that the model and the shape see on different sides, so that no light leaks through. Power,
+  // unlike radiance, takes |wo.z cos_i|/|cos_o wi.z|, the cosines being those with the normal of the shape
+  // and z those with the model's: then both mean the same light. [Veach1997, sec. 5.3]
+  [[nodiscard]] float worth(const Imath::V3f& world, const Imath::V3f& local, TransportMode mode) const {
+    const float cos_world = world.dot(hit.normal);
+    if (!(cos_world * local.z > 0)) return 0;
+    return mode == TransportMode::radiance ? 1 : std::abs(wo.z * cos_world / (cos_outside * local.z));
+  }
+
   Vertex(const Scene& scene, const SurfaceHit& surface, const SurfacePlace& place, const Imath::V3f& incoming,
          const SampledSpectrum& wavelengths_nm)
       : hit(surface),
         frame(place.frame),
         wo(frame.to_local(-incoming)),
-        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm, place.uv})) {}
+        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm, place.uv})),
+        relief(place.relief) {
+    if (!relief) return;
+    cos_outside = -incoming.dot(hit.normal);
+    // Seen from the side that faces away, a relief is black.
+    if (!(cos_outside * wo.z > 0)) bsdf = DiffuseBsdf{};
+  }
 };
 
 /// Survival probability of Russian roulette, the same whichever lane is the hero: min(1, max(0.1, largest
