@@ -3,12 +3,13 @@
 #include <array>
 #include <span>
 
+#include "materials/index/relative_index.h"
 #include "materials/interface/thin_film.h"
 
 namespace abbe {
 namespace {
 
-// `matter(i)` is n and k of matter i.
+// `matter(i)` is n and k of matter i; these, n, k and the wavelength are relative to what is outside.
 template <typename F>
 FresnelPower<double> power_of(const Coating& coating, double wavelength_nm, double n, double k, double cos_i,
                               bool inside, F matter) {
@@ -26,23 +27,27 @@ FresnelPower<double> power_of(const Coating& coating, double wavelength_nm, doub
 }  // namespace
 
 FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n, double k,
-                                  double cos_i, bool inside) {
+                                  double cos_i, bool inside, double outside) {
   if (coating.layers.empty()) {
-    if (!inside && k > 0) return fresnel_conductor(cos_i, n, k);
-    return fresnel_dielectric(cos_i, inside ? 1 / n : n);
+    if (!inside && k > 0) return fresnel_conductor(cos_i, n / outside, k / outside);
+    return fresnel_dielectric(cos_i, inside ? outside / n : n / outside);
   }
-  return power_of(coating, wavelength_nm, n, k, cos_i, inside, [&](std::uint32_t i) {
+  const auto matter = [&](std::uint32_t i) {
     const RefractiveIndex& index = coating.matters[i].index;
-    return Complex<double>{index.n(wavelength_nm), index.k(wavelength_nm)};
-  });
+    return Complex<double>{index.n(wavelength_nm) / outside, index.k(wavelength_nm) / outside};
+  };
+  return power_of(coating, wavelength_nm / outside, n / outside, k / outside, cos_i, inside, matter);
 }
 
-CoatingAt::CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm)
+CoatingAt::CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
+                     const RefractiveIndex* outside)
     : coating_(coating), wavelengths_nm_(wavelengths_nm) {
   for (std::size_t i = 0; i < coating.matters.size(); ++i) {
-    n_[i] = coating.matters[i].index.n(wavelengths_nm);
-    k_[i] = coating.matters[i].index.k(wavelengths_nm);
+    const RelativeIndex matter = relative_index(coating.matters[i].index, outside, wavelengths_nm);
+    n_[i] = matter.n;
+    k_[i] = matter.k;
   }
+  if (outside != nullptr) wavelengths_nm_ = wavelengths_nm / outside->n(wavelengths_nm);
 }
 
 // In double: many layers wear out a float.

@@ -28,21 +28,24 @@ struct Coating {
 };
 
 /// Reflectance and transmittance of the surface of matter of index n + ik under `coating`, for light from
-/// outside, or, when `inside`, from within matter of real index n. All indices are relative to what is
-/// outside.
+/// outside, or, when `inside`, from within matter of real index n. All indices are relative to air, that of
+/// the matter `outside` too.
 [[nodiscard]] FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n,
-                                                double k, double cos_i, bool inside);
+                                                double k, double cos_i, bool inside, double outside = 1);
 
-/// The same at the lanes of a packet: the coating's indices are looked up once for all of them.
+/// The same at the lanes of a packet: the coating's indices are looked up once for all of them, relative to
+/// the matter `outside`, air if nullptr.
 class CoatingAt {
  public:
-  CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm);
+  CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
+            const RefractiveIndex* outside = nullptr);
 
+  /// Of matter of index n + ik relative to what is outside.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
 
  private:
   const Coating& coating_;
-  SampledSpectrum wavelengths_nm_;
+  SampledSpectrum wavelengths_nm_;  // as they are outside
   std::array<SampledSpectrum, Coating::kMaxMatters> n_;
   std::array<SampledSpectrum, Coating::kMaxMatters> k_;
 };

@@ -27,6 +27,16 @@ bool is_dispersive(const Material& material) {
   return inside && inside->dispersive();
 }
 
+bool depends_on_outside(const Material& material) {
+  return std::visit(
+      [](const auto& model) {
+        return requires {
+          model.index;
+        };
+      },
+      material.model);
+}
+
 const RefractiveIndex* interior(const Material& material) {
   return std::visit(
       [](const auto& model) -> const RefractiveIndex* {

@@ -19,9 +19,11 @@ struct Material {
   std::string name;
   MaterialModel model;
   std::shared_ptr<const Relief> relief = nullptr;  ///< Turns the normal that scattering sees.
+  /// Where matter overlaps, that of the highest priority is there; of equals that which light enters last.
+  int priority = 0;
 };
 
-/// The scattering of `material` at the wavelengths of a packet, against air outside. It may refer to the
+/// The scattering of `material` at the wavelengths of a packet, against what is outside. It may refer to the
 /// material, which must outlive it.
 [[nodiscard]] Bsdf make_bsdf(const Material& material, const SurfaceLookup& at);
 
@@ -32,6 +34,8 @@ struct Material {
 [[nodiscard]] Lobes lobes(const Material& material);
 /// Sends different wavelengths different ways.
 [[nodiscard]] bool is_dispersive(const Material& material);
+/// Whether it scatters otherwise in other matter: it has an index.
+[[nodiscard]] bool depends_on_outside(const Material& material);
 /// The index of the matter inside a closed surface of this material, or nullptr when light does not enter it.
 [[nodiscard]] const RefractiveIndex* interior(const Material& material);
 

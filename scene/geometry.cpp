@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "io/error.h"
 #include "scene/shapes/disc.h"
@@ -27,8 +28,11 @@ struct ExactContext : RTCIntersectContext {
   }
   BasicRay<double> ray;
   const std::vector<Part>& parts;
-  ShapeHit<double> nearest{};  // on a sphere or disc
+  ShapeHit<double> nearest{};              // on a sphere or disc
+  std::vector<SurfaceHit>* all = nullptr;  // where every hit goes, if they are asked for
 };
+
+std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context);
 
 // The ray is the world's; within an instance, where that stands, else nullptr.
 struct Exact {
@@ -79,6 +83,13 @@ void reject_behind(const RTCFilterFunctionNArguments* args) {
   if (!(t > 0 && t < exact.ray.t_max)) args->valid[0] = 0;
 }
 
+void collect(const RTCFilterFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  if (const auto hit = decide(*reinterpret_cast<const RTCHit*>(args->hit), context))
+    context.all->push_back(*hit);
+  args->valid[0] = 0;
+}
+
 template <typename S>
 void user_bounds(const RTCBoundsFunctionArguments* args) {
   const Imath::Box3d box = bounds(*static_cast<const S*>(args->geometryUserPtr));
@@ -95,11 +106,18 @@ void user_intersect(const RTCIntersectFunctionNArguments* args) {
   auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const auto found = Exact(args->context).intersection(*static_cast<const S*>(args->geometryUserPtr));
   if (!found || !(found->t < static_cast<double>(ray.tfar))) return;
+  auto& context = *static_cast<ExactContext*>(args->context);
+  context.nearest = *found;
+  RTCHit met{};
+  met.geomID = args->geomID;
+  met.primID = args->primID;
+  met.instID[0] = args->context->instID[0];
+  if (context.all != nullptr) {
+    if (const auto one = decide(met, context)) context.all->push_back(*one);
+    return;
+  }
   ray.tfar = static_cast<float>(found->t);
-  static_cast<ExactContext*>(args->context)->nearest = *found;
-  hit.geomID = args->geomID;
-  hit.primID = args->primID;
-  hit.instID[0] = args->context->instID[0];
+  hit = met;
 }
 
 template <typename S>
@@ -331,6 +349,41 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
     // looked at in double.
     context.filter = reject_behind;
   }
+}
+
+// Embree is asked for all it meets on a stretch of the ray around the hit, on which it need not be exact.
+TouchingSurfaces Geometry::touching(const Ray& ray, const SurfaceHit& hit, float distance) const {
+  TouchingSurfaces found;
+  found.at[found.count++] = hit;
+  const Imath::V3d normal(hit.normal);
+  const Imath::V3d direction(ray.direction);
+  const double reach = 2 * static_cast<double>(distance) / std::abs(normal.dot(direction));
+  const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
+  const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
+  std::vector<SurfaceHit> all;
+  ExactContext context({origin, direction, static_cast<double>(hit.t) + reach - start}, parts_);
+  context.all = &all;
+  context.filter = collect;
+  RTCRayHit query{embree_ray(context.ray), {}};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_.get(), &context, &query);
+  const auto sooner = [](const SurfaceHit& a, const SurfaceHit& b) {
+    return std::tie(a.t, a.shape) < std::tie(b.t, b.shape);
+  };
+  std::sort(all.begin(), all.end(), sooner);
+  for (SurfaceHit& other : all) {
+    other.t += static_cast<float>(start);
+    const auto same = [&](const SurfaceHit& met) {
+      return met.shape == other.shape && (met.normal.dot(other.normal) > 0);
+    };
+    const bool parallel = std::abs(normal.dot(Imath::V3d(other.normal))) > TouchingSurfaces::kParallel;
+    const double apart = std::abs((Imath::V3d(other.point) - Imath::V3d(hit.point)).dot(normal));
+    if (found.count < TouchingSurfaces::kMost && parallel && apart <= static_cast<double>(distance) &&
+        std::none_of(found.at.begin(), found.at.begin() + static_cast<std::ptrdiff_t>(found.count), same))
+      found.at[found.count++] = other;
+  }
+  return found;
 }
 
 bool Geometry::occluded(const BasicRay<double>& ray) const {

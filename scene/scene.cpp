@@ -1,6 +1,8 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
@@ -36,6 +38,19 @@ std::vector<std::string> Scene::film_planes() const {
 
 std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
   return geometry_->intersect(ray);
+}
+
+TouchingSurfaces Scene::touching(const Ray& ray, const SurfaceHit& hit) const {
+  return geometry_->touching(ray, hit, touch_distance());
+}
+
+// Vertices are off the plane they belong to by up to a float step, a point spawned on a surface is up to six
+// from it: what is nearer than these is met together, what is further by the ray that leaves.
+float Scene::touch_distance() const {
+  if (bounds.isEmpty()) return 0;
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
+  return 6 * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
 }
 
 bool Scene::occluded(const Imath::V3f& from, const Imath::V3f& to) const {

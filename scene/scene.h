@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -69,6 +72,23 @@ struct SurfaceHit {
   float t;
   std::uint32_t shape;
   std::uint32_t primitive = 0;  ///< Which triangle of a mesh, in its own order.
+  float spread = 0;             ///< How far to both sides [m] are surfaces that count as one with this.
+};
+
+/// A ray that leaves the surface into `direction`, clear of those that count as one with it.
+[[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& direction) {
+  const float clear = std::copysign(hit.spread, hit.normal.dot(direction));
+  return spawn(hit.point + hit.normal * clear, hit.normal, direction);
+}
+
+/// Surfaces met together.
+struct TouchingSurfaces {
+  static constexpr std::size_t kMost = 16;
+  static constexpr double kParallel = 0.999;  ///< Least cosine between their normals.
+  std::array<SurfaceHit, kMost> at;
+  std::size_t count = 0;
+
+  [[nodiscard]] std::span<const SurfaceHit> all() const { return {at.data(), count}; }
 };
 
 /// Everything a render needs, in metres, recentred so that coordinates are small: `origin_m` is the
@@ -104,6 +124,11 @@ class Scene {
 
   /// Nearest hit at t in (0, ray.t_max). Rays start where `spawn` put them, so no epsilon is needed.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
+  /// The surfaces that touch where `ray` meets the scene at `hit`, which is the first of them: parallel to it
+  /// and within `touch_distance`. Of a shape, each side once.
+  [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit) const;
+  /// Surfaces closer than this [m] count as one: floats this far from the origin hardly tell them apart.
+  [[nodiscard]] float touch_distance() const;
   /// Whether anything stands between two points that `offset_point` put beside their surfaces. Exact at both
   /// ends, at any angle and distance.
   [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) const;

@@ -52,8 +52,8 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
   if (wo.z == 0) return std::nullopt;
   const float cos_i = cosine_of(wo);
   const bool inside = wo.z < 0;
-  const SampledSpectrum n = index->n(wavelengths_nm);
-  const CoatingAt at(*coating, wavelengths_nm);
+  const auto [n, k, dispersive] = relative_index(*index, outside, wavelengths_nm);
+  const CoatingAt at(*coating, wavelengths_nm, outside);
   const FresnelPower<float> f = at.power(hero, n[hero], 0, cos_i, inside);
   const float mirrors = share(f.R(), f.R() + f.transmitted());
   if (u.lobe < mirrors) {
@@ -64,7 +64,7 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
   const float eta = inside ? 1 / n[hero] : n[hero];
   const Imath::V3f wi = refracted_direction(wo, eta, f.cos_t);
   BsdfSample s;
-  if (index->dispersive()) {
+  if (dispersive) {
     s = {.wi = wi,
          .weight = SampledSpectrum(f.transmitted() / (1 - mirrors)),
          .pdf = 1 - mirrors,
@@ -82,12 +82,12 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
 std::optional<BsdfSample> CoatedConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/,
                                                       int /*hero*/, TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
-  const CoatingAt at(*coating, wavelengths_nm);
-  const SampledSpectrum n = index->n(wavelengths_nm);
-  const SampledSpectrum k = index->k(wavelengths_nm);
+  const CoatingAt at(*coating, wavelengths_nm, outside);
+  const RelativeIndex relative = relative_index(*index, outside, wavelengths_nm);
   SampledSpectrum::Values R;
   for (int lane = 0; lane < kLanes; ++lane)
-    R[static_cast<std::size_t>(lane)] = at.power(lane, n[lane], k[lane], cosine_of(wo), false).R();
+    R[static_cast<std::size_t>(lane)] =
+        at.power(lane, relative.n[lane], relative.k[lane], cosine_of(wo), false).R();
   return BsdfSample{.wi = mirrored(wo), .weight = SampledSpectrum(R), .pdf = 1, .delta = true};
 }
 

@@ -4,6 +4,7 @@
 
 #include "materials/bsdf/event.h"
 #include "materials/coating.h"
+#include "materials/index/relative_index.h"
 
 namespace abbe {
 
@@ -13,10 +14,13 @@ struct CoatedDielectricBsdf {
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
   const Coating* coating;
+  const RefractiveIndex* outside = nullptr;  ///< Of what the matter is in; nullptr is air.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
-  [[nodiscard]] float index_inside(int lane) const { return index->n(wavelengths_nm)[lane]; }
+  [[nodiscard]] float index_inside(int lane) const {
+    return relative_index(*index, outside, wavelengths_nm).n[lane];
+  }
 };
 
 /// Smooth conductor under thin films.
@@ -24,6 +28,7 @@ struct CoatedConductorBsdf {
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
   const Coating* coating;
+  const RefractiveIndex* outside = nullptr;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

@@ -2,6 +2,7 @@
 
 #include <ImathVec.h>
 
+#include "materials/index/refractive_index.h"
 #include "spectral/packet.h"
 
 namespace abbe {
@@ -9,7 +10,8 @@ namespace abbe {
 /// Where on a surface, and at which wavelengths, its scattering is asked for.
 struct SurfaceLookup {
   const SampledSpectrum& wavelengths_nm;
-  Imath::V2f uv{0, 0};  ///< Surface coordinates, known where a material asks for them.
+  Imath::V2f uv{0, 0};                       ///< Surface coordinates, known where a material asks for them.
+  const RefractiveIndex* outside = nullptr;  ///< Of the matter the surface's own is in; nullptr is air.
 };
 
 /// In which ways a material sends light on; black matter in none.

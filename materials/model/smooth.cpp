@@ -1,5 +1,7 @@
 #include "materials/model/smooth.h"
 
+#include "materials/index/relative_index.h"
+
 namespace abbe {
 
 Bsdf DiffuseMaterial::bsdf(const SurfaceLookup& at) const {
@@ -7,13 +9,15 @@ Bsdf DiffuseMaterial::bsdf(const SurfaceLookup& at) const {
 }
 
 Bsdf DielectricMaterial::bsdf(const SurfaceLookup& at) const {
-  if (!coating.layers.empty()) return CoatedDielectricBsdf{at.wavelengths_nm, &index, &coating};
-  return DielectricBsdf{index.n(at.wavelengths_nm), index.dispersive()};
+  if (!coating.layers.empty()) return CoatedDielectricBsdf{at.wavelengths_nm, &index, &coating, at.outside};
+  const RelativeIndex relative = relative_index(index, at.outside, at.wavelengths_nm);
+  return DielectricBsdf{relative.n, relative.dispersive};
 }
 
 Bsdf ConductorMaterial::bsdf(const SurfaceLookup& at) const {
-  if (!coating.layers.empty()) return CoatedConductorBsdf{at.wavelengths_nm, &index, &coating};
-  return ConductorBsdf{index.n(at.wavelengths_nm), index.k(at.wavelengths_nm)};
+  if (!coating.layers.empty()) return CoatedConductorBsdf{at.wavelengths_nm, &index, &coating, at.outside};
+  const RelativeIndex relative = relative_index(index, at.outside, at.wavelengths_nm);
+  return ConductorBsdf{relative.n, relative.k};
 }
 
 }  // namespace abbe

@@ -17,6 +17,14 @@ constexpr std::array<std::pair<std::string_view, MaterialReader>, 4> kReaders{
      {"conductor", read_conductor},
      {"film", read_film}}};
 
+// Of the matter inside, which there must be.
+int read_priority(const JsonValue& json, const Material& material, Reading& reading) {
+  const auto priority = read_integer(json, {-1000, 1000}, reading.diagnostics);
+  if (interior(material) == nullptr)
+    reading.diagnostics.error(json.where, "a priority goes with matter that light enters");
+  return static_cast<int>(priority.value_or(0));
+}
+
 // A material that cannot be read stands as black, so that the shapes naming it are not reported as well.
 Material read_material(const std::string& name, const JsonValue& json, Reading& reading) {
   Material material{name, DiffuseMaterial{Curve(0.0)}};
@@ -24,9 +32,13 @@ Material read_material(const std::string& name, const JsonValue& json, Reading& 
   std::vector<std::string_view> keys;
   for (const auto& [key, read] : kReaders) keys.push_back(key);
   const auto key = reader.exactly_one(keys);
+  const JsonValue* priority = reader.find("priority");
   for (const auto& [known, read] : kReaders)
     if (key == known)
-      if (auto model = read(*reader.find(known), reading)) material.model = std::move(*model);
+      if (auto model = read(*reader.find(known), reading)) {
+        material.model = std::move(*model);
+        if (priority != nullptr) material.priority = read_priority(*priority, material, reading);
+      }
   material.relief = read_relief(reader, reading);
   if (key) reader.finish();
   return material;

@@ -25,9 +25,10 @@ bool emits(const Light& light) {
   return light.emission.max() > 0;
 }
 
-constexpr std::array<NeedName, 11> kNeeds{{
+constexpr std::array<NeedName, 12> kNeeds{{
     {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
     {"media", &Needs::media, "matter absorbs along the path"},
+    {"nesting", &Needs::nesting, "matter may be within other matter, or touch it"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
     {"light_tracing", &Needs::light_tracing,
      "caustics of a light too small to be hit by chance, seen by a camera"},
@@ -95,6 +96,33 @@ const ShapeInstance* chained_interface(const Scene& scene) {
   return nullptr;
 }
 
+// A shape that light enters and another one that looks otherwise there, if their boxes meet. Boxes are asked
+// in order of x.
+const ShapeInstance* nested_shape(const Scene& scene) {
+  struct Boxed {
+    Imath::Box3d box;
+    const ShapeInstance* shape;
+    bool filled;
+  };
+  // In a scene so full that this many pairs do not tell, matter is taken to touch somewhere.
+  constexpr std::size_t kMostPairs = 50'000'000;
+  std::vector<Boxed> all;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const Material& material = material_of(scene, instance);
+    if (depends_on_outside(material))
+      all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr});
+  }
+  std::sort(all.begin(), all.end(), [](const Boxed& a, const Boxed& b) { return a.box.min.x < b.box.min.x; });
+  const auto reach = Imath::V3d(static_cast<double>(scene.touch_distance()));
+  std::size_t pairs = 0;
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    const Imath::Box3d grown(a->box.min - reach, a->box.max + reach);
+    for (auto b = a + 1; b != all.end() && b->box.min.x <= grown.max.x; ++b)
+      if (++pairs > kMostPairs || ((a->filled || b->filled) && grown.intersects(b->box))) return b->shape;
+  }
+  return nullptr;
+}
+
 void analyse_matter(const Scene& scene, Needs& needs) {
   const ShapeInstance* specular = nullptr;
   bool scattering = false;
@@ -111,6 +139,8 @@ void analyse_matter(const Scene& scene, Needs& needs) {
   const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
                                [](const Light& light) { return !light.is_environment() && emits(light); });
   if (specular != nullptr) require(needs, &Needs::caustics, scattering && lit, "shape", specular->name);
+  if (const ShapeInstance* nested = nested_shape(scene))
+    require(needs, &Needs::nesting, true, "shape", nested->name);
   if (const ShapeInstance* chained = chained_interface(scene))
     require(needs, &Needs::polarisation_matters, true, "shape", chained->name);
 }

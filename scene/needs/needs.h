@@ -15,6 +15,7 @@ class Scene;
 struct Needs {
   bool dispersion = false;  ///< Some refractive index varies with wavelength.
   bool media = false;       ///< Some matter absorbs along the path.
+  bool nesting = false;     ///< Matter may be within other matter, or touch it.
   bool caustics = false;    ///< A specular surface can focus a light onto a surface that is not specular.
   bool light_tracing =
       false;  ///< Caustics, a camera that can be connected to, and a light too small to be hit by chance.

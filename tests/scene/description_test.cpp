@@ -212,7 +212,9 @@ TEST_F(DescriptionTest, LampsAreShapes) {
   }
   EXPECT_EQ(loaded->lights[2].name, "bulb");
   EXPECT_EQ(loaded->materials[loaded->shapes[2].material].name, "m");
-  EXPECT_EQ(std::get<DiffuseMaterial>(loaded->materials[loaded->shapes[1].material].model).reflectance.curve().max(),
+  EXPECT_EQ(std::get<DiffuseMaterial>(loaded->materials[loaded->shapes[1].material].model)
+                .reflectance.curve()
+                .max(),
             0)
       << "a lamp without a material is black";
 }
@@ -276,7 +278,7 @@ TEST_F(DescriptionTest, ReadsCoatings) {
     "stack": {"conductor": {"ior": "Al_Rakic", "coating": [{"ior": 1.5, "thickness_nm": 10},
        {"repeat": 3, "layers": [{"ior": 2.3, "thickness_nm": 20}, {"ior": {"n": 1.5, "k": 0.1}, "thickness_nm": 30}]},
        {"ior": 2.3, "thickness_nm": 40}]}},
-    "bubble": {"film": {"layers": [{"ior": "water", "thickness_nm": 400}]}}}})");
+    "bubble": {"film": {"layers": [{"ior": "water", "thickness_nm": 400}]}, "priority": -3}}})");
   ASSERT_TRUE(loaded.scene) << loaded.text();
   const Coating& coat = std::get<DielectricMaterial>(loaded->materials[0].model).coating;
   ASSERT_EQ(coat.layers.size(), 1U);
@@ -289,6 +291,8 @@ TEST_F(DescriptionTest, ReadsCoatings) {
   EXPECT_EQ(thicknesses, (std::vector<double>{10, 20, 30, 20, 30, 20, 30, 40}));
   EXPECT_EQ(stack.matters[stack.layers[2].matter].index.k(500), 0.1);
   EXPECT_EQ(stack.matters[stack.layers[7].matter].index.n(500.0), 2.3);
+  EXPECT_EQ(loaded->materials[0].priority, 0);
+  EXPECT_EQ(loaded->materials[2].priority, -3);
   const auto& bubble = std::get<DielectricMaterial>(loaded->materials[2].model);
   EXPECT_EQ(bubble.index.n(500.0), 1);
   EXPECT_EQ(bubble.coating.layers.size(), 1U);

@@ -108,6 +108,29 @@ TEST(Needs, OfMatter) {
   EXPECT_FALSE(scene.needs.dispersion) << "a material no shape is made of";
 }
 
+// Glass within the box of other glass or of metal, or touching it; not glass apart, nor metal beside metal,
+// nor what looks the same in any matter.
+TEST(Needs, NestingOfWhatAnIndexTells) {
+  const auto nests = [](std::uint32_t material, const Shape& shape, std::uint32_t of = kGlass) {
+    Scene scene = floor_scene();
+    add_ball(scene, of);
+    scene.shapes.push_back({"other", shape, material});
+    scene.commit();
+    EXPECT_EQ(scene.needs.because.contains("nesting"), scene.needs.nesting);
+    return scene.needs.nesting;
+  };
+  const Sphere within{{0, 0, 1}, 0.1};
+  EXPECT_TRUE(nests(kGlass, within));
+  EXPECT_TRUE(nests(kMirror, within));
+  EXPECT_TRUE(nests(kGlass, Sphere{{0, 0, 1}, 2}));
+  EXPECT_TRUE(nests(kGlass, Quad{{0.5, -1, 0}, {0, 2, 0}, {0, 0, 2}})) << "touches";
+  EXPECT_TRUE(nests(kGlass, within, kMirror));
+  EXPECT_FALSE(nests(kDiffuse, within));
+  EXPECT_FALSE(nests(kMirror, within, kMirror));
+  for (const Imath::V3d& apart : {V3d(1.2, 0, 1), V3d(0, 1.2, 1), V3d(0, 0, 2.2), V3d(-1.2, 0, 1)})
+    EXPECT_FALSE(nests(kGlass, Sphere{apart, 0.5})) << apart;
+}
+
 TEST(Needs, PolarisationMattersBetweenInterfaces) {
   const Quad pane{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}};
   Scene scene = floor_scene();

@@ -70,16 +70,29 @@ TEST(Enclosures, AreFoundFromTheOutermost) {
 }
 
 TEST(Enclosures, ReturnToWhatIsAround) {
+  Scene scene{};
+  scene.materials = {
+      {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}},
+      {"water", DielectricMaterial{"water", RefractiveIndex(1.33)}},
+      {.name = "ice", .model = DielectricMaterial{"ice", RefractiveIndex(1.3)}, .priority = 3}};
+  for (std::uint32_t i = 0; i < 120; ++i)
+    scene.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, i == 3 ? 1U : 0U});
+  scene.shapes[9].material = 2;
   Enclosures inside;
-  inside.cross(7, false);  // from behind a surface that encloses nothing
+  inside.cross(scene, 7, false);  // from behind a surface that encloses nothing
   EXPECT_TRUE(inside.empty());
-  inside.cross(3, true);
-  inside.cross(5, true);
-  inside.cross(5, true);
+  inside.cross(scene, 3, true);
+  inside.cross(scene, 5, true);
+  inside.cross(scene, 5, true);
   EXPECT_EQ(inside.innermost(), 5U);
-  inside.cross(5, false);
+  inside.cross(scene, 6, false);  // another face of the same body
   EXPECT_EQ(inside.innermost(), 3U);
-  for (std::uint32_t shape = 100; shape < 100 + Enclosures::kMost; ++shape) inside.cross(shape, true);
+  inside.cross(scene, 9, true);
+  inside.cross(scene, 5, true);
+  EXPECT_EQ(inside.innermost(), 9U) << "by its priority";
+  inside.cross(scene, 9, false);
+  EXPECT_EQ(inside.innermost(), 5U);
+  for (std::uint32_t shape = 100; shape < 100 + Enclosures::kMost; ++shape) inside.cross(scene, shape, true);
   EXPECT_EQ(inside.shapes().size(), Enclosures::kMost);
   EXPECT_EQ(inside.shapes().front(), 100U);
   EXPECT_EQ(inside.innermost(), 99 + Enclosures::kMost);

@@ -44,7 +44,9 @@ class PhotonPath {
     for (int depth = 0; depth < scene_.render.max_depth; ++depth) {
       const std::optional<SurfaceHit> hit = caster_.intersect(ray_);
       if (!hit) return;
-      const Vertex vertex(scene_, *hit, ray_.direction, lambda());
+      if (scene_.needs.nesting) interface_ = interface_at(scene_, ray_, *hit, inside_);
+      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, ray_.direction, lambda())
+                                       : Vertex(scene_, *hit, ray_.direction, lambda());
       medium_.attenuate(packet_.throughput, hit->t);
       if (is_black(vertex.bsdf)) return;
       const bool owned = depth > 0 || plan_.light_owns_all;
@@ -66,7 +68,7 @@ class PhotonPath {
     const Imath::V3f wi = vertex.frame.to_local(towards);
     SampledSpectrum contribution = vertex.towards(towards, wi, TransportMode::power);
     if (contribution.is_zero()) return;
-    const Imath::V3f from = offset_point(vertex.hit.point, vertex.hit.normal, towards);
+    const Imath::V3f from = spawn(vertex.hit, towards).origin;
     if (caster_.occluded(from, lens->lens_point)) return;
     contribution *= packet_.throughput * (std::abs(wi.z) * lens->weight / packet_.lane_pdf.sum());
     const auto x = static_cast<int>(lens->film.x);
@@ -87,10 +89,10 @@ class PhotonPath {
     packet_.lane_pdf *= event->lane_pdf;
     if (packet_.throughput.is_zero()) return false;
     if (event->transmitted) {
-      inside_.cross(vertex.hit.shape, vertex.wo.z > 0);
+      inside_ = vertex.behind(scene_, inside_);
       medium_ = medium_within(scene_, inside_, lambda());
     }
-    ray_ = spawn(vertex.hit.point, vertex.hit.normal, vertex.frame.to_world(event->wi));
+    ray_ = spawn(vertex.hit, vertex.frame.to_world(event->wi));
     return survives(*event, depth, u[3]);
   }
 
@@ -112,7 +114,8 @@ class PhotonPath {
   Ray ray_;
   PathPacket packet_;
   Enclosures inside_;
-  Medium medium_;  // within them
+  Medium medium_;                       // within them
+  std::optional<Interface> interface_;  // met last, where matter may be nested
 };
 
 // A photon that shows where to aim others, by what it adds to the film.

@@ -1,6 +1,7 @@
 #include "transport/path/medium.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -24,29 +25,48 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
   std::map<std::uint32_t, Crossings> found;
   Ray ray{from, direction};
   while (const std::optional<SurfaceHit> hit = scene.intersect(ray)) {
-    if (filled(scene, hit->shape)) {
-      Crossings& of = found[hit->shape];
-      const bool leaves = hit->normal.dot(direction) > 0;
+    SurfaceHit last = *hit;
+    for (const SurfaceHit& met : scene.touching(ray, *hit).all()) {
+      last.spread = std::max(last.spread, std::abs((met.point - last.point).dot(last.normal)));
+      if (!filled(scene, met.shape)) continue;
+      Crossings& of = found[met.shape];
+      const bool leaves = met.normal.dot(direction) > 0;
       of.exits += leaves ? 1 : -1;
-      if (leaves) of.last_exit = (hit->point - from).length();
+      if (leaves) of.last_exit = (met.point - from).length();
     }
-    ray = spawn(hit->point, hit->normal, direction);
+    ray = spawn(last, direction);
   }
   return found;
 }
 
 }  // namespace
 
-void Enclosures::enter(std::uint32_t shape) {
-  const auto end = shapes_.begin() + static_cast<std::ptrdiff_t>(count_);
-  if (std::find(shapes_.begin(), end, shape) != end) return;
-  if (count_ == kMost) leave(shapes_.front());
-  shapes_[count_++] = shape;
+void Enclosures::enter(const Scene& scene, std::uint32_t shape) {
+  const auto begin = shapes_.begin();
+  const auto priority = [&](std::uint32_t of) { return scene.materials[scene.shapes[of].material].priority; };
+  if (std::find(begin, begin + static_cast<std::ptrdiff_t>(count_), shape) !=
+      begin + static_cast<std::ptrdiff_t>(count_))
+    return;
+  if (count_ == kMost) std::copy(begin + 1, begin + static_cast<std::ptrdiff_t>(count_--), begin);
+  std::size_t at = count_++;
+  for (; at > 0 && priority(shapes_[at - 1]) > priority(shape); --at) shapes_[at] = shapes_[at - 1];
+  shapes_[at] = shape;
 }
 
-void Enclosures::leave(std::uint32_t shape) {
+void Enclosures::leave(const Scene& scene, std::uint32_t shape) {
+  const std::optional<std::uint32_t> entered = standing_for(scene, shape);
   const auto end = shapes_.begin() + static_cast<std::ptrdiff_t>(count_);
-  count_ = static_cast<std::size_t>(std::remove(shapes_.begin(), end, shape) - shapes_.begin());
+  if (entered)
+    count_ = static_cast<std::size_t>(std::remove(shapes_.begin(), end, *entered) - shapes_.begin());
+}
+
+std::optional<std::uint32_t> Enclosures::standing_for(const Scene& scene, std::uint32_t shape) const {
+  std::optional<std::uint32_t> found;
+  for (const std::uint32_t one : shapes()) {
+    if (one == shape) return shape;
+    if (scene.shapes[one].material == scene.shapes[shape].material) found = one;
+  }
+  return found;
 }
 
 Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
@@ -64,7 +84,7 @@ Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
       around.emplace_back(of.last_exit, shape);
   }
   std::sort(around.rbegin(), around.rend());  // from the outermost
-  for (const auto& [exit, shape] : around) inside.cross(shape, true);
+  for (const auto& [exit, shape] : around) inside.cross(scene, shape, true);
   return inside;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "scene/scene.h"
@@ -9,11 +10,11 @@
 
 namespace abbe {
 
-/// The closed shapes filled with matter that a point of a path lies in, outermost first. What is around the
-/// point is the innermost one's matter, or air where there is none.
+/// The closed shapes filled with matter that a point of a path lies in, in order of priority and among equals
+/// from the outermost. What is around the point is the last one's matter, or air where there is none.
 class Enclosures {
  public:
-  /// Of more than this many the outermost are forgotten.
+  /// Of more than this many the first are forgotten.
   static constexpr std::size_t kMost = 16;
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -23,16 +24,20 @@ class Enclosures {
 
   /// The path crosses the surface of `shape`, which it comes to be inside of or leaves. Where it is already,
   /// as through a surface that is not closed, nothing changes.
-  void cross(std::uint32_t shape, bool entering) {
+  void cross(const Scene& scene, std::uint32_t shape, bool entering) {
     if (entering)
-      enter(shape);
+      enter(scene, shape);
     else
-      leave(shape);
+      leave(scene, shape);
   }
 
+  /// The shape by which the body of `shape` was entered: itself, else the innermost one of its material,
+  /// since a body may be made of several shapes, such as its faces. Nothing where there is none.
+  [[nodiscard]] std::optional<std::uint32_t> standing_for(const Scene& scene, std::uint32_t shape) const;
+
  private:
-  void enter(std::uint32_t shape);
-  void leave(std::uint32_t shape);
+  void enter(const Scene& scene, std::uint32_t shape);
+  void leave(const Scene& scene, std::uint32_t shape);
 
   std::array<std::uint32_t, kMost> shapes_{};
   std::size_t count_ = 0;

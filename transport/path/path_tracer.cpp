@@ -48,15 +48,20 @@ class CameraPath {
 
   void trace() {
     for (int depth = 0;; ++depth) {
-      const std::optional<SurfaceHit> hit = caster_.intersect(ray_);
+      std::optional<SurfaceHit> hit = caster_.intersect(ray_);
       if (!hit) {
         add_environment();
         return;
       }
       medium_.attenuate(packet_.throughput, hit->t);
+      if (scene_.needs.nesting) {
+        interface_ = interface_at(scene_, ray_, *hit, inside_);
+        hit = interface_->hit;
+      }
       add_emission(*hit, depth);
       if (depth >= scene_.render.max_depth) return;
-      const Vertex vertex(scene_, *hit, ray_.direction, lambda());
+      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, ray_.direction, lambda())
+                                       : Vertex(scene_, *hit, ray_.direction, lambda());
       if (is_black(vertex.bsdf)) return;
       if (!scatter(vertex, depth)) return;
     }
@@ -118,12 +123,12 @@ class CameraPath {
     packet_.lane_pdf *= event.lane_pdf;
     const Imath::V3f direction = vertex.frame.to_world(event.wi);
     if (event.transmitted) {
-      inside_.cross(vertex.hit.shape, vertex.wo.z > 0);
+      inside_ = vertex.behind(scene_, inside_);
       medium_ = medium_within(scene_, inside_, lambda());
       const float n = index_inside(vertex.bsdf, kHero);
       eta_scale_ *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
     }
-    ray_ = spawn(vertex.hit.point, vertex.hit.normal, direction);
+    ray_ = spawn(vertex.hit, direction);
   }
 
   bool survives(int depth, float u) {
@@ -161,13 +166,11 @@ class CameraPath {
   // The medium that light from the local direction `wi` comes through.
   [[nodiscard]] Medium side_of(const Vertex& vertex, const Imath::V3f& wi) const {
     if (wi.z * vertex.wo.z > 0) return medium_;
-    Enclosures beyond = inside_;
-    beyond.cross(vertex.hit.shape, wi.z < 0);
-    return medium_within(scene_, beyond, lambda());
+    return medium_within(scene_, vertex.behind(scene_, inside_), lambda());
   }
 
   [[nodiscard]] bool blocked(const Vertex& vertex, const LightSample& towards) {
-    const Ray ray = spawn(vertex.hit.point, vertex.hit.normal, towards.wi);
+    const Ray ray = spawn(vertex.hit, towards.wi);
     return std::isfinite(towards.distance) ? caster_.occluded(ray.origin, towards.end)
                                            : caster_.occluded(ray);
   }
@@ -180,7 +183,8 @@ class CameraPath {
   Ray ray_;
   PathPacket packet_;
   Enclosures inside_;
-  Medium medium_;  // within them
+  Medium medium_;                       // within them
+  std::optional<Interface> interface_;  // met last, where matter may be nested
   float eta_scale_ = 1;
   // Sum of lane densities before the last scattering over the hero's density of it: what a unit of
   // light-sampling density weighs.

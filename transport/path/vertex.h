@@ -10,6 +10,7 @@
 #include "materials/material.h"
 #include "scene/scene.h"
 #include "scene/surface.h"
+#include "transport/path/interface.h"
 #include "transport/path/packet.h"
 
 namespace abbe {
@@ -20,8 +21,9 @@ struct Vertex {
   Basis<float> frame;
   Imath::V3f wo;  ///< Local.
   Bsdf bsdf;
-  bool relief = false;    ///< The frame's z differs from the normal of the shape.
-  float cos_outside = 1;  ///< Of wo, with the normal of the shape.
+  bool relief = false;                 ///< The frame's z differs from the normal of the shape.
+  float cos_outside = 1;               ///< Of wo, with the normal of the shape.
+  const Enclosures* beyond = nullptr;  ///< What a path let through is in, where matter may be nested.
 
   /// Where a meter stands: white, diffuse, and seen along its normal, so that the radiance leaving it is the
   /// irradiance over pi.
@@ -33,7 +35,22 @@ struct Vertex {
       : hit(surface), frame(axes), wo(outgoing), bsdf(std::move(scattering)) {}
   Vertex(const Scene& scene, const SurfaceHit& surface, const Imath::V3f& incoming,
          const SampledSpectrum& wavelengths_nm)
-      : Vertex(scene, surface, place_of(scene, surface), incoming, wavelengths_nm) {}
+      : Vertex(scene, surface, place_of(scene, surface), nullptr, incoming, wavelengths_nm) {}
+  /// Of matter that may be nested; where nothing changes the path goes straight on, as through equal indices.
+  /// `met` must outlive the vertex.
+  Vertex(const Scene& scene, const Interface& met, const Imath::V3f& incoming,
+         const SampledSpectrum& wavelengths_nm)
+      : Vertex(scene, met.hit,
+               met.passes ? SurfacePlace{Basis<float>(met.hit.normal)} : place_of(scene, met.hit), &met,
+               incoming, wavelengths_nm) {}
+
+  /// What a path within `inside` is in when it has been let through.
+  [[nodiscard]] Enclosures behind(const Scene& scene, const Enclosures& inside) const {
+    if (beyond != nullptr) return *beyond;
+    Enclosures crossed = inside;
+    crossed.cross(scene, hit.shape, wo.z > 0);
+    return crossed;
+  }
 
   /// The model's event, worth what a relief leaves of it.
   [[nodiscard]] std::optional<BsdfSample> scatter(const BsdfRandom& u, TransportMode mode) const {
@@ -60,13 +77,17 @@ struct Vertex {
     return mode == TransportMode::radiance ? 1 : std::abs(wo.z * cos_world / (cos_outside * local.z));
   }
 
-  Vertex(const Scene& scene, const SurfaceHit& surface, const SurfacePlace& place, const Imath::V3f& incoming,
-         const SampledSpectrum& wavelengths_nm)
+  Vertex(const Scene& scene, const SurfaceHit& surface, const SurfacePlace& place, const Interface* met,
+         const Imath::V3f& incoming, const SampledSpectrum& wavelengths_nm)
       : hit(surface),
         frame(place.frame),
         wo(frame.to_local(-incoming)),
-        bsdf(make_bsdf(scene.materials[scene.shapes[surface.shape].material], {wavelengths_nm, place.uv})),
-        relief(place.relief) {
+        bsdf(met != nullptr && met->passes
+                 ? Bsdf(DielectricBsdf{SampledSpectrum(1), false})
+                 : make_bsdf(scene.materials[scene.shapes[surface.shape].material],
+                             {wavelengths_nm, place.uv, met != nullptr ? met->outside : nullptr})),
+        relief(place.relief),
+        beyond(met != nullptr ? &met->beyond : nullptr) {
     if (!relief) return;
     cos_outside = -incoming.dot(hit.normal);
     // Seen from the side that faces away, a relief is black.

@@ -1,0 +1,227 @@
+// Matter in matter: shapes of different indices within each other, overlapping, and touching.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "materials/interface/fresnel.h"
+#include "tests/scenes/scene_fixture.h"
+#include "transport/path/ray_trace.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3d;
+
+std::string box(const std::string& material, double x0, double x1) {
+  std::string vertices;
+  for (int i = 0; i < 8; ++i)
+    vertices +=
+        fmt::format("{}[{}, {}, {}]", i ? ", " : "", i & 1 ? x1 : x0, i & 2 ? 0.6 : -0.7, i & 4 ? 0.8 : -0.5);
+  return fmt::format(R"({{"name": "{0}", "material": "{0}", "mesh": {{"vertices": [{1}], "triangles": [
+      [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
+      [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]}}}})",
+                     material, vertices);
+}
+std::string ball(const std::string& material, double radius, const std::string& center = "0, 0, 0") {
+  return fmt::format(R"({{"name": "{0}", "material": "{0}", "sphere": {{"center": [{2}], "radius": {1}}}}})",
+                     material, radius, center);
+}
+
+constexpr const char* kMatter = R"("materials": {
+  "water": {"dielectric": {"ior": 1.333}}, "glass": {"dielectric": {"ior": 1.5}, "priority": 1},
+  "flint": {"dielectric": {"ior": 1.7}}, "air": {"dielectric": {"ior": 1}},
+  "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
+  "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
+  "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
+  "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
+
+// Shapes in light of radiance 1 from everywhere, unless there are `lights`.
+Scene scene_of(const std::string& shapes,
+               const std::string& settings = R"("max_depth": 1000, "roulette_depth": -1)",
+               const std::string& lights = R"({"environment": {}, "emission": {"spectrum": 1}})",
+               const std::string& from = "0.3, 0.2, -5") {
+  return test::load_text(fmt::format(R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 30}}, "from": [{}], "to": [0, 0, 0], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [24, 24], "response": "energy", "channels": {{"all": {{"band": [450, 650]}}}}}},
+    {}, "lights": [{}], "shapes": [{}], "render": {{"samples": 16, {}}}}})",
+                                     from, kMatter, lights, shapes, settings));
+}
+
+// The furthest any pixel is from what radiance `expected` exposes, relative.
+double furthest(const Film& film, double expected = 1) {
+  static const Film unit = render(scene_of(""), {}).film;
+  double apart = 0;
+  for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)
+    apart = std::max(apart, std::abs(film.mean(pixel, 0) / unit.mean(pixel, 0) / expected - 1));
+  return apart;
+}
+
+RayTrace traced(const Scene& scene, const V3d& origin, const V3d& towards) {
+  return trace_ray(scene, {origin - scene.origin_m, (towards - origin).normalized()}, 550, 64);
+}
+
+// Each interface of a stack bends by the sine law of its two neighbours and reflects by their ratio.
+TEST(Nesting, PlatesThatTouchObeySnellAndFresnel) {
+  const Scene scene =
+      scene_of(box("water", 0, 0.2) + "," + box("glass", 0.2, 0.3) + "," + box("flint", 0.3, 0.5));
+  ASSERT_TRUE(scene.needs.nesting);
+  const RayTrace trace = traced(scene, {-1, -0.4, 0}, {0, 0.05, 0.02});
+  ASSERT_EQ(trace.events.size(), 5U);
+  const double n[] = {1, 1.333, 1.5, 1.7, 1};
+  const double sine = std::sin(trace.events[0].passage->angle_in_deg * std::numbers::pi / 180);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Passage& passage = trace.events[i].passage.value();
+    EXPECT_EQ(trace.events[i].kind, TraceEvent::Kind::refract);
+    EXPECT_NEAR(passage.n_from, n[i], 1e-6);
+    EXPECT_NEAR(passage.n_to, n[i + 1], 1e-6);
+    EXPECT_NEAR(std::sin(passage.angle_out_deg * std::numbers::pi / 180), sine / n[i + 1], 1e-9);
+    const auto f = fresnel_dielectric(std::sqrt(1 - sine * sine / n[i] / n[i]), n[i + 1] / n[i]);
+    EXPECT_NEAR(passage.Rs, f.Rs, 1e-9);
+    EXPECT_NEAR(passage.Rp, f.Rp, 1e-9);
+  }
+  EXPECT_NEAR(trace.last.direction.dot((V3d(0, 0.05, 0.02) - V3d(-1, -0.4, 0)).normalized()), 1, 1e-12);
+}
+
+TEST(Nesting, MetalInWaterReflectsByTheRatioOfIndices) {
+  for (const char* metal : {"metal", "coated"}) {
+    const Scene scene = scene_of(ball("water", 1) + "," + ball(metal, 0.5));
+    const RayTrace trace = traced(scene, {-3, 0.1, 0.2}, {0, 0.1, 0.2});
+    const Passage& passage = trace.events.at(1).passage.value();
+    EXPECT_NEAR(passage.n_from, 1.333, 1e-6);
+    const double c = std::cos(passage.angle_in_deg * std::numbers::pi / 180);
+    const Coating& coating =
+        std::get<ConductorMaterial>(scene.materials[scene.shapes[1].material].model).coating;
+    // By a film seen from water: everything relative to it, the wavelength too.
+    Coating seen = coating;
+    for (Coating::Matter& matter : seen.matters) matter.index = RefractiveIndex(1.6 / 1.333);
+    const FresnelPower<double> f = coated_power(seen, 550 / 1.333, 0.2 / 1.333, 3 / 1.333, c, false);
+    EXPECT_NEAR(passage.Rs, f.Rs, 1e-6) << metal;
+    EXPECT_NEAR(passage.Rp, f.Rp, 1e-6) << metal;
+    // The kernel's own.
+    const SampledSpectrum lambda(550);
+    const RefractiveIndex water(1.333);
+    const Bsdf bsdf = make_bsdf(scene.materials[scene.shapes[1].material], {.wavelengths_nm = lambda, .outside = &water});
+    const auto s = sample(bsdf, {static_cast<float>(std::sqrt(1 - c * c)), 0, static_cast<float>(c)},
+                          {0.5F, {0, 0}}, 0, TransportMode::radiance);
+    ASSERT_TRUE(s);
+    EXPECT_NEAR(s->weight[0], f.R(), 1e-6) << metal;
+  }
+}
+
+// Where shapes overlap, priority decides as if one had been carved out of the other.
+TEST(Nesting, OverlapsAreCarvedByPriorityAndEqualThoseThatTouch) {
+  const std::string glass = box("glass", -0.5, 0.2);
+  const Scene touching = scene_of(glass + "," + box("water", 0.2, 0.9));
+  std::vector<Scene> same;
+  same.push_back(scene_of(box("water", 0.2, 0.9) + "," + glass));
+  same.push_back(scene_of(glass + "," + box("water", -0.1, 0.9)));
+  same.push_back(scene_of(glass + "," + box("water", 0.19999, 0.9)));
+  same.push_back(scene_of(glass + "," + box("water", 0.2 - 1e-8, 0.9)));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-0.4, 0.5);
+  for (int i = 0; i < 200; ++i) {
+    const V3d from(i % 2 ? 3 : -3, 5 * uniform(random), 5 * uniform(random));
+    const V3d to(uniform(random), uniform(random), uniform(random));
+    const RayTrace expected = traced(touching, from, to);
+    for (const Scene& scene : same) {
+      const RayTrace trace = traced(scene, from, to);
+      ASSERT_EQ(trace.events.size(), expected.events.size()) << i;
+      EXPECT_NEAR((trace.last.direction - expected.last.direction).length(), 0, 1e-6) << i;
+    }
+  }
+}
+
+TEST(Nesting, NothingIsLostOrGainedInAFurnace) {
+  const char* both = R"("max_depth": 1000, "roulette_depth": -1)";
+  for (const std::string& shapes :
+       {box("glass", -0.5, 0.2) + "," + box("water", 0.2, 0.9),
+        box("glass", -0.5, 0.2) + "," + box("water", -0.1, 0.9), ball("water", 1) + "," + ball("flint", 0.5),
+        ball("flint", 1) + "," + ball("air", 0.7, "0.2, 0, 0"),
+        ball("glass", 0.8, "-0.3, 0, 0") + "," + ball("water", 0.8, "0.3, 0, 0"),
+        ball("glass", 1) + "," + ball("flint", 1)}) {
+    const RenderResult result = render(scene_of(shapes, both), {});
+    EXPECT_LT(furthest(result.film), 2e-5) << shapes;
+    EXPECT_EQ(result.stats.nonfinite_samples, 0U);
+  }
+}
+
+TEST(Stress, TenShellsKeepAllEnergy) {
+  std::string shapes;
+  for (int shell = 0; shell < 10; ++shell)
+    shapes += (shell ? "," : "") + ball(shell % 3 == 0   ? "water"
+                                        : shell % 3 == 1 ? "flint"
+                                                         : "glass",
+                                        1 - 0.09 * shell);
+  const RenderResult result = render(scene_of(shapes, R"("max_depth": 4000, "roulette_depth": -1)"), {});
+  EXPECT_LT(furthest(result.film), 1e-5);
+}
+
+// In matter of index n the radiance is n^2 of that in air; total reflection keeps it so.
+TEST(Nesting, ACameraUnderWaterSeesTheRadianceThere) {
+  const std::string shapes = ball("water", 9) + "," + ball("flint", 1) + "," + ball("air", 0.4, "0.2, 0, 0");
+  const Film film = render(scene_of(shapes), {}).film;
+  EXPECT_LT(furthest(film, 1.333 * 1.333), 2e-5);
+}
+
+constexpr const char* kRoom =
+    R"({"name": "room", "material": "white", "sphere": {"center": [0, 0, 0], "radius": 7}})";
+constexpr const char* kLamp =
+    R"({"sphere": {"center": [2, 3, -2], "radius": 0.8}, "emission": {"spectrum": 1}, "two_sided": false})";
+
+// A ball of glass in a room full of water, and one of their ratio in a room of air.
+TEST(Nesting, OnlyTheRatioOfIndicesIsSeen) {
+  const char* settings = R"("max_depth": 12)";
+  const Film wet =
+      render(scene_of(fmt::format("{}, {}, {}", kRoom, ball("water", 9), ball("glass", 1)), settings, kLamp),
+             {})
+          .film;
+  const Scene dry_scene = scene_of(fmt::format("{}, {}", kRoom, ball("ratio", 1)), settings, kLamp);
+  EXPECT_FALSE(dry_scene.needs.nesting);
+  const Film dry = render(dry_scene, {}).film;
+  double apart = 0;
+  for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)
+    apart = std::max(apart, std::abs(wet.mean(pixel, 0) / dry.mean(pixel, 0) - 1));
+  EXPECT_LT(apart, 1e-3);
+}
+
+// Glass in a liquid of the same index at every wavelength.
+TEST(Nesting, GlassInMatchingLiquidIsInvisible) {
+  const auto film_of = [&](const std::string& ball_in_it) {
+    return render(
+               scene_of(
+                   ball("oil", 6) + ball_in_it, R"("max_depth": 5, "roulette_depth": -1)",
+                   R"({"quad": {"corner": [-3, -3, 3], "edge_u": [0, 3, 0], "edge_v": [6, 0, 0]}, "emission": {"spectrum": 1}},
+                              {"quad": {"corner": [-3, 0, 3], "edge_u": [0, 3, 0], "edge_v": [6, 0, 0]}, "emission": {"spectrum": 3}})"),
+               {})
+        .film;
+  };
+  const Film without = film_of("");
+  const Film with = film_of("," + ball("bk7", 1) + "," + ball("oil", 0.5));
+  // What is absorbed on a way in pieces is the same but for rounding.
+  for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)
+    EXPECT_NEAR(with.mean(pixel, 0) / without.mean(pixel, 0), 1, 2e-6);
+  EXPECT_GT(without.mean(0, 0), 0);
+}
+
+// A floor under water in a glass dish, and a ball in it, lit from outside: camera paths find the lamp by
+// chance, photons the floor.
+TEST(Nesting, CameraPathsAndPhotonsAgree) {
+  const std::string shapes = fmt::format(
+      R"({}, {}, {}, {{"material": "white", "quad": {{"corner": [-1, -0.9, -1], "edge_u": [0, 0, 2], "edge_v": [2, 0, 0]}}}})",
+      ball("glass", 3), ball("water", 2.8), ball("flint", 0.5));
+  const auto by = [&](const char* integrator, int samples) {
+    Scene scene = scene_of(shapes, fmt::format(R"("max_depth": 10, "integrator": "{}")", integrator),
+                           R"({"sphere": {"center": [0, 5, 0], "radius": 1.5}, "emission": {"spectrum": 1}})",
+                           "0, 0.9, -1.4");
+    scene.render.samples = samples;
+    return render(scene, {}).film;
+  };
+  const test::Comparison agreement = test::compare_regions(by("path", 4096), by("auto", 1024), 4);
+  EXPECT_LT(agreement.largest_z, 6);
+  EXPECT_NEAR(agreement.ratio, 1, 0.03);
+}
+
+}  // namespace
+}  // namespace abbe

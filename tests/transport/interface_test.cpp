@@ -1,0 +1,105 @@
+#include "transport/path/interface.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace abbe {
+namespace {
+
+// Shapes by material: 0 air, 1 water, 2 glass of a higher priority, 3 another glass of none, 4 a card, and 5
+// another pane of the glass.
+class BoundaryTest : public testing::Test {
+ protected:
+  BoundaryTest() {
+    const auto matter = [](double n) { return DielectricMaterial{"", RefractiveIndex(n)}; };
+    scene_.materials = {{"air", matter(1)},
+                        {"water", matter(1.33)},
+                        {.name = "glass", .model = matter(1.5), .priority = 2},
+                        {"flint", matter(1.7)},
+                        {"card", DiffuseMaterial{Curve(0.5)}},
+                        {"metal", ConductorMaterial{"", RefractiveIndex(0.2, 3)}}};
+    for (std::uint32_t i = 0; i < 5; ++i) scene_.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, i});
+    scene_.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, 2});
+    scene_.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, 5});
+  }
+  Enclosures in(const std::vector<std::uint32_t>& shapes) const {
+    Enclosures inside;
+    for (const std::uint32_t shape : shapes) inside.cross(scene_, shape, true);
+    return inside;
+  }
+  static std::vector<std::uint32_t> listed(const Enclosures& inside) {
+    return {inside.shapes().begin(), inside.shapes().end()};
+  }
+  // The shape that acts, or -1.
+  static int acting(const Boundary& boundary, const std::vector<CrossedSurface>& met) {
+    return boundary.acting ? static_cast<int>(met[*boundary.acting].shape) : -1;
+  }
+  double outside(const Boundary& boundary) const { return boundary.outside ? boundary.outside->n(550) : 0; }
+
+  struct Expected {
+    std::vector<std::uint32_t> inside;
+    std::vector<CrossedSurface> met;
+    int acting;
+    double outside;  ///< Its index; 0 for air that no shape is filled with.
+    std::vector<std::uint32_t> beyond;
+  };
+  void check(const std::vector<Expected>& all) const {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Expected& one = all[i];
+      const Boundary found = boundary_of(scene_, one.met, in(one.inside));
+      EXPECT_EQ(acting(found, one.met), one.acting) << i;
+      if (found.acting) {
+        EXPECT_EQ(outside(found), one.outside) << i;
+      }
+      EXPECT_EQ(listed(found.beyond), one.beyond) << i;
+    }
+  }
+
+  Scene scene_{};
+};
+
+TEST_F(BoundaryTest, OfNestedShapesIsBetweenNeighbours) {
+  check({{{}, {{1, true}}, 1, 0, {1}},
+         {{1}, {{3, true}}, 3, 1.33, {1, 3}},
+         {{1, 3}, {{3, false}}, 3, 1.33, {1}},
+         {{3}, {{0, true}}, 0, 1.7, {3, 0}},  // a bubble
+         {{3, 0}, {{0, false}}, 0, 1.7, {3}},
+         {{1}, {{1, false}}, 1, 0, {}}});
+}
+
+TEST_F(BoundaryTest, IsNoneWithinMatterOfAHigherPriority) {
+  check({{{2}, {{1, true}}, -1, 0, {1, 2}},
+         {{1, 2}, {{1, false}}, -1, 0, {2}},
+         {{1, 2}, {{2, false}}, 2, 1.33, {1}},
+         {{1}, {{2, true}}, 2, 1.33, {1, 2}},
+         // Of equals the one entered last is there.
+         {{1, 3}, {{1, false}}, -1, 0, {3}}});
+}
+
+TEST_F(BoundaryTest, OfTouchingSurfacesIsOneBetweenBothMatters) {
+  check({{{1}, {{1, false}, {2, true}}, 2, 1.33, {2}},
+         {{2}, {{2, false}, {1, true}}, 2, 1.33, {1}},
+         // The same whichever of the two is met first by rounding, and from either side the same one acts.
+         {{1}, {{2, true}, {1, false}}, 2, 1.33, {2}},
+         {{1}, {{3, true}, {1, false}}, 3, 1.33, {3}},
+         {{3}, {{1, true}, {3, false}}, 3, 1.33, {1}},
+         // Both entered in the same plane: the later one of the scene is there.
+         {{}, {{3, true}, {1, true}}, 3, 0, {1, 3}},
+         // A pane cemented to another of its kind.
+         {{2}, {{2, false}, {5, true}}, 5, 1.5, {5}}});
+}
+
+TEST_F(BoundaryTest, IsOpaqueWhereAnythingIs) {
+  check({{{2}, {{2, false}, {4, true}}, 4, 1.5, {2}}, {{1}, {{6, true}}, 6, 1.33, {1}}});
+}
+
+TEST_F(BoundaryTest, OfBodiesMadeOfFacesAndOfSurfacesNeverEntered) {
+  check({{{2}, {{5, false}}, 5, 0, {}},  // out by another face
+         {{}, {{3, false}}, 3, 0, {}},
+         {{1}, {{3, false}}, 3, 1.33, {1}},
+         {{3}, {{3, true}}, -1, 0, {3}}});
+}
+
+}  // namespace
+}  // namespace abbe

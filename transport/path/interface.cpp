@@ -1,0 +1,78 @@
+#include "transport/path/interface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace abbe {
+namespace {
+
+const Material& material_of(const Scene& scene, std::uint32_t shape) {
+  return scene.materials[scene.shapes[shape].material];
+}
+
+const RefractiveIndex* index_of(const Scene& scene, const Enclosures& inside) {
+  return inside.empty() ? nullptr : interior(material_of(scene, inside.innermost()));
+}
+
+// Whether the matter that is around within `inside` is that of `shape`.
+bool around(const Scene& scene, const Enclosures& inside, std::uint32_t shape) {
+  return !inside.empty() && inside.standing_for(scene, shape) == inside.innermost();
+}
+
+bool same_around(const Enclosures& a, const Enclosures& b) {
+  return a.empty() || b.empty() ? a.empty() && b.empty() : a.innermost() == b.innermost();
+}
+
+}  // namespace
+
+Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces, const Enclosures& inside) {
+  const auto opaque = std::find_if(surfaces.begin(), surfaces.end(), [&](const CrossedSurface& s) {
+    return interior(material_of(scene, s.shape)) == nullptr;
+  });
+  if (opaque != surfaces.end())
+    return {static_cast<std::size_t>(opaque - surfaces.begin()), index_of(scene, inside), inside};
+
+  Enclosures before = inside;
+  for (const CrossedSurface& s : surfaces)
+    if (!s.entering && !before.standing_for(scene, s.shape)) before.cross(scene, s.shape, true);
+  Enclosures beyond = before;
+  for (const CrossedSurface& s : surfaces)
+    if (!s.entering) beyond.cross(scene, s.shape, false);
+  // In the order of the scene, so that what is behind does not depend on rounding.
+  std::array<std::uint32_t, TouchingSurfaces::kMost> entered;
+  auto end = entered.begin();
+  for (const CrossedSurface& s : surfaces)
+    if (s.entering) *end++ = s.shape;
+  std::sort(entered.begin(), end);
+  for (auto shape = entered.begin(); shape != end; ++shape) beyond.cross(scene, *shape, true);
+  if (same_around(before, beyond)) return {std::nullopt, nullptr, beyond};
+
+  Boundary boundary{std::nullopt, nullptr, beyond};
+  std::pair<int, std::uint32_t> highest;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto [shape, entering] = surfaces[i];
+    const std::pair rank(material_of(scene, shape).priority, shape);
+    if (!around(scene, entering ? beyond : before, shape) || (boundary.acting && rank < highest)) continue;
+    highest = rank;
+    boundary.acting = i;
+    boundary.outside = index_of(scene, entering ? before : beyond);
+  }
+  return boundary;
+}
+
+Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& first,
+                       const Enclosures& inside) {
+  const TouchingSurfaces met = scene.touching(ray, first);
+  std::array<CrossedSurface, TouchingSurfaces::kMost> crossed;
+  for (std::size_t i = 0; i < met.count; ++i)
+    crossed[i] = {met.at[i].shape, met.at[i].normal.dot(ray.direction) < 0};
+  const Boundary boundary = boundary_of(scene, {crossed.data(), met.count}, inside);
+  SurfaceHit hit = met.at[boundary.acting.value_or(0)];
+  for (const SurfaceHit& other : met.all())
+    hit.spread = std::max(hit.spread, std::abs((other.point - hit.point).dot(hit.normal)));
+  return {hit, !boundary.acting, boundary.outside, boundary.beyond};
+}
+
+}  // namespace abbe

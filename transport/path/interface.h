@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "scene/scene.h"
+#include "transport/path/medium.h"
+
+namespace abbe {
+
+/// Where matter is nested, surfaces are interfaces only where what is there changes: of all the matter that a
+/// point lies in, that of the highest priority, and among equals the one entered last [Schmidt2002]. Surfaces
+/// that touch are crossed together, from what was before all of them to what is behind.
+
+/// A surface on a ray's way: into its shape, or out of it.
+struct CrossedSurface {
+  std::uint32_t shape;
+  bool entering;
+};
+
+/// What surfaces that touch are to a ray.
+struct Boundary {
+  std::optional<std::size_t> acting;         ///< Which of them acts; none where nothing changes.
+  const RefractiveIndex* outside = nullptr;  ///< Of the acting shape's own matter; nullptr is air.
+  Enclosures beyond = {};                    ///< What a ray that is let through is in.
+};
+
+/// Of the surfaces that a ray within `inside` meets together. The first opaque one acts, else that of the
+/// higher priority of the two that bound what was before and what is behind, of equals the later one of the
+/// scene. A shape left that was never entered counts as entered before.
+[[nodiscard]] Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces,
+                                   const Enclosures& inside);
+
+/// The same for a path that meets the scene at `first`.
+struct Interface {
+  SurfaceHit hit;  ///< With the acting surface.
+  bool passes;     ///< Nothing changes.
+  const RefractiveIndex* outside;
+  Enclosures beyond;
+};
+[[nodiscard]] Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& first,
+                                     const Enclosures& inside);
+
+}  // namespace abbe
