@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "materials/model/rough.h"
 #include "materials/model/smooth.h"
 #include "materials/texture/relief.h"
 
@@ -12,7 +13,8 @@ namespace abbe {
 /// The closed list of what surfaces are made of. Each model tells its `bsdf` at a lookup and its `lobes`, and
 /// its `interior` if light enters the closed surface, `needs_coordinates` if its scattering may depend on
 /// them.
-using MaterialModel = std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial>;
+using MaterialModel = std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial,
+                                   RoughDielectricMaterial, RoughConductorMaterial>;
 
 /// What a surface is made of, over all wavelengths.
 struct Material {

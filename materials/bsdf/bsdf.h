@@ -7,6 +7,7 @@
 #include "materials/bsdf/coated.h"
 #include "materials/bsdf/diffuse.h"
 #include "materials/bsdf/event.h"
+#include "materials/bsdf/rough.h"
 #include "materials/bsdf/smooth.h"
 
 namespace abbe {
@@ -14,8 +15,8 @@ namespace abbe {
 /// The closed list of scattering models, evaluated at one packet of wavelengths. Each has `sample`; those
 /// that send light in more than single directions have `eval` and `pdf` as well. A new model is a file pair
 /// and an entry here; the statistical tests iterate the list.
-using Bsdf =
-    std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf, CoatedConductorBsdf>;
+using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf,
+                          CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every vertex of a path holds one
 
 /// A model that sends light in more than single directions.

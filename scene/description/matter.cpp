@@ -24,6 +24,11 @@ std::optional<Ior> constant_ior(double n, double k) {
   return Ior{k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k), true};
 }
 
+MaterialModel dielectric(Ior ior, Coating coating, const std::optional<Microfacets<float>>& facets) {
+  if (facets) return RoughDielectricMaterial(std::move(ior.name), std::move(ior.index), *facets);
+  return DielectricMaterial{std::move(ior.name), std::move(ior.index), std::move(coating)};
+}
+
 }  // namespace
 
 std::optional<Ior> read_ior(const JsonValue& json, Range allowed, Reading& reading) {
@@ -60,11 +65,12 @@ std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& rea
   const JsonValue* value = reader.require("ior");
   const JsonValue* absorption = reader.find("absorption_per_m");
   Coating coating = read_coating(reader.find("coating"), reading);
+  const auto facets = read_roughness(reader.find("roughness"), coating, reading);
   reader.finish();
   if (!value) return std::nullopt;
   auto ior = read_ior(*value, kIndex, reading);
   if (!ior) return std::nullopt;
-  if (!absorption) return DielectricMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
+  if (!absorption) return dielectric(std::move(*ior), std::move(coating), facets);
   if (!ior->constant || ior->index.absorbing()) {
     reading.diagnostics.error(absorption->where,
                               "absorption_per_m goes with a constant real index; this one brings its own k");
@@ -72,21 +78,21 @@ std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& rea
   }
   const auto alpha = read_curve(*absorption, {"filter", kPower}, reading);
   if (!alpha) return std::nullopt;
-  return DielectricMaterial{
-      std::move(ior->name),
-      RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha), IndexMedium::air,
-                      kMinWavelengthNm, kMaxWavelengthNm),
-      std::move(coating)};
+  ior->index = RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha),
+                               IndexMedium::air, kMinWavelengthNm, kMaxWavelengthNm);
+  return dielectric(std::move(*ior), std::move(coating), facets);
 }
 
 std::optional<MaterialModel> read_conductor(const JsonValue& json, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   const JsonValue* value = reader.require("ior");
   Coating coating = read_coating(reader.find("coating"), reading);
+  const auto facets = read_roughness(reader.find("roughness"), coating, reading);
   reader.finish();
   if (!value) return std::nullopt;
   auto ior = read_ior(*value, kMetalIndex, reading);
   if (!ior) return std::nullopt;
+  if (facets) return RoughConductorMaterial(std::move(ior->name), std::move(ior->index), *facets);
   return ConductorMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
 }
 

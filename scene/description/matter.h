@@ -23,12 +23,17 @@ struct Ior {
 /// The layers under a key, none if it is not there.
 [[nodiscard]] Coating read_coating(const JsonValue* layers, Reading& reading);
 
-/// A quantity in [0, 1] over wavelength and surface: a curve, or an image whose channels weigh spectra. Throws
-/// Error{input} or Error{resource} for an image file that cannot be read or is too large.
+/// A quantity in [0, 1] over wavelength and surface: a curve, or an image whose channels weigh spectra.
+/// Throws Error{input} or Error{resource} for an image file that cannot be read or is too large.
 [[nodiscard]] std::optional<SpectralTexture> read_reflectance(const JsonValue& json, Reading& reading);
 
 /// What is under "normal_map" or "bump_map" of a material, if either is there. Throws as `read_reflectance`.
 [[nodiscard]] std::shared_ptr<const Relief> read_relief(ObjectReader& reader, Reading& reading);
+
+/// The facets under a key; none if it is not there or so small that the surface is smooth, and after an
+/// error. Reports a rough surface under a coating.
+[[nodiscard]] std::optional<Microfacets<float>> read_roughness(const JsonValue* json, const Coating& coating,
+                                                               Reading& reading);
 
 /// Each material of the list from what stands under its key; none after an error.
 using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, Reading& reading);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/material.h"
 
 namespace abbe {
 
@@ -29,6 +29,23 @@ inline std::optional<double> lossless_within(const CoatedDielectricBsdf& model) 
                                      [](const Coating::Matter& matter) { return matter.index.absorbing(); });
   return absorbing ? std::nullopt : std::optional(1e-3);
 }
+
+template <>
+inline std::optional<double> lossless_within(const RoughDielectricBsdf& /*model*/) {
+  return 1e-2;
+}
+template <>
+inline std::optional<double> lossless_within(const RoughConductorBsdf& model) {
+  return model.index->n(500.0) == 0 ? std::optional(5e-3) : std::nullopt;
+}
+
+/// Whether several lobes send light the same way, so that a density is the sum of what each leads there.
+template <typename Model>
+inline constexpr bool kLobesOverlap = false;
+template <>
+inline constexpr bool kLobesOverlap<RoughDielectricBsdf> = true;
+template <>
+inline constexpr bool kLobesOverlap<RoughConductorBsdf> = true;
 
 inline SampledSpectrum ramp(float first, float last) {
   SampledSpectrum::Values s;
@@ -93,6 +110,37 @@ inline std::vector<CoatedConductorBsdf> examples() {
                                        {RefractiveIndex(3, 3), broad_coat()}};
   std::vector<CoatedConductorBsdf> models;
   for (const Coated& c : all) models.push_back({packet(), &c.index, &c.coating});
+  return models;
+}
+
+// Rough matter that lives as long as the tests.
+inline Microfacets<float> facets_of(FacetShape shape, float alpha_x, float alpha_y) {
+  return {shape, alpha_x, alpha_y};
+}
+template <>
+inline std::vector<RoughDielectricBsdf> examples() {
+  static const RoughBoundary wide(facets_of(FacetShape::ggx, 0.5F, 0.5F), 1.45F, 1.9F);
+  static const RoughBoundary brushed(facets_of(FacetShape::beckmann, 0.3F, 0.6F), 1.5F, 1.5F);
+  static const RoughBoundary thin(facets_of(FacetShape::ggx, 1, 1), 0.6F, 0.8F);
+  static const RoughBoundary needle(facets_of(FacetShape::ggx, 5e-3F, 5e-3F), 1.45F, 1.9F);
+  return {{ramp(1.45F, 1.9F), &wide},
+          {SampledSpectrum(1.5F), &brushed},
+          {ramp(0.8F, 0.6F), &thin},
+          {ramp(1.9F, 1.45F), &needle}};
+}
+template <>
+inline std::vector<RoughConductorBsdf> examples() {
+  static const std::vector<RoughConductorMaterial> all{
+      {"metal",
+       RefractiveIndex(Curve({{390, 0.1}, {770, 1.4}}), Curve({{390, 7}, {770, 2}}), IndexMedium::air, 300,
+                       1100),
+       facets_of(FacetShape::ggx, 0.4F, 0.4F)},
+      {"mirror", RefractiveIndex(0, 1), facets_of(FacetShape::ggx, 1, 1)},
+      {"brushed", RefractiveIndex(0.2, 3), facets_of(FacetShape::beckmann, 0.3F, 0.5F)},
+      {"needle", RefractiveIndex(0.2, 3), facets_of(FacetShape::beckmann, 2e-3F, 5e-3F)}};
+  std::vector<RoughConductorBsdf> models;
+  for (const RoughConductorMaterial& m : all)
+    models.push_back(std::get<RoughConductorBsdf>(m.bsdf({packet()})));
   return models;
 }
 

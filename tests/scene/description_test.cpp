@@ -272,6 +272,30 @@ TEST_F(DescriptionTest, ReadsMaterials) {
   EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
 }
 
+TEST_F(DescriptionTest, ReadsRoughness) {
+  const Loaded loaded = load(R"({"materials": {
+    "ground": {"dielectric": {"ior": 1.5, "roughness": 0.3}},
+    "brushed": {"conductor": {"ior": "Ag_Johnson", "roughness": {"alpha": [0.1, 0.4], "distribution": "beckmann"}}},
+    "pair": {"conductor": {"ior": "Ag_Johnson", "roughness": [0, 0.01]}},
+    "polished": {"dielectric": {"ior": 1.5, "roughness": 0.00099, "coating": [{"ior": 1.38, "thickness_nm": 100}]}},
+    "mirror": {"conductor": {"ior": "Ag_Johnson", "roughness": {"alpha": 0}}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto facets = [&](std::size_t i) {
+    const MaterialModel& model = loaded->materials[i].model;
+    const auto* glass = std::get_if<RoughDielectricMaterial>(&model);
+    return glass ? glass->surface->facets : std::get<RoughConductorMaterial>(model).surface->facets;
+  };
+  EXPECT_EQ(facets(0).shape, FacetShape::ggx);
+  EXPECT_EQ(facets(0).alpha_x, 0.3F);
+  EXPECT_EQ(facets(0).alpha_y, 0.3F);
+  EXPECT_EQ(facets(1).shape, FacetShape::beckmann);
+  EXPECT_EQ(facets(1).alpha_x, 0.1F);
+  EXPECT_EQ(facets(1).alpha_y, 0.4F);
+  EXPECT_EQ(facets(2).alpha_x, 1e-3F);
+  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(loaded->materials[3].model));
+  EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(loaded->materials[4].model));
+}
+
 TEST_F(DescriptionTest, ReadsCoatings) {
   const Loaded loaded = load(R"({"materials": {
     "lens": {"dielectric": {"ior": "N-BK7", "coating": [{"ior": "MgF2", "thickness_nm": 99.6}]}},

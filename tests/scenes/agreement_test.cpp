@@ -94,6 +94,27 @@ constexpr const char* kMirror = R"({
   "render": {"max_depth": 10}
 })";
 
+// Ground glass that colours light within, and ground metal, brushed one way.
+constexpr const char* kGround = R"({
+  "abbe": 1,
+  "camera": {"pinhole": {"fov_deg": 30}, "from": [4, 3, -5], "to": [0.3, 0.5, 0], "up": [0, 1, 0]},
+  "sensor": {"resolution": [32, 32], "channels": {"B": {"band": [400, 500]}, "G": {"band": [500, 600]}, "R": {"band": [600, 700]}}},
+  "materials": {
+    "glass": {"dielectric": {"ior": 1.5, "absorption_per_m": {"table": {"wavelength_nm": [400, 550, 700], "values": [1, 0.1, 0.5], "outside": "clamp"}}, "roughness": 0.3}},
+    "flint": {"dielectric": {"ior": "F2", "roughness": {"alpha": 0.15, "distribution": "beckmann"}}},
+    "copper": {"conductor": {"ior": "Cu_Johnson", "roughness": [0.4, 0.1]}},
+    "grey": {"diffuse": {"reflectance": 0.5}}
+  },
+  "lights": [{"sphere": {"center": [-2.5, 4, -1.5], "radius": 1.2}, "emission": {"blackbody_K": 4000, "radiance": 1}}],
+  "shapes": [
+    {"quad": {"corner": [-20, 0, -20], "edge_u": [0, 0, 40], "edge_v": [40, 0, 0]}, "material": "grey"},
+    {"sphere": {"center": [0, 0.801, 0], "radius": 0.8}, "material": "glass"},
+    {"sphere": {"center": [1.4, 0.501, -0.8], "radius": 0.5}, "material": "flint"},
+    {"sphere": {"center": [0.2, 0.401, -1.5], "radius": 0.4}, "material": "copper"}
+  ],
+  "render": {"max_depth": 12}
+})";
+
 // The spectrum of a wide beam.
 constexpr const char* kPrism = R"({
   "abbe": 1, "units": "mm",
@@ -134,6 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreements,
                                          Agreement{"ColouredBall", kColouredBall, "auto", 2048, 512, 0.01},
                                          Agreement{"LampInGlass", kLampInGlass, "auto", 1024, 256, 0.01},
                                          Agreement{"Mirror", kMirror, "auto", 1024, 256, 0.01},
+                                         Agreement{"Ground", kGround, "light", 1024, 4096, 0.01},
                                          Agreement{"Prism", kPrism, "auto", 4096, 1024, 0.02}),
                          [](const auto& info) { return std::string(info.param.name); });
 

@@ -65,6 +65,52 @@ TEST(Stress, GlassSphereInAFurnaceIsNotSeen) {
   }
 }
 
+// Light that is scattered more than once by its surface is not lost.
+TEST(Stress, RoughSphereInAFurnaceIsHardlySeen) {
+  for (const char* matter :
+       {R"("dielectric": {"ior": 1.5, "roughness": 0.3})",
+        R"("dielectric": {"ior": "hikari/F2", "roughness": 1})",
+        R"("dielectric": {"ior": 0.7, "roughness": {"alpha": 0.5, "distribution": "beckmann"}})",
+        R"("conductor": {"ior": 0, "roughness": [0.2, 0.8]})"}) {
+    const Scene scene = furnace(fmt::format(R"("materials": {{"rough": {{{}}}}},
+           "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "rough"}}],)",
+                                            matter),
+                                "0, 0, -4", 64);
+    const Film film = render(scene, {}).film;
+    const test::Region whole = test::region(film, 0, 0, 0, 16, 16);
+    const double one = test::region(empty_furnace(), 0, 0, 0, 16, 16).mean;
+    EXPECT_NEAR(whole.mean / one, 1, 1e-2) << matter;
+    EXPECT_GT(furthest_from_one(film, empty_furnace()), 1e-6) << "not a rough sphere: " << matter;
+  }
+}
+
+// From smooth surfaces to rough ones, a sphere that mirrors a lamp of some size and a sphere of glass before
+// it.
+TEST(Stress, AlphaSweepIsContinuous) {
+  const auto film = [](double alpha) {
+    return render(furnace(fmt::format(R"("materials": {{
+             "metal": {{"conductor": {{"ior": "Au_Johnson", "roughness": {0}}}}},
+             "glass": {{"dielectric": {{"ior": "N-SF11", "roughness": {0}}}}}, "card": {{"diffuse": {{"reflectance": 0.5}}}}}},
+           "shapes": [{{"sphere": {{"center": [-0.35, 0, 0], "radius": 0.3}}, "material": "metal"}},
+             {{"sphere": {{"center": [0.35, 0, 0], "radius": 0.3}}, "material": "glass"}},
+             {{"quad": {{"corner": [-2, -0.4, -2], "edge_u": [0, 0, 6], "edge_v": [4, 0, 0]}}, "material": "card"}},
+             {{"quad": {{"corner": [-2, -2, 4], "edge_u": [2, 0, 0], "edge_v": [0, 4, 0]}}, "material": "card", "emission": {{"spectrum": 5}}, "two_sided": true}}],)",
+                                      alpha),
+                          "0, 0, -4", 256),
+                  {})
+        .film;
+  };
+  std::optional<test::Region> last;
+  for (const double alpha : {1e-5, 9.9e-4, 1e-3, 2e-3, 5e-3, 1e-2}) {
+    const test::Region mean = test::region(film(alpha), 0, 0, 0, 16, 16);
+    if (last) {
+      EXPECT_NEAR(mean.mean, last->mean, 3 * std::sqrt(mean.variance + last->variance) + 1e-3 * mean.mean)
+          << alpha;
+    }
+    last = mean;
+  }
+}
+
 // The render's own steps, in float: Embree's hits, the material's refraction, the next ray.
 TEST(Stress, PrismAtLeastDeviationOfTwentyWavelengths) {
   const Scene scene = furnace(

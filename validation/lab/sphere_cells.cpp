@@ -77,18 +77,38 @@ std::size_t SphereCells::of(const Imath::V3f& w) const {
   return nodes_[node].leaf;
 }
 
+// Halved both ways until that makes no difference: a cell may hold the edge of a lobe, or one too narrow for
+// samples to have found it.
 double SphereCells::integral(const Cell& cell, const SphereDensity& density) {
+  constexpr double kTolerance = 1e-6;  // of the whole
+  constexpr int kHalvings = 10;
+  return refined(cell, density, by_rule(cell, density), kTolerance, kHalvings);
+}
+
+double SphereCells::by_rule(const Cell& cell, const SphereDensity& density) {
   using Rule = boost::math::quadrature::gauss<double, 5>;
-  const double depth_mid = (cell.depth_low + cell.depth_high) / 2;
-  const double phi_mid = (cell.phi_low + cell.phi_high) / 2;
+  const auto along_phi = [&](double depth) {
+    return Rule::integrate([&](double phi) { return density(at(cell.above, depth, phi)); }, cell.phi_low,
+                           cell.phi_high);
+  };
+  return Rule::integrate(along_phi, cell.depth_low, cell.depth_high);
+}
+
+double SphereCells::refined(const Cell& cell, const SphereDensity& density, double whole, double tolerance,
+                            int halvings) {
+  const double depth = (cell.depth_low + cell.depth_high) / 2;
+  const double phi = (cell.phi_low + cell.phi_high) / 2;
+  const std::array<Cell, 4> quarters{{{cell.above, cell.depth_low, depth, cell.phi_low, phi},
+                                      {cell.above, cell.depth_low, depth, phi, cell.phi_high},
+                                      {cell.above, depth, cell.depth_high, cell.phi_low, phi},
+                                      {cell.above, depth, cell.depth_high, phi, cell.phi_high}}};
+  std::array<double, 4> parts{};
+  for (std::size_t i = 0; i < 4; ++i) parts[i] = by_rule(quarters[i], density);
+  const double sum = parts[0] + parts[1] + parts[2] + parts[3];
+  if (halvings == 0 || std::abs(sum - whole) < tolerance) return sum;
   double total = 0;
-  for (const auto& [d0, d1] : {std::pair(cell.depth_low, depth_mid), std::pair(depth_mid, cell.depth_high)})
-    for (const auto& [p0, p1] : {std::pair(cell.phi_low, phi_mid), std::pair(phi_mid, cell.phi_high)}) {
-      const auto along_phi = [&, low = p0, high = p1](double depth) {
-        return Rule::integrate([&](double phi) { return density(at(cell.above, depth, phi)); }, low, high);
-      };
-      total += Rule::integrate(along_phi, d0, d1);
-    }
+  for (std::size_t i = 0; i < 4; ++i)
+    total += refined(quarters[i], density, parts[i], tolerance / 2, halvings - 1);
   return total;
 }
 

@@ -22,7 +22,7 @@ class SphereCells {
 
   [[nodiscard]] std::size_t count() const { return leaves_.size(); }
   [[nodiscard]] std::size_t of(const Imath::V3f& w) const;
-  /// Integral of `density` over each cell, by Gauss-Legendre quadrature of quarters of it.
+  /// Integral of `density` over each cell, by Gauss-Legendre quadrature of as small parts as it takes.
   [[nodiscard]] std::vector<double> integrate(const SphereDensity& density) const;
 
  private:
@@ -46,6 +46,9 @@ class SphereCells {
   static Place place(const Imath::V3f& w);
   static Imath::V3f at(bool above, double depth, double phi);
   static double integral(const Cell& cell, const SphereDensity& density);
+  static double by_rule(const Cell& cell, const SphereDensity& density);
+  static double refined(const Cell& cell, const SphereDensity& density, double whole, double tolerance,
+                        int halvings);
   void build(std::size_t node, const Cell& cell, std::vector<Place> held, std::size_t most);
 
   std::vector<Node> nodes_;

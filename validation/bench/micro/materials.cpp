@@ -6,6 +6,7 @@
 #include "materials/bsdf/warp.h"
 #include "materials/index/library.h"
 #include "materials/interface/fresnel.h"
+#include "materials/model/rough.h"
 #include "validation/bench/micro/inputs.h"
 
 namespace abbe {
@@ -48,6 +49,43 @@ void sample_bsdf(benchmark::State& state, const Bsdf& bsdf) {
 BENCHMARK_CAPTURE(sample_bsdf, diffuse, DiffuseBsdf{SampledSpectrum(0.5F)});
 BENCHMARK_CAPTURE(sample_bsdf, dielectric, DielectricBsdf{SampledSpectrum(1.5F), false});
 BENCHMARK_CAPTURE(sample_bsdf, conductor, ConductorBsdf{SampledSpectrum(0.96F), SampledSpectrum(6.69F)});
+
+// Rough gold and flint; f and pdf as light sampling asks for them.
+constexpr Microfacets<float> kGround{FacetShape::ggx, 0.2F, 0.2F};
+const RoughConductorMaterial& rough_gold() {
+  static const RoughConductorMaterial gold("gold", index_of("Au_Johnson"), kGround);
+  return gold;
+}
+const RoughDielectricMaterial& rough_flint() {
+  static const RoughDielectricMaterial flint("flint", index_of("N-SF11"), kGround);
+  return flint;
+}
+template <typename Rough>
+void sample_rough(benchmark::State& state, const Rough& (*material)()) {
+  micro::Stream u;
+  for (auto _ : state) {
+    const Imath::V3f wo = cosine_hemisphere(u.pair());
+    benchmark::DoNotOptimize(
+        sample(material().bsdf({u.packet()}), wo, {u.next(), u.pair()}, 0, TransportMode::radiance));
+  }
+}
+BENCHMARK_CAPTURE(sample_rough, rough_metal, rough_gold);
+BENCHMARK_CAPTURE(sample_rough, rough_glass, rough_flint);
+template <typename Rough>
+void evaluate_rough(benchmark::State& state, const Rough& (*material)(), float side) {
+  micro::Stream u;
+  for (auto _ : state) {
+    const Bsdf bsdf = material().bsdf({u.packet()});
+    const Imath::V3f wo = cosine_hemisphere(u.pair());
+    Imath::V3f wi = cosine_hemisphere(u.pair());
+    wi.z *= side;
+    benchmark::DoNotOptimize(eval(bsdf, wo, wi, TransportMode::radiance));
+    benchmark::DoNotOptimize(pdf(bsdf, wo, wi));
+  }
+}
+BENCHMARK_CAPTURE(evaluate_rough, rough_metal, rough_gold, 1);
+BENCHMARK_CAPTURE(evaluate_rough, rough_glass_reflecting, rough_flint, 1);
+BENCHMARK_CAPTURE(evaluate_rough, rough_glass_transmitting, rough_flint, -1);
 
 // One film, and the 21 layers of a mirror, on glass and on metal; from a packet of its own each time.
 struct CoatedMatter {

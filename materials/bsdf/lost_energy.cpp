@@ -1,0 +1,190 @@
+#include "materials/bsdf/lost_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "materials/bsdf/mirror.h"
+#include "materials/interface/fresnel.h"
+
+namespace abbe {
+namespace {
+
+constexpr float kMostLost = 0.999F;  // some light is always left to the first scattering
+
+bool isotropic(const Microfacets<float>& facets) {
+  return facets.alpha_x == facets.alpha_y;
+}
+
+// How many facets a quadrature takes, per direction: of many directions, few.
+int facets_taken(const Microfacets<float>& facets) {
+  return isotropic(facets) ? 1024 : 512;
+}
+
+// Point i of the first `count`, a power of two, of Hammersley's set: beside i, its bits reversed; both in the
+// middle of their strata.
+Imath::V2f hammersley(int i, int count) {
+  std::uint32_t bits = 0;
+  for (int b = 0; b < 24; ++b) bits |= (static_cast<std::uint32_t>(i) >> b & 1U) << (23 - b);
+  const float half = 0.5F / static_cast<float>(count);
+  return {static_cast<float>(i) / static_cast<float>(count) + half,
+          static_cast<float>(bits) * 0x1p-24F + half};
+}
+
+// The width of slopes, all azimuths alike.
+float mean_alpha(const Microfacets<float>& facets) {
+  return std::sqrt((facets.alpha_x * facets.alpha_x + facets.alpha_y * facets.alpha_y) / 2);
+}
+
+// Table coordinates in [0, 1]. `tilt` is 1 along the normal, 0 at the horizon, where it is finest, and its
+// square 1/2 where the cotangent of the angle is the width of slopes, mostly that in the azimuth of w; `turn`
+// is the azimuth from x to y.
+float tilted_alpha(const Microfacets<float>& facets, const Imath::V3f& w) {
+  if (isotropic(facets)) return facets.projected_alpha(w);
+  const float sine = std::sqrt(w.x * w.x + w.y * w.y);
+  return 0.75F * facets.projected_alpha(w) + 0.25F * mean_alpha(facets) * sine;
+}
+float tilt_of(float z, float sin_times_alpha) {
+  return std::sqrt(z / (z + sin_times_alpha));
+}
+constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
+Imath::V3f table_direction(const Microfacets<float>& facets, float tilt, float turn) {
+  constexpr float kHorizon = 1e-4F;
+  const float x = std::cos(turn * kQuarterTurn);
+  const float y = std::sin(turn * kQuarterTurn);
+  const float t = std::max(tilt * tilt, kHorizon);
+  return Imath::V3f(x, y, t / std::max(1 - t, kHorizon) * tilted_alpha(facets, {x, y, 0})).normalized();
+}
+
+// The squared cosine at which slopes of the mean width give that tilt.
+float mean_cos2_at(const Microfacets<float>& facets, float tilt) {
+  const float tangent = (1 / (tilt * tilt) - 1) / mean_alpha(facets);
+  return 1 / (1 + tangent * tangent);
+}
+
+struct Cell {
+  int number;
+  float within;
+};
+Cell cell_of(float coordinate, int cells) {
+  const float scaled = coordinate * static_cast<float>(cells);
+  const int number = std::clamp(static_cast<int>(scaled), 0, cells - 1);
+  return {number, scaled - static_cast<float>(number)};
+}
+
+}  // namespace
+
+LostEnergy::Place LostEnergy::place(const Microfacets<float>& facets, const Imath::V3f& w) {
+  const float z = std::abs(w.z);
+  const float tilt = tilt_of(z, tilted_alpha(facets, w));
+  const Cell row = cell_of(tilt, kCells);
+  if (isotropic(facets)) return {row.number, 0, row.within, 0, cell_of(tilt, kDensityCells).number};
+  const Cell turn = cell_of(std::atan2(std::abs(w.y), std::abs(w.x)) / kQuarterTurn, kTurns - 1);
+  const float mean_tilt = tilt_of(z, mean_alpha(facets) * std::sqrt(w.x * w.x + w.y * w.y));
+  return {row.number, turn.number, row.within, turn.within, cell_of(mean_tilt, kDensityCells).number};
+}
+
+std::vector<LostEnergy> LostEnergy::tabulate(const Microfacets<float>& facets, std::size_t count,
+                                             const Energies& energies) {
+  std::vector<LostEnergy> tables(count);
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < kTilts; ++i)
+    for (std::size_t j = 0; j < kTurns; ++j) {
+      if (j == 0 || !isotropic(facets))
+        energies(
+            table_direction(facets, static_cast<float>(i) / kCells, static_cast<float>(j) / (kTurns - 1)),
+            values);
+      for (std::size_t k = 0; k < count; ++k)
+        tables[k].lost_[i][j] = std::clamp(static_cast<float>(1 - values[k]), 0.0F, kMostLost);
+    }
+  for (LostEnergy& table : tables) table.prepare_density(facets);
+  return tables;
+}
+
+float LostEnergy::at(const Place& place) const {
+  const auto row = [&](int number) {
+    const auto& values = lost_[static_cast<std::size_t>(number)];
+    const auto turn = static_cast<std::size_t>(place.turn_cell);
+    return values[turn] + place.turn * (values[turn + 1] - values[turn]);
+  };
+  const float low = row(place.tilt_cell);
+  return low + place.tilt * (row(place.tilt_cell + 1) - low);
+}
+
+void LostEnergy::prepare_density(const Microfacets<float>& facets) {
+  constexpr double kLeastDensity = 1e-9;  // all directions can be drawn
+  constexpr int kParts = 8;               // of each cell, whose midpoints are looked at
+  const int azimuths = isotropic(facets) ? 1 : 8;
+  const auto mean_at = [&](float cos2) {
+    const float sine = std::sqrt(1 - cos2);
+    double sum = 0;
+    for (int a = 0; a < azimuths; ++a) {
+      const float phi = kQuarterTurn * ((static_cast<float>(a) + 0.5F) / static_cast<float>(azimuths));
+      sum += static_cast<double>(
+          at(place(facets, {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)})));
+    }
+    return sum / azimuths;
+  };
+  double sum = 0;
+  for (std::size_t k = 0; k < kDensityCells; ++k) {
+    cos2_[k + 1] = mean_cos2_at(facets, static_cast<float>(k + 1) / kDensityCells);
+    const float width = cos2_[k + 1] - cos2_[k];
+    double mean = kLeastDensity;
+    for (int part = 0; part < kParts; ++part)
+      mean += mean_at(cos2_[k] + width * ((static_cast<float>(part) + 0.5F) / kParts)) / kParts;
+    density_[k] = static_cast<float>(mean);
+    sum += mean * static_cast<double>(width);
+    cumulative_[k + 1] = static_cast<float>(sum);
+  }
+  total_ = static_cast<float>(std::numbers::pi * sum);
+  for (float& c : cumulative_) c /= static_cast<float>(sum);
+  for (float& d : density_) d /= total_;
+}
+
+Imath::V3f LostEnergy::sample(const Imath::V2f& u) const {
+  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u.x);
+  const auto k = static_cast<std::size_t>(above - cumulative_.begin());
+  const float within = (u.x - cumulative_[k - 1]) / (cumulative_[k] - cumulative_[k - 1]);
+  const float cos2 = cos2_[k - 1] + std::clamp(within, 0.0F, 1.0F) * (cos2_[k] - cos2_[k - 1]);
+  const float phi = 2 * std::numbers::pi_v<float> * u.y;
+  const float sine = std::sqrt(1 - cos2);
+  return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)};
+}
+
+float LostEnergy::pdf(const Place& place, float cos) const {
+  return density_[static_cast<std::size_t>(place.density_cell)] * cos;
+}
+
+double mirror_energy(const Microfacets<float>& facets, const Imath::V3f& w) {
+  const float lambda = facets.lambda(w);
+  const int count = facets_taken(facets);
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const Imath::V3f h = facets.sample_visible(w, hammersley(i, count));
+    const Imath::V3f out = h * (2 * w.dot(h)) - w;
+    if (out.z > 0) sum += static_cast<double>((1 + lambda) / (1 + lambda + facets.lambda(out)));
+  }
+  return sum / count;
+}
+
+void dielectric_energies(const Microfacets<float>& facets, const Imath::V3f& w, std::span<const float> etas,
+                         std::span<double> energies) {
+  const float lambda = facets.lambda(w);
+  const int count = facets_taken(facets);
+  std::fill(energies.begin(), energies.end(), 0.0);
+  for (int i = 0; i < count; ++i) {
+    const Imath::V3f h = facets.sample_visible(w, hammersley(i, count));
+    const float cos = std::min(w.dot(h), 1.0F);
+    const Imath::V3f mirrored = h * (2 * cos) - w;
+    const float reflected = mirrored.z > 0 ? (1 + lambda) / (1 + lambda + facets.lambda(mirrored)) : 0.0F;
+    for (std::size_t k = 0; k < etas.size(); ++k) {
+      const FresnelPower<float> f = fresnel_dielectric(cos, etas[k]);
+      const Imath::V3f through = h * (cos / etas[k] - f.cos_t) - w / etas[k];
+      const float transmitted = f.cos_t > 0 && through.z < 0 ? facets.G1(through) : 0.0F;
+      energies[k] += static_cast<double>(f.R() * reflected + f.transmitted() * transmitted) / count;
+    }
+  }
+}
+
+}  // namespace abbe

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "materials/bsdf/event.h"
+#include "materials/bsdf/lost_energy.h"
+#include "materials/index/refractive_index.h"
+#include "materials/interface/microfacet.h"
+
+namespace abbe {
+
+/// Microfacets that reflect alone: what is worked out once for all wavelengths and directions.
+struct RoughMirror {
+  explicit RoughMirror(const Microfacets<float>& facets);
+
+  Microfacets<float> facets;
+  LostEnergy lost;
+};
+
+/// Microfacets between air and matter of index n in [low_n, high_n].
+struct RoughBoundary {
+  static constexpr int kIndices = 3;  // energies are quadratic in n between them
+
+  RoughBoundary(const Microfacets<float>& facets, float low_n, float high_n);
+
+  Microfacets<float> facets;
+  float low_n, high_n;
+  std::array<std::array<LostEnergy, kIndices>, 2> lost;  ///< For light from outside, from inside; by n.
+  float inside_share;  ///< Of what is scattered more than once, at the middle index.
+};
+
+/// Rough conductor, opaque, reflecting on both sides; it refers to the material and sees the packet
+/// `wavelengths_nm`. Microfacets in mirror reflection [Walter2007, eq. 20] with height-correlated masking
+/// [Heitz2014, eq. 99], and what they scatter more than once [Kulla2017], coloured by the conductor's
+/// reflectance averaged over the hemisphere. Reciprocal.
+struct RoughConductorBsdf {
+  SampledSpectrum wavelengths_nm;
+  const RefractiveIndex* index;
+  const RefractiveIndex* outside;  ///< nullptr is air.
+  const Curve* mean_reflectance;   ///< Against air.
+  const RoughMirror* surface;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+};
+
+/// Rough dielectric interface with the normal towards the outside; `n` is the inside index relative to the
+/// outside, not within 1e-3 of 1. Each lane refracts at its own facets [Walter2007, eq. 21], so that all
+/// lanes may follow the hero. Masking is height-correlated in reflection, independent on the two sides in
+/// transmission. What is scattered more than once leaves on either side as if it had forgotten from which it
+/// came, which is the split that keeps reciprocity (radiance over n^2 reverses) and energy together. Towards
+/// n = 1 single transmission keeps its masking: the surface does not fade away as a real one does.
+struct RoughDielectricBsdf {
+  SampledSpectrum n;
+  const RoughBoundary* surface;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
+};
+
+}  // namespace abbe

@@ -1,0 +1,79 @@
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/facet_event.h"
+#include "materials/bsdf/rough.h"
+#include "materials/index/relative_index.h"
+#include "spectral/curve.h"
+
+namespace abbe {
+namespace {
+
+// Reflection from o into i by facets that reflect everything, times the cosine of i [1/sr]; as many times as
+// it takes in `multiple`.
+struct Reflection {
+  float single = 0;
+  float multiple = 0;
+  float cos = 0;  // to the facets of the single one
+  float pdf = 0;
+};
+
+Reflection reflection(const RoughMirror& surface, const Imath::V3f& o, const Imath::V3f& i) {
+  const Microfacets<float>& facets = surface.facets;
+  const float lambda_o = facets.lambda(o);
+  const float seen = 1 / ((1 + lambda_o) * o.z);
+  const FacetMirror mirror = facet_mirror(facets, seen, o, i);
+  const LostEnergy::Place place = LostEnergy::place(facets, i);
+  const float lost = surface.lost.at(LostEnergy::place(facets, o));
+  return {mirror.density * (1 + lambda_o) / (1 + lambda_o + facets.lambda(i)),
+          lost * surface.lost.at(place) * i.z / surface.lost.total(), mirror.cos,
+          (1 - lost) * mirror.density + lost * surface.lost.pdf(place, i.z)};
+}
+
+// f cos of each lane.
+SampledSpectrum coloured(const RoughConductorBsdf& bsdf, const Reflection& r) {
+  const RelativeIndex index = relative_index(*bsdf.index, bsdf.outside, bsdf.wavelengths_nm);
+  const SampledSpectrum once = SampledSpectrum::map(
+      index.n, index.k, [&](float n, float k) { return fresnel_conductor(r.cos, n, k).R(); });
+  // F^2 E + F^2 (1 - E) F E + ...: reflected twice or more, each time leaving with the mean energy E
+  // [Kulla2017].
+  const float energy = 1 - bsdf.surface->lost.total() * std::numbers::inv_pi_v<float>;
+  const SampledSpectrum often =
+      SampledSpectrum::map((*bsdf.mean_reflectance)(bsdf.wavelengths_nm),
+                           [energy](float mean) { return mean * mean * energy / (1 - mean * (1 - energy)); });
+  return once * r.single + often * r.multiple;
+}
+
+}  // namespace
+
+std::optional<BsdfSample> RoughConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                                     TransportMode /*mode*/) const {
+  if (wo.z == 0) return std::nullopt;
+  const Imath::V3f o = from_side_of(wo, wo);
+  const float lost = surface->lost.at(LostEnergy::place(surface->facets, o));
+  Imath::V3f i;
+  if (u.lobe < lost) {
+    i = surface->lost.sample(u.direction);
+  } else {
+    const Imath::V3f h = surface->facets.sample_visible(o, u.direction);
+    i = (h * (2 * o.dot(h)) - o).normalized();
+  }
+  if (!(i.z > 0)) return std::nullopt;
+  const Reflection r = reflection(*surface, o, i);
+  if (!(r.pdf > 0)) return std::nullopt;
+  return BsdfSample{.wi = from_side_of(wo, i), .weight = coloured(*this, r) * (1 / r.pdf), .pdf = r.pdf};
+}
+
+SampledSpectrum RoughConductorBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi,
+                                         TransportMode /*mode*/) const {
+  if (!(wo.z * wi.z > 0)) return {};
+  const Reflection r = reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi));
+  return coloured(*this, r) * (1 / std::abs(wi.z));
+}
+
+SampledSpectrum RoughConductorBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
+  if (!(wo.z * wi.z > 0)) return {};
+  return SampledSpectrum(reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi)).pdf);
+}
+
+}  // namespace abbe

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/index/refractive_index.h"
+#include "materials/model/lookup.h"
+
+namespace abbe {
+
+/// Rough interface to matter; slopes along the x and y of the surface's local axes. A surface of both alphas
+/// below `kLeastAlpha` is a `DielectricMaterial`. Its matter differs from air by 1e-3 or more: an index
+/// closer to 1 is taken as that far away.
+class RoughDielectricMaterial {
+ public:
+  /// Tabulates what it scatters more than once: some ms.
+  RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+  [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
+
+  std::string index_name;
+  RefractiveIndex index;
+  std::shared_ptr<const RoughBoundary> surface;
+};
+
+/// Rough conductor, in the same way.
+class RoughConductorMaterial {
+ public:
+  RoughConductorMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+
+  std::string index_name;
+  RefractiveIndex index;
+  Curve mean_reflectance;  ///< Over the hemisphere, weighed by the cosine.
+  std::shared_ptr<const RoughMirror> surface;
+};
+
+}  // namespace abbe

@@ -1,0 +1,282 @@
+#include "materials/bsdf/rough.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "materials/bsdf/warp.h"
+#include "materials/interface/fresnel.h"
+#include "tests/materials/bsdf_examples.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V2f;
+using Imath::V3f;
+
+constexpr FacetShape kShapes[] = {FacetShape::ggx, FacetShape::beckmann};
+constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
+
+// Point i of an evenly spread sequence in three dimensions: multiples of the powers of a generalised golden
+// ratio.
+BsdfRandom event(int i) {
+  const auto part = [i](double step) {
+    const double x = 0.5 + step * i;
+    return std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1F);
+  };
+  return {part(0.8191725133961645), {part(0.6710436067037893), part(0.5497004779019703)}};
+}
+
+// Mean of what leaves `wo` in lane `lane`, weighed by `light`, over events drawn by that lane.
+using Light = std::function<double(const V3f&)>;
+double leaving(const Bsdf& bsdf, const V3f& wo, int lane, const Light& light, int events = 1 << 15) {
+  double sum = 0;
+  for (int i = 0; i < events; ++i)
+    if (const auto s = sample(bsdf, wo, event(i), lane, TransportMode::power))
+      sum += static_cast<double>(s->weight[lane]) * light(s->wi);
+  return sum / events;
+}
+double all(const V3f& /*wi*/) {
+  return 1;
+}
+
+std::vector<Microfacets<float>> furnace_facets() {
+  std::vector<Microfacets<float>> facets;
+  for (const FacetShape shape : kShapes) {
+    for (const float alpha : {1e-3F, 3e-3F, 0.01F, 0.03F, 0.1F, 0.2F, 0.4F, 0.7F, 1.0F})
+      facets.push_back({shape, alpha, alpha});
+    facets.push_back({shape, 0.1F, 0.4F});
+    facets.push_back({shape, 0.8F, 0.04F});
+    facets.push_back({shape, 0.05F, 0.5F});
+  }
+  return facets;
+}
+const auto kCosines = {1.0, 0.8, 0.5, 0.2, 0.05, 3e-3};
+
+TEST(RoughConductor, PerfectMirrorLosesNothing) {
+  double worst = 0;
+  for (const auto& facets : furnace_facets()) {
+    const RoughConductorMaterial mirror("mirror", RefractiveIndex(0, 1), facets);
+    const Bsdf bsdf = mirror.bsdf({packet()});
+    for (const double cos : kCosines) {
+      const double albedo = leaving(bsdf, direction_at(cos, 0.5 + cos), 0, all);
+      worst = std::max(worst, std::abs(albedo - 1));
+      EXPECT_NEAR(albedo, 1, 5e-3) << facets.alpha_x << " " << facets.alpha_y << " cos " << cos;
+    }
+  }
+  std::printf("largest error of a mirror %.2g\n", worst);
+}
+
+TEST(RoughDielectric, LosslessMatterLosesNothing) {
+  double worst = 0;
+  for (const auto& facets : furnace_facets())
+    for (const float n : {1.33F, 1.5F, 2.4F, 0.7F}) {
+      const RoughBoundary surface(facets, n, n);
+      const Bsdf bsdf = RoughDielectricBsdf{SampledSpectrum(n), &surface};
+      for (const double cos : {1.0, 0.6, 0.15, -1.0, -0.7, -0.3, -0.02}) {
+        const double albedo = leaving(bsdf, direction_at(cos, 0.5 + cos), 0, all, 1 << 12);
+        worst = std::max(worst, std::abs(albedo - 1));
+        EXPECT_NEAR(albedo, 1, facets.alpha_x == facets.alpha_y ? 1e-2 : 2e-2)
+            << facets.alpha_x << " " << facets.alpha_y << " n " << n << " cos " << cos;
+      }
+    }
+  std::printf("largest error of a dielectric %.2g\n", worst);
+}
+
+// Between the indices it was tabulated at.
+TEST(RoughDielectric, LosesNothingAtAnyIndexOfItsRange) {
+  const RoughBoundary surface({FacetShape::ggx, 0.8F, 0.8F}, 1.4F, 2.0F);
+  const Bsdf bsdf = RoughDielectricBsdf{ramp(1.4F, 2.0F), &surface};
+  for (int lane = 0; lane < kLanes; ++lane)
+    for (const double cos : {0.7, -0.5}) EXPECT_NEAR(leaving(bsdf, direction_at(cos, 1), lane, all), 1, 4e-3);
+}
+
+// A few rough directions against the quadrature, everywhere else against the table.
+TEST(LostEnergy, IsWhatTheTableSays) {
+  for (const auto& facets : furnace_facets()) {
+    const LostEnergy lost = RoughMirror(facets).lost;
+    for (const double cos : {0.9, 0.43, 0.11})
+      for (const double phi : {0.05, 0.6, 1.5, 2.9, 4.4}) {
+        const V3f w = direction_at(cos, phi);
+        EXPECT_NEAR(lost.at(LostEnergy::place(facets, w)), 1 - mirror_energy(facets, w), 1e-2)
+            << facets.alpha_x << " " << facets.alpha_y << " cos " << cos << " phi " << phi;
+      }
+  }
+}
+
+TEST(LostEnergy, IsSoonTabulated) {
+  // Calls of the quadrature, not time.
+  int calls = 0;
+  const auto count = [&](const V3f&, std::span<double> energies) {
+    ++calls;
+    energies[0] = 1;
+  };
+  static_cast<void>(LostEnergy::tabulate({FacetShape::ggx, 0.3F, 0.3F}, 1, count));
+  EXPECT_LE(calls, 50);
+  static_cast<void>(LostEnergy::tabulate({FacetShape::ggx, 0.3F, 0.4F}, 1, count));
+  EXPECT_LE(calls, 650);
+}
+
+// Metal: by its mean reflectance, in the series of scatterings, added up one by one here.
+TEST(RoughConductor, IsColouredByEveryScattering) {
+  const Microfacets<float> facets{FacetShape::ggx, 1, 1};
+  const RoughConductorMaterial metal("metal", RefractiveIndex(0.2, 3), facets);
+  double mean = 0;
+  constexpr int kSteps = 2000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double c = (i + 0.5) / kSteps;
+    mean += 2 * c * fresnel_conductor(c, 0.2, 3.0).R() / kSteps;
+  }
+  EXPECT_NEAR(metal.mean_reflectance(550), mean, 1e-4);
+
+  const V3f wo = direction_at(0.6, 1);
+  const LostEnergy& lost = metal.surface->lost;
+  const double energy = 1 - lost.total() / std::numbers::pi;
+  double often = 0;
+  double term = mean * mean * energy;
+  for (int bounce = 2; bounce < 100; ++bounce, term *= mean * (1 - energy)) often += term;
+  double once = 0;
+  constexpr int kFacets = 1 << 14;
+  for (int i = 0; i < kFacets; ++i) {
+    const V3f h = facets.sample_visible(wo, event(i).direction);
+    const V3f wi = h * (2 * wo.dot(h)) - wo;
+    if (wi.z > 0)
+      once += static_cast<double>(fresnel_conductor(wo.dot(h), 0.2F, 3.0F).R() * (1 + facets.lambda(wo)) /
+                                  (1 + facets.lambda(wo) + facets.lambda(wi)));
+  }
+  const double expected = once / kFacets + lost.at(LostEnergy::place(facets, wo)) * often;
+  EXPECT_NEAR(leaving(metal.bsdf({packet()}), wo, 2, all), expected, 2e-3);
+}
+
+double uneven(const V3f& wi) {
+  return 1 + 0.5 * std::sin(3.0 * wi.x + 1) * std::cos(2.0 * wi.y) + 0.3 * wi.z;
+}
+
+TEST(RoughConductor, OfLeastRoughnessIsSmooth) {
+  for (const FacetShape shape : kShapes) {
+    const RoughConductorMaterial rough("rough", RefractiveIndex(0.2, 3), {shape, 1e-3F, 1e-3F});
+    const ConductorBsdf smooth{SampledSpectrum(0.2F), SampledSpectrum(3)};
+    for (const double cos : {1.0, 0.5, 0.1}) {
+      const V3f wo = direction_at(cos, 0.4);
+      EXPECT_NEAR(leaving(rough.bsdf({packet()}), wo, 0, uneven), leaving(smooth, wo, 0, uneven, 4), 5e-4);
+    }
+  }
+}
+
+TEST(RoughDielectric, OfLeastRoughnessIsSmooth) {
+  for (const FacetShape shape : kShapes) {
+    const RoughBoundary surface({shape, 1e-3F, 1e-3F}, 1.5F, 1.5F);
+    const Bsdf rough = RoughDielectricBsdf{SampledSpectrum(1.5F), &surface};
+    const Bsdf smooth = DielectricBsdf{SampledSpectrum(1.5F), false};
+    for (const double cos : {1.0, 0.4, -0.9, -0.5}) {
+      const V3f wo = direction_at(cos, 0.4);
+      EXPECT_NEAR(leaving(rough, wo, 0, uneven), leaving(smooth, wo, 0, uneven), 1e-3);
+    }
+  }
+}
+
+// Each lane by the balance over eight heroes, against a packet of that lane's index alone.
+TEST(RoughDielectric, BalancedLanesAreUnbiased) {
+  for (const float alpha : {0.03F, 0.3F}) {
+    const RoughBoundary surface({FacetShape::ggx, alpha, alpha}, 1.4F, 2.0F);
+    const SampledSpectrum n = ramp(1.4F, 2.0F);
+    const Bsdf bsdf = RoughDielectricBsdf{n, &surface};
+    for (const double cos : {0.5, -0.8}) {
+      const V3f wo = direction_at(cos, 0.4);
+      constexpr int kEvents = 1 << 15;
+      std::array<double, kLanes> balanced{};
+      for (int i = 0; i < kEvents; ++i)
+        for (int hero = 0; hero < kLanes; ++hero)
+          if (const auto s = sample(bsdf, wo, event(i), hero, TransportMode::power))
+            for (int j = 0; j < kLanes; ++j)
+              balanced[static_cast<std::size_t>(j)] +=
+                  static_cast<double>(s->weight[j] / s->lane_pdf.sum()) * uneven(s->wi) / kEvents;
+      for (int j = 0; j < kLanes; ++j) {
+        const Bsdf alone = RoughDielectricBsdf{SampledSpectrum(n[j]), &surface};
+        EXPECT_NEAR(balanced[static_cast<std::size_t>(j)], leaving(alone, wo, j, uneven), 4e-3)
+            << "alpha " << alpha << " cos " << cos << " lane " << j;
+      }
+    }
+  }
+}
+
+TEST(RoughDielectric, RefractionScalesRadianceLaneByLane) {
+  const RoughBoundary surface({FacetShape::ggx, 0.3F, 0.3F}, 1.4F, 2.0F);
+  const RoughDielectricBsdf bsdf{ramp(1.4F, 2.0F), &surface};
+  for (const double cos : {0.5, -0.8}) {
+    const V3f wo = direction_at(cos, 0.4);
+    const V3f through = direction_at(-cos, 3.4);
+    const SampledSpectrum radiance = bsdf.eval(wo, through, TransportMode::radiance);
+    const SampledSpectrum power = bsdf.eval(wo, through, TransportMode::power);
+    for (int j = 0; j < kLanes; ++j) {
+      const float n2 = bsdf.n[j] * bsdf.n[j];
+      EXPECT_FLOAT_EQ(radiance[j] * (cos > 0 ? n2 : 1 / n2), power[j]);
+      EXPECT_GT(power[j], 0);
+    }
+    const V3f back = direction_at(cos, 3.4);
+    EXPECT_FLOAT_EQ(bsdf.eval(wo, back, TransportMode::radiance)[3],
+                    bsdf.eval(wo, back, TransportMode::power)[3]);
+  }
+}
+
+// Facets of little slope cannot help what is beyond the critical angle through.
+TEST(RoughDielectric, ReflectsTotally) {
+  const RoughBoundary surface({FacetShape::beckmann, 0.01F, 0.01F}, 1.5F, 1.5F);
+  const Bsdf bsdf = RoughDielectricBsdf{SampledSpectrum(1.5F), &surface};
+  const auto through = [](const V3f& wi) { return wi.z > 0 ? 1.0 : 0.0; };
+  EXPECT_LT(leaving(bsdf, direction_at(-0.6, 0), 0, through), 1e-4);
+  EXPECT_NEAR(leaving(bsdf, direction_at(-0.9, 0), 0, through),
+              fresnel_dielectric(0.9, 1 / 1.5).transmitted(), 5e-3);
+}
+
+// What visible normals buy: no single scattering weighs more than 1, and all together little more.
+TEST(RoughSurfaces, WeighSamplesEvenly) {
+  double largest = 0;
+  for (const auto& facets : furnace_facets()) {
+    if (facets.alpha_x != facets.alpha_y) continue;
+    const RoughConductorMaterial mirror("mirror", RefractiveIndex(0, 1), facets);
+    const Bsdf bsdf = mirror.bsdf({packet()});
+    for (const double cos : kCosines) {
+      const V3f wo = direction_at(cos, 0.5 + cos);
+      const float lost = mirror.surface->lost.at(LostEnergy::place(facets, wo));
+      for (int i = 0; i < 2048; ++i) {
+        BsdfRandom u = event(i);
+        if (const auto s = sample(bsdf, wo, u, 0, TransportMode::power))
+          largest = std::max(largest, static_cast<double>(s->weight[0] * (1 - lost)));
+        u.lobe = 0x1.fffffep-1F;  // off a facet
+        const auto s = sample(bsdf, wo, u, 0, TransportMode::power);
+        if (s && lost < 1e-3F) {
+          EXPECT_LE(s->weight[0], 1.01);
+        }
+      }
+    }
+  }
+  std::printf("largest weight %.3f\n", largest);
+  EXPECT_LT(largest, 8);
+}
+
+TEST(RoughMaterials, TellHowTheySendLight) {
+  const Material glass{"glass",
+                       RoughDielectricMaterial("n", RefractiveIndex(1.5), {FacetShape::ggx, 0.1F, 0.1F})};
+  EXPECT_TRUE(lobes(glass).spread);
+  EXPECT_FALSE(lobes(glass).delta);
+  EXPECT_NE(interior(glass), nullptr);
+  EXPECT_FLOAT_EQ(index_inside(make_bsdf(glass, {packet()}), 2), 1.5F);
+  const Material metal{"metal",
+                       RoughConductorMaterial("n", RefractiveIndex(0.2, 3), {FacetShape::ggx, 0.1F, 0.1F})};
+  EXPECT_TRUE(lobes(metal).spread);
+  EXPECT_EQ(interior(metal), nullptr);
+}
+
+TEST(RoughMaterials, AreNeverWithoutContrast) {
+  const Material ghost{"ghost",
+                       RoughDielectricMaterial("n", RefractiveIndex(1), {FacetShape::ggx, 0.1F, 0.1F})};
+  const Bsdf bsdf = make_bsdf(ghost, {packet()});
+  EXPECT_FLOAT_EQ(index_inside(bsdf, 0), 1.001F);
+  EXPECT_NEAR(leaving(bsdf, direction_at(0.7, 1), 0, all), 1, 1e-2);
+}
+
+}  // namespace
+}  // namespace abbe
