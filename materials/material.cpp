@@ -30,9 +30,12 @@ bool is_dispersive(const Material& material) {
 bool depends_on_outside(const Material& material) {
   return std::visit(
       [](const auto& model) {
-        return requires {
-          model.index;
-        };
+        if constexpr (requires { model.depends_on_outside(); })
+          return model.depends_on_outside();
+        else
+          return requires {
+            model.index;
+          };
       },
       material.model);
 }

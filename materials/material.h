@@ -4,8 +4,12 @@
 #include <string>
 #include <variant>
 
+#include "materials/model/layered.h"
+#include "materials/model/mixture.h"
+#include "materials/model/principled.h"
 #include "materials/model/rough.h"
 #include "materials/model/smooth.h"
+#include "materials/model/teaching.h"
 #include "materials/texture/relief.h"
 
 namespace abbe {
@@ -13,8 +17,11 @@ namespace abbe {
 /// The closed list of what surfaces are made of. Each model tells its `bsdf` at a lookup and its `lobes`, and
 /// its `interior` if light enters the closed surface, `needs_coordinates` if its scattering may depend on
 /// them.
-using MaterialModel = std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial,
-                                   RoughDielectricMaterial, RoughConductorMaterial>;
+using MaterialModel =
+    std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial, RoughDielectricMaterial,
+                 RoughConductorMaterial, CoatedDiffuseMaterial, ThinGlassMaterial, MixtureMaterial,
+                 MirrorMaterial, SchlickMaterial, OrenNayarMaterial, PrincipledMaterial, CosinePowerMaterial,
+                 PhongMaterial, RetroreflectorMaterial>;
 
 /// What a surface is made of, over all wavelengths.
 struct Material {

@@ -5,10 +5,17 @@
 #include <variant>
 
 #include "materials/bsdf/coated.h"
+#include "materials/bsdf/coated_diffuse.h"
+#include "materials/bsdf/comparison.h"
 #include "materials/bsdf/diffuse.h"
 #include "materials/bsdf/event.h"
+#include "materials/bsdf/mixture.h"
+#include "materials/bsdf/power_lobes.h"
+#include "materials/bsdf/principled.h"
 #include "materials/bsdf/rough.h"
+#include "materials/bsdf/rough_diffuse.h"
 #include "materials/bsdf/smooth.h"
+#include "materials/bsdf/thin_glass.h"
 
 namespace abbe {
 
@@ -16,7 +23,9 @@ namespace abbe {
 /// that send light in more than single directions have `eval` and `pdf` as well. A new model is a file pair
 /// and an entry here; the statistical tests iterate the list.
 using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf,
-                          CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf>;
+                          CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf, CoatedDiffuseBsdf,
+                          ThinGlassBsdf, MixtureBsdf, MirrorBsdf, SchlickBsdf, OrenNayarBsdf, PrincipledBsdf,
+                          CosinePowerBsdf<false>, CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every vertex of a path holds one
 
 /// A model that sends light in more than single directions.

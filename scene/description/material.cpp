@@ -11,11 +11,20 @@ namespace {
 
 constexpr char kBlack[] = "black (lamp)";
 
-constexpr std::array<std::pair<std::string_view, MaterialReader>, 4> kReaders{
+constexpr std::array<std::pair<std::string_view, MaterialReader>, 13> kReaders{
     {{"diffuse", read_diffuse},
      {"dielectric", read_dielectric},
      {"conductor", read_conductor},
-     {"film", read_film}}};
+     {"film", read_film},
+     {"coated_diffuse", read_coated_diffuse},
+     {"thin_glass", read_thin_glass},
+     {"mirror", read_mirror},
+     {"schlick", read_schlick},
+     {"oren_nayar", read_oren_nayar},
+     {"principled", read_principled},
+     {"cosine_power", read_cosine_power},
+     {"phong", read_phong},
+     {"retroreflector", read_retroreflector}}};
 
 // Of the matter inside, which there must be.
 int read_priority(const JsonValue& json, const Material& material, Reading& reading) {
@@ -29,7 +38,7 @@ int read_priority(const JsonValue& json, const Material& material, Reading& read
 Material read_material(const std::string& name, const JsonValue& json, Reading& reading) {
   Material material{name, DiffuseMaterial{Curve(0.0)}};
   ObjectReader reader(json, reading.diagnostics);
-  std::vector<std::string_view> keys;
+  std::vector<std::string_view> keys{"mixture"};  // made of the others, and read after them
   for (const auto& [key, read] : kReaders) keys.push_back(key);
   const auto key = reader.exactly_one(keys);
   const JsonValue* priority = reader.find("priority");
@@ -39,6 +48,7 @@ Material read_material(const std::string& name, const JsonValue& json, Reading& 
         material.model = std::move(*model);
         if (priority != nullptr) material.priority = read_priority(*priority, material, reading);
       }
+  if (key == "mixture") material.model = MixtureMaterial{};
   material.relief = read_relief(reader, reading);
   if (key) reader.finish();
   return material;
@@ -56,6 +66,11 @@ void read_materials(const JsonValue& json, Reading& reading, Scene& scene) {
   for (const auto& [name, value] : *members) {
     reading.materials.emplace(name, static_cast<std::uint32_t>(scene.materials.size()));
     scene.materials.push_back(read_material(name, value, reading));
+  }
+  for (const auto& [name, value] : *members) {
+    MaterialModel& model = scene.materials[reading.materials.at(name)].model;
+    if (!std::holds_alternative<MixtureMaterial>(model)) continue;
+    if (auto mixture = read_mixture(*value.find("mixture"), reading, scene)) model = std::move(*mixture);
   }
 }
 

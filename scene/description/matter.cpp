@@ -60,17 +60,12 @@ std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& readin
   return DiffuseMaterial{std::move(*reflectance)};
 }
 
-std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& reading) {
-  ObjectReader reader(json, reading.diagnostics);
+std::optional<Ior> read_tinted_ior(ObjectReader& reader, Reading& reading) {
   const JsonValue* value = reader.require("ior");
   const JsonValue* absorption = reader.find("absorption_per_m");
-  Coating coating = read_coating(reader.find("coating"), reading);
-  const auto facets = read_roughness(reader.find("roughness"), coating, reading);
-  reader.finish();
   if (!value) return std::nullopt;
   auto ior = read_ior(*value, kIndex, reading);
-  if (!ior) return std::nullopt;
-  if (!absorption) return dielectric(std::move(*ior), std::move(coating), facets);
+  if (!ior || !absorption) return ior;
   if (!ior->constant || ior->index.absorbing()) {
     reading.diagnostics.error(absorption->where,
                               "absorption_per_m goes with a constant real index; this one brings its own k");
@@ -80,6 +75,16 @@ std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& rea
   if (!alpha) return std::nullopt;
   ior->index = RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha),
                                IndexMedium::air, kMinWavelengthNm, kMaxWavelengthNm);
+  return ior;
+}
+
+std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& reading) {
+  ObjectReader reader(json, reading.diagnostics);
+  auto ior = read_tinted_ior(reader, reading);
+  Coating coating = read_coating(reader.find("coating"), reading);
+  const auto facets = read_roughness(reader.find("roughness"), coating, reading);
+  reader.finish();
+  if (!ior) return std::nullopt;
   return dielectric(std::move(*ior), std::move(coating), facets);
 }
 

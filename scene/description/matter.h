@@ -20,6 +20,9 @@ struct Ior {
 /// A number, an object of n and k, or the name of a table; n within `allowed`.
 [[nodiscard]] std::optional<Ior> read_ior(const JsonValue& json, Range allowed, Reading& reading);
 
+/// The `ior` of an object; of a constant real one, `absorption_per_m` may give the absorption beside it.
+[[nodiscard]] std::optional<Ior> read_tinted_ior(ObjectReader& reader, Reading& reading);
+
 /// The layers under a key, none if it is not there.
 [[nodiscard]] Coating read_coating(const JsonValue* layers, Reading& reading);
 
@@ -42,5 +45,17 @@ using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, R
 [[nodiscard]] std::optional<MaterialModel> read_conductor(const JsonValue& json, Reading& reading);
 /// A film with air on both sides, such as a soap bubble's: a coating on nothing.
 [[nodiscard]] std::optional<MaterialModel> read_film(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_coated_diffuse(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_thin_glass(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_mirror(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_schlick(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_oren_nayar(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_cosine_power(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_phong(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_retroreflector(const JsonValue& json, Reading& reading);
+[[nodiscard]] std::optional<MaterialModel> read_principled(const JsonValue& json, Reading& reading);
+/// Of materials of `scene` that are no mixtures.
+[[nodiscard]] std::optional<MixtureMaterial> read_mixture(const JsonValue& json, Reading& reading,
+                                                          const Scene& scene);
 
 }  // namespace abbe::description

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "materials/bsdf/bsdf.h"
+#include "materials/interface/hemispherical.h"
 #include "materials/material.h"
 
 namespace abbe {
@@ -46,6 +48,23 @@ template <>
 inline constexpr bool kLobesOverlap<RoughDielectricBsdf> = true;
 template <>
 inline constexpr bool kLobesOverlap<RoughConductorBsdf> = true;
+template <>
+inline constexpr bool kLobesOverlap<MixtureBsdf> = true;
+template <>
+inline constexpr bool kLobesOverlap<PrincipledBsdf> = true;
+template <>
+inline constexpr bool kLobesOverlap<PhongBsdf> = true;
+template <>
+inline constexpr bool kLobesOverlap<RetroreflectorBsdf> = true;
+
+template <>
+inline std::optional<double> lossless_within(const CoatedDiffuseBsdf& model) {
+  return model.n[0] == 1.5F ? std::optional(1e-3) : std::nullopt;  // the white one
+}
+template <>
+inline std::optional<double> lossless_within(const ThinGlassBsdf& model) {
+  return model.depth.is_zero() ? std::optional(1e-5) : std::nullopt;
+}
 
 inline SampledSpectrum ramp(float first, float last) {
   SampledSpectrum::Values s;
@@ -141,6 +160,86 @@ inline std::vector<RoughConductorBsdf> examples() {
   std::vector<RoughConductorBsdf> models;
   for (const RoughConductorMaterial& m : all)
     models.push_back(std::get<RoughConductorBsdf>(m.bsdf({packet()})));
+  return models;
+}
+
+template <>
+inline std::vector<CoatedDiffuseBsdf> examples() {
+  const auto coated = [](const SampledSpectrum& n, const SampledSpectrum& rho) {
+    const auto inner = [](float x) { return static_cast<float>(diffuse_reflectance_inside(x)); };
+    return coated_diffuse(n, rho, SampledSpectrum::map(n, inner), n[0] != n[kLanes - 1]);
+  };
+  return {coated(SampledSpectrum(1.5F), SampledSpectrum(1)), coated(ramp(1.3F, 1.7F), ramp(0.9F, 0)),
+          coated(SampledSpectrum(1), SampledSpectrum(0.5F)), coated(SampledSpectrum(2.4F), ramp(0.1F, 0.8F))};
+}
+template <>
+inline std::vector<ThinGlassBsdf> examples() {
+  return {{SampledSpectrum(1.5F), SampledSpectrum(0)},
+          {ramp(1.45F, 1.9F), ramp(0, 2)},
+          {SampledSpectrum(0.8F), SampledSpectrum(0.1F)},
+          {SampledSpectrum(1), SampledSpectrum(0)}};
+}
+template <>
+inline std::vector<MirrorBsdf> examples() {
+  return {{SampledSpectrum(1)}, {ramp(0, 0.8F)}};
+}
+template <>
+inline std::vector<SchlickBsdf> examples() {
+  return {{SampledSpectrum(0.04F)}, {ramp(0.5F, 1)}};
+}
+template <>
+inline std::vector<OrenNayarBsdf> examples() {
+  return {{SampledSpectrum(1), oren_nayar_roughness(20)}, {ramp(0, 0.9F), 1}, {ramp(1, 0.3F), 0}};
+}
+
+template <>
+inline std::vector<PrincipledBsdf> examples() {
+  static const Principled plain(PrincipledLook{});
+  static const Principled cloth(PrincipledLook{.roughness = 1, .specular = 0.2F, .sheen = 1});
+  static const Principled metal(PrincipledLook{.metallic = 1, .roughness = 0.3F});
+  static const Principled lacquer(PrincipledLook{
+      .metallic = 0.4F, .roughness = 0.6F, .specular = 1, .clearcoat = 1, .clearcoat_gloss = 0.3F});
+  return {{SampledSpectrum(1), &plain},
+          {SampledSpectrum(1), &cloth},
+          {ramp(0.2F, 1), &metal},
+          {ramp(0, 0.9F), &lacquer}};
+}
+template <>
+inline std::vector<CosinePowerBsdf<false>> examples() {
+  return {{SampledSpectrum(1), 3}, {ramp(0, 0.9F), 0.5F}};
+}
+template <>
+inline std::vector<CosinePowerBsdf<true>> examples() {
+  return {{SampledSpectrum(1), 0}, {SampledSpectrum(1), 7}, {ramp(0, 0.9F), 0.5F}};
+}
+template <>
+inline std::vector<PhongBsdf> examples() {
+  return {{SampledSpectrum(1), 20}, {ramp(0.2F, 0.9F), 3}};
+}
+template <>
+inline std::vector<RetroreflectorBsdf> examples() {
+  return {{SampledSpectrum(1), 0}, {SampledSpectrum(1), 50}, {ramp(0, 0.9F), 2000}};
+}
+
+// A mirror, Lambert's matter and rougher; a sheet of glass with holes and spots. Of each only one reflects in
+// a single direction, so that its way back is told from others'.
+inline const std::vector<MixtureMaterial>& mixtures() {
+  const auto part = [](double red, double blue, MaterialModel model) {
+    return MixtureMaterial::Part{Curve({{390, blue}, {770, red}}),
+                                 std::make_shared<const Material>(Material{"part", std::move(model)})};
+  };
+  static const std::vector<MixtureMaterial> all{
+      {{part(0.2, 0.5, MirrorMaterial{Curve(0.8)}), part(0.8, 0.1, OrenNayarMaterial{Curve(0.7), 30}),
+        part(0, 0.4, DiffuseMaterial{Curve(1.0)})}},
+      {{part(0.3, 0.2, DiffuseMaterial{Curve(0.5)}),
+        part(0.5, 0.8, ThinGlassMaterial{"1.5", RefractiveIndex(1.5)})}}};
+  return all;
+}
+template <>
+inline std::vector<MixtureBsdf> examples() {
+  static const SampledSpectrum wavelengths = packet();
+  std::vector<MixtureBsdf> models;
+  for (const MixtureMaterial& mixture : mixtures()) models.push_back({mixture, {wavelengths}});
   return models;
 }
 

@@ -296,6 +296,33 @@ TEST_F(DescriptionTest, ReadsRoughness) {
   EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(loaded->materials[4].model));
 }
 
+TEST_F(DescriptionTest, ReadsScatteringModels) {
+  const Loaded loaded = load(R"({"units": "mm", "materials": {
+    "mixed": {"mixture": [{"material": "clay", "weight": 0.3}, {"material": "pane", "weight": {"band": [400, 500], "value": 0.7}}]},
+    "clay": {"oren_nayar": {"reflectance": 0.6, "sigma_deg": 20}},
+    "pane": {"thin_glass": {"ior": 1.52, "thickness": 4, "absorption_per_m": 10}},
+    "glaze": {"coated_diffuse": {"ior": "N-BK7", "reflectance": 0.6}},
+    "gold": {"schlick": {"ior": {"n": 0.2, "k": 3}}},
+    "art": {"principled": {"base_color": 0.25, "metallic": 1, "roughness": 0.3}},
+    "one way": {"cosine_power": {"reflectance": 1, "exponent": 2}},
+    "both ways": {"cosine_power": {"reflectance": 1, "exponent": 2, "reciprocal": true}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto model = [&](std::size_t i) -> const MaterialModel& { return loaded->materials.at(i).model; };
+  const auto& mixture = std::get<MixtureMaterial>(model(0));
+  ASSERT_EQ(mixture.parts.size(), 2U);
+  EXPECT_EQ(mixture.parts[0].material->name, "clay");
+  EXPECT_EQ(mixture.parts[1].weight(450), 0.7);
+  EXPECT_TRUE(mixture.lobes().delta && mixture.lobes().spread);
+  EXPECT_EQ(std::get<OrenNayarMaterial>(model(1)).sigma_deg, 20);
+  const auto& pane = std::get<ThinGlassMaterial>(model(2));
+  EXPECT_NEAR(pane.thickness * pane.index.absorption_per_m(550), 0.04, 1e-6);
+  EXPECT_NEAR(std::get<CoatedDiffuseMaterial>(model(3)).index.n(587.5618), 1.516800, 1e-6);
+  EXPECT_NEAR(std::get<SchlickMaterial>(model(4)).r0.curve()(550), (0.8 * 0.8 + 9) / (1.2 * 1.2 + 9), 1e-9);
+  EXPECT_NEAR(std::get<PrincipledMaterial>(model(5)).look.albedo(1).coloured, 0.984, 0.003);
+  EXPECT_FALSE(std::get<CosinePowerMaterial>(model(6)).reciprocal);
+  EXPECT_TRUE(std::get<CosinePowerMaterial>(model(7)).reciprocal);
+}
+
 TEST_F(DescriptionTest, ReadsCoatings) {
   const Loaded loaded = load(R"({"materials": {
     "lens": {"dielectric": {"ior": "N-BK7", "coating": [{"ior": "MgF2", "thickness_nm": 99.6}]}},

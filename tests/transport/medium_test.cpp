@@ -74,10 +74,12 @@ TEST(Enclosures, ReturnToWhatIsAround) {
   scene.materials = {
       {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}},
       {"water", DielectricMaterial{"water", RefractiveIndex(1.33)}},
-      {.name = "ice", .model = DielectricMaterial{"ice", RefractiveIndex(1.3)}, .priority = 3}};
+      {.name = "ice", .model = DielectricMaterial{"ice", RefractiveIndex(1.3)}, .priority = 3},
+      {"pane", ThinGlassMaterial{"glass", RefractiveIndex(1.5)}}};
   for (std::uint32_t i = 0; i < 120; ++i)
     scene.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, i == 3 ? 1U : 0U});
   scene.shapes[9].material = 2;
+  scene.shapes[8].material = 3;
   Enclosures inside;
   inside.cross(scene, 7, false);  // from behind a surface that encloses nothing
   EXPECT_TRUE(inside.empty());
@@ -85,6 +87,8 @@ TEST(Enclosures, ReturnToWhatIsAround) {
   inside.cross(scene, 5, true);
   inside.cross(scene, 5, true);
   EXPECT_EQ(inside.innermost(), 5U);
+  inside.cross(scene, 8, true);
+  EXPECT_EQ(inside.innermost(), 5U) << "a pane has no inside";
   inside.cross(scene, 6, false);  // another face of the same body
   EXPECT_EQ(inside.innermost(), 3U);
   inside.cross(scene, 9, true);

@@ -42,6 +42,7 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
 }  // namespace
 
 void Enclosures::enter(const Scene& scene, std::uint32_t shape) {
+  if (!filled(scene, shape)) return;  // a pane modelled as one surface
   const auto begin = shapes_.begin();
   const auto priority = [&](std::uint32_t of) { return scene.materials[scene.shapes[of].material].priority; };
   if (std::find(begin, begin + static_cast<std::ptrdiff_t>(count_), shape) !=

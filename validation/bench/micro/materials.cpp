@@ -1,4 +1,6 @@
+#include <memory>
 #include <type_traits>
+#include <utility>
 
 #include <benchmark/benchmark.h>
 
@@ -6,6 +8,7 @@
 #include "materials/bsdf/warp.h"
 #include "materials/index/library.h"
 #include "materials/interface/fresnel.h"
+#include "materials/material.h"
 #include "materials/model/rough.h"
 #include "validation/bench/micro/inputs.h"
 
@@ -114,8 +117,7 @@ BENCHMARK_CAPTURE(sample_coated, mirror_on_glass, std::type_identity<CoatedDiele
 BENCHMARK_CAPTURE(sample_coated, coated_metal, std::type_identity<CoatedConductorBsdf>(), "Al_Rakic", 0);
 
 // f and pdf together, as light sampling asks for them.
-void evaluate_diffuse(benchmark::State& state) {
-  const Bsdf bsdf = DiffuseBsdf{SampledSpectrum(0.5F)};
+void evaluate_bsdf(benchmark::State& state, const Bsdf& bsdf) {
   micro::Stream u;
   for (auto _ : state) {
     const Imath::V3f wo = cosine_hemisphere(u.pair());
@@ -124,7 +126,70 @@ void evaluate_diffuse(benchmark::State& state) {
     benchmark::DoNotOptimize(pdf(bsdf, wo, wi));
   }
 }
-BENCHMARK(evaluate_diffuse);
+BENCHMARK_CAPTURE(evaluate_bsdf, diffuse, DiffuseBsdf{SampledSpectrum(0.5F)});
+
+// Models that refer to their material, or that it makes.
+void sample_material(benchmark::State& state, MaterialModel (*model)()) {
+  const Material material{"material", model()};
+  const SampledSpectrum wavelengths = micro::Stream().packet();
+  sample_bsdf(state, make_bsdf(material, {wavelengths}));
+}
+void evaluate_material(benchmark::State& state, MaterialModel (*model)()) {
+  const Material material{"material", model()};
+  const SampledSpectrum wavelengths = micro::Stream().packet();
+  evaluate_bsdf(state, make_bsdf(material, {wavelengths}));
+}
+MaterialModel coated_diffuse() {
+  return CoatedDiffuseMaterial{"N-BK7", index_of("N-BK7"), Curve(0.5)};
+}
+MaterialModel mirror() {
+  return MirrorMaterial{Curve(0.9)};
+}
+MaterialModel mixture() {
+  const auto part = [](MaterialModel model) {
+    return MixtureMaterial::Part{Curve(0.5),
+                                 std::make_shared<const Material>(Material{"part", std::move(model)})};
+  };
+  return MixtureMaterial{{part(coated_diffuse()), part(mirror())}};
+}
+MaterialModel thin_glass() {
+  return ThinGlassMaterial{"N-BK7", index_of("N-BK7"), 0.01};
+}
+MaterialModel oren_nayar() {
+  return OrenNayarMaterial{Curve(0.5), 30};
+}
+MaterialModel principled() {
+  return PrincipledMaterial{Curve(0.5), Principled(PrincipledLook{.clearcoat = 1})};
+}
+MaterialModel schlick_mirror() {
+  return SchlickMaterial{Curve(0.9)};
+}
+MaterialModel cosine_power() {
+  return CosinePowerMaterial{Curve(0.5), 3, true};
+}
+MaterialModel phong() {
+  return PhongMaterial{Curve(0.5), 30};
+}
+MaterialModel retroreflector() {
+  return RetroreflectorMaterial{Curve(0.5), 30};
+}
+BENCHMARK_CAPTURE(sample_material, coated_diffuse, coated_diffuse);
+BENCHMARK_CAPTURE(sample_material, mirror, mirror);
+BENCHMARK_CAPTURE(sample_material, mixture, mixture);
+BENCHMARK_CAPTURE(sample_material, thin_glass, thin_glass);
+BENCHMARK_CAPTURE(sample_material, oren_nayar, oren_nayar);
+BENCHMARK_CAPTURE(sample_material, principled, principled);
+BENCHMARK_CAPTURE(sample_material, schlick, schlick_mirror);
+BENCHMARK_CAPTURE(sample_material, cosine_power, cosine_power);
+BENCHMARK_CAPTURE(sample_material, phong, phong);
+BENCHMARK_CAPTURE(sample_material, retroreflector, retroreflector);
+BENCHMARK_CAPTURE(evaluate_material, coated_diffuse, coated_diffuse);
+BENCHMARK_CAPTURE(evaluate_material, mixture, mixture);
+BENCHMARK_CAPTURE(evaluate_material, oren_nayar, oren_nayar);
+BENCHMARK_CAPTURE(evaluate_material, principled, principled);
+BENCHMARK_CAPTURE(evaluate_material, cosine_power, cosine_power);
+BENCHMARK_CAPTURE(evaluate_material, phong, phong);
+BENCHMARK_CAPTURE(evaluate_material, retroreflector, retroreflector);
 
 }  // namespace
 }  // namespace abbe

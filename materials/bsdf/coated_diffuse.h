@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "materials/bsdf/event.h"
+
+namespace abbe {
+
+/// A Lambertian ground under a clear smooth coat, alike on both sides: the coat reflects in the mirror's
+/// direction; what it lets in is scattered by the ground, thrown back by the coat from within and scattered
+/// again, any number of times, and leaves spread,
+///
+///   f = T(o) T(i) rho/(n^2 (1 - rho r) pi),
+///
+/// T being what Fresnel's equations let pass, rho the reflectance of the ground, r that of the coat for
+/// diffuse light from within. Energy is kept for rho = 1. [Saunderson1942]
+struct CoatedDiffuseBsdf {
+  SampledSpectrum n;       ///< Of the coat, relative to the outside, 1 or more.
+  SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).
+  bool dispersive;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+};
+
+/// From the index of the coat, the ground's reflectance and `inner`, the coat's for diffuse light from within.
+[[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
+                                                      const SampledSpectrum& inner, bool dispersive) {
+  return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};
+}
+
+}  // namespace abbe

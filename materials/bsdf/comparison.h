@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "materials/bsdf/mirror.h"
+#include "materials/interface/fresnel.h"
+
+namespace abbe {
+
+/// Mirrors that matter does not make, kept to teach and to compare with; both sides alike.
+
+/// The ideal mirror R/cos delta, of the same reflectance at every angle. [Marschner2021, sec. 14.1]
+struct MirrorBsdf {
+  SampledSpectrum reflectance;
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
+                                                 TransportMode /*mode*/) const {
+    if (wo.z == 0) return std::nullopt;
+    return BsdfSample{.wi = mirrored(wo), .weight = reflectance, .pdf = 1, .delta = true};
+  }
+};
+
+/// A smooth surface by Schlick's approximation in place of Fresnel's equations. [Schlick1994]
+struct SchlickBsdf {
+  SampledSpectrum r0;  ///< Reflectance along the normal.
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
+                                                 TransportMode /*mode*/) const {
+    if (wo.z == 0) return std::nullopt;
+    const auto reflectance = [c = std::min(std::abs(wo.z), 1.0F)](float r) { return schlick(c, r); };
+    return BsdfSample{
+        .wi = mirrored(wo), .weight = SampledSpectrum::map(r0, reflectance), .pdf = 1, .delta = true};
+  }
+};
+
+}  // namespace abbe

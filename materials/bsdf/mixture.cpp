@@ -1,0 +1,79 @@
+#include "materials/bsdf/mixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "materials/material.h"
+
+namespace abbe {
+namespace {
+
+SampledSpectrum quotient(const SampledSpectrum& a, const SampledSpectrum& b) {
+  return SampledSpectrum::map(a, b, [](float x, float y) { return y > 0 ? x / y : 0.0F; });
+}
+
+SampledSpectrum total_weight(const MixtureMaterial& material, const SampledSpectrum& wavelengths_nm) {
+  SampledSpectrum sum;
+  for (const MixtureMaterial::Part& part : material.parts) sum += part.weight(wavelengths_nm);
+  return sum;
+}
+
+/// A part, what it weighs in each lane, and the number in [0, 1) left for its own choice.
+struct Choice {
+  const MixtureMaterial::Part* part = nullptr;
+  SampledSpectrum weight;
+  float rest = 0;
+};
+Choice choose(const MixtureMaterial& material, const SampledSpectrum& wavelengths_nm, float u, float total,
+              int hero) {
+  Choice choice;
+  float left = u * total;
+  for (const MixtureMaterial::Part& part : material.parts) {
+    const SampledSpectrum weight = part.weight(wavelengths_nm);
+    if (!(weight[hero] > 0)) continue;
+    choice = {&part, weight, std::clamp(left / weight[hero], 0.0F, 0x1.fffffep-1F)};
+    if (left < weight[hero]) break;
+    left -= weight[hero];
+  }
+  return choice;
+}
+
+}  // namespace
+
+std::optional<BsdfSample> MixtureBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                              TransportMode mode) const {
+  const SampledSpectrum total = total_weight(*material_, wavelengths_nm_);
+  if (!(total[hero] > 0)) return std::nullopt;
+  const Choice chosen = choose(*material_, wavelengths_nm_, u.lobe, total[hero], hero);
+  auto s = abbe::sample(make_bsdf(*chosen.part->material, at()), wo, {chosen.rest, u.direction}, hero, mode);
+  if (!s) return std::nullopt;
+  if (s->delta) {
+    const SampledSpectrum share = quotient(chosen.weight, total);
+    s->pdf *= share[hero];
+    s->lane_pdf *= share * (1 / share[hero]);
+    s->weight *= chosen.weight * (1 / share[hero]);
+    return s;
+  }
+  const SampledSpectrum density = pdf(wo, s->wi);
+  if (!(density[hero] > 0)) return std::nullopt;
+  s->pdf = density[hero];
+  s->lane_pdf = density * (1 / density[hero]);
+  s->weight = eval(wo, s->wi, mode) * (std::abs(s->wi.z) / density[hero]);
+  return s;
+}
+
+SampledSpectrum MixtureBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const {
+  SampledSpectrum f;
+  for (const MixtureMaterial::Part& part : material_->parts)
+    f += part.weight(wavelengths_nm_) * abbe::eval(make_bsdf(*part.material, at()), wo, wi, mode);
+  return f;
+}
+
+SampledSpectrum MixtureBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
+  SampledSpectrum weighted;
+  for (const MixtureMaterial::Part& part : material_->parts)
+    weighted += part.weight(wavelengths_nm_) * abbe::pdf(make_bsdf(*part.material, at()), wo, wi);
+  return quotient(weighted, total_weight(*material_, wavelengths_nm_));
+}
+
+}  // namespace abbe

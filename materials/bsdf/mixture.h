@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "materials/bsdf/event.h"
+#include "materials/model/lookup.h"
+
+namespace abbe {
+
+struct MixtureMaterial;
+
+/// The mixture of scattering models a material describes, which it refers to: it makes them anew each time,
+/// as a vertex has no room for several. A lane draws a part by its weight there; parts that send light in
+/// single directions do so each for itself, the others' densities add up.
+class MixtureBsdf {
+ public:
+  MixtureBsdf(const MixtureMaterial& material, const SurfaceLookup& at)
+      : material_(&material), wavelengths_nm_(at.wavelengths_nm), uv_(at.uv), outside_(at.outside) {}
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
+                                                 TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+
+ private:
+  [[nodiscard]] SurfaceLookup at() const { return {wavelengths_nm_, uv_, outside_}; }
+
+  const MixtureMaterial* material_;
+  SampledSpectrum wavelengths_nm_;
+  Imath::V2f uv_;
+  const RefractiveIndex* outside_;
+};
+
+}  // namespace abbe

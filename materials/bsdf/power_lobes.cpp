@@ -1,0 +1,131 @@
+#include "materials/bsdf/power_lobes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/mirror.h"
+#include "materials/bsdf/warp.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3f;
+
+constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
+
+// c^n of the angle between two directions, 0 where it is obtuse; narrow lobes keep their digits.
+float power_of_cosine(const V3f& a, const V3f& b, float n) {
+  const float versine = (a - b).length2() / 2;
+  return versine < 1 ? std::exp(n * std::log1p(-versine)) : 0.0F;
+}
+
+V3f flipped(const V3f& w) {
+  return {w.x, w.y, -w.z};
+}
+
+/// Directions of the side `axis` is on with density (n + 1)/(2 pi) cos^n about it, those beyond the horizon
+/// folded back.
+struct FoldedLobe {
+  V3f axis;
+  float n;
+
+  [[nodiscard]] float density(const V3f& w) const {
+    if (!(w.z * axis.z > 0)) return 0;
+    return (n + 1) / kTwoPi * (power_of_cosine(w, axis, n) + power_of_cosine(flipped(w), axis, n));
+  }
+
+  [[nodiscard]] std::optional<V3f> sample(const Imath::V2f& u) const {
+    const float versine = -std::expm1(std::log1p(-u.x) / (n + 1));
+    const float sine = std::sqrt(versine * (2 - versine));
+    const V3f about_z(sine * std::cos(kTwoPi * u.y), sine * std::sin(kTwoPi * u.y), 1 - versine);
+    // Mirrored by the plane that takes z to the axis.
+    const V3f across = V3f(0, 0, 1) - axis;
+    const float length2 = across.length2();
+    V3f w = length2 > 0 ? about_z - across * (2 * about_z.dot(across) / length2) : about_z;
+    if (w.z == 0) return std::nullopt;
+    w.z = std::copysign(w.z, axis.z);
+    return w.normalized();
+  }
+};
+
+template <typename Model>
+std::optional<BsdfSample> sample_lobe(const Model& model, const FoldedLobe& lobe, const V3f& wo,
+                                      const BsdfRandom& u, TransportMode mode) {
+  if (wo.z == 0) return std::nullopt;
+  const std::optional<V3f> wi = lobe.sample(u.direction);
+  if (!wi) return std::nullopt;
+  const float pdf = lobe.density(*wi);
+  if (!(pdf > 0)) return std::nullopt;
+  return BsdfSample{.wi = *wi, .weight = model.eval(wo, *wi, mode) * (std::abs(wi->z) / pdf), .pdf = pdf};
+}
+
+// Where light comes from.
+const V3f& source(const V3f& wo, const V3f& wi, TransportMode mode) {
+  return mode == TransportMode::radiance ? wi : wo;
+}
+
+bool same_side(const V3f& wo, const V3f& wi) {
+  return wo.z * wi.z > 0;
+}
+
+template <bool BothWays>
+FoldedLobe lobe_of(const CosinePowerBsdf<BothWays>& model, const V3f& wo) {
+  return {V3f(0, 0, std::copysign(1.0F, wo.z)), 1 + (BothWays ? model.exponent : 0)};
+}
+FoldedLobe lobe_of(const PhongBsdf& model, const V3f& wo) {
+  return {mirrored(wo), model.exponent};
+}
+FoldedLobe lobe_of(const RetroreflectorBsdf& model, const V3f& wo) {
+  return {wo, model.exponent};
+}
+
+}  // namespace
+
+template <bool BothWays>
+std::optional<BsdfSample> CosinePowerBsdf<BothWays>::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                                            TransportMode mode) const {
+  return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
+}
+template <bool BothWays>
+SampledSpectrum CosinePowerBsdf<BothWays>::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
+  if (!same_side(wo, wi)) return {};
+  if constexpr (BothWays)
+    return reflectance * ((exponent + 2) / kTwoPi * std::pow(wo.z * wi.z, exponent));
+  else
+    return reflectance * (2 / kTwoPi * std::pow(std::abs(source(wo, wi, mode).z), exponent));
+}
+template <bool BothWays>
+SampledSpectrum CosinePowerBsdf<BothWays>::pdf(const V3f& wo, const V3f& wi) const {
+  return SampledSpectrum(lobe_of(*this, wo).density(wi));
+}
+template struct CosinePowerBsdf<false>;
+template struct CosinePowerBsdf<true>;
+
+std::optional<BsdfSample> PhongBsdf::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                            TransportMode mode) const {
+  return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
+}
+SampledSpectrum PhongBsdf::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
+  constexpr float kLeastCosine = 1e-6F;  // keeps finite what has no bound
+  if (!same_side(wo, wi)) return {};
+  const float cos_i = std::max(std::abs(source(wo, wi, mode).z), kLeastCosine);
+  return reflectance * ((exponent + 1) / kTwoPi * power_of_cosine(mirrored(wo), wi, exponent) / cos_i);
+}
+SampledSpectrum PhongBsdf::pdf(const V3f& wo, const V3f& wi) const {
+  return SampledSpectrum(lobe_of(*this, wo).density(wi));
+}
+
+std::optional<BsdfSample> RetroreflectorBsdf::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                                     TransportMode mode) const {
+  return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
+}
+SampledSpectrum RetroreflectorBsdf::eval(const V3f& wo, const V3f& wi, TransportMode /*mode*/) const {
+  if (!same_side(wo, wi)) return {};
+  return reflectance * ((exponent + 2) / kTwoPi * power_of_cosine(wo, wi, exponent));
+}
+SampledSpectrum RetroreflectorBsdf::pdf(const V3f& wo, const V3f& wi) const {
+  return SampledSpectrum(lobe_of(*this, wo).density(wi));
+}
+
+}  // namespace abbe

@@ -1,0 +1,205 @@
+#include "materials/bsdf/principled.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/warp.h"
+#include "materials/interface/fresnel.h"
+#include "materials/interface/microfacet.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3f;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kCoatIndex = 1.5F;
+constexpr float kCoatStrength = 0.25F;
+constexpr float kCoatShadowing = 0.25F;  // alpha
+constexpr int kCosines = 32;
+constexpr int kSteps = 64;
+constexpr float kTableError = 3e-3F;
+
+float fifth_power(float cosine) {
+  return schlick(std::clamp(cosine, 0.0F, 1.0F), 0.0F);
+}
+
+Microfacets<float> facets(float alpha) {
+  return {FacetShape::ggx, alpha, alpha};
+}
+
+// The long-tailed distribution of the clear coat, gamma = 1. [Burley2012, eq. 4]
+float coat_density(const V3f& h, float alpha) {
+  const float a2 = alpha * alpha;
+  return (1 - a2) / (-2 * kPi * std::log(alpha) * (h.x * h.x + h.y * h.y + a2 * h.z * h.z));
+}
+
+// A facet drawn with density D cos. [Burley2012, eq. 5]
+V3f sample_coat(float alpha, const Imath::V2f& u) {
+  const float a2 = alpha * alpha;
+  const float sin2 = (std::pow(a2, 1 - u.x) - a2) / (1 - a2);
+  const float sine = std::sqrt(std::clamp(sin2, 0.0F, 1.0F));
+  return {sine * std::cos(2 * kPi * u.y), sine * std::sin(2 * kPi * u.y),
+          std::sqrt(std::clamp(1 - sin2, 0.0F, 1.0F))};
+}
+
+// The diffuse factor without colour: at grazing angles from 1/2 when smooth to 5/2 when rough.
+// [Burley2012, sec. 5.3]
+float retro_diffuse(float roughness, float cos_o, float cos_i, float cos_d) {
+  const float more = 2 * roughness * cos_d * cos_d - 0.5F;
+  return (1 + more * fifth_power(cos_o)) * (1 + more * fifth_power(cos_i)) / kPi;
+}
+
+}  // namespace
+
+// Two directions of the side z > 0 and the facet that would mirror one into the other.
+struct Principled::Facet {
+  V3f wo, wi, h;
+  float cos_d, rise, per_facet;
+
+  Facet(const V3f& o, const V3f& i)
+      : wo(o),
+        wi(i),
+        h((o + i).normalized()),
+        cos_d(std::min(h.dot(i), 1.0F)),
+        rise(fifth_power(cos_d)),
+        per_facet(1 / (4 * o.z * i.z)) {}
+};
+
+Principled::Principled(const PrincipledLook& look)
+    : look_(look),
+      alpha_(std::max(static_cast<float>(kLeastAlpha), look.roughness * look.roughness)),
+      coat_alpha_(0.1F + (0.001F - 0.1F) * look.clearcoat_gloss) {
+  const float root = std::sqrt(0.08F * look.specular);
+  n_ = (1 + root) / (1 - root);
+  probability_ = {1 - look.metallic, std::max(look.metallic, 0.5F), kCoatStrength * look.clearcoat};
+  const float all = probability_[ground] + probability_[highlight] + probability_[coat];
+  for (float& p : probability_) p /= all;
+  for (int i = 0; i < kCosines; ++i) {
+    const double share = std::max(1e-4, static_cast<double>(i) / (kCosines - 1));
+    albedo_.push_back(integrated(direction_at(share * share, 0)));
+  }
+}
+
+Principled::Parts Principled::value(Lobe lobe, const Facet& at) const {
+  const float body = 1 - look_.metallic;
+  if (lobe == ground)
+    return {body * look_.sheen * at.rise, body * retro_diffuse(look_.roughness, at.wo.z, at.wi.z, at.cos_d)};
+  if (lobe == coat) {
+    const Microfacets<float> shadowing = facets(kCoatShadowing);
+    return {kCoatStrength * look_.clearcoat * coat_density(at.h, coat_alpha_) * shadowing.G1(at.wo) *
+                shadowing.G1(at.wi) * fresnel_dielectric(at.cos_d, kCoatIndex).R() * at.per_facet,
+            0};
+  }
+  const Microfacets<float> surface = facets(alpha_);
+  const float facing = surface.D(at.h) * at.per_facet / (1 + surface.lambda(at.wo) + surface.lambda(at.wi));
+  return {(body * fresnel_dielectric(at.cos_d, n_).R() + look_.metallic * at.rise) * facing,
+          look_.metallic * (1 - at.rise) * facing};
+}
+
+float Principled::density(Lobe lobe, const Facet& at) const {
+  if (lobe == ground) return at.wi.z / kPi;
+  const float per_facet = 1 / (4 * at.h.dot(at.wo));
+  if (lobe == coat) return coat_density(at.h, coat_alpha_) * at.h.z * per_facet;
+  return facets(alpha_).visible(at.wo, at.h) * per_facet;
+}
+
+std::optional<V3f> Principled::draw(Lobe lobe, const V3f& wo, const Imath::V2f& u) const {
+  V3f wi = cosine_hemisphere(u);
+  if (lobe != ground) {
+    const V3f h = lobe == coat ? sample_coat(coat_alpha_, u) : facets(alpha_).sample_visible(wo, u);
+    wi = (h * (2 * h.dot(wo)) - wo).normalized();
+  }
+  if (!(wi.z > 0)) return std::nullopt;
+  return wi;
+}
+
+Principled::Parts Principled::unlimited(const V3f& wo, const V3f& wi) const {
+  Parts f;
+  if (!(wo.z > 0 && wi.z > 0)) return f;
+  const Facet at(wo, wi);
+  for (const Lobe lobe : kLobes) {
+    if (!(probability_[lobe] > 0)) continue;
+    const Parts part = value(lobe, at);
+    f = {f.white + part.white, f.coloured + part.coloured};
+  }
+  return f;
+}
+
+float Principled::density(const V3f& wo, const V3f& wi) const {
+  float sum = 0;
+  if (!(wo.z > 0 && wi.z > 0)) return sum;
+  const Facet at(wo, wi);
+  for (const Lobe lobe : kLobes)
+    if (probability_[lobe] > 0) sum += probability_[lobe] * density(lobe, at);
+  return sum;
+}
+
+std::optional<V3f> Principled::draw(const V3f& wo, const BsdfRandom& u) const {
+  if (u.lobe < probability_[ground]) return draw(ground, wo, u.direction);
+  const bool coated = probability_[coat] > 0 && u.lobe >= probability_[ground] + probability_[highlight];
+  return draw(coated ? coat : highlight, wo, u.direction);
+}
+
+// Each lobe by the midpoint rule over what draws it.
+Principled::Parts Principled::integrated(const V3f& wo) const {
+  Parts sum;
+  for (const Lobe lobe : kLobes)
+    for (int i = 0; i < kSteps * kSteps && probability_[lobe] > 0; ++i) {
+      const Imath::V2f u((static_cast<float>(i % kSteps) + 0.5F) / kSteps,
+                         (static_cast<float>(i / kSteps) + 0.5F) / kSteps);
+      const auto wi = draw(lobe, wo, u);
+      if (!wi) continue;
+      const Facet at(wo, *wi);
+      const Parts f = value(lobe, at);
+      const float share = wi->z / (density(lobe, at) * kSteps * kSteps);
+      sum = {sum.white + f.white * share, sum.coloured + f.coloured * share};
+    }
+  return sum;
+}
+
+Principled::Parts Principled::albedo(float cosine) const {
+  const float x = std::sqrt(std::clamp(cosine, 0.0F, 1.0F)) * (kCosines - 1);
+  const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kCosines - 2));
+  const float t = x - static_cast<float>(i);
+  const Parts& a = albedo_[i];
+  const Parts& b = albedo_[i + 1];
+  return {a.white + t * (b.white - a.white), a.coloured + t * (b.coloured - a.coloured)};
+}
+
+namespace {
+
+V3f above(const V3f& w) {
+  return {w.x, w.y, std::abs(w.z)};
+}
+
+}  // namespace
+
+SampledSpectrum PrincipledBsdf::eval(const V3f& wo, const V3f& wi, TransportMode /*mode*/) const {
+  if (!(wo.z * wi.z > 0)) return {};
+  const Principled::Parts f = look->unlimited(above(wo), above(wi));
+  const Principled::Parts o = look->albedo(std::abs(wo.z));
+  const Principled::Parts i = look->albedo(std::abs(wi.z));
+  return SampledSpectrum::map(base, [&](float b) {
+    const float most = std::max(o.white + b * o.coloured, i.white + b * i.coloured);
+    return (f.white + b * f.coloured) / std::max(1.0F, most * (1 + kTableError));
+  });
+}
+
+std::optional<BsdfSample> PrincipledBsdf::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                                 TransportMode mode) const {
+  if (wo.z == 0) return std::nullopt;
+  std::optional<V3f> wi = look->draw(above(wo), u);
+  if (!wi) return std::nullopt;
+  const float pdf = look->density(above(wo), *wi);
+  if (!(pdf > 0)) return std::nullopt;
+  wi->z = std::copysign(wi->z, wo.z);
+  return BsdfSample{.wi = *wi, .weight = eval(wo, *wi, mode) * (std::abs(wi->z) / pdf), .pdf = pdf};
+}
+
+SampledSpectrum PrincipledBsdf::pdf(const V3f& wo, const V3f& wi) const {
+  return SampledSpectrum(wo.z * wi.z > 0 ? look->density(above(wo), above(wi)) : 0.0F);
+}
+
+}  // namespace abbe

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/model/lookup.h"
+#include "spectral/curve.h"
+
+namespace abbe {
+
+struct Material;
+
+/// Several materials side by side, too fine to be told apart: f = sum_i w_i f_i. None of them is a mixture,
+/// and light enters none.
+struct MixtureMaterial {
+  struct Part {
+    Curve weight;  ///< In [0, 1]; the sum over the parts is at most 1 at every wavelength.
+    std::shared_ptr<const Material> material;
+  };
+  std::vector<Part> parts;
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const { return MixtureBsdf(*this, at); }
+  [[nodiscard]] Lobes lobes() const;
+  [[nodiscard]] bool needs_coordinates() const;
+  [[nodiscard]] bool depends_on_outside() const;
+};
+
+}  // namespace abbe

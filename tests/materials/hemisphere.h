@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include <ImathVec.h>
+
+#include "materials/bsdf/bsdf.h"
+#include "tests/materials/bsdf_statistics.h"
+
+namespace abbe {
+
+/// Integral of f(wi) cos over the side z > 0, by the midpoint rule in cos^2 and azimuth.
+template <typename F>
+double integral_over_cosines(F f, int steps = 400) {
+  double sum = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j)
+      sum += f(direction(std::sqrt((i + 0.5) / steps), 2 * std::numbers::pi * (j + 0.5) / steps));
+  return sum * std::numbers::pi / (static_cast<double>(steps) * steps);
+}
+
+/// What light from `from`, z > 0, leaves to the same side by spread events, in one lane: the
+/// directional-hemispherical reflectance without what is mirrored.
+inline double spread_reflectance(const Bsdf& bsdf, const Imath::V3f& from, int lane = 0) {
+  return integral_over_cosines([&](const Imath::V3f& to) {
+    return static_cast<double>(eval(bsdf, from, to, TransportMode::power)[lane]);
+  });
+}
+
+}  // namespace abbe
