@@ -51,4 +51,19 @@ const RefractiveIndex* interior(const Material& material) {
       material.model);
 }
 
+const Matter* matter(const Material& material) {
+  return std::visit(
+      [](const auto& model) -> const Matter* {
+        if constexpr (requires { model.matter(); })
+          return model.matter();
+        else
+          return nullptr;
+      },
+      material.model);
+}
+
+bool is_boundary(const Material& material) {
+  return std::holds_alternative<MediumMaterial>(material.model);
+}
+
 }  // namespace abbe

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "materials/model/layered.h"
+#include "materials/model/medium.h"
 #include "materials/model/mixture.h"
 #include "materials/model/principled.h"
 #include "materials/model/rough.h"
@@ -15,13 +16,13 @@
 namespace abbe {
 
 /// The closed list of what surfaces are made of. Each model tells its `bsdf` at a lookup and its `lobes`, and
-/// its `interior` if light enters the closed surface, `needs_coordinates` if its scattering may depend on
-/// them.
+/// its `interior` if light enters the closed surface, its `matter` if what is inside may scatter,
+/// `needs_coordinates` if its scattering may depend on them.
 using MaterialModel =
     std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial, RoughDielectricMaterial,
-                 RoughConductorMaterial, CoatedDiffuseMaterial, ThinGlassMaterial, MixtureMaterial,
-                 MirrorMaterial, SchlickMaterial, OrenNayarMaterial, PrincipledMaterial, CosinePowerMaterial,
-                 PhongMaterial, RetroreflectorMaterial>;
+                 RoughConductorMaterial, MediumMaterial, CoatedDiffuseMaterial, ThinGlassMaterial,
+                 MixtureMaterial, MirrorMaterial, SchlickMaterial, OrenNayarMaterial, PrincipledMaterial,
+                 CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial>;
 
 /// What a surface is made of, over all wavelengths.
 struct Material {
@@ -47,5 +48,9 @@ struct Material {
 [[nodiscard]] bool depends_on_outside(const Material& material);
 /// The index of the matter inside a closed surface of this material, or nullptr when light does not enter it.
 [[nodiscard]] const RefractiveIndex* interior(const Material& material);
+/// What light meets inside besides the absorption of that index, or nullptr.
+[[nodiscard]] const Matter* matter(const Material& material);
+/// Matter begins and ends at a surface of this material, but light is neither reflected nor refracted there.
+[[nodiscard]] bool is_boundary(const Material& material);
 
 }  // namespace abbe

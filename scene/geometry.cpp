@@ -20,6 +20,10 @@ namespace {
 // One instruction set everywhere, so that a CPU with wider vectors gives the same bits.
 constexpr const char* kDeviceConfig = "isa=avx2";
 
+// What rays meet; those that ask for shadows leave out the boundaries of matter, which throw none.
+constexpr unsigned kOpaque = 1;
+constexpr unsigned kBoundary = 2;
+
 // What the callbacks need beyond Embree's float ray, and what they found beyond Embree's float hit.
 struct ExactContext : RTCIntersectContext {
   ExactContext(const BasicRay<double>& r, const std::vector<Part>& all)
@@ -248,7 +252,7 @@ std::size_t bytes_of(const TriangleSet& set) {
 
 }  // namespace
 
-Geometry::Geometry(const std::vector<ShapeInstance>& shapes)
+Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials)
     : device_(nullptr, rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
   open_device();
   parts_.reserve(shapes.size());
@@ -261,9 +265,12 @@ Geometry::Geometry(const std::vector<ShapeInstance>& shapes)
       parts_.emplace_back(PlacedPart{build_prototype(placed->of), placed->at});
   }
   scene_ = new_scene();
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    attach(scene_.get(), static_cast<std::uint32_t>(i),
-           std::visit([this](auto& part) { return geometry_of(device_.get(), part); }, parts_[i]));
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    RTCGeometryTy* geometry =
+        std::visit([this](auto& part) { return geometry_of(device_.get(), part); }, parts_[i]);
+    rtcSetGeometryMask(geometry, is_boundary(materials[shapes[i].material]) ? kBoundary : kOpaque);
+    attach(scene_.get(), static_cast<std::uint32_t>(i), geometry);
+  }
   commit(scene_.get());
 }
 
@@ -389,6 +396,7 @@ TouchingSurfaces Geometry::touching(const Ray& ray, const SurfaceHit& hit, float
 bool Geometry::occluded(const BasicRay<double>& ray) const {
   ExactContext context(ray, parts_);
   RTCRay query = embree_ray(ray);
+  query.mask = kOpaque;
   rtcOccluded1(scene_.get(), &context, &query);
   return query.tfar < 0;
 }

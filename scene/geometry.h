@@ -46,7 +46,7 @@ using Part = std::variant<TriangleSet, Sphere, Disc, PlacedPart>;
 class Geometry {
  public:
   /// Throws Error{resource} when there is no memory, Error{internal} when Embree refuses.
-  explicit Geometry(const std::vector<ShapeInstance>& shapes);
+  Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials);
   ~Geometry();
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
@@ -54,7 +54,7 @@ class Geometry {
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
   /// The surfaces within `distance` of the hit that are parallel to it.
   [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit, float distance) const;
-  /// Whether anything is met at t in (0, ray.t_max).
+  /// Whether anything but a boundary of matter is met at t in (0, ray.t_max).
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
   /// Every ray through Embree, the answers dropped.
   void replay(std::span<const LoggedRay> rays) const;

@@ -79,7 +79,7 @@ void Scene::commit() {
     instance.light = static_cast<std::int32_t>(i);
     emitter->measure(instance.shape);
   }
-  geometry_ = std::make_shared<const Geometry>(shapes);
+  geometry_ = std::make_shared<const Geometry>(shapes, materials);
   needs = analyse(*this);
 }
 

@@ -49,7 +49,7 @@ enum class Integrator { automatic, path, light };
 struct RenderSettings {
   Integrator integrator = Integrator::automatic;
   int samples = 64;        ///< Per pixel.
-  int max_depth = 64;      ///< Surface events per path.
+  int max_depth = 64;      ///< Events per path, at surfaces and within matter.
   int roulette_depth = 4;  ///< Events before Russian roulette; a negative value never plays it.
   std::uint64_t seed = 0;
 };
@@ -129,8 +129,8 @@ class Scene {
   [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit) const;
   /// Surfaces closer than this [m] count as one: floats this far from the origin hardly tell them apart.
   [[nodiscard]] float touch_distance() const;
-  /// Whether anything stands between two points that `offset_point` put beside their surfaces. Exact at both
-  /// ends, at any angle and distance.
+  /// Whether anything but boundaries of matter stands between two points that `offset_point` put beside their
+  /// surfaces. Exact at both ends, at any angle and distance.
   [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
 

@@ -43,9 +43,13 @@ Curve mean_reflectance_of(const RefractiveIndex& index) {
 
 }  // namespace
 
-RoughDielectricMaterial::RoughDielectricMaterial(std::string name, RefractiveIndex matter,
-                                                 const Microfacets<float>& facets)
-    : index_name(std::move(name)), index(std::move(matter)), surface(boundary(index, facets)) {}
+RoughDielectricMaterial::RoughDielectricMaterial(std::string name, RefractiveIndex inside,
+                                                 const Microfacets<float>& facets,
+                                                 std::optional<Matter> scattering)
+    : index_name(std::move(name)),
+      index(std::move(inside)),
+      filling(std::move(scattering)),
+      surface(boundary(index, facets)) {}
 
 Bsdf RoughDielectricMaterial::bsdf(const SurfaceLookup& at) const {
   const SampledSpectrum n = relative_index(index, at.outside, at.wavelengths_nm).n;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/index/refractive_index.h"
+#include "materials/medium/matter.h"
 #include "materials/model/lookup.h"
 
 namespace abbe {
@@ -15,14 +17,17 @@ namespace abbe {
 class RoughDielectricMaterial {
  public:
   /// Tabulates what it scatters more than once: some ms.
-  RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);
+  RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets,
+                          std::optional<Matter> filling = {});
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
+  [[nodiscard]] const Matter* matter() const { return filling ? &*filling : nullptr; }
 
   std::string index_name;
   RefractiveIndex index;
+  std::optional<Matter> filling;  ///< Scatters inside.
   std::shared_ptr<const RoughBoundary> surface;
 };
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/index/refractive_index.h"
+#include "materials/medium/matter.h"
 #include "materials/model/lookup.h"
 #include "materials/texture/spectral_texture.h"
 
@@ -20,10 +22,12 @@ struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
   Coating coating = {};
+  std::optional<Matter> filling = {};  ///< Scatters inside.
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
+  [[nodiscard]] const Matter* matter() const { return filling ? &*filling : nullptr; }
 };
 struct ConductorMaterial {
   std::string index_name;

@@ -262,6 +262,10 @@ LampKind area_lamp(const Shape& shape, bool two_sided) {
 void add_area_light(const JsonValue& emission, bool two_sided, std::uint32_t shape, Reading& reading,
                     Scene& scene) {
   const ShapeInstance& instance = scene.shapes[shape];
+  if (is_boundary(scene.materials[instance.material])) {
+    reading.diagnostics.error(emission.where, "a medium has no surface that could emit");
+    return;
+  }
   auto curve = read_emission(emission, area_lamp(instance.shape, two_sided), reading);
   if (!curve) return;
   scene.lights.push_back({instance.name, AreaLight{shape, two_sided}, std::move(*curve)});

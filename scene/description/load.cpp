@@ -97,6 +97,11 @@ void recentre(Scene& scene, Reading& reading) {
     std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
   for (const auto& at : reading.placements)
     *at = placement(at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+  for (Material& material : scene.materials)
+    if (auto* medium = std::get_if<MediumMaterial>(&material.model); medium && medium->filling.grid) {
+      medium->filling.grid->from -= scene.origin_m;
+      medium->filling.grid->to -= scene.origin_m;
+    }
   position(scene.camera) -= scene.origin_m;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Imath::V3f at(light_positions[i] - scene.origin_m);

@@ -11,11 +11,12 @@ namespace {
 
 constexpr char kBlack[] = "black (lamp)";
 
-constexpr std::array<std::pair<std::string_view, MaterialReader>, 13> kReaders{
+constexpr std::array<std::pair<std::string_view, MaterialReader>, 14> kReaders{
     {{"diffuse", read_diffuse},
      {"dielectric", read_dielectric},
      {"conductor", read_conductor},
      {"film", read_film},
+     {"medium", read_medium},
      {"coated_diffuse", read_coated_diffuse},
      {"thin_glass", read_thin_glass},
      {"mirror", read_mirror},

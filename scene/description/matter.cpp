@@ -24,9 +24,12 @@ std::optional<Ior> constant_ior(double n, double k) {
   return Ior{k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k), true};
 }
 
-MaterialModel dielectric(Ior ior, Coating coating, const std::optional<Microfacets<float>>& facets) {
-  if (facets) return RoughDielectricMaterial(std::move(ior.name), std::move(ior.index), *facets);
-  return DielectricMaterial{std::move(ior.name), std::move(ior.index), std::move(coating)};
+MaterialModel dielectric(Ior ior, Coating coating, const std::optional<Microfacets<float>>& facets,
+                         std::optional<Matter> filling) {
+  if (facets)
+    return RoughDielectricMaterial(std::move(ior.name), std::move(ior.index), *facets, std::move(filling));
+  return DielectricMaterial{std::move(ior.name), std::move(ior.index), std::move(coating),
+                            std::move(filling)};
 }
 
 }  // namespace
@@ -81,11 +84,13 @@ std::optional<Ior> read_tinted_ior(ObjectReader& reader, Reading& reading) {
 std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   auto ior = read_tinted_ior(reader, reading);
+  auto filling = read_filling(reader, false, reading);
   Coating coating = read_coating(reader.find("coating"), reading);
   const auto facets = read_roughness(reader.find("roughness"), coating, reading);
   reader.finish();
-  if (!ior) return std::nullopt;
-  return dielectric(std::move(*ior), std::move(coating), facets);
+  if (!ior || !filling) return std::nullopt;
+  if (!filling->scatters()) filling.reset();
+  return dielectric(std::move(*ior), std::move(coating), facets, std::move(filling));
 }
 
 std::optional<MaterialModel> read_conductor(const JsonValue& json, Reading& reading) {

@@ -37,12 +37,16 @@ struct Ior {
 /// error. Reports a rough surface under a coating.
 [[nodiscard]] std::optional<Microfacets<float>> read_roughness(const JsonValue* json, const Coating& coating,
                                                                Reading& reading);
+/// `scattering_per_m` and `phase` of an object, and `absorption_per_m` unless its index tells.
+[[nodiscard]] std::optional<Matter> read_filling(ObjectReader& reader, bool absorbs, Reading& reading);
 
 /// Each material of the list from what stands under its key; none after an error.
 using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, Reading& reading);
 [[nodiscard]] std::optional<MaterialModel> read_diffuse(const JsonValue& json, Reading& reading);
 [[nodiscard]] std::optional<MaterialModel> read_dielectric(const JsonValue& json, Reading& reading);
 [[nodiscard]] std::optional<MaterialModel> read_conductor(const JsonValue& json, Reading& reading);
+/// Matter without an interface.
+[[nodiscard]] std::optional<MaterialModel> read_medium(const JsonValue& json, Reading& reading);
 /// A film with air on both sides, such as a soap bubble's: a coating on nothing.
 [[nodiscard]] std::optional<MaterialModel> read_film(const JsonValue& json, Reading& reading);
 [[nodiscard]] std::optional<MaterialModel> read_coated_diffuse(const JsonValue& json, Reading& reading);

@@ -25,9 +25,11 @@ bool emits(const Light& light) {
   return light.emission.max() > 0;
 }
 
-constexpr std::array<NeedName, 12> kNeeds{{
+constexpr std::array<NeedName, 14> kNeeds{{
     {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
     {"media", &Needs::media, "matter absorbs along the path"},
+    {"scattering", &Needs::scattering, "matter scatters light within"},
+    {"boundaries", &Needs::boundaries, "matter begins and ends without an interface"},
     {"nesting", &Needs::nesting, "matter may be within other matter, or touch it"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
     {"light_tracing", &Needs::light_tracing,
@@ -130,10 +132,15 @@ void analyse_matter(const Scene& scene, Needs& needs) {
     const Material& material = material_of(scene, instance);
     const RefractiveIndex* inside = interior(material);
     require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
-    require(needs, &Needs::media, inside != nullptr && inside->absorbing(), "shape", instance.name);
+    const Matter* filling = matter(material);
+    const bool absorbing = (inside != nullptr && inside->absorbing()) || (filling && filling->absorbs());
+    const bool turbid = filling != nullptr && filling->scatters();
+    require(needs, &Needs::media, absorbing, "shape", instance.name);
+    require(needs, &Needs::scattering, turbid, "shape", instance.name);
+    require(needs, &Needs::boundaries, is_boundary(material), "shape", instance.name);
     require(needs, &Needs::textures, needs_coordinates(material), "shape", instance.name);
     const Lobes sent = lobes(material);
-    scattering = scattering || sent.spread;
+    scattering = scattering || sent.spread || turbid;
     if (sent.delta && specular == nullptr) specular = &instance;
   }
   const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),

@@ -16,6 +16,8 @@ struct Needs {
   bool dispersion = false;  ///< Some refractive index varies with wavelength.
   bool media = false;       ///< Some matter absorbs along the path.
   bool nesting = false;     ///< Matter may be within other matter, or touch it.
+  bool scattering = false;  ///< Some matter scatters light within.
+  bool boundaries = false;  ///< Some matter begins and ends without an interface.
   bool caustics = false;    ///< A specular surface can focus a light onto a surface that is not specular.
   bool light_tracing =
       false;  ///< Caustics, a camera that can be connected to, and a light too small to be hit by chance.

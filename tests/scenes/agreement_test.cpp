@@ -158,6 +158,40 @@ constexpr const char* kGlazed = R"({
   ],
   "render": {"max_depth": 8}
 })";
+// In fog, which the camera and all lamps stand in, about a ball of turbid glass and a block of thicker fog.
+std::string fog(const std::string& lamp, const std::string& ball) {
+  std::string text = R"({
+  "abbe": 1,
+  "camera": {"thin_lens": {"focal_length": 0.05, "f_number": 1, "focus_distance": 3}, "from": [0, -3, 1], "to": [0, 0, 0.6], "up": [0, 0, 1]},
+  "sensor": {"resolution": [32, 32], "pixel_pitch_um": 700, "channels": {"B": {"band": [400, 500]}, "G": {"band": [500, 600]}, "R": {"band": [600, 700]}}},
+  "materials": {
+    "fog": {"medium": {"scattering_per_m": {"table": {"wavelength_nm": [400, 700], "values": [0.4, 0.1], "outside": "clamp"}}, "absorption_per_m": 0.05, "phase": {"henyey_greenstein": 0.6}}},
+    "thick": {"medium": {"scattering_per_m": {"table": {"wavelength_nm": [400, 700], "values": [1, 6], "outside": "clamp"}}, "phase": "rayleigh"}},
+    "opal": {"dielectric": {"ior": 1.5, "absorption_per_m": 0.2, "scattering_per_m": 2}},
+    "white": {"diffuse": {"reflectance": 0.7}}
+  },
+  "lights": [
+    {"quad": {"corner": [-1, 0.5, 2.5], "edge_u": [0, 1, 0], "edge_v": [1, 0, 0]}, "emission": {"illuminant": "D65", "luminance": 100}}LAMP
+  ],
+  "shapes": [
+    {"quad": {"corner": [-3, -3, 0], "edge_u": [6, 0, 0], "edge_v": [0, 6, 0]}, "material": "white"},
+    {"sphere": {"center": [0, 0, 0], "radius": 9}, "material": "fog"},
+    {"sphere": {"center": [-0.6, 0, 0.5], "radius": 0.4}, "material": "thick"}PLUS
+  ],
+  "render": {"max_depth": 10}
+})";
+  const auto put = [&text](const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  put("LAMP", ", " + lamp);
+  put("PLUS", ball);
+  return text;
+}
+const std::string kFog = fog(
+    R"({"point": {"at": [0.9, -0.6, 1.6]}, "emission": {"illuminant": "A", "luminous_intensity": 30}})", "");
+const std::string kFogAroundGlass = fog(
+    R"({"sphere": {"center": [1.5, -0.6, 2], "radius": 0.5}, "emission": {"illuminant": "A", "luminance": 300}})",
+    R"(, {"sphere": {"center": [0.6, 0, 0.5], "radius": 0.4}, "material": "opal"})");
 
 RenderResult render_with(const Agreement& item, const char* integrator, int samples) {
   Scene scene = test::load_text(
@@ -187,7 +221,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreements,
                                          Agreement{"Mirror", kMirror, "auto", 1024, 256, 0.01},
                                          Agreement{"Ground", kGround, "light", 1024, 4096, 0.01},
                                          Agreement{"Glazed", kGlazed, "auto", 2048, 512, 0.01},
-                                         Agreement{"Prism", kPrism, "auto", 4096, 1024, 0.02}),
+                                         Agreement{"Prism", kPrism, "auto", 4096, 1024, 0.02},
+                                         Agreement{"Fog", kFog.c_str(), "light", 512, 1024, 0.02},
+                                         Agreement{"FogAroundGlass", kFogAroundGlass.c_str(), "auto", 2048,
+                                                   512, 0.02}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

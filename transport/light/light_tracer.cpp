@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "transport/path/medium.h"
+#include "transport/path/flight.h"
 #include "transport/path/packet.h"
 #include "transport/path/vertex.h"
 #include "transport/render/threads.h"
@@ -21,6 +21,9 @@ constexpr std::uint32_t scatter_group(int depth) {
 constexpr std::uint32_t lens_group(int depth) {
   return 3 + 2 * static_cast<std::uint32_t>(depth);
 }
+constexpr std::uint32_t flight_group(int depth) {
+  return 0x80000000 + static_cast<std::uint32_t>(depth);
+}
 
 class PhotonPath {
  public:
@@ -31,51 +34,97 @@ class PhotonPath {
         caster_(caster),
         sampler_(sampler),
         exposure_(exposure),
-        splat_(splat) {
+        splat_(splat),
+        flies_(needs_flights(scene_)) {
     exposure_.begin(wavelengths, static_cast<float>(share * scene_.exposure_s));
-    packet_.wavelengths = wavelengths;
+    end_.packet.wavelengths = wavelengths;
   }
 
   void trace(const Ray& start, const SampledSpectrum& power, const Enclosures& inside) {
-    ray_ = start;
-    inside_ = inside;
-    if (!inside_.empty()) medium_ = medium_within(scene_, inside_, lambda());
-    packet_.throughput = power;
+    end_.ray = start;
+    end_.inside = inside;
+    if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
+    end_.packet.throughput = power;
     for (int depth = 0; depth < scene_.render.max_depth; ++depth) {
-      const std::optional<SurfaceHit> hit = caster_.intersect(ray_);
-      if (!hit) return;
-      if (scene_.needs.nesting) interface_ = interface_at(scene_, ray_, *hit, inside_);
-      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, ray_.direction, lambda())
-                                       : Vertex(scene_, *hit, ray_.direction, lambda());
-      medium_.attenuate(packet_.throughput, hit->t);
-      if (is_black(vertex.bsdf)) return;
+      std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
       const bool owned = depth > 0 || plan_.light_owns_all;
+      if (flies_) {
+        if (scatters_before(hit, depth)) {
+          if (!owned || !scatter_within(depth)) return;
+          continue;
+        }
+      } else if (hit) {
+        end_.medium.attenuate(end_.packet.throughput, hit->t);
+      }
+      if (!hit) return;
+      if (scene_.needs.nesting) interface_ = interface_at(scene_, end_.ray, *hit, end_.inside);
+      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, end_.ray.direction, lambda())
+                                       : Vertex(scene_, *hit, end_.ray.direction, lambda());
+      if (is_black(vertex.bsdf)) return;
       if (owned && scatters(vertex.bsdf)) connect(vertex, depth);
       if (!scatter(vertex, depth, owned)) return;
     }
   }
 
  private:
-  [[nodiscard]] const SampledSpectrum& lambda() const { return packet_.wavelengths.lambda_nm; }
+  [[nodiscard]] const SampledSpectrum& lambda() const { return end_.packet.wavelengths.lambda_nm; }
 
-  void connect(const Vertex& vertex, int depth) {
+  [[nodiscard]] bool scatters_before(std::optional<SurfaceHit>& hit, int depth) {
+    const std::array<float, 4> u = sampler_.group(flight_group(depth));
+    return fly(scene_, caster_, {u[0], u[1]}, end_, hit).scattered;
+  }
+
+  bool scatter_within(int depth) {
+    const PhaseFunction& phase = end_.medium.scattering->phase;
+    connect_within(phase, depth);
+    const std::array<float, 4> u = sampler_.group(scatter_group(depth));
+    const Basis<float> frame(end_.ray.direction);
+    end_.ray.direction = frame.to_world(sample(phase, {u[0], u[1]}).direction);
+    return survives(1, depth, u[3]);
+  }
+
+  [[nodiscard]] std::optional<CameraConnection> pick_lens(const Imath::V3f& point, int depth) const {
     const std::array<float, 4> u =
         scene_.camera.is_pinhole() ? std::array<float, 4>{} : sampler_.group(lens_group(depth));
-    const std::optional<CameraConnection> lens =
-        sample_towards(scene_.camera, vertex.hit.point, {u[0], u[1]});
+    return sample_towards(scene_.camera, point, {u[0], u[1]});
+  }
+
+  void connect(const Vertex& vertex, int depth) {
+    const std::optional<CameraConnection> lens = pick_lens(vertex.hit.point, depth);
     if (!lens) return;
     const Imath::V3f towards = (lens->lens_point - vertex.hit.point).normalized();
     const Imath::V3f wi = vertex.frame.to_local(towards);
-    SampledSpectrum contribution = vertex.towards(towards, wi, TransportMode::power);
-    if (contribution.is_zero()) return;
-    const Imath::V3f from = spawn(vertex.hit, towards).origin;
-    if (caster_.occluded(from, lens->lens_point)) return;
-    contribution *= packet_.throughput * (std::abs(wi.z) * lens->weight / packet_.lane_pdf.sum());
-    const auto x = static_cast<int>(lens->film.x);
-    const auto y = static_cast<int>(lens->film.y);
+    const SampledSpectrum turned = vertex.towards(towards, wi, TransportMode::power);
+    if (turned.is_zero()) return;
+    const Ray ray = spawn(vertex.hit, towards);
+    expose(*lens, turned, std::abs(wi.z), leaving(scene_, end_, vertex, wi, ray));
+  }
+
+  void connect_within(const PhaseFunction& phase, int depth) {
+    const std::optional<CameraConnection> lens = pick_lens(end_.ray.origin, depth);
+    if (!lens) return;
+    PathEnd start = end_;
+    start.ray.direction = (lens->lens_point - start.ray.origin).normalized();
+    expose(*lens, SampledSpectrum(pdf(phase, end_.ray.direction, start.ray.direction)), 1, start);
+  }
+
+  // Adds what reaches the film along the ray of `start`, of the share of the photon's power that is sent that
+  // way: `turned` times `cosine`.
+  void expose(const CameraConnection& lens, const SampledSpectrum& turned, float cosine,
+              const PathEnd& start) {
+    if (caster_.occluded(start.ray.origin, lens.lens_point)) return;
+    SampledSpectrum contribution =
+        turned * (end_.packet.throughput * (cosine * lens.weight / end_.packet.lane_pdf.sum()));
+    const float distance = (lens.lens_point - start.ray.origin).length();
+    if (flies_)
+      contribution *= transmission(scene_, caster_, start, distance).transmittance;
+    else
+      start.medium.attenuate(contribution, distance);
+    const auto x = static_cast<int>(lens.film.x);
+    const auto y = static_cast<int>(lens.film.y);
     exposure_.clear();
     exposure_.at_pixel(x, y);
-    exposure_.at_angle(lens->cos_film);
+    exposure_.at_angle(lens.cos_film);
     exposure_.deposit(contribution);
     splat_(x, y, exposure_.values());
   }
@@ -85,23 +134,20 @@ class PhotonPath {
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
     const std::optional<BsdfSample> event = vertex.scatter({u[2], {u[0], u[1]}}, TransportMode::power);
     if (!event || !(owned || event->delta)) return false;
-    packet_.throughput *= event->weight;
-    packet_.lane_pdf *= event->lane_pdf;
-    if (packet_.throughput.is_zero()) return false;
-    if (event->transmitted) {
-      inside_ = vertex.behind(scene_, inside_);
-      medium_ = medium_within(scene_, inside_, lambda());
-    }
-    ray_ = spawn(vertex.hit, vertex.frame.to_world(event->wi));
-    return survives(*event, depth, u[3]);
+    end_.packet.throughput *= event->weight;
+    end_.packet.lane_pdf *= event->lane_pdf;
+    if (end_.packet.throughput.is_zero()) return false;
+    if (event->transmitted) end_.come_into(scene_, vertex.behind(scene_, end_.inside));
+    end_.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi));
+    return survives(event->weight.max() / event->lane_pdf.max(), depth, u[3]);
   }
 
-  // Roulette by what the event itself kept: the power a photon starts with says nothing about its worth.
-  bool survives(const BsdfSample& event, int depth, float u) {
+  // Roulette by what the event itself `kept`: the power a photon starts with says nothing about its worth.
+  bool survives(float kept, int depth, float u) {
     if (scene_.render.roulette_depth < 0 || depth + 1 < scene_.render.roulette_depth) return true;
-    const float q = std::min(1.0F, std::max(0.1F, event.weight.max() / event.lane_pdf.max()));
+    const float q = std::min(1.0F, std::max(0.1F, kept));
     if (u >= q) return false;
-    packet_.throughput *= 1 / q;
+    end_.packet.throughput *= 1 / q;
     return true;
   }
 
@@ -111,11 +157,9 @@ class PhotonPath {
   const Sampler& sampler_;
   PathExposure& exposure_;
   const Splat& splat_;
-  Ray ray_;
-  PathPacket packet_;
-  Enclosures inside_;
-  Medium medium_;                       // within them
+  PathEnd end_;
   std::optional<Interface> interface_;  // met last, where matter may be nested
+  bool flies_;
 };
 
 // A photon that shows where to aim others, by what it adds to the film.

@@ -29,7 +29,8 @@ bool same_around(const Enclosures& a, const Enclosures& b) {
 
 Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces, const Enclosures& inside) {
   const auto opaque = std::find_if(surfaces.begin(), surfaces.end(), [&](const CrossedSurface& s) {
-    return interior(material_of(scene, s.shape)) == nullptr;
+    const Material& material = material_of(scene, s.shape);
+    return interior(material) == nullptr && matter(material) == nullptr;
   });
   if (opaque != surfaces.end())
     return {static_cast<std::size_t>(opaque - surfaces.begin()), index_of(scene, inside), inside};

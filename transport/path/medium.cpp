@@ -11,7 +11,8 @@ namespace abbe {
 namespace {
 
 bool filled(const Scene& scene, std::uint32_t shape) {
-  return interior(scene.materials[scene.shapes[shape].material]) != nullptr;
+  const Material& material = scene.materials[scene.shapes[shape].material];
+  return interior(material) != nullptr || matter(material) != nullptr;
 }
 
 // How often more a ray leaves a shape than it enters it, and where it does so last.
@@ -106,9 +107,21 @@ Enclosures around_light(const Scene& scene, const Light& light) {
 
 Medium medium_within(const Scene& scene, const Enclosures& inside, const SampledSpectrum& wavelengths_nm) {
   if (inside.empty()) return {};
-  const RefractiveIndex* index = interior(scene.materials[scene.shapes[inside.innermost()].material]);
-  if (index == nullptr || !index->absorbing()) return {};
-  return {true, index->absorption_per_m(wavelengths_nm)};
+  const Material& material = scene.materials[scene.shapes[inside.innermost()].material];
+  const RefractiveIndex* index = interior(material);
+  Medium medium;
+  if (index != nullptr && index->absorbing()) medium = {true, index->absorption_per_m(wavelengths_nm)};
+  const Matter* filling = matter(material);
+  if (filling == nullptr) return medium;
+  medium.attenuating = medium.attenuating || filling->absorbs() || filling->scatters();
+  if (filling->absorbs()) medium.extinction_per_m += filling->absorption_per_m(wavelengths_nm);
+  if (filling->scatters()) {
+    medium.scattering = filling;
+    medium.scattering_per_m = filling->scattering_per_m(wavelengths_nm);
+    medium.extinction_per_m += medium.scattering_per_m;
+  }
+  if (filling->grid) medium.grid = &*filling->grid;
+  return medium;
 }
 
 }  // namespace abbe

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "transport/path/medium.h"
+#include "transport/path/flight.h"
 #include "transport/path/packet.h"
 #include "transport/path/vertex.h"
 
@@ -23,6 +23,10 @@ constexpr std::uint32_t light_group(int depth) {
   return 1 + scatter_group(depth);
 }
 
+constexpr std::uint32_t flight_group(int depth) {
+  return 0x80000000 + static_cast<std::uint32_t>(depth);
+}
+
 class CameraPath {
  public:
   CameraPath(const Plan& plan, RayCaster& caster, const Sampler& sampler,
@@ -32,61 +36,68 @@ class CameraPath {
         caster_(caster),
         sampler_(sampler),
         exposure_(exposure),
-        ray_(start.ray),
-        inside_(plan.camera_inside) {
-    packet_.wavelengths = wavelengths;
-    if (!inside_.empty()) medium_ = medium_within(scene_, inside_, lambda());
+        end_{start.ray, {}, plan.camera_inside, {}},
+        flies_(needs_flights(scene_)) {
+    end_.packet.wavelengths = wavelengths;
+    if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
     exposure_.begin(wavelengths, start.weight * static_cast<float>(scene_.exposure_s));
   }
 
   /// At a meter: adds what lights it directly. Whether a ray is left to find the rest.
   bool leave_meter(const Imath::V3f& point, const Imath::V3f& normal) {
     const bool leaves = scatter(Vertex::meter(point, normal), kMeterDepth);
-    exposure_.at_angle(ray_.direction.dot(normal));
+    exposure_.at_angle(end_.ray.direction.dot(normal));
     return leaves;
   }
 
   void trace() {
     for (int depth = 0;; ++depth) {
-      std::optional<SurfaceHit> hit = caster_.intersect(ray_);
+      std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
+      if (flies_) {
+        if (scatters_before(hit, depth)) {
+          if (depth >= scene_.render.max_depth || !scatter_within(depth)) return;
+          continue;
+        }
+      } else if (hit) {
+        end_.medium.attenuate(end_.packet.throughput, hit->t);
+      }
       if (!hit) {
         add_environment();
         return;
       }
-      medium_.attenuate(packet_.throughput, hit->t);
       if (scene_.needs.nesting) {
-        interface_ = interface_at(scene_, ray_, *hit, inside_);
+        interface_ = interface_at(scene_, end_.ray, *hit, end_.inside);
         hit = interface_->hit;
       }
       add_emission(*hit, depth);
       if (depth >= scene_.render.max_depth) return;
-      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, ray_.direction, lambda())
-                                       : Vertex(scene_, *hit, ray_.direction, lambda());
+      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, end_.ray.direction, lambda())
+                                       : Vertex(scene_, *hit, end_.ray.direction, lambda());
       if (is_black(vertex.bsdf)) return;
       if (!scatter(vertex, depth)) return;
     }
   }
 
  private:
-  [[nodiscard]] const SampledSpectrum& lambda() const { return packet_.wavelengths.lambda_nm; }
+  [[nodiscard]] const SampledSpectrum& lambda() const { return end_.packet.wavelengths.lambda_nm; }
 
   // Sum over lanes and techniques of the densities that could have made the path now ending on a light,
   // relative to the hero's by scattering. `light_pdf` is that of light sampling from the previous vertex.
   [[nodiscard]] float balance(float light_pdf) const {
-    return packet_.lane_pdf.sum() + light_pdf * light_sampling_lanes_;
+    return end_.packet.lane_pdf.sum() + light_pdf * light_sampling_lanes_;
   }
 
   void add_environment() {
     const std::int32_t index = scene_.environment();
     if (index < 0) return;
     const Light& light = scene_.lights[static_cast<std::size_t>(index)];
-    medium_.attenuate(packet_.throughput, std::numeric_limits<float>::infinity());
-    const float pdf =
-        !light_sampled_before_
-            ? 0.0F
-            : plan_.path_lights.probability(static_cast<std::uint32_t>(index)) *
-                  light_pdf(light, scene_.shapes, ray_.origin, ray_.direction, Imath::V3f(0), Imath::V3f(0));
-    exposure_.deposit(packet_.throughput * emission_from(light, ray_.direction, lambda()) *
+    end_.medium.attenuate(end_.packet.throughput, std::numeric_limits<float>::infinity());
+    const float pdf = !light_sampled_before_
+                          ? 0.0F
+                          : plan_.path_lights.probability(static_cast<std::uint32_t>(index)) *
+                                light_pdf(light, scene_.shapes, end_.ray.origin, end_.ray.direction,
+                                          Imath::V3f(0), Imath::V3f(0));
+    exposure_.deposit(end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) *
                       (1 / balance(pdf)));
   }
 
@@ -95,13 +106,13 @@ class CameraPath {
     if (index < 0) return;
     const auto light_index = static_cast<std::uint32_t>(index);
     const Light& light = scene_.lights[light_index];
-    if (!emits_towards(light, hit.normal, -ray_.direction)) return;
+    if (!emits_towards(light, hit.normal, -end_.ray.direction)) return;
     if (depth > 0 && !light_sampled_before_ && !first_specular_ && plan_.traced[light_index]) return;
     const float pdf = !light_sampled_before_ ? 0.0F
                                              : plan_.path_lights.probability(light_index) *
-                                                   light_pdf(light, scene_.shapes, ray_.origin,
-                                                             ray_.direction, hit.point, hit.normal);
-    exposure_.deposit(packet_.throughput * light.emission(lambda()) * (1 / balance(pdf)));
+                                                   light_pdf(light, scene_.shapes, end_.ray.origin,
+                                                             end_.ray.direction, hit.point, hit.normal);
+    exposure_.deposit(end_.packet.throughput * light.emission(lambda()) * (1 / balance(pdf)));
   }
 
   // In line in the loop of `trace`: left to itself the compiler makes it a call, for the meter's sake, which
@@ -117,60 +128,120 @@ class CameraPath {
   }
 
   void follow(const Vertex& vertex, const BsdfSample& event) {
-    light_sampling_lanes_ = event.delta ? 0.0F : packet_.lane_pdf.sum() / event.pdf;
+    light_sampling_lanes_ = event.delta ? 0.0F : end_.packet.lane_pdf.sum() / event.pdf;
     light_sampled_before_ = !event.delta;
-    packet_.throughput *= event.weight;
-    packet_.lane_pdf *= event.lane_pdf;
+    end_.packet.throughput *= event.weight;
+    end_.packet.lane_pdf *= event.lane_pdf;
     const Imath::V3f direction = vertex.frame.to_world(event.wi);
     if (event.transmitted) {
-      inside_ = vertex.behind(scene_, inside_);
-      medium_ = medium_within(scene_, inside_, lambda());
+      end_.come_into(scene_, vertex.behind(scene_, end_.inside));
       const float n = index_inside(vertex.bsdf, kHero);
       eta_scale_ *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
     }
-    ray_ = spawn(vertex.hit, direction);
+    end_.ray = spawn(vertex.hit, direction);
   }
 
   bool survives(int depth, float u) {
-    if (packet_.throughput.is_zero()) return false;
+    if (end_.packet.throughput.is_zero()) return false;
     if (scene_.render.roulette_depth < 0 || depth + 1 < scene_.render.roulette_depth) return true;
-    const float q = survival(packet_, eta_scale_);
+    const float q = survival(end_.packet, eta_scale_);
     if (u >= q) return false;
-    packet_.throughput *= 1 / q;
+    end_.packet.throughput *= 1 / q;
     return true;
   }
 
-  void add_direct(const Vertex& vertex, int depth) {
-    if (plan_.path_lights.empty()) return;
+  // Flies to the next event: whether that is in matter, before the surface `hit`.
+  [[gnu::noinline]] bool scatters_before(std::optional<SurfaceHit>& hit, int depth) {
+    const std::array<float, 4> u = sampler_.group(flight_group(depth));
+    const Flight flight = fly(scene_, caster_, {u[0], u[1]}, end_, hit);
+    light_sampling_lanes_ *= flight.unit;
+    return flight.scattered;
+  }
+
+  [[gnu::noinline]] bool scatter_within(int depth) {
+    const PhaseFunction& phase = end_.medium.scattering->phase;
+    add_direct_within(phase, depth);
+    const std::array<float, 4> u = sampler_.group(scatter_group(depth));
+    const PhaseSample turned = sample(phase, {u[0], u[1]});
+    light_sampling_lanes_ = end_.packet.lane_pdf.sum() / turned.pdf;
+    light_sampled_before_ = true;
+    end_.ray.direction = Basis<float>(end_.ray.direction).to_world(turned.direction);
+    return survives(depth, u[3]);
+  }
+
+  // A light, a direction towards it from a point, and the density of both.
+  struct Lit {
+    const Light& light;
+    LightSample towards;
+    float density;
+  };
+  [[nodiscard]] std::optional<Lit> pick_light(const Imath::V3f& point, int depth) const {
+    if (plan_.path_lights.empty()) return std::nullopt;
     const std::array<float, 4> u = sampler_.group(light_group(depth));
     const LightPicker::Pick pick = plan_.path_lights.pick(u[0]);
     const Light& light = scene_.lights[pick.light];
-    const std::optional<LightSample> towards =
-        sample_light(light, scene_.shapes, vertex.hit.point, {u[1], u[2]});
-    if (!towards) return;
-    const Imath::V3f wi = vertex.frame.to_local(towards->wi);
-    SampledSpectrum contribution = vertex.towards(towards->wi, wi, TransportMode::radiance);
-    if (contribution.is_zero()) return;
-    contribution *=
-        packet_.throughput * emission_from(light, towards->wi, lambda()) * (std::abs(wi.z) * towards->factor);
-    const float light_density = pick.probability * towards->pdf;
-    const SampledSpectrum scatter_density =
-        light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
-    const float balance = (packet_.lane_pdf * (SampledSpectrum(light_density) + scatter_density)).sum();
-    if (!(balance > 0) || blocked(vertex, *towards)) return;
-    side_of(vertex, wi).attenuate(contribution, towards->distance);
+    const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {u[1], u[2]});
+    if (!towards) return std::nullopt;
+    return Lit{light, *towards, pick.probability * towards->pdf};
+  }
+
+  // What comes from the light on an unobstructed way and is turned towards the path, `scattered` being the
+  // share of it.
+  [[nodiscard]] SampledSpectrum turned_light(const Lit& lit, const SampledSpectrum& scattered,
+                                             float cosine) const {
+    return scattered * (end_.packet.throughput * emission_from(lit.light, lit.towards.wi, lambda()) *
+                        (cosine * lit.towards.factor));
+  }
+
+  void add_direct(const Vertex& vertex, int depth) {
+    const std::optional<Lit> lit = pick_light(vertex.hit.point, depth);
+    if (!lit) return;
+    const Imath::V3f wi = vertex.frame.to_local(lit->towards.wi);
+    const SampledSpectrum scattered = vertex.towards(lit->towards.wi, wi, TransportMode::radiance);
+    if (scattered.is_zero()) return;
+    SampledSpectrum contribution = turned_light(*lit, scattered, std::abs(wi.z));
+    const SampledSpectrum density =
+        lit->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
+    const Ray ray = spawn(vertex.hit, lit->towards.wi);
     if (depth == kMeterDepth) exposure_.at_angle(wi.z);
+    if (flies_) {
+      add_flown(*lit, contribution, density, leaving(scene_, end_, vertex, wi, ray));
+      return;
+    }
+    const float balance = (end_.packet.lane_pdf * (SampledSpectrum(lit->density) + density)).sum();
+    if (!(balance > 0) || blocked(ray, lit->towards)) return;
+    side_of(vertex, wi).attenuate(contribution, lit->towards.distance);
     exposure_.deposit(contribution * (1 / balance));
+  }
+
+  void add_direct_within(const PhaseFunction& phase, int depth) {
+    const std::optional<Lit> lit = pick_light(end_.ray.origin, depth);
+    if (!lit) return;
+    const SampledSpectrum turned(pdf(phase, end_.ray.direction, lit->towards.wi));
+    PathEnd start = end_;
+    start.ray.direction = lit->towards.wi;
+    add_flown(*lit, turned_light(*lit, turned, 1), lit->light.is_delta() ? SampledSpectrum(0.0F) : turned,
+              start);
+  }
+
+  // Adds what is left of the light that comes along the ray of `start`, the direction of which scattering
+  // would have drawn with `density`.
+  [[gnu::noinline]] void add_flown(const Lit& lit, const SampledSpectrum& contribution,
+                                   const SampledSpectrum& density, const PathEnd& start) {
+    if (blocked(start.ray, lit.towards)) return;
+    const Transmission way = transmission(scene_, caster_, start, lit.towards.distance);
+    const float balance =
+        (end_.packet.lane_pdf * (SampledSpectrum(lit.density) + density * way.density)).sum();
+    if (balance > 0) exposure_.deposit(contribution * way.transmittance * (1 / balance));
   }
 
   // The medium that light from the local direction `wi` comes through.
   [[nodiscard]] Medium side_of(const Vertex& vertex, const Imath::V3f& wi) const {
-    if (wi.z * vertex.wo.z > 0) return medium_;
-    return medium_within(scene_, vertex.behind(scene_, inside_), lambda());
+    if (wi.z * vertex.wo.z > 0) return end_.medium;
+    return leaving(scene_, end_, vertex, wi, end_.ray).medium;
   }
 
-  [[nodiscard]] bool blocked(const Vertex& vertex, const LightSample& towards) {
-    const Ray ray = spawn(vertex.hit, towards.wi);
+  [[nodiscard]] bool blocked(const Ray& ray, const LightSample& towards) {
     return std::isfinite(towards.distance) ? caster_.occluded(ray.origin, towards.end)
                                            : caster_.occluded(ray);
   }
@@ -180,11 +251,9 @@ class CameraPath {
   RayCaster& caster_;
   const Sampler& sampler_;
   PathExposure& exposure_;
-  Ray ray_;
-  PathPacket packet_;
-  Enclosures inside_;
-  Medium medium_;                       // within them
+  PathEnd end_;
   std::optional<Interface> interface_;  // met last, where matter may be nested
+  bool flies_;
   float eta_scale_ = 1;
   // Sum of lane densities before the last scattering over the hero's density of it: what a unit of
   // light-sampling density weighs.

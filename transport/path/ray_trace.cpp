@@ -58,7 +58,9 @@ std::optional<Turn> turn(const Material& material, const Imath::V3d& wo, const I
     return refract_or_reflect(*glass, wo, outward, wavelength_nm, outside);
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.model))
     return mirror(*metal, wo, outward, wavelength_nm, outside);
-  return std::nullopt;
+  if (!is_boundary(material)) return std::nullopt;
+  const double angle = angle_deg(wo, wo.dot(outward) > 0 ? outward : -outward);
+  return Turn{Kind::refract, -wo, {outside, outside, 0, angle, angle, 0, 0}};
 }
 
 // What a ray meets at once: in scenes of nested matter all surfaces that touch.

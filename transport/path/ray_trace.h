@@ -34,7 +34,8 @@ struct RayTrace {
 };
 
 /// Follows one ray in double precision by the shapes' own code: refracted by dielectrics where they let it
-/// pass, reflected by metals, ended by other surfaces. Coordinates are the scene's own [m].
+/// pass, straight on through boundaries of matter, reflected by metals, ended by other surfaces. Coordinates
+/// are the scene's own [m].
 [[nodiscard]] RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
                                  int max_events);
 

@@ -1,0 +1,140 @@
+#include "materials/medium/grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abbe {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A line in the grid's own coordinates, in which nodes have whole numbers, and the cell it is in.
+class GridLine {
+ public:
+  GridLine(const PlacedGrid& placed, const Imath::V3d& origin, const Imath::V3d& direction)
+      : grid_(*placed.grid) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double per_metre = (nodes(axis) - 1) / (placed.to[axis] - placed.from[axis]);
+      start_[axis] = (origin[axis] - placed.from[axis]) * per_metre;
+      slope_[axis] = direction[axis] * per_metre;
+    }
+  }
+
+  // Shortens [t, end] to what lies within the grid: whether anything does.
+  bool clip(double& t, double& end) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double last = nodes(axis) - 1;
+      if (slope_[axis] == 0) {
+        if (start_[axis] < 0 || start_[axis] > last) return false;
+        continue;
+      }
+      const double a = -start_[axis] / slope_[axis];
+      const double b = (last - start_[axis]) / slope_[axis];
+      t = std::max(t, std::min(a, b));
+      end = std::min(end, std::max(a, b));
+    }
+    return t < end;
+  }
+
+  void enter(double t) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = start_[axis] + t * slope_[axis];
+      cell_[axis] = std::clamp(static_cast<int>(at), 0, nodes(axis) - 2);
+      leaves_[axis] = slope_[axis] == 0 ? kInfinity : crossing(axis);
+    }
+    load();
+  }
+  // Where the line leaves the cell.
+  [[nodiscard]] double leaves() const { return leaves_[next_axis()]; }
+  // Into the cell after; false outside the grid.
+  bool step() {
+    const int axis = next_axis();
+    cell_[axis] += slope_[axis] > 0 ? 1 : -1;
+    if (cell_[axis] < 0 || cell_[axis] > nodes(axis) - 2) return false;
+    leaves_[axis] = crossing(axis);
+    load();
+    return true;
+  }
+
+  [[nodiscard]] double density(double t) const {
+    Imath::V3d f;
+    for (int axis = 0; axis < 3; ++axis)
+      f[axis] = std::clamp(start_[axis] + t * slope_[axis] - cell_[axis], 0.0, 1.0);
+    const auto along_x = [&](std::size_t i) { return std::lerp(corner_[i], corner_[i + 1], f.x); };
+    return std::lerp(std::lerp(along_x(0), along_x(2), f.y), std::lerp(along_x(4), along_x(6), f.y), f.z);
+  }
+
+ private:
+  [[nodiscard]] int nodes(int axis) const { return grid_.size[static_cast<std::size_t>(axis)]; }
+  [[nodiscard]] double crossing(int axis) const {
+    return (cell_[axis] + (slope_[axis] > 0 ? 1 : 0) - start_[axis]) / slope_[axis];
+  }
+  [[nodiscard]] int next_axis() const {
+    const int xy = leaves_.y < leaves_.x ? 1 : 0;
+    return leaves_.z < leaves_[xy] ? 2 : xy;
+  }
+  void load() {
+    const auto row = static_cast<std::size_t>(nodes(0));
+    const std::size_t layer = row * static_cast<std::size_t>(nodes(1));
+    const std::size_t first = static_cast<std::size_t>(cell_.x) + row * static_cast<std::size_t>(cell_.y) +
+                              layer * static_cast<std::size_t>(cell_.z);
+    for (std::size_t i = 0; i < corner_.size(); ++i)
+      corner_[i] = static_cast<double>(
+          grid_.density[first + (i & 1U) + row * ((i >> 1U) & 1U) + layer * ((i >> 2U) & 1U)]);
+  }
+
+  const DensityGrid& grid_;
+  Imath::V3d start_;
+  Imath::V3d slope_;
+  Imath::V3i cell_{0, 0, 0};
+  Imath::V3d leaves_{0, 0, 0};
+  std::array<double, 8> corner_{};
+};
+
+double simpson(double length, double first, double middle, double last) {
+  return length / 6 * (first + 4 * middle + last);
+}
+
+// Where within [a, b] of one cell the integral from a is `column`: Newton's steps, halving where they leave
+// the bracket.
+double solve(const GridLine& line, double a, double b, double column) {
+  const double at_a = line.density(a);
+  double low = a;
+  double high = b;
+  double t = (a + b) / 2;
+  for (int i = 0; i < 50 && high - low > 1e-9 * (b - a); ++i) {
+    const double at_t = line.density(t);
+    const double excess = simpson(t - a, at_a, line.density((a + t) / 2), at_t) - column;
+    (excess > 0 ? high : low) = t;
+    const double newton = t - excess / at_t;
+    const bool within = newton > low && newton < high;
+    if (within && std::abs(newton - t) < 1e-9 * (b - a)) return newton;
+    t = within ? newton : (low + high) / 2;
+  }
+  return t;
+}
+
+}  // namespace
+
+GridStretch PlacedGrid::march(const Imath::V3f& origin, const Imath::V3f& direction, float distance,
+                              float column) const {
+  GridLine line(*this, Imath::V3d(origin), Imath::V3d(direction));
+  double t = 0;
+  auto end = static_cast<double>(distance);
+  if (!line.clip(t, end)) return {distance, 0, false};
+  const auto wanted = static_cast<double>(column);
+  double sum = 0;
+  line.enter(t);
+  while (true) {
+    const double next = std::max(t, std::min(line.leaves(), end));
+    const double part = simpson(next - t, line.density(t), line.density((t + next) / 2), line.density(next));
+    if (part > 0 && sum + part >= wanted)
+      return {static_cast<float>(solve(line, t, next, wanted - sum)), column, true};
+    sum += part;
+    t = next;
+    if (t >= end || !line.step()) return {distance, static_cast<float>(sum), false};
+  }
+}
+
+}  // namespace abbe

@@ -1,0 +1,66 @@
+#include "materials/medium/phase.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace abbe {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Densities are functions of 1 - cos, which keeps its digits at the narrowest of turns; `versine` here and
+// below. Turns by an obtuse angle count theirs from the opposite direction where that is the sharper end.
+
+float density(const IsotropicPhase& /*phase*/, float /*versine*/) {
+  return 1 / (4 * kPi);
+}
+
+// (1 - g^2)/(4 pi (1 + g^2 - 2 g cos)^(3/2)), whose bracket is (1 - g)^2 + 2 g (1 - cos).
+float density(const HenyeyGreensteinPhase& phase, float versine) {
+  const float g = std::abs(phase.g);
+  const float squared = (1 - g) * (1 - g) + 2 * g * versine;
+  return (1 - g) * (1 + g) / (4 * kPi * squared * std::sqrt(squared));
+}
+
+float density(const RayleighPhase& /*phase*/, float versine) {
+  const float cosine = 1 - versine;
+  return 3 / (16 * kPi) * (1 + cosine * cosine);
+}
+
+float draw_versine(const IsotropicPhase& /*phase*/, float u) {
+  return 2 * u;
+}
+
+// The cumulative distribution solved for 1 - cos, without the difference that loses it for |g| near 1.
+float draw_versine(const HenyeyGreensteinPhase& phase, float u) {
+  const float g = std::abs(phase.g);
+  const float d = 1 - g + 2 * g * (1 - u);
+  return 2 * (1 - g) * (1 - g) * u * (1 + g * (1 - u)) / (d * d);
+}
+
+// cos^3 + 3 cos = 2 q with q in [-2, 2), whose one real root is 2 sinh(asinh(q)/3).
+float draw_versine(const RayleighPhase& /*phase*/, float u) {
+  return 1 - 2 * std::sinh(std::asinh(2 - 4 * u) / 3);
+}
+
+bool turns_back(const PhaseFunction& phase) {
+  const auto* peaked = std::get_if<HenyeyGreensteinPhase>(&phase);
+  return peaked != nullptr && peaked->g < 0;
+}
+
+}  // namespace
+
+PhaseSample sample(const PhaseFunction& phase, const Imath::V2f& u) {
+  const float versine = std::visit([&u](const auto& p) { return draw_versine(p, u.x); }, phase);
+  const float pdf = std::visit([versine](const auto& p) { return density(p, versine); }, phase);
+  const float sine = std::sqrt(std::max(0.0F, versine * (2 - versine)));
+  const float phi = 2 * kPi * u.y;
+  return {{sine * std::cos(phi), sine * std::sin(phi), turns_back(phase) ? versine - 1 : 1 - versine}, pdf};
+}
+
+float pdf(const PhaseFunction& phase, const Imath::V3f& from, const Imath::V3f& to) {
+  const float versine = (turns_back(phase) ? from + to : from - to).length2() / 2;
+  return std::visit([versine](const auto& p) { return density(p, versine); }, phase);
+}
+
+}  // namespace abbe

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "materials/bsdf/bsdf.h"
+#include "materials/medium/matter.h"
+#include "materials/model/lookup.h"
+
+namespace abbe {
+
+/// Matter without an interface, such as fog or smoke: light passes the surface as if it were not there.
+struct MediumMaterial {
+  Matter filling;
+
+  /// That of an interface between like and like.
+  [[nodiscard]] static Bsdf bsdf(const SurfaceLookup& /*at*/) {
+    return DielectricBsdf{SampledSpectrum(1.0F), false};
+  }
+  /// Neither: the surface is no event.
+  [[nodiscard]] static constexpr Lobes lobes() { return {}; }
+  [[nodiscard]] const Matter* matter() const { return &filling; }
+};
+
+}  // namespace abbe
