@@ -15,13 +15,9 @@ struct SurfacePlace {
   bool relief = false;  ///< z may differ from the normal of the shape.
 };
 
-/// Of a hit in a scene that has `needs.textures`. Where the material needs coordinates they are worked out,
-/// and the frame's x runs along dp/du.
+/// Of a hit; asked for where a scene has `needs.textures`, for without it the normal says all. Where the
+/// material needs coordinates they are worked out, and the frame's x runs along dp/du; elsewhere they are
+/// (0, 0).
 [[nodiscard]] SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit);
-
-/// Of any hit; the coordinates are (0, 0) where the material does not ask for them.
-[[nodiscard]] inline SurfacePlace place_of(const Scene& scene, const SurfaceHit& hit) {
-  return scene.needs.textures ? textured_place(scene, hit) : SurfacePlace{Basis<float>(hit.normal)};
-}
 
 }  // namespace abbe

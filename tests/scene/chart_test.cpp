@@ -78,7 +78,8 @@ TEST_F(ChartFileTest, ATableOfTheUsersMayHaveAnyNumberOfPatches) {
   ASSERT_TRUE(scene.scene) << scene.text();
   ASSERT_EQ(scene->shapes.size(), 3U);
   EXPECT_NEAR(middle(quad_of(*scene.scene, 1)).x + scene->origin_m.x, -1.5, 1e-12);
-  EXPECT_EQ(std::get<DiffuseMaterial>(scene->materials.at(scene->shapes[2].material).model).reflectance.curve()(500),
+  EXPECT_EQ(std::get<DiffuseMaterial>(scene->materials.at(scene->shapes[2].material).model)
+                .reflectance.curve()(500),
             0.5);
 }
 

@@ -142,7 +142,7 @@ TEST(Coordinates, AreFoundWhereARayMeetsASurface) {
     for (const float z : {0.0F, 5.0F, 10.0F}) {
       const auto hit = scene.intersect({{p.x, p.y, z + 1}, {0, 0, -1}});
       ASSERT_TRUE(hit);
-      const SurfacePlace place = place_of(scene, *hit);
+      const SurfacePlace place = textured_place(scene, *hit);
       const V2f expected = z == 10 ? V2f(0, 0) : p.x + p.y <= 1 ? p : p + V2f(1, 1);
       EXPECT_LE((place.uv - expected).length(), 1e-5F) << p << " " << place.uv;
       EXPECT_LE((place.frame.x - Imath::V3f(1, 0, 0)).length(), 1e-6F);

@@ -98,8 +98,8 @@ TEST_F(GltfTest, BringsItsMaterials) {
   };
   const Loaded paint = made_of("0");
   ASSERT_TRUE(paint.scene) << paint.text();
-  const LinearRgb color =
-      linear_rgb(std::get<DiffuseMaterial>(paint->materials[paint->shapes[0].material].model).reflectance.curve());
+  const LinearRgb color = linear_rgb(
+      std::get<DiffuseMaterial>(paint->materials[paint->shapes[0].material].model).reflectance.curve());
   EXPECT_NEAR(color[0], 0.2, 1e-3);
   EXPECT_NEAR(color[1], 0.4, 1e-3);
   EXPECT_NEAR(color[2], 0.9, 1e-3);

@@ -19,11 +19,11 @@ namespace abbe {
 struct Vertex {
   SurfaceHit hit;
   Basis<float> frame;
-  Imath::V3f wo;  ///< Local.
-  Bsdf bsdf;
+  Imath::V3f wo;                       ///< Local.
   bool relief = false;                 ///< The frame's z differs from the normal of the shape.
-  float cos_outside = 1;               ///< Of wo, with the normal of the shape.
+  float cos_outside = 1;               ///< Of wo with the normal of the shape, on a relief.
   const Enclosures* beyond = nullptr;  ///< What a path let through is in, where matter may be nested.
+  Bsdf bsdf;
 
   /// Where a meter stands: white, diffuse, and seen along its normal, so that the radiance leaving it is the
   /// irradiance over pi.
@@ -35,14 +35,12 @@ struct Vertex {
       : hit(surface), frame(axes), wo(outgoing), bsdf(std::move(scattering)) {}
   Vertex(const Scene& scene, const SurfaceHit& surface, const Imath::V3f& incoming,
          const SampledSpectrum& wavelengths_nm)
-      : Vertex(scene, surface, place_of(scene, surface), nullptr, incoming, wavelengths_nm) {}
+      : Vertex(scene, surface, nullptr, incoming, wavelengths_nm) {}
   /// Of matter that may be nested; where nothing changes the path goes straight on, as through equal indices.
   /// `met` must outlive the vertex.
   Vertex(const Scene& scene, const Interface& met, const Imath::V3f& incoming,
          const SampledSpectrum& wavelengths_nm)
-      : Vertex(scene, met.hit,
-               met.passes ? SurfacePlace{Basis<float>(met.hit.normal)} : place_of(scene, met.hit), &met,
-               incoming, wavelengths_nm) {}
+      : Vertex(scene, met.hit, &met, incoming, wavelengths_nm) {}
 
   /// What a path within `inside` is in when it has been let through.
   [[nodiscard]] Enclosures behind(const Scene& scene, const Enclosures& inside) const {
@@ -52,8 +50,9 @@ struct Vertex {
     return crossed;
   }
 
-  /// The model's event, worth what a relief leaves of it.
-  [[nodiscard]] std::optional<BsdfSample> scatter(const BsdfRandom& u, TransportMode mode) const {
+  /// The model's event, worth what a relief leaves of it. In line, as a call would cost every path.
+  [[nodiscard, gnu::always_inline]] std::optional<BsdfSample> scatter(const BsdfRandom& u,
+                                                                      TransportMode mode) const {
     std::optional<BsdfSample> event = sample(bsdf, wo, u, kHero, mode);
     if (relief && event) event->weight *= worth(frame.to_world(event->wi), event->wi, mode);
     return event;
@@ -77,21 +76,36 @@ struct Vertex {
     return mode == TransportMode::radiance ? 1 : std::abs(wo.z * cos_world / (cos_outside * local.z));
   }
 
-  Vertex(const Scene& scene, const SurfaceHit& surface, const SurfacePlace& place, const Interface* met,
-         const Imath::V3f& incoming, const SampledSpectrum& wavelengths_nm)
+  Vertex(const Scene& scene, const SurfaceHit& surface, const Interface* met, const Imath::V3f& incoming,
+         const SampledSpectrum& wavelengths_nm)
       : hit(surface),
-        frame(place.frame),
+        frame(surface.normal),
         wo(frame.to_local(-incoming)),
-        bsdf(met != nullptr && met->passes
-                 ? Bsdf(DielectricBsdf{SampledSpectrum(1), false})
-                 : make_bsdf(scene.materials[scene.shapes[surface.shape].material],
-                             {wavelengths_nm, place.uv, met != nullptr ? met->outside : nullptr})),
-        relief(place.relief),
-        beyond(met != nullptr ? &met->beyond : nullptr) {
-    if (!relief) return;
+        beyond(met != nullptr ? &met->beyond : nullptr),
+        bsdf(scene.needs.textures ? placed(scene, met, incoming, wavelengths_nm)
+                                  : scattering(scene, met, wavelengths_nm, {0, 0})) {}
+
+  [[nodiscard]] Bsdf scattering(const Scene& scene, const Interface* met,
+                                const SampledSpectrum& wavelengths_nm, const Imath::V2f& uv) const {
+    if (met != nullptr && met->passes) return DielectricBsdf{SampledSpectrum(1), false};
+    return make_bsdf(scene.materials[scene.shapes[hit.shape].material],
+                     {wavelengths_nm, uv, met != nullptr ? met->outside : nullptr});
+  }
+
+  // The same where the material may need more than a normal: turns what has been made so far. Out of line, as
+  // a scene without textures pays for a longer loop.
+  [[nodiscard, gnu::noinline]] Bsdf placed(const Scene& scene, const Interface* met,
+                                           const Imath::V3f& incoming,
+                                           const SampledSpectrum& wavelengths_nm) {
+    if (met != nullptr && met->passes) return scattering(scene, met, wavelengths_nm, {0, 0});
+    const SurfacePlace place = textured_place(scene, hit);
+    frame = place.frame;
+    wo = frame.to_local(-incoming);
+    relief = place.relief;
     cos_outside = -incoming.dot(hit.normal);
     // Seen from the side that faces away, a relief is black.
-    if (!(cos_outside * wo.z > 0)) bsdf = DiffuseBsdf{};
+    if (relief && !(cos_outside * wo.z > 0)) return DiffuseBsdf{};
+    return scattering(scene, met, wavelengths_nm, place.uv);
   }
 };
 
