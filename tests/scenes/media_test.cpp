@@ -143,6 +143,10 @@ TEST(Media, WhatOnlyScattersIsInvisibleInAFurnace) {
                              R"("fog": {{"dielectric": {{"ior": 1.5, "scattering_per_m": {}}}}})", kColoured),
                          .shapes = ball("fog")}),
               one, 0.03, "within glass");
+  expect_near(radiances({.materials = medium(R"("phase": "rayleigh")") +
+                                      R"(, "haze": {"medium": {"scattering_per_m": 0.7}})",
+                         .shapes = ball("fog", 0.3) + ", " + ball("haze", 1.5)}),
+              one, 0.03, "fog within haze");
 }
 
 // H(mu) = 1/(sqrt(1 - albedo) + albedo/2 int_0^1 m H(m)/(mu + m) dm), iterated on midpoints.
