@@ -71,11 +71,10 @@ TEST(Enclosures, AreFoundFromTheOutermost) {
 
 TEST(Enclosures, ReturnToWhatIsAround) {
   Scene scene{};
-  scene.materials = {
-      {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}},
-      {"water", DielectricMaterial{"water", RefractiveIndex(1.33)}},
-      {.name = "ice", .model = DielectricMaterial{"ice", RefractiveIndex(1.3)}, .priority = 3},
-      {"pane", ThinGlassMaterial{"glass", RefractiveIndex(1.5)}}};
+  scene.materials = {{"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}},
+                     {"water", DielectricMaterial{"water", RefractiveIndex(1.33)}},
+                     {.name = "ice", .model = DielectricMaterial{"ice", RefractiveIndex(1.3)}, .priority = 3},
+                     {"pane", ThinGlassMaterial{"glass", RefractiveIndex(1.5)}}};
   for (std::uint32_t i = 0; i < 120; ++i)
     scene.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, i == 3 ? 1U : 0U});
   scene.shapes[9].material = 2;
