@@ -147,8 +147,9 @@ Principled::Parts Principled::integrated(const V3f& wo) const {
   Parts sum;
   for (const Lobe lobe : kLobes)
     for (int i = 0; i < kSteps * kSteps && probability_[lobe] > 0; ++i) {
+      const int row = i / kSteps;
       const Imath::V2f u((static_cast<float>(i % kSteps) + 0.5F) / kSteps,
-                         (static_cast<float>(i / kSteps) + 0.5F) / kSteps);
+                         (static_cast<float>(row) + 0.5F) / kSteps);
       const auto wi = draw(lobe, wo, u);
       if (!wi) continue;
       const Facet at(wo, *wi);
