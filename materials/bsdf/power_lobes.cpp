@@ -20,19 +20,14 @@ float power_of_cosine(const V3f& a, const V3f& b, float n) {
   return versine < 1 ? std::exp(n * std::log1p(-versine)) : 0.0F;
 }
 
-V3f flipped(const V3f& w) {
-  return {w.x, w.y, -w.z};
-}
-
-/// Directions of the side `axis` is on with density (n + 1)/(2 pi) cos^n about it, those beyond the horizon
-/// folded back.
-struct FoldedLobe {
+/// Directions with density (n + 1)/(2 pi) cos^n about `axis`; nothing is sent to those beyond the horizon.
+struct PowerLobe {
   V3f axis;
   float n;
 
   [[nodiscard]] float density(const V3f& w) const {
     if (!(w.z * axis.z > 0)) return 0;
-    return (n + 1) / kTwoPi * (power_of_cosine(w, axis, n) + power_of_cosine(flipped(w), axis, n));
+    return (n + 1) / kTwoPi * power_of_cosine(w, axis, n);
   }
 
   [[nodiscard]] std::optional<V3f> sample(const Imath::V2f& u) const {
@@ -42,15 +37,14 @@ struct FoldedLobe {
     // Mirrored by the plane that takes z to the axis.
     const V3f across = V3f(0, 0, 1) - axis;
     const float length2 = across.length2();
-    V3f w = length2 > 0 ? about_z - across * (2 * about_z.dot(across) / length2) : about_z;
-    if (w.z == 0) return std::nullopt;
-    w.z = std::copysign(w.z, axis.z);
+    const V3f w = length2 > 0 ? about_z - across * (2 * about_z.dot(across) / length2) : about_z;
+    if (!(w.z * axis.z > 0)) return std::nullopt;
     return w.normalized();
   }
 };
 
 template <typename Model>
-std::optional<BsdfSample> sample_lobe(const Model& model, const FoldedLobe& lobe, const V3f& wo,
+std::optional<BsdfSample> sample_lobe(const Model& model, const PowerLobe& lobe, const V3f& wo,
                                       const BsdfRandom& u, TransportMode mode) {
   if (wo.z == 0) return std::nullopt;
   const std::optional<V3f> wi = lobe.sample(u.direction);
@@ -70,13 +64,13 @@ bool same_side(const V3f& wo, const V3f& wi) {
 }
 
 template <bool BothWays>
-FoldedLobe lobe_of(const CosinePowerBsdf<BothWays>& model, const V3f& wo) {
+PowerLobe lobe_of(const CosinePowerBsdf<BothWays>& model, const V3f& wo) {
   return {V3f(0, 0, std::copysign(1.0F, wo.z)), 1 + (BothWays ? model.exponent : 0)};
 }
-FoldedLobe lobe_of(const PhongBsdf& model, const V3f& wo) {
+PowerLobe lobe_of(const PhongBsdf& model, const V3f& wo) {
   return {mirrored(wo), model.exponent};
 }
-FoldedLobe lobe_of(const RetroreflectorBsdf& model, const V3f& wo) {
+PowerLobe lobe_of(const RetroreflectorBsdf& model, const V3f& wo) {
   return {wo, model.exponent};
 }
 

@@ -52,10 +52,6 @@ template <>
 inline constexpr bool kLobesOverlap<MixtureBsdf> = true;
 template <>
 inline constexpr bool kLobesOverlap<PrincipledBsdf> = true;
-template <>
-inline constexpr bool kLobesOverlap<PhongBsdf> = true;
-template <>
-inline constexpr bool kLobesOverlap<RetroreflectorBsdf> = true;
 
 template <>
 inline std::optional<double> lossless_within(const CoatedDiffuseBsdf& model) {
@@ -218,7 +214,7 @@ inline std::vector<PhongBsdf> examples() {
 }
 template <>
 inline std::vector<RetroreflectorBsdf> examples() {
-  return {{SampledSpectrum(1), 0}, {SampledSpectrum(1), 50}, {ramp(0, 0.9F), 2000}};
+  return {{SampledSpectrum(1), 2}, {SampledSpectrum(1), 50}, {ramp(0, 0.9F), 2000}};
 }
 
 // A mirror, Lambert's matter and rougher; a sheet of glass with holes and spots. Of each only one reflects in

@@ -116,7 +116,7 @@ TEST(ThinGlassBsdf, AbsorbsAlongTheWayInside) {
 }
 
 TEST(ThinGlassMaterial, AbsorbsByItsThickness) {
-  const ThinGlassMaterial pane{"glass", RefractiveIndex(1.5, 500e-9 / (4 * std::numbers::pi)), 1};
+  const ThinGlassMaterial pane{"glass", RefractiveIndex(1.5, 250e-9 / (4 * std::numbers::pi)), 2};
   const SampledSpectrum wavelengths(500);
   EXPECT_NEAR(balance(std::get<ThinGlassBsdf>(pane.bsdf({wavelengths})), 1).transmitted, 0.33911112, 1e-5);
 }
