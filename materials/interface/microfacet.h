@@ -29,6 +29,9 @@ struct Microfacets {
   FacetShape shape = FacetShape::ggx;
   T alpha_x, alpha_y;
 
+  /// Whether x and y differ, so that it matters which way they lie.
+  [[nodiscard]] bool brushed() const { return alpha_x != alpha_y; }
+
   /// Area of the facets of normal h per area of the surface [1/sr]: the integral of D h.z is 1. h may have
   /// any length. [Walter2007, eq. 25 and 33]
   [[nodiscard]] T D(const Vec& h) const;

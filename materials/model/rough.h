@@ -11,7 +11,7 @@
 
 namespace abbe {
 
-/// Rough interface to matter; slopes along the x and y of the surface's local axes. A surface of both alphas
+/// Rough interface to matter; slopes along u and across it. A surface of both alphas
 /// below `kLeastAlpha` is a `DielectricMaterial`. Its matter differs from air by 1e-3 or more: an index
 /// closer to 1 is taken as that far away.
 class RoughDielectricMaterial {
@@ -22,6 +22,7 @@ class RoughDielectricMaterial {
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+  [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
   [[nodiscard]] const Matter* matter() const { return filling ? &*filling : nullptr; }
 
@@ -38,6 +39,7 @@ class RoughConductorMaterial {
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+  [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
 
   std::string index_name;
   RefractiveIndex index;
