@@ -131,39 +131,6 @@ void user_occluded(const RTCOccludedFunctionNArguments* args) {
     reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
-TriangleSet triangles_of(const Mesh& mesh) {
-  TriangleSet set;
-  set.vertices.reserve(mesh.vertices.size() + 1);
-  for (const Imath::V3d& vertex : mesh.vertices) set.vertices.emplace_back(vertex);
-  set.triangles = mesh.triangles;
-  return set;
-}
-
-TriangleSet triangles_of(const Quad& quad) {
-  const std::array<Imath::V3f, 4> c = corners(quad);
-  return {{c.begin(), c.end()}, {kQuadTriangles.begin(), kQuadTriangles.end()}, {}};
-}
-
-// From the unrounded vertices.
-Imath::V3d normal_of(const Mesh& mesh, std::size_t triangle) {
-  return area_vector(mesh, triangle).normalized();
-}
-Imath::V3d normal_of(const Quad& quad, std::size_t) {
-  return normal_of(quad);
-}
-Imath::V3d normal_of(const PlainShape& shape, std::size_t triangle) {
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return normal_of(*mesh, triangle);
-  return normal_of(std::get<Quad>(shape), triangle);
-}
-
-template <typename S>
-TriangleSet with_normals(const S& shape) {
-  TriangleSet set = triangles_of(shape);
-  set.normals.reserve(set.triangles.size());
-  for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_of(shape, i));
-  return set;
-}
-
 PlainPart plain_part(const Sphere& sphere) {
   return sphere;
 }
@@ -241,13 +208,8 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context)
   const Imath::V3d point = ray.origin + ray.direction * t;
   if (instance == nullptr)
     return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
-  const Imath::V3d normal = normal_of(instance->of->prototype->shape, hit.primID);
+  const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
   return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape, hit.primID);
-}
-
-std::size_t bytes_of(const TriangleSet& set) {
-  return (set.vertices.size() + set.normals.size()) * sizeof(Imath::V3f) +
-         set.triangles.size() * sizeof(set.triangles[0]);
 }
 
 }  // namespace
@@ -430,11 +392,11 @@ std::size_t Geometry::memory_bytes() const {
   std::size_t bytes =
       static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree_bytes_, 0)) + parts_.size() * sizeof(Part);
   for (const Part& part : parts_)
-    if (const auto* set = std::get_if<TriangleSet>(&part)) bytes += bytes_of(*set);
+    if (const auto* set = std::get_if<TriangleSet>(&part)) bytes += memory_bytes_of(*set);
   for (const auto& [prototype, built] : prototypes_) {
     bytes += sizeof(PrototypePart) + sizeof(Prototype);
     if (const auto* mesh = std::get_if<Mesh>(&prototype->shape)) bytes += abbe::memory_bytes(*mesh);
-    if (const auto* set = std::get_if<TriangleSet>(&built->part)) bytes += bytes_of(*set);
+    if (const auto* set = std::get_if<TriangleSet>(&built->part)) bytes += memory_bytes_of(*set);
   }
   return bytes;
 }

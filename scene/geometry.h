@@ -11,19 +11,13 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "scene/shapes/triangles.h"
 
 struct RTCDeviceTy;
 struct RTCGeometryTy;
 struct RTCSceneTy;
 
 namespace abbe {
-
-/// What is rendered as triangles, in float as Embree sees them.
-struct TriangleSet {
-  std::vector<Imath::V3f> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Imath::V3f> normals;  ///< Per triangle, from the unrounded vertices; none in a prototype.
-};
 
 /// What Embree holds of a shape that stands by itself.
 using PlainPart = std::variant<TriangleSet, Sphere, Disc>;

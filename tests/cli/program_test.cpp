@@ -270,7 +270,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["materials"], 1);
   EXPECT_EQ(found["needs"]["dispersion"], true);
   EXPECT_EQ(found["needs"]["delta_lights"], false);
-  EXPECT_EQ(found["needs"].size(), 10U);
+  EXPECT_EQ(found["needs"].size(), 14U);
   EXPECT_EQ(found["because"]["dispersion"], "shape \"prism\"");
   EXPECT_EQ(found["techniques"][0], "path");
   EXPECT_TRUE(found["unreached"].is_array());

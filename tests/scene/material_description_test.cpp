@@ -1,0 +1,158 @@
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using testing::DescriptionTest;
+using testing::Loaded;
+using testing::shaped;
+using testing::write;
+
+TEST_F(DescriptionTest, ReadsMaterials) {
+  const Loaded loaded = load(R"({"materials": {
+    "tinted": {"dielectric": {"ior": 1.5, "absorption_per_m": {"table": {"wavelength_nm": [400, 700], "values": [100, 400], "outside": "clamp"}}}},
+    "glass": {"dielectric": {"ior": "N-BK7"}}, "absorbing": {"dielectric": {"ior": {"n": 1.4, "k": 1e-6}}},
+    "silver": {"conductor": {"ior": "Ag_Johnson"}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto& tinted = std::get<DielectricMaterial>(loaded->materials[0].model).index;
+  EXPECT_NEAR(tinted.absorption_per_m(500), 200, 1e-3);
+  EXPECT_NEAR(tinted.absorption_per_m(900), 400, 1e-3);
+  EXPECT_EQ(tinted.n(500), 1.5);
+  EXPECT_FALSE(tinted.dispersive());
+  EXPECT_TRUE(tinted.absorbing());
+  EXPECT_NEAR(std::get<DielectricMaterial>(loaded->materials[1].model).index.n(587.5618), 1.516800, 1e-6);
+  EXPECT_NEAR(std::get<DielectricMaterial>(loaded->materials[2].model).index.k(500), 1e-6, 1e-12);
+  EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
+}
+
+TEST_F(DescriptionTest, ReadsRoughness) {
+  const Loaded loaded = load(R"({"materials": {
+    "ground": {"dielectric": {"ior": 1.5, "roughness": 0.3}},
+    "brushed": {"conductor": {"ior": "Ag_Johnson", "roughness": {"alpha": [0.1, 0.4], "distribution": "beckmann"}}},
+    "pair": {"conductor": {"ior": "Ag_Johnson", "roughness": [0, 0.01]}},
+    "polished": {"dielectric": {"ior": 1.5, "roughness": 0.00099, "coating": [{"ior": 1.38, "thickness_nm": 100}]}},
+    "mirror": {"conductor": {"ior": "Ag_Johnson", "roughness": {"alpha": 0}}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto facets = [&](std::size_t i) {
+    const MaterialModel& model = loaded->materials[i].model;
+    const auto* glass = std::get_if<RoughDielectricMaterial>(&model);
+    return glass ? glass->surface->facets : std::get<RoughConductorMaterial>(model).surface->facets;
+  };
+  EXPECT_EQ(facets(0).shape, FacetShape::ggx);
+  EXPECT_EQ(facets(0).alpha_x, 0.3F);
+  EXPECT_EQ(facets(0).alpha_y, 0.3F);
+  EXPECT_EQ(facets(1).shape, FacetShape::beckmann);
+  EXPECT_EQ(facets(1).alpha_x, 0.1F);
+  EXPECT_EQ(facets(1).alpha_y, 0.4F);
+  EXPECT_EQ(facets(2).alpha_x, 1e-3F);
+  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(loaded->materials[3].model));
+  EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(loaded->materials[4].model));
+}
+
+TEST_F(DescriptionTest, ReadsScatteringModels) {
+  const Loaded loaded = load(R"({"units": "mm", "materials": {
+    "mixed": {"mixture": [{"material": "clay", "weight": 0.3}, {"material": "pane", "weight": {"band": [400, 500], "value": 0.7}}]},
+    "clay": {"oren_nayar": {"reflectance": 0.6, "sigma_deg": 20}},
+    "pane": {"thin_glass": {"ior": 1.52, "thickness": 4, "absorption_per_m": 10}},
+    "glaze": {"coated_diffuse": {"ior": "N-BK7", "reflectance": 0.6}},
+    "gold": {"schlick": {"ior": {"n": 0.2, "k": 3}}},
+    "art": {"principled": {"base_color": 0.25, "metallic": 1, "roughness": 0.3}},
+    "one way": {"cosine_power": {"reflectance": 1, "exponent": 2}},
+    "both ways": {"cosine_power": {"reflectance": 1, "exponent": 2, "reciprocal": true}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto model = [&](std::size_t i) -> const MaterialModel& { return loaded->materials.at(i).model; };
+  const auto& mixture = std::get<MixtureMaterial>(model(0));
+  ASSERT_EQ(mixture.parts.size(), 2U);
+  EXPECT_EQ(mixture.parts[0].material->name, "clay");
+  EXPECT_EQ(mixture.parts[1].weight(450), 0.7);
+  EXPECT_TRUE(mixture.lobes().delta && mixture.lobes().spread);
+  EXPECT_EQ(std::get<OrenNayarMaterial>(model(1)).sigma_deg, 20);
+  const auto& pane = std::get<ThinGlassMaterial>(model(2));
+  EXPECT_NEAR(pane.thickness * pane.index.absorption_per_m(550), 0.04, 1e-6);
+  EXPECT_NEAR(std::get<CoatedDiffuseMaterial>(model(3)).index.n(587.5618), 1.516800, 1e-6);
+  EXPECT_NEAR(std::get<SchlickMaterial>(model(4)).r0.curve()(550), (0.8 * 0.8 + 9) / (1.2 * 1.2 + 9), 1e-9);
+  EXPECT_NEAR(std::get<PrincipledMaterial>(model(5)).look.albedo(1).coloured, 0.984, 0.003);
+  EXPECT_FALSE(std::get<CosinePowerMaterial>(model(6)).reciprocal);
+  EXPECT_TRUE(std::get<CosinePowerMaterial>(model(7)).reciprocal);
+}
+
+TEST_F(DescriptionTest, ReadsCoatings) {
+  const Loaded loaded = load(R"({"materials": {
+    "lens": {"dielectric": {"ior": "N-BK7", "coating": [{"ior": "MgF2", "thickness_nm": 99.6}]}},
+    "stack": {"conductor": {"ior": "Al_Rakic", "coating": [{"ior": 1.5, "thickness_nm": 10},
+       {"repeat": 3, "layers": [{"ior": 2.3, "thickness_nm": 20}, {"ior": {"n": 1.5, "k": 0.1}, "thickness_nm": 30}]},
+       {"ior": 2.3, "thickness_nm": 40}]}},
+    "bubble": {"film": {"layers": [{"ior": "water", "thickness_nm": 400}]}, "priority": -3}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const Coating& coat = std::get<DielectricMaterial>(loaded->materials[0].model).coating;
+  ASSERT_EQ(coat.layers.size(), 1U);
+  EXPECT_EQ(coat.layers[0].thickness_nm, 99.6);
+  EXPECT_NEAR(coat.matters[0].index.n(587.5618), 1.3777439, 1e-6);
+  const Coating& stack = std::get<ConductorMaterial>(loaded->materials[1].model).coating;
+  ASSERT_EQ(stack.matters.size(), 3U) << "one for each of 1.5, 2.3 and 1.5 + 0.1i";
+  std::vector<double> thicknesses;
+  for (const Coating::Layer& layer : stack.layers) thicknesses.push_back(layer.thickness_nm);
+  EXPECT_EQ(thicknesses, (std::vector<double>{10, 20, 30, 20, 30, 20, 30, 40}));
+  EXPECT_EQ(stack.matters[stack.layers[2].matter].index.k(500), 0.1);
+  EXPECT_EQ(stack.matters[stack.layers[7].matter].index.n(500.0), 2.3);
+  EXPECT_EQ(loaded->materials[0].priority, 0);
+  EXPECT_EQ(loaded->materials[2].priority, -3);
+  const auto& bubble = std::get<DielectricMaterial>(loaded->materials[2].model);
+  EXPECT_EQ(bubble.index.n(500.0), 1);
+  EXPECT_EQ(bubble.coating.layers.size(), 1U);
+  const std::string narrow = load(R"({"materials": {"m": {"dielectric": {"ior": 1.5, "coating":
+      [{"ior": "diamond", "thickness_nm": 9}]}}}})")
+                                 .text();
+  EXPECT_NE(narrow.find("diamond holds on [226, 760] nm"), std::string::npos) << narrow;
+}
+
+TEST_F(DescriptionTest, RefusesImpossibleCoatings) {
+  const auto told = [&](const std::string& layers) {
+    const Loaded loaded =
+        load(R"({"materials": {"m": {"dielectric": {"ior": 1.5, "coating": )" + layers + "}}}}");
+    EXPECT_FALSE(loaded.scene) << layers;
+    return loaded.text();
+  };
+  const auto holds = [](const std::string& text, const std::string& words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  holds(told("[]"), "/materials/m/dielectric/coating: error: expected an array of layers");
+  holds(told(R"([{"ior": 1.4, "thickness_nm": 0}])"), "/coating/0/thickness_nm: error");
+  holds(told(R"([{"ior": 1.4}])"), "thickness_nm");
+  holds(told(R"([{"ior": "MgF3", "thickness_nm": 9}])"), "MgF2");
+  holds(told(R"([{"repeat": 86, "layers": [{"ior": 1.4, "thickness_nm": 9}, {"ior": 1.5, "thickness_nm": 9},
+      {"ior": 1.6, "thickness_nm": 9}]}])"),
+        "too many layers (allowed 256)");
+  std::string many;
+  for (int i = 0; i < 17; ++i)
+    many += fmt::format("{}{{\"ior\": 1.{:02}, \"thickness_nm\": 9}}", i ? ", " : "", i + 1);
+  holds(told("[" + many + "]"), "too many materials in a coating (allowed 16)");
+}
+
+// A scene named by a path relative to the working directory, as on the command line.
+TEST_F(DescriptionTest, FindsIndicesBesideTheScene) {
+  write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.6\n1100,1.6\n");
+  write(folder_ / "own.yml",
+        "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1.1\n    coefficients: 1.7 0 1\n");
+  write(folder_ / "scene.json", completed(R"({"materials": {"table": {"dielectric": {"ior": "own.csv"}},
+    "entry": {"dielectric": {"ior": "own.yml"}}}})"));
+  Diagnostics diagnostics;
+  const auto scene = load_scene(std::filesystem::relative(folder_ / "scene.json"), {}, diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.text();
+  EXPECT_EQ(std::get<DielectricMaterial>(scene->materials[0].model).index.n(500.0), 1.6);
+  EXPECT_EQ(std::get<DielectricMaterial>(scene->materials[1].model).index.n(500.0), 1.7);
+  write(folder_ / "own.yml",
+        "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1.1\n    coefficients: 1.8 0 1\n");
+  Diagnostics again;
+  EXPECT_NE(load_scene(folder_ / "scene.json", {}, again)->sha256, scene->sha256) << "part of the scene";
+}
+
+}  // namespace
+}  // namespace abbe

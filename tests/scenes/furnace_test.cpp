@@ -1,0 +1,97 @@
+// A ball of every material in light of radiance 1 from everywhere: white matter cannot be told from the
+// light, and no other is brighter. Phong's is not either: it makes energy out of light that arrives at
+// grazing angles, which a camera sees as too much light from lamps, not from all around.
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "scene/description/load_material.h"
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+enum class Returns { all, no_more };
+struct White {
+  const char* matter;
+  Returns returns;
+};
+const std::multimap<std::string, White> kWhites{
+    {"diffuse", {R"({"reflectance": 1})", Returns::all}},
+    {"dielectric", {R"({"ior": "hikari/F2"})", Returns::all}},
+    {"dielectric", {R"({"ior": 1.5, "roughness": 0.4})", Returns::all}},
+    {"dielectric", {R"({"ior": 1.3, "scattering_per_m": 1})", Returns::all}},
+    {"dielectric",
+     {R"({"ior": "hikari/F2", "coating": [{"ior": 1.38, "thickness_nm": 99.6}]})", Returns::all}},
+    {"conductor", {R"({"ior": 0})", Returns::all}},
+    {"conductor", {R"({"ior": 0, "roughness": [0.2, 0.6]})", Returns::all}},
+    {"conductor", {R"({"ior": "Ag_Johnson", "roughness": 0.3})", Returns::no_more}},
+    {"film", {R"({"layers": [{"ior": 1.33, "thickness_nm": 400}]})", Returns::all}},
+    {"medium", {R"({"scattering_per_m": 2, "phase": {"henyey_greenstein": 0.7}})", Returns::all}},
+    {"coated_diffuse", {R"({"ior": 1.5, "reflectance": 1})", Returns::all}},
+    {"thin_glass", {R"({"ior": 1.5})", Returns::all}},
+    {"mirror", {R"({"reflectance": 1})", Returns::all}},
+    {"schlick", {R"({"ior": "Al_Rakic"})", Returns::no_more}},
+    {"oren_nayar", {R"({"reflectance": 1, "sigma_deg": 40})", Returns::all}},
+    {"principled", {R"({"base_color": 1, "sheen": 1, "clearcoat": 1, "roughness": 0.3})", Returns::no_more}},
+    {"principled", {R"({"base_color": 1, "metallic": 1, "roughness": 0.1})", Returns::no_more}},
+    {"cosine_power", {R"({"reflectance": 1, "exponent": 2})", Returns::no_more}},
+    {"cosine_power", {R"({"reflectance": 1, "exponent": 2, "reciprocal": true})", Returns::no_more}},
+    {"phong", {R"({"reflectance": 1, "exponent": 20})", Returns::no_more}},
+    {"retroreflector", {R"({"reflectance": 1, "exponent": 50})", Returns::no_more}},
+    {"mixture",
+     {R"([{"material": "white", "weight": 0.4}, {"material": "silver", "weight": 0.6}])", Returns::all}}};
+
+Film ball(const std::string& matter) {
+  return render(test::load_text(fmt::format(R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 20}}, "from": [0, 0, -4], "to": [0, 0, 0], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [8, 8], "response": "energy", "channels": {{"all": 1}}}},
+    "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
+    "materials": {{"ball": {{{}}}, "white": {{"diffuse": {{"reflectance": 1}}}}, "silver": {{"mirror": {{"reflectance": 1}}}}}},
+    "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "ball"}}],
+    "render": {{"samples": 512, "max_depth": 200, "roulette_depth": -1, "integrator": "path"}}}})",
+                                            matter)),
+                {})
+      .film;
+}
+
+TEST(Furnace, HasEveryMaterial) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load_material("{}", diagnostics));
+  const std::string words = diagnostics.text();
+  const std::size_t first = words.find("allowed ");
+  ASSERT_NE(first, std::string::npos) << words;
+  std::string name;
+  int known = 0;
+  for (std::size_t i = first + 8; i < words.size() && words[i] != '\n'; ++i) {
+    if (std::isalpha(static_cast<unsigned char>(words[i])) || words[i] == '_') {
+      name += words[i];
+      continue;
+    }
+    if (!name.empty()) {
+      EXPECT_TRUE(kWhites.contains(name)) << name;
+      ++known;
+    }
+    name.clear();
+  }
+  EXPECT_GE(known, 15) << words;
+}
+
+TEST(Furnace, NoMaterialIsBrighterThanTheLight) {
+  const Film unit = ball(R"("dielectric": {"ior": 1})");
+  const double one = test::region(unit, 0, 0, 0, 8, 8).mean;
+  for (const auto& [key, white] : kWhites) {
+    const test::Region seen =
+        test::region(ball(fmt::format(R"("{}": {})", key, white.matter)), 0, 0, 0, 8, 8);
+    const double ratio = seen.mean / one;
+    const double noise = 4.9 * std::sqrt(seen.variance) / one;
+    SCOPED_TRACE(fmt::format("{} {}: {} +- {}", key, white.matter, ratio, noise));
+    EXPECT_LT(ratio, 1 + noise + 5e-3);
+    EXPECT_GT(ratio, white.returns == Returns::all ? 1 - noise - 5e-3 : 0.2);
+    EXPECT_LT(noise, 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
