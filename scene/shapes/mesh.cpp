@@ -115,7 +115,7 @@ Mesh make_prism(double apex_deg, double side, double length) {
       const std::uint32_t corner = vertex % 3;
       const auto [x, z] = kSection.at(corner);
       if (i < 2) return Imath::V2f(i == 0 ? x : 1 - x, z);
-      return Imath::V2f(static_cast<float>(vertex / 3), corner == (i - 2) / 2 ? 0.0F : 1.0F);
+      return Imath::V2f(vertex < 3 ? 0.0F : 1.0F, corner == (i - 2) / 2 ? 0.0F : 1.0F);
     };
     const auto& [a, b, c] = prism.triangles[i];
     prism.coordinates.push_back({at(a), at(b), at(c)});
