@@ -57,10 +57,11 @@ void warn_beyond_data(const Scene& scene, const RayTrace& trace, double waveleng
     if (!event.passage) continue;
     const Material& material = scene.materials[scene.shapes[event.shape].material];
     const auto* metal = std::get_if<ConductorMaterial>(&material.model);
-    const RefractiveIndex& index = metal != nullptr ? metal->index : *interior(material);
-    if (wavelength_nm >= index.low_nm() && wavelength_nm <= index.high_nm()) continue;
+    const RefractiveIndex* index = metal != nullptr ? &metal->index : interior(material);
+    if (index == nullptr) continue;  // matter without an interface
+    if (wavelength_nm >= index->low_nm() && wavelength_nm <= index->high_nm()) continue;
     say(fmt::format("warning: the index of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm",
-                    material.name, index.low_nm(), index.high_nm()));
+                    material.name, index->low_nm(), index->high_nm()));
     return;
   }
 }

@@ -25,7 +25,8 @@ struct CoatedDiffuseBsdf {
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
 };
 
-/// From the index of the coat, the ground's reflectance and `inner`, the coat's for diffuse light from within.
+/// From the index of the coat, the ground's reflectance and `inner`, the coat's for diffuse light from
+/// within.
 [[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
                                                       const SampledSpectrum& inner, bool dispersive) {
   return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};

@@ -56,6 +56,9 @@ struct RoughConductorBsdf {
 struct RoughDielectricBsdf {
   SampledSpectrum n;
   const RoughBoundary* surface;
+  /// Whether n is what the surface is tabulated for, against air; else what is scattered more than once is
+  /// lost, as nothing tells how much that is.
+  bool compensated = true;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

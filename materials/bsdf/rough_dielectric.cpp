@@ -62,6 +62,8 @@ Scattered by_facets(const Microfacets<float>& facets, const SampledSpectrum& eta
 Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V3f& o, const Imath::V3f& i) {
   const RoughBoundary& surface = *bsdf.surface;
   const SampledSpectrum& n = bsdf.n;
+  const Scattered once = by_facets(surface.facets, inside ? SampledSpectrum(1) / n : n, o, i);
+  if (!bsdf.compensated) return once;
   const Quadratic w = weights(surface, n);
   const bool into_inside = inside == (i.z > 0);
   const LostEnergy::Place place_i = LostEnergy::place(surface.facets, i);
@@ -72,7 +74,6 @@ Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V
   SampledSpectrum share = lost_energy(surface, into_inside, w, place_i) * std::abs(i.z) / leaves;
   if (into_inside) share *= n * n;
 
-  const Scattered once = by_facets(surface.facets, inside ? SampledSpectrum(1) / n : n, o, i);
   const float density = (into_inside ? surface.inside_share : 1 - surface.inside_share) *
                         surface.lost[into_inside ? 1 : 0][1].pdf(place_i, std::abs(i.z));
   return {once.power + lost * share, (SampledSpectrum(1) - lost) * once.pdf + lost * density};
@@ -112,8 +113,9 @@ std::optional<BsdfSample> RoughDielectricBsdf::sample(const Imath::V3f& wo, cons
   if (wo.z == 0) return std::nullopt;
   const bool inside = wo.z < 0;
   const Imath::V3f o = from_side_of(wo, wo);
-  const float lost =
-      lost_energy(*surface, inside, weights(*surface, n), LostEnergy::place(surface->facets, o))[hero];
+  const float lost = compensated ? lost_energy(*surface, inside, weights(*surface, n),
+                                               LostEnergy::place(surface->facets, o))[hero]
+                                 : 0.0F;
   const std::optional<Imath::V3f> i = u.lobe < lost
                                           ? off_surface(*surface, inside, u.direction, u.lobe / lost)
                                           : off_facet(surface->facets, o, inside ? 1 / n[hero] : n[hero],

@@ -53,7 +53,7 @@ RoughDielectricMaterial::RoughDielectricMaterial(std::string name, RefractiveInd
 
 Bsdf RoughDielectricMaterial::bsdf(const SurfaceLookup& at) const {
   const SampledSpectrum n = relative_index(index, at.outside, at.wavelengths_nm).n;
-  return RoughDielectricBsdf{SampledSpectrum::map(n, apart_from_one), surface.get()};
+  return RoughDielectricBsdf{SampledSpectrum::map(n, apart_from_one), surface.get(), at.outside == nullptr};
 }
 
 RoughConductorMaterial::RoughConductorMaterial(std::string name, RefractiveIndex metal,

@@ -51,6 +51,9 @@ Material read_material(const std::string& name, const JsonValue& json, Reading& 
       }
   if (key == "mixture") material.model = MixtureMaterial{};
   material.relief = read_relief(reader, reading);
+  if (material.relief && is_boundary(material))
+    reading.diagnostics.error(json.where,
+                              "a relief turns the light of a surface, which a medium has none of");
   if (key) reader.finish();
   return material;
 }

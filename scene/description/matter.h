@@ -30,7 +30,7 @@ struct Ior {
 /// Throws Error{input} or Error{resource} for an image file that cannot be read or is too large.
 [[nodiscard]] std::optional<SpectralTexture> read_reflectance(const JsonValue& json, Reading& reading);
 
-/// What is under "normal_map" or "bump_map" of a material, if either is there. Throws as `read_reflectance`.
+/// What is under "normal_map" or "bump_map" of a material, if either is there.
 [[nodiscard]] std::shared_ptr<const Relief> read_relief(ObjectReader& reader, Reading& reading);
 
 /// The facets under a key; none if it is not there or so small that the surface is smooth, and after an

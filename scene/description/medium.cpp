@@ -34,7 +34,13 @@ std::optional<DensityGrid> read_densities(const JsonValue& json, Reading& readin
   const auto name = read_string(json, reading.diagnostics);
   const auto path = name ? reading.file(*name, json.where) : std::nullopt;
   if (!path) return std::nullopt;
-  NumberArray array = read_npy(*path);
+  NumberArray array;
+  try {
+    array = read_npy(*path);
+  } catch (const Error& e) {
+    reading.diagnostics.error(json.where, e.what(), e.code);
+    return std::nullopt;
+  }
   const auto fault = [&](std::string_view what) {
     reading.diagnostics.error(json.where, fmt::format("\"{}\" {}", *name, what), ErrorCode::input);
     return std::nullopt;

@@ -17,7 +17,8 @@ std::shared_ptr<const Material> read_component(const JsonValue& name, Reading& r
   const Material& material = scene.materials[*number];
   const char* fault = nullptr;
   if (std::holds_alternative<MixtureMaterial>(material.model)) fault = "a mixture within a mixture";
-  if (interior(material) != nullptr) fault = "light enters it, which a mixture has no inside for";
+  if (interior(material) != nullptr || matter(material) != nullptr)
+    fault = "light enters it, which a mixture has no inside for";
   if (material.relief != nullptr) fault = "its relief would be lost, which the mixture may have instead";
   if (fault == nullptr) return std::make_shared<const Material>(material);
   reading.diagnostics.error(name.where,

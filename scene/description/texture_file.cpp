@@ -43,7 +43,12 @@ std::optional<TextureFile> read_texture_file(ObjectReader& reader, Reading& read
   const auto name = json ? read_string(*json, reading.diagnostics) : std::nullopt;
   const auto path = name ? reading.file(*name, json->where) : std::nullopt;
   if (!path) return std::nullopt;
-  return TextureFile{*name, json->where, read_image(*path), mapping};
+  try {
+    return TextureFile{*name, json->where, read_image(*path), mapping};
+  } catch (const Error& e) {
+    reading.diagnostics.error(json->where, e.what(), e.code);
+    return std::nullopt;
+  }
 }
 
 std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span<const std::string> channels,

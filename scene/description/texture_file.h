@@ -26,8 +26,8 @@ struct TextureFile {
   [[nodiscard]] std::string texel_name(std::size_t i) const;
 };
 
-/// The keys all textures have: "image", "filter", "wrap", "scale" and "offset". Throws Error{input} or
-/// Error{resource} for an image that cannot be read or is too large.
+/// The keys all textures have: "image", "filter", "wrap", "scale" and "offset". An image that cannot be read
+/// or is too large is reported.
 [[nodiscard]] std::optional<TextureFile> read_texture_file(ObjectReader& reader, Reading& reading);
 
 /// Those channels, texel by texel; a channel that is not there and a value that is not finite are reported.

@@ -99,20 +99,20 @@ const ShapeInstance* chained_interface(const Scene& scene) {
   return nullptr;
 }
 
-// A shape that light enters and another one that looks otherwise there, if their boxes meet. Boxes are asked
-// in order of x.
+// A shape that light enters by an interface and another one that looks otherwise there, or ends matter
+// without an interface, if their boxes meet. Boxes are asked in order of x.
 const ShapeInstance* nested_shape(const Scene& scene) {
   struct Boxed {
     Imath::Box3d box;
     const ShapeInstance* shape;
-    bool filled;
+    bool filled;  // behind an interface
   };
   // In a scene so full that this many pairs do not tell, matter is taken to touch somewhere.
   constexpr std::size_t kMostPairs = 50'000'000;
   std::vector<Boxed> all;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
-    if (depends_on_outside(material))
+    if (depends_on_outside(material) || is_boundary(material))
       all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr});
   }
   std::sort(all.begin(), all.end(), [](const Boxed& a, const Boxed& b) { return a.box.min.x < b.box.min.x; });

@@ -39,8 +39,8 @@ TEST(CosinePowerBsdf, OfOneDirectionTellsWhichWayLightGoes) {
   EXPECT_NEAR(bsdf.eval(steep, flat, TransportMode::power)[0], 0.81 / kPi, 1e-6);
 }
 
-// Along the normal the lobe, cut by nothing, keeps (n + 1)/(n + 2). Towards grazing incidence more leaves than
-// arrives, without bound; the numbers in between by quadrature.
+// Along the normal the lobe, cut by nothing, keeps (n + 1)/(n + 2). Towards grazing incidence more leaves
+// than arrives, without bound; the numbers in between by quadrature.
 TEST(PhongBsdf, ReturnsMoreThanArrives) {
   const PhongBsdf phong{kWhite, 10};
   EXPECT_NEAR(spread_reflectance(phong, V3f(0, 0, 1)), 11.0 / 12, 1e-4);

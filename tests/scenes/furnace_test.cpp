@@ -43,15 +43,17 @@ const std::multimap<std::string, White> kWhites{
     {"mixture",
      {R"([{"material": "white", "weight": 0.4}, {"material": "silver", "weight": 0.6}])", Returns::all}}};
 
-Film ball(const std::string& matter) {
+// Perhaps with another shape of the material "other".
+Film ball(const std::string& matter, const std::string& other = R"("diffuse": {"reflectance": 1})",
+          const std::string& more = "") {
   return render(test::load_text(fmt::format(R"({{"abbe": 1,
     "camera": {{"pinhole": {{"fov_deg": 20}}, "from": [0, 0, -4], "to": [0, 0, 0], "up": [0, 1, 0]}},
     "sensor": {{"resolution": [8, 8], "response": "energy", "channels": {{"all": 1}}}},
     "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
-    "materials": {{"ball": {{{}}}, "white": {{"diffuse": {{"reflectance": 1}}}}, "silver": {{"mirror": {{"reflectance": 1}}}}}},
-    "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "ball"}}],
+    "materials": {{"ball": {{{}}}, "other": {{{}}}, "white": {{"diffuse": {{"reflectance": 1}}}}, "silver": {{"mirror": {{"reflectance": 1}}}}}},
+    "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "ball"}}{}],
     "render": {{"samples": 512, "max_depth": 200, "roulette_depth": -1, "integrator": "path"}}}})",
-                                            matter)),
+                                            matter, other, more)),
                 {})
       .film;
 }
@@ -90,6 +92,40 @@ TEST(Furnace, NoMaterialIsBrighterThanTheLight) {
     EXPECT_LT(ratio, 1 + noise + 5e-3);
     EXPECT_GT(ratio, white.returns == Returns::all ? 1 - noise - 5e-3 : 0.2);
     EXPECT_LT(noise, 0.03);
+  }
+}
+
+// Fog that ends where a floor, or glass, begins; glass and fog in one place; ground glass within glass, where
+// what it scatters more than once is lost.
+TEST(Furnace, MatterMayTouchAndLieInMatter) {
+  struct Pair {
+    const char* ball;
+    const char* other;
+    const char* more;
+    Returns returns;
+  };
+  constexpr const char* kFog = R"("medium": {"scattering_per_m": 2})";
+  constexpr const char* kGlass = R"("dielectric": {"ior": 1.5})";
+  constexpr const char* kSame = R"(, {"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "other"})";
+  constexpr const char* kAround =
+      R"(, {"sphere": {"center": [0, 0, 0], "radius": 1.3}, "material": "other"})";
+  const Pair pairs[] = {
+      {kFog, R"("diffuse": {"reflectance": 1})", kSame, Returns::all},
+      {kFog, kGlass, kSame, Returns::all},
+      {kGlass, kFog, kSame, Returns::all},
+      {kGlass, kFog, kAround, Returns::all},
+      {R"("dielectric": {"ior": 1.5, "roughness": 0.5})", kGlass, kAround, Returns::no_more},
+      {R"("dielectric": {"ior": 1.5, "roughness": 1})", R"("dielectric": {"ior": 2.4})", kAround,
+       Returns::no_more}};
+  const double one = test::region(ball(R"("dielectric": {"ior": 1})"), 0, 0, 0, 8, 8).mean;
+  for (const Pair& pair : pairs) {
+    const test::Region seen = test::region(ball(pair.ball, pair.other, pair.more), 0, 0, 0, 8, 8);
+    const double ratio = seen.mean / one;
+    const double noise = 4.9 * std::sqrt(seen.variance) / one;
+    SCOPED_TRACE(fmt::format("{} and {}: {} +- {}", pair.ball, pair.other, ratio, noise));
+    EXPECT_LT(ratio, 1 + noise + 2e-3);
+    EXPECT_GT(ratio, pair.returns == Returns::all ? 1 - noise - 2e-3 : 0.1);
+    EXPECT_LT(noise, 0.1);
   }
 }
 

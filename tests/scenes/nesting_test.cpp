@@ -102,7 +102,8 @@ TEST(Nesting, MetalInWaterReflectsByTheRatioOfIndices) {
     // The kernel's own.
     const SampledSpectrum lambda(550);
     const RefractiveIndex water(1.333);
-    const Bsdf bsdf = make_bsdf(scene.materials[scene.shapes[1].material], {.wavelengths_nm = lambda, .outside = &water});
+    const Bsdf bsdf =
+        make_bsdf(scene.materials[scene.shapes[1].material], {.wavelengths_nm = lambda, .outside = &water});
     const auto s = sample(bsdf, {static_cast<float>(std::sqrt(1 - c * c)), 0, static_cast<float>(c)},
                           {0.5F, {0, 0}}, 0, TransportMode::radiance);
     ASSERT_TRUE(s);

@@ -39,12 +39,26 @@ Passed pass(const Medium& medium, float distance) {
           std::exp(depth(least))};
 }
 
-// Through a boundary met on the way along `direction`: the rest of the way.
-Ray pass_boundary(const Scene& scene, PathEnd& end, const Imath::V3f& direction, const SurfaceHit& hit) {
+// Through the boundaries that touch where one is met on the way of `ray`: the rest of the way.
+Ray pass_boundaries(const Scene& scene, PathEnd& end, const Ray& ray, SurfaceHit hit) {
+  const TouchingSurfaces met = scene.touching(ray, hit);
   Enclosures beyond = end.inside;
-  beyond.cross(scene, hit.shape, hit.normal.dot(direction) < 0);
+  for (const bool entering : {false, true})
+    for (const SurfaceHit& one : met.all())
+      if ((one.normal.dot(ray.direction) < 0) == entering) beyond.cross(scene, one.shape, entering);
   end.come_into(scene, beyond);
-  return spawn(hit.point, hit.normal, direction);
+  for (const SurfaceHit& one : met.all())
+    hit.spread = std::max(hit.spread, std::abs((one.point - hit.point).dot(hit.normal)));
+  return spawn(hit, ray.direction);
+}
+
+// Of the surfaces that touch where a boundary is met, one that is more than that: light meets it in the
+// matter before the boundary.
+std::optional<SurfaceHit> surface_at(const Scene& scene, const Ray& ray, const SurfaceHit& hit) {
+  if (!boundary(scene, hit)) return hit;
+  for (const SurfaceHit& one : scene.touching(ray, hit).all())
+    if (!boundary(scene, one)) return one;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -75,12 +89,14 @@ Flight fly(const Scene& scene, RayCaster& caster, const Imath::V2f& u, PathEnd& 
       flight.unit *= passed.unit * rescale(end.packet, passed.lanes, passed.lanes);
       depth -= extinction > 0 ? extinction * way.column : 0;
     }
-    if (!hit || !boundary(scene, *hit)) {
-      if (hit) hit->t += gone;
+    if (!hit) return flight;
+    if (const std::optional<SurfaceHit> surface = surface_at(scene, ray, *hit)) {
+      hit = surface;
+      hit->t += gone;
       return flight;
     }
     gone += hit->t;
-    ray = pass_boundary(scene, end, ray.direction, *hit);
+    ray = pass_boundaries(scene, end, ray, *hit);
     hit = caster.intersect(ray);
   }
 }
@@ -98,7 +114,7 @@ Transmission transmission(const Scene& scene, RayCaster& caster, PathEnd start, 
     // As nothing blocks the way, a surface that is no boundary is its end, but for rounding.
     if (ends || !boundary(scene, *hit)) return through;
     distance -= hit->t;
-    start.ray = pass_boundary(scene, start, start.ray.direction, *hit);
+    start.ray = pass_boundaries(scene, start, start.ray, *hit);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 namespace abbe {
 namespace {
@@ -51,10 +51,12 @@ Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surface
   if (same_around(before, beyond)) return {std::nullopt, nullptr, beyond};
 
   Boundary boundary{std::nullopt, nullptr, beyond};
-  std::pair<int, std::uint32_t> highest;
+  std::tuple<bool, int, std::uint32_t> highest;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const auto [shape, entering] = surfaces[i];
-    const std::pair rank(material_of(scene, shape).priority, shape);
+    const Material& material = material_of(scene, shape);
+    const std::tuple rank(!is_boundary(material), material.priority,
+                          shape);  // the interface, if there is one
     if (!around(scene, entering ? beyond : before, shape) || (boundary.acting && rank < highest)) continue;
     highest = rank;
     boundary.acting = i;

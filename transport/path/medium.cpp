@@ -5,6 +5,9 @@
 #include <map>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "io/error.h"
 #include "scene/ray.h"
 
 namespace abbe {
@@ -49,7 +52,9 @@ void Enclosures::enter(const Scene& scene, std::uint32_t shape) {
   if (std::find(begin, begin + static_cast<std::ptrdiff_t>(count_), shape) !=
       begin + static_cast<std::ptrdiff_t>(count_))
     return;
-  if (count_ == kMost) std::copy(begin + 1, begin + static_cast<std::ptrdiff_t>(count_--), begin);
+  if (count_ == kMost)
+    throw Error(ErrorCode::resource, scene.shapes[shape].name,
+                fmt::format("too many shapes with matter in each other (allowed {})", kMost));
   std::size_t at = count_++;
   for (; at > 0 && priority(shapes_[at - 1]) > priority(shape); --at) shapes_[at] = shapes_[at - 1];
   shapes_[at] = shape;
@@ -101,8 +106,21 @@ Enclosures around_camera(const Scene& scene) {
 
 Enclosures around_light(const Scene& scene, const Light& light) {
   if (light.is_environment()) return {};
-  const EmissionPoint at = sample_emission_point(light, scene.shapes, {0.5F, 0.5F});
-  return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
+  const auto around = [&](const Imath::V2f& u) {
+    const EmissionPoint at = sample_emission_point(light, scene.shapes, u);
+    return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
+  };
+  Enclosures middle = around({0.5F, 0.5F});
+  if (light.is_delta()) return middle;
+  for (const Imath::V2f& u : {Imath::V2f(0.05F, 0.05F), Imath::V2f(0.95F, 0.05F), Imath::V2f(0.05F, 0.95F),
+                              Imath::V2f(0.95F, 0.95F)}) {
+    const Enclosures there = around(u);
+    if (!std::ranges::equal(there.shapes(), middle.shapes()))
+      throw Error(ErrorCode::scene, light.name,
+                  "photons cannot start from a lamp that stands in two kinds of matter at once: "
+                  "--integrator path renders it");
+  }
+  return middle;
 }
 
 Medium medium_within(const Scene& scene, const Enclosures& inside, const SampledSpectrum& wavelengths_nm) {
