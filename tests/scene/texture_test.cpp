@@ -137,19 +137,12 @@ TEST_F(TextureTest, FaultsAreRefused) {
         ErrorCode::scene, "filter"},
        {"URL", painted(R"({"image": "http://host/a.png", "weights": {"a": 1}})"), ErrorCode::input,
         "expected a file (got the URL"}});
-  for (const char* file : {"none.png", "none.exr", "text.exr", "cut.exr", ".", "/dev/zero"}) {
-    SCOPED_TRACE(file);
-    const std::string scene = painted(fmt::format(R"({{"image": "{}", "weights": {{"a": 1}}}})", file));
-    try {
-      (void)load(scene);
-      ADD_FAILURE() << "not refused";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ErrorCode::input);
-    }
-  }
   const std::string png = testing::file_text(folder_ / "whole.png");
   write(folder_ / "cut.png", png.substr(0, png.size() / 2));
-  EXPECT_THROW((void)load(painted(R"({"image": "cut.png", "weights": {"Y": 1}})")), Error);
+  for (const char* file : {"none.png", "none.exr", "text.exr", "cut.exr", "cut.png", ".", "/dev/zero"})
+    DescriptionTest::expect_refused(
+        {{file, painted(fmt::format(R"({{"image": "{}", "weights": {{"a": 1}}}})", file)), ErrorCode::input,
+          "/reflectance/image: error: "}});
 }
 
 // v of OBJ runs upwards, that of glTF downwards.
