@@ -1,0 +1,36 @@
+// Rough surfaces from all but smooth to as rough as they get, from the normal to grazing incidence.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/warp.h"
+#include "materials/model/rough.h"
+#include "validation/lab/lobes.h"
+
+namespace abbe {
+namespace {
+
+TEST(Stress, GgxSamplesFollowTheirDensityAtTwentyAlphasAndTenAngles) {
+  constexpr int kAlphas = 20;
+  constexpr int kAngles = 10;
+  const double significance = 1 - std::pow(1 - 0.01, 1.0 / (kAlphas * kAngles));  // Sidak
+  const SampledSpectrum wavelengths(550);
+  for (int a = 0; a < kAlphas; ++a) {
+    const auto alpha = static_cast<float>(std::pow(10.0, -3 + 3.0 * a / (kAlphas - 1)));
+    const RoughConductorMaterial metal("metal", RefractiveIndex(0.2, 3), {FacetShape::ggx, alpha, alpha});
+    const Bsdf bsdf = metal.bsdf({wavelengths});
+    for (int i = 0; i < kAngles; ++i) {
+      const double angle = 85.0 * i / (kAngles - 1) * std::numbers::pi / 180;
+      const Imath::V3f wo = direction_at(std::cos(angle), 0.7);
+      const DensityCheck check = check_density(
+          sampler_of(bsdf, wo, TransportMode::radiance),
+          [&](const Imath::V3f& wi) { return static_cast<double>(pdf(bsdf, wo, wi)[0]); }, 0, 50000);
+      EXPECT_GT(check.p, significance) << "alpha " << alpha << ", step " << i << " to 85 degrees";
+      EXPECT_LE(check.integral, 1 + 1e-3) << "alpha " << alpha << ", step " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace abbe
