@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 
 #include "io/error.h"
 #include "scene/shapes/disc.h"
@@ -68,13 +69,12 @@ RTCRay embree_ray(const BasicRay<double>& ray) {
   return r;
 }
 
-// Where the ray crosses the plane of a triangle; NaN or infinite when it does not.
-double plane_crossing(const TriangleSet& set, std::uint32_t triangle, const BasicRay<double>& ray) {
-  const auto& [a, b, c] = set.triangles[triangle];
-  const Imath::V3d origin(set.vertices[a]);
-  const Imath::V3d normal =
-      (Imath::V3d(set.vertices[b]) - origin).cross(Imath::V3d(set.vertices[c]) - origin);
-  return (origin - ray.origin).dot(normal) / ray.direction.dot(normal);
+// That has met nothing yet.
+RTCRayHit embree_query(const BasicRay<double>& ray) {
+  RTCRayHit query{embree_ray(ray), {}};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
 }
 
 // Rays come one by one, so N is 1 in all callbacks and the N-ray structures are plain ones.
@@ -131,15 +131,12 @@ void user_occluded(const RTCOccludedFunctionNArguments* args) {
     reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
-PlainPart plain_part(const Sphere& sphere) {
-  return sphere;
-}
-PlainPart plain_part(const Disc& disc) {
-  return disc;
-}
 template <typename S>
-PlainPart plain_part(const S& triangulated) {
-  return triangles_of(triangulated);
+PlainPart plain_part(const S& shape) {
+  if constexpr (std::is_constructible_v<PlainPart, const S&>)
+    return shape;
+  else
+    return triangles_of(shape);
 }
 
 RTCGeometry triangle_geometry(RTCDevice device, TriangleSet& set) {
@@ -308,9 +305,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
                                static_cast<double>(ray.t_max)};
   ExactContext context(exact, parts_);
   while (true) {
-    RTCRayHit query{embree_ray(exact), {}};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = embree_query(exact);
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     if (auto hit = decide(query.hit, context)) return hit;
@@ -333,9 +328,7 @@ TouchingSurfaces Geometry::touching(const Ray& ray, const SurfaceHit& hit, float
   ExactContext context({origin, direction, static_cast<double>(hit.t) + reach - start}, parts_);
   context.all = &all;
   context.filter = collect;
-  RTCRayHit query{embree_ray(context.ray), {}};
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCRayHit query = embree_query(context.ray);
   rtcIntersect1(scene_.get(), &context, &query);
   const auto sooner = [](const SurfaceHit& a, const SurfaceHit& b) {
     return std::tie(a.t, a.shape) < std::tie(b.t, b.shape);
@@ -368,8 +361,7 @@ void Geometry::replay(std::span<const LoggedRay> rays) const {
     const Ray& ray = logged.ray;
     ExactContext context({Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)},
                          parts_);
-    RTCRayHit query{embree_ray(context.ray), {}};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = embree_query(context.ray);
     if (logged.shadow)
       rtcOccluded1(scene_.get(), &context, &query.ray);
     else

@@ -24,6 +24,16 @@ struct TriangleSet {
 [[nodiscard]] TriangleSet with_normals(const Mesh& mesh);
 [[nodiscard]] TriangleSet with_normals(const Quad& quad);
 
+/// Where a ray crosses the plane of a triangle, in its lengths; NaN or infinite when it does not.
+[[nodiscard]] inline double plane_crossing(const TriangleSet& set, std::uint32_t triangle,
+                                           const BasicRay<double>& ray) {
+  const auto& [a, b, c] = set.triangles[triangle];
+  const Imath::V3d origin(set.vertices[a]);
+  const Imath::V3d normal =
+      (Imath::V3d(set.vertices[b]) - origin).cross(Imath::V3d(set.vertices[c]) - origin);
+  return (origin - ray.origin).dot(normal) / ray.direction.dot(normal);
+}
+
 [[nodiscard]] std::size_t memory_bytes_of(const TriangleSet& set);
 
 }  // namespace abbe

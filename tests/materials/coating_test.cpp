@@ -6,8 +6,8 @@
 
 #include "materials/interface/thin_film.h"
 #include "materials/material.h"
-#include "tests/materials/bsdf_statistics.h"
 #include "tests/materials/index_of.h"
+#include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {

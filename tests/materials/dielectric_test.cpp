@@ -4,7 +4,7 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/interface/fresnel.h"
-#include "tests/materials/bsdf_statistics.h"
+#include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {

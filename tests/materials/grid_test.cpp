@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/materials/bsdf_statistics.h"
+#include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {

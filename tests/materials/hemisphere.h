@@ -6,7 +6,7 @@
 #include <ImathVec.h>
 
 #include "materials/bsdf/bsdf.h"
-#include "tests/materials/bsdf_statistics.h"
+#include "tests/materials/random_directions.h"
 
 namespace abbe {
 

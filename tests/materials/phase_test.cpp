@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/materials/bsdf_statistics.h"
+#include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "materials/bsdf/bsdf.h"
-#include "tests/materials/bsdf_statistics.h"
 #include "tests/materials/index_of.h"
+#include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {

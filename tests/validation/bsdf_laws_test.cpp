@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "materials/bsdf/warp.h"
 #include "tests/materials/bsdf_examples.h"
+#include "tests/materials/random_directions.h"
 #include "validation/lab/lobes.h"
 
 namespace abbe {
@@ -26,17 +26,6 @@ std::vector<V3f> outgoing() {
     directions.push_back(direction_at(cos_theta, 0.3 + cos_theta));
   return directions;
 }
-
-// Numbers in [0, 1) with 24 bits, as samplers give them.
-class Uniform {
- public:
-  explicit Uniform(unsigned seed) : rng_(seed) {}
-  float operator()() { return static_cast<float>(rng_() >> 8U) * 0x1p-24F; }
-  BsdfRandom event() { return {(*this)(), {(*this)(), (*this)()}}; }
-
- private:
-  std::mt19937 rng_;
-};
 
 template <typename Variant>
 struct AsTypes;
