@@ -88,7 +88,8 @@ struct TouchingSurfaces {
   std::array<SurfaceHit, kMost> at;
   std::size_t count = 0;
 
-  [[nodiscard]] std::span<const SurfaceHit> all() const { return {at.data(), count}; }
+  [[nodiscard]] std::span<const SurfaceHit> all() const& { return {at.data(), count}; }
+  void all() const&& = delete;  // what it looks at would be gone
 };
 
 /// Everything a render needs, in metres, recentred so that coordinates are small: `origin_m` is the

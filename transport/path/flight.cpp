@@ -56,7 +56,8 @@ Ray pass_boundaries(const Scene& scene, PathEnd& end, const Ray& ray, SurfaceHit
 // matter before the boundary.
 std::optional<SurfaceHit> surface_at(const Scene& scene, const Ray& ray, const SurfaceHit& hit) {
   if (!boundary(scene, hit)) return hit;
-  for (const SurfaceHit& one : scene.touching(ray, hit).all())
+  const TouchingSurfaces met = scene.touching(ray, hit);
+  for (const SurfaceHit& one : met.all())
     if (!boundary(scene, one)) return one;
   return std::nullopt;
 }

@@ -30,7 +30,8 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
   Ray ray{from, direction};
   while (const std::optional<SurfaceHit> hit = scene.intersect(ray)) {
     SurfaceHit last = *hit;
-    for (const SurfaceHit& met : scene.touching(ray, *hit).all()) {
+    const TouchingSurfaces together = scene.touching(ray, *hit);
+    for (const SurfaceHit& met : together.all()) {
       last.spread = std::max(last.spread, std::abs((met.point - last.point).dot(last.normal)));
       if (!filled(scene, met.shape)) continue;
       Crossings& of = found[met.shape];
