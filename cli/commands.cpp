@@ -76,7 +76,9 @@ void add_render(CLI::App& app, Command& command) {
       ->type_name("FILE.png");
   render.add_option("--stats", sub->stats, "Write what the render did as JSON")->type_name("FILE.json");
   render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
-  render.add_flag("--strict", sub->strict, "Exit with 70 if any sample was not finite");
+  render.add_flag(
+      "--strict", sub->strict,
+      "Refuse a scene with warnings of a wrong image (exit 3); exit with 70 if any sample was not finite");
   render.add_flag("--quiet", sub->quiet, "Show no progress");
 }
 

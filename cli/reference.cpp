@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kExitCodes{{
     {"0", "all went well"},
     {"2", "the command line cannot be understood"},
-    {"3", "the scene file is invalid"},
+    {"3", "the scene file is invalid, or with --strict makes a wrong image"},
     {"4", "an input file is missing or corrupt"},
     {"5", "an output cannot be written"},
     {"6", "a limit on memory or size would be exceeded"},

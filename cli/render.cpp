@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr int kSignalExit = 128;
 
 Scene load(const RenderOptions& options) {
-  Diagnostics diagnostics;
+  Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics), diagnostics);
   scene.render.samples = options.samples.value_or(scene.render.samples);
   scene.render.integrator = options.integrator.value_or(scene.render.integrator);

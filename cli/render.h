@@ -33,7 +33,8 @@ struct RenderOptions {
   int threads = 0;
   std::vector<Override> overrides;
   bool explain = false;
-  bool strict = false;  ///< A sample that is not finite makes the exit code 70.
+  bool strict = false;  ///< What makes the image wrong ends the command: of the scene before it starts (3), a
+                        ///< sample that is not finite after the image is written (70).
   bool quiet = false;
 };
 

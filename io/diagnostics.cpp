@@ -78,6 +78,13 @@ void Diagnostics::warning(const SourcePosition& where, std::string message) {
   diagnostics_.push_back({Diagnostic::Severity::warning, ErrorCode::scene, where, std::move(message)});
 }
 
+void Diagnostics::error_if_strict(const SourcePosition& where, std::string message) {
+  if (strictness_ == Strictness::strict)
+    error(where, std::move(message));
+  else
+    warning(where, std::move(message));
+}
+
 ErrorCode Diagnostics::code() const {
   for (const Diagnostic& diagnostic : diagnostics_)
     if (diagnostic.severity == Diagnostic::Severity::error) return diagnostic.code;

@@ -37,11 +37,20 @@ struct Diagnostic {
   std::string message;
 };
 
+/// Whether an input that can be used, but hardly gives what was meant, is used all the same.
+enum class Strictness { lenient, strict };
+
 /// Collects every complaint about the inputs of one command, so that a user sees all of them at once.
 class Diagnostics {
  public:
+  Diagnostics() = default;
+  explicit Diagnostics(Strictness strictness) : strictness_(strictness) {}
+
   void error(const SourcePosition& where, std::string message, ErrorCode code = ErrorCode::scene);
   void warning(const SourcePosition& where, std::string message);
+  /// A complaint about what would make the result wrong without stopping it: an error of the scene when
+  /// strict, else a warning.
+  void error_if_strict(const SourcePosition& where, std::string message);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::span<const Diagnostic> all() const { return diagnostics_; }
@@ -55,6 +64,7 @@ class Diagnostics {
  private:
   std::vector<Diagnostic> diagnostics_;
   std::size_t errors_ = 0;
+  Strictness strictness_ = Strictness::lenient;
 };
 
 /// `file:line:col: /pointer: error: what is wrong` followed by the line concerned and a caret under the

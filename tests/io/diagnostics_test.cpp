@@ -55,6 +55,18 @@ TEST(Diagnostics, CollectsAllAndLimitsTheText) {
   EXPECT_EQ(Diagnostics().text(), "");
 }
 
+TEST(Diagnostics, StrictnessMakesErrorsOfDoubts) {
+  Diagnostics lenient;
+  lenient.error_if_strict({}, "open");
+  EXPECT_FALSE(lenient.has_errors());
+  EXPECT_EQ(lenient.text(), "warning: open\n");
+  Diagnostics strict(Strictness::strict);
+  strict.error_if_strict({}, "open");
+  strict.warning({}, "dark");
+  EXPECT_EQ(strict.code(), ErrorCode::scene);
+  EXPECT_EQ(strict.text(), "error: open\nwarning: dark\n");
+}
+
 TEST(NearestName, KnownAnswers) {
   const std::vector<std::string> names{"samples", "seed", "N-BK7", "N-SF11"};
   EXPECT_EQ(nearest_name("sampels", names), "samples");
