@@ -20,13 +20,14 @@ constexpr std::uint32_t pieces(std::uint32_t whole, std::uint32_t piece) {
 }  // namespace
 
 Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
-           std::uint32_t done)
+           std::uint32_t done, std::uint64_t seed)
     : plan_(plan),
       scene_(plan.scene),
       film_(film),
       crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
       first_(samples.first),
       last_(samples.last),
+      seed_(seed),
       next_(done) {
   const auto width = static_cast<std::uint32_t>(film.width());
   const auto height = static_cast<std::uint32_t>(film.height());
@@ -88,7 +89,7 @@ void Pass::sample_pixel(int x, int y, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     const std::uint32_t r = replicate(s);
     const auto index = static_cast<std::uint32_t>(s / static_cast<std::uint64_t>(film_.replicates()));
-    const Sampler sampler(scene_.render.seed, Purpose::camera, r, pixel, index);
+    const Sampler sampler(seed_, Purpose::camera, r, pixel, index);
     trace_camera_path(plan_, worker.caster, sampler, x, y, worker.exposure);
     ++worker.counts.paths;
     if (keeps(worker.exposure.values(), worker))
@@ -107,8 +108,8 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
     };
     for (std::uint32_t photon = batch * kPhotonBatch; photon < end; ++photon) {
       const std::uint64_t index = s / static_cast<std::uint64_t>(film_.replicates()) * pixels_ + photon;
-      const Sampler sampler(scene_.render.seed, Purpose::light, replicate(s),
-                            static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(index));
+      const Sampler sampler(seed_, Purpose::light, replicate(s), static_cast<std::uint32_t>(index >> 32),
+                            static_cast<std::uint32_t>(index));
       trace_photon(plan_, worker.caster, sampler, 1.0 / pixels_, worker.exposure, splat);
       ++worker.counts.paths;
     }

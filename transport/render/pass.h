@@ -25,9 +25,9 @@ struct PassCounts {
 /// taken by threads from one counter, so that those done are always the first ones.
 class Pass {
  public:
-  /// Of which the film has the first `done` items already.
-  Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
-       std::uint32_t done);
+  /// Of which the film has the first `done` items already. `seed` is that of the random numbers.
+  Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples, std::uint32_t done,
+       std::uint64_t seed);
 
   /// Runs on that many threads until all is done, or until `pause`, which any thread may ask after any item,
   /// says so; exceptions of workers are rethrown here.
@@ -59,6 +59,7 @@ class Pass {
   Crop crop_;
   std::uint64_t first_;
   std::uint64_t last_;
+  std::uint64_t seed_;
   std::uint32_t tiles_x_;
   std::uint32_t tiles_;
   std::uint32_t batches_;

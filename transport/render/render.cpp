@@ -80,7 +80,8 @@ class Rendering {
   // A pass may be long, so checkpoints interrupt it.
   void run_pass(const SampleRange& range) {
     RenderStats& stats = result_.stats;
-    Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0);
+    Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0,
+              scene_.render.seed);
     while (!pass.finished()) {
       const PassCounts counts = pass.run(threads_, [this] { return save_is_due(); });
       stats.paths += counts.paths;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "sensor/film/film.h"
+#include "transport/render/plan.h"
+#include "transport/render/render.h"
+
+namespace abbe {
+
+/// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
+/// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers
+/// are those of no render, so that what is chosen by it is independent of the samples it is chosen for.
+[[nodiscard]] Film pilot_film(const Plan& plan, int threads, std::optional<Crop> crop = {});
+
+}  // namespace abbe
