@@ -174,8 +174,8 @@ FilmSensor film_sensor(const Image& film, const std::filesystem::path& path,
 
 DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
   if (scene.spectral) return display_of_radiance(view);
-  return make_display(scene.channels, scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission,
-                      view);
+  return make_display(scene.channels,
+                      scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission.curve(), view);
 }
 
 Image film_image(const RenderPart& part) {

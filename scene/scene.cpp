@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
@@ -88,11 +89,12 @@ std::size_t Scene::triangle_count() const {
 }
 
 std::size_t Scene::memory_bytes() const {
-  std::size_t bytes =
-      geometry_->memory_bytes() + shapes.size() * sizeof(ShapeInstance) + lights.size() * sizeof(Light);
-  for (const Light& light : lights)
-    if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind); sky && sky->image)
-      bytes += sky->image->memory_bytes();
+  std::size_t bytes = geometry_->memory_bytes() + shapes.size() * sizeof(ShapeInstance);
+  std::set<const Curve*> spectra;
+  for (const Light& light : lights) {
+    bytes += abbe::memory_bytes(light);
+    if (spectra.insert(&light.emission.base()).second) bytes += light.emission.base().memory_bytes();
+  }
   for (const Material& material : materials) bytes += texture_bytes(material);
   const Placement* last = nullptr;  // the shapes of one instance stand side by side and share theirs
   for (const ShapeInstance& instance : shapes) {

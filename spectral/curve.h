@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -43,6 +44,10 @@ class Curve {
   [[nodiscard]] double max() const { return max_; }
   [[nodiscard]] double min() const { return min_; }
   [[nodiscard]] bool is_constant() const { return min_ == max_; }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return sizeof(Curve) + knots_.size() * sizeof(Knot) + cells_.size() * sizeof(Cell) +
+           packet_cells_.size() * sizeof(PacketCell);
+  }
 
  private:
   // A cell [i, i+1) nm without an inner knot is value + slope (lambda - i); one with inner knots is searched

@@ -37,19 +37,38 @@ struct LampKind {
   std::function<double(double)> irradiance = {};
 };
 
-std::optional<Curve> read_spectrum(std::string_view key, const JsonValue& json, const LampKind& kind,
-                                   Reading& reading) {
-  if (key == "spectrum") return read_curve(json, {"illuminant", kPower}, reading);
-  if (key == "spectral_flux_W_per_nm") {
-    const std::optional<Curve> flux = read_curve(json, {"illuminant", kPower}, reading);
-    return flux ? std::optional(scaled(*flux, 1 / kind.flux)) : std::nullopt;
-  }
+std::optional<Curve> read_spectrum_curve(std::string_view key, const JsonValue& json, Reading& reading) {
+  if (key == "spectrum" || key == "spectral_flux_W_per_nm")
+    return read_curve(json, {"illuminant", kPower}, reading);
   if (key != "illuminant") return read_source(key, json, reading);
   const std::optional<std::string> name = reading.table(json);
   if (!name) return std::nullopt;
   std::optional<NamedCurve> named = load_illuminant(*name, json.where, reading.diagnostics);
   if (!named) return std::nullopt;
   return std::move(named->curve);
+}
+
+// The same words name the same spectrum, which is read once however many lamps have it.
+LampSpectrum* read_spectrum(std::string_view key, const JsonValue& json, Reading& reading) {
+  const std::string words = fmt::format("{} {}", key, to_text(json));
+  if (const auto found = reading.lamp_spectra.find(words); found != reading.lamp_spectra.end())
+    return &found->second;
+  std::optional<Curve> curve = read_spectrum_curve(key, json, reading);
+  if (!curve) return nullptr;
+  const double power = curve->integral();
+  const double luminous = photometric(*curve);
+  return &reading.lamp_spectra.emplace(words, LampSpectrum{std::move(*curve), power, luminous}).first->second;
+}
+
+// A power of two keeps the digits of the first lamp, and all lamps within what a float holds.
+ScaledCurve times(LampSpectrum& spectrum, double factor) {
+  if (!spectrum.held) {
+    spectrum.held_for = factor > 0 ? factor : 1;
+    const Curve first = scaled(spectrum.curve, spectrum.held_for);
+    (void)std::frexp(first.max(), &spectrum.exponent);
+    spectrum.held = std::make_shared<const Curve>(scaled(first, std::ldexp(1.0, -spectrum.exponent)));
+  }
+  return {spectrum.held, std::ldexp(factor / spectrum.held_for, spectrum.exponent)};
 }
 
 /// A quantity that an emission is scaled to, and how much of it a lamp of unit radiance or intensity has.
@@ -76,24 +95,24 @@ std::optional<Scale> read_scale(ObjectReader& reader, std::string_view name, con
   return value ? std::optional(Scale{name, *value, flux ? kind.flux : 1}) : std::nullopt;
 }
 
-// `spectrum` with as much of a quantity as asked for.
-std::optional<Curve> normalised(const Curve& spectrum, const Scale& scale, const SourcePosition& where,
-                                const Reading& reading) {
+// What `spectrum` is multiplied by to have as much of a quantity as asked for.
+std::optional<double> normaliser(const LampSpectrum& spectrum, const Scale& scale,
+                                 const SourcePosition& where, const Reading& reading) {
   const bool luminous = scale.name.starts_with("lumin") || scale.name == "illuminance";
-  const double unscaled = (luminous ? photometric(spectrum) : spectrum.integral()) * scale.of_unit;
-  if (unscaled > 0) return scaled(spectrum, scale.value / unscaled);
+  const double unscaled = (luminous ? spectrum.luminous : spectrum.power) * scale.of_unit;
+  if (unscaled > 0) return scale.value / unscaled;
   reading.diagnostics.error(where, fmt::format("{} cannot scale this spectrum, which has none", scale.name));
   return std::nullopt;
 }
 
-std::optional<Curve> read_emission(const JsonValue& json, const LampKind& kind, Reading& reading) {
+std::optional<ScaledCurve> read_emission(const JsonValue& json, const LampKind& kind, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   const auto key = kind.flux > 0
                        ? reader.exactly_one({"illuminant", "blackbody_K", "daylight_K", "spectrum", "lines",
                                              "spectral_flux_W_per_nm"})
                        : reader.exactly_one({"illuminant", "blackbody_K", "daylight_K", "spectrum", "lines"});
   if (!key) return std::nullopt;
-  std::optional<Curve> spectrum = read_spectrum(*key, *reader.find(*key), kind, reading);
+  LampSpectrum* spectrum = read_spectrum(*key, *reader.find(*key), reading);
   std::string_view name;
   std::optional<Scale> scale;
   for (std::string_view candidate : kind.scales) {
@@ -111,8 +130,10 @@ std::optional<Curve> read_emission(const JsonValue& json, const LampKind& kind, 
                               fmt::format("{} is a relative spectrum and needs a scale, one of {}", *key,
                                           fmt::join(kind.scales, ", ")));
   if (!spectrum || (name.empty() && relative) || (!name.empty() && !scale)) return std::nullopt;
-  if (name.empty()) return spectrum;
-  return normalised(*spectrum, *scale, json.where, reading);
+  if (name.empty()) return times(*spectrum, *key == "spectral_flux_W_per_nm" ? 1 / kind.flux : 1);
+  const std::optional<double> factor = normaliser(*spectrum, *scale, json.where, reading);
+  if (!factor) return std::nullopt;
+  return times(*spectrum, *factor);
 }
 
 double inverse_square(double distance) {
@@ -164,7 +185,7 @@ void add_environment(ObjectReader& reader, std::string name, const JsonValue& js
   EnvironmentLight light;
   if (!sky->texels.empty())
     light.image = std::make_shared<const EnvironmentImage>(sky->width, sky->height, std::move(sky->texels),
-                                                           sky->frame, *curve, scene.channels);
+                                                           sky->frame, curve->curve(), scene.channels);
   scene.lights.push_back({std::move(name), std::move(light), std::move(*curve)});
   reading.light_positions.push_back({0, 0, 0});
 }

@@ -39,6 +39,16 @@ struct Object {
   Imath::V3d center{0, 0, 0};
 };
 
+/// A spectrum that lamps name, and what they hold of it.
+struct LampSpectrum {
+  Curve curve;          ///< As named.
+  double power;         ///< Its integral,
+  double luminous;      ///< and that of what the eye sees.
+  double held_for = 0;  ///< `held` is the curve times this and 2^-`exponent`; 0 while there is none.
+  int exponent = 0;
+  std::shared_ptr<const Curve> held = nullptr;  ///< In [0, 1], so that no float overflows.
+};
+
 /// What the readers of one scene file share.
 struct Reading {
   Diagnostics& diagnostics;
@@ -47,7 +57,8 @@ struct Reading {
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
   std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
   std::map<std::string, Object> objects{};
-  std::unordered_map<std::string, std::uint32_t> materials{};  ///< Numbers by name.
+  std::unordered_map<std::string, LampSpectrum> lamp_spectra{};  ///< By the words that name them.
+  std::unordered_map<std::string, std::uint32_t> materials{};    ///< Numbers by name.
   std::vector<std::shared_ptr<Placement>> placements{};  ///< Of each instance, until the scene is recentred.
 
   /// A file named by the scene, remembered for the hash; a URL is reported.

@@ -56,8 +56,8 @@ AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& po
 
 // How a point sees a light whose shape allows better than sampling by area.
 std::optional<SphericalRectangle> wide_rectangle(const AreaLight& light, const Imath::V3d& point) {
-  if (!light.rectangle) return std::nullopt;
-  return SphericalRectangle::seen_from(*light.rectangle, point);
+  if (!light.flat || !light.flat->rectangle) return std::nullopt;
+  return SphericalRectangle::seen_from(*light.flat->rectangle, point);
 }
 std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
   const auto* sphere = std::get_if<Sphere>(&shape);
@@ -66,7 +66,7 @@ std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
 }
 
 SurfacePoint sample_area(const AreaLight& light, const Shape& shape, Imath::V2f u) {
-  return light.quad ? sample_area(*light.quad, u) : sample_area(shape, light.triangle_cdf, u);
+  return light.flat ? sample_area(light.flat->quad, u) : sample_area(shape, light.triangle_cdf, u);
 }
 
 AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const Imath::V3d& point,
@@ -75,7 +75,8 @@ AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const I
     return sample_cone(std::get<Sphere>(shape), *height, point, u);
   if (const auto rectangle = wide_rectangle(light, point)) {
     const Imath::V2d uv = rectangle->sample(u);
-    return {{Imath::V3f(light.quad->at(uv.x, uv.y)), light.quad->normal()}, 1 / rectangle->solid_angle()};
+    const RenderedQuad& quad = light.flat->quad;
+    return {{Imath::V3f(quad.at(uv.x, uv.y)), quad.normal()}, 1 / rectangle->solid_angle()};
   }
   return {sample_area(light, shape, u)};
 }
@@ -135,10 +136,8 @@ std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& env
 void AreaLight::measure(const Shape& of) {
   area = abbe::area(of);
   triangle_cdf = abbe::triangle_cdf(of);
-  if (const auto* flat = std::get_if<Quad>(&of)) {
-    quad.emplace(*flat);
-    rectangle = Rectangle::of(*flat);
-  }
+  if (const auto* quad = std::get_if<Quad>(&of))
+    flat = std::make_shared<const EmittingQuad>(EmittingQuad{RenderedQuad(*quad), Rectangle::of(*quad)});
 }
 
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
@@ -193,13 +192,24 @@ double etendue(const Light& light, double scene_radius_m) {
   return 4 * kPi * kPi * scene_radius_m * scene_radius_m;  // pi r^2 from each of 4 pi directions
 }
 
-Curve mean_emission(const Light& light) {
+ScaledCurve mean_emission(const Light& light) {
   const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
-  return environment != nullptr && environment->image ? environment->image->mean_radiance() : light.emission;
+  if (environment == nullptr || !environment->image) return light.emission;
+  return environment->image->mean_radiance();
 }
 
 Curve power(const Light& light, double scene_radius_m) {
-  return scaled(mean_emission(light), etendue(light, scene_radius_m));
+  return scaled(mean_emission(light).curve(), etendue(light, scene_radius_m));
+}
+
+std::size_t memory_bytes(const Light& light) {
+  std::size_t bytes = sizeof(Light);
+  if (light.name.capacity() > std::string().capacity()) bytes += light.name.capacity() + 1;
+  if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind); sky && sky->image)
+    bytes += sky->image->memory_bytes();
+  if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
+    bytes += emitter->triangle_cdf.size() * sizeof(float) + (emitter->flat ? sizeof(EmittingQuad) : 0);
+  return bytes;
 }
 
 }  // namespace abbe

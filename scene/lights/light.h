@@ -14,18 +14,22 @@
 #include "scene/ray.h"
 #include "scene/shapes/quad.h"
 #include "scene/shapes/shape.h"
-#include "spectral/curve.h"
+#include "spectral/scaled_curve.h"
 
 namespace abbe {
 
+/// A quad that emits, as points are drawn on it.
+struct EmittingQuad {
+  RenderedQuad quad;
+  std::optional<Rectangle> rectangle;  ///< Of one with right angles.
+};
 /// A surface that emits the same radiance in all directions from its outer side, or from both.
 struct AreaLight {
   std::uint32_t shape = 0;  ///< Index into `Scene::shapes`.
   bool two_sided = false;
-  double area = 0;                          ///< Of one side [m^2]; `measure` works out this and the next.
-  std::vector<float> triangle_cdf = {};     ///< For meshes: cumulative share of area.
-  std::optional<RenderedQuad> quad = {};    ///< For quads,
-  std::optional<Rectangle> rectangle = {};  ///< and for those with right angles.
+  double area = 0;                       ///< Of one side [m^2]; `measure` works out this and the next.
+  std::vector<float> triangle_cdf = {};  ///< For meshes: cumulative share of area.
+  std::shared_ptr<const EmittingQuad> flat = nullptr;  ///< For quads; apart, since other lights have none.
 
   /// Works out what depends on the shape.
   void measure(const Shape& of);
@@ -54,7 +58,7 @@ struct EnvironmentLight {
 struct Light {
   std::string name;
   std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight> kind;
-  Curve emission;
+  ScaledCurve emission;
 
   [[nodiscard]] bool is_delta() const { return kind.index() == 1 || kind.index() == 2; }
   [[nodiscard]] bool is_environment() const { return kind.index() == 3; }
@@ -111,8 +115,10 @@ struct EmissionPoint {
 /// the environment, through the sphere of radius `scene_radius_m`.
 [[nodiscard]] double etendue(const Light& light, double scene_radius_m);
 /// Emission averaged over directions: that of the light, or of the mean texel of an environment image.
-[[nodiscard]] Curve mean_emission(const Light& light);
+[[nodiscard]] ScaledCurve mean_emission(const Light& light);
 /// Spectral power [W/nm]: the product of the two.
 [[nodiscard]] Curve power(const Light& light, double scene_radius_m);
+/// Of the light itself and all it holds, but for its emission, which others may share.
+[[nodiscard]] std::size_t memory_bytes(const Light& light);
 
 }  // namespace abbe

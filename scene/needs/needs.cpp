@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -156,10 +157,13 @@ void analyse_matter(const Scene& scene, Needs& needs) {
 void analyse_lights(const Scene& scene, Needs& needs) {
   const bool connectable = !scene.camera.is_probe();
   const std::vector<SpecularCenter> centers = specular_centers(scene);
+  std::set<const Curve*> examined;  // which many lights may share
   for (const Light& light : scene.lights) {
     require(needs, &Needs::environment, light.is_environment(), "light", light.name);
     require(needs, &Needs::delta_lights, light.is_delta(), "light", light.name);
-    require(needs, &Needs::narrow_bands, has_narrow_feature(light.emission), "light", light.name);
+    const Curve& emission = light.emission.base();
+    if (emits(light) && examined.insert(&emission).second)
+      require(needs, &Needs::narrow_bands, has_narrow_feature(emission), "light", light.name);
     needs.light_is_traced.push_back(needs.caustics && connectable && !light.is_environment() &&
                                     emits(light) && looks_small(scene, light, centers));
     require(needs, &Needs::light_tracing, needs.light_is_traced.back(), "light", light.name);

@@ -116,7 +116,7 @@ class DescriptionTest : public ::testing::Test {
   Curve emission(const std::string& kind, const std::string& json) {
     const Loaded loaded = load(fmt::format(R"({{"lights": [{{{}, "emission": {}}}]}})", kind, json));
     EXPECT_TRUE(loaded.scene) << loaded.text();
-    return loaded.scene ? loaded->lights.at(0).emission : Curve(-1.0);
+    return loaded.scene ? loaded->lights.at(0).emission.curve() : Curve(-1.0);
   }
 
   Shape shape(const std::string& members) {

@@ -185,7 +185,7 @@ TEST_F(DescriptionTest, LampsLightASurfaceAtADistance) {
               12, 1e-9);
   const Loaded millimetres = load(R"({"units": "mm", "lights": [{"point": {"at": [0, 0, 0]},
       "emission": {"spectrum": 1, "irradiance": 3, "distance": 2000}}]})");
-  EXPECT_NEAR(millimetres->lights.at(0).emission.integral(), 12, 1e-9);
+  EXPECT_NEAR(millimetres->lights.at(0).emission.curve().integral(), 12, 1e-9);
 }
 
 TEST_F(DescriptionTest, LampsSendOutTheirSpectralFlux) {
@@ -194,6 +194,32 @@ TEST_F(DescriptionTest, LampsSendOutTheirSpectralFlux) {
   const std::string disc = R"("disc": {"center": [0, 0, 0], "normal": [1, 0, 0], "radius": 2})";
   EXPECT_NEAR(emission(disc, flux)(550) * kPi * kPi * 4, 0.02, 1e-12);
   EXPECT_NEAR(emission(disc + R"(, "two_sided": true)", flux)(550) * kPi * kPi * 8, 0.02, 1e-12);
+}
+
+// Whatever their strengths, lamps of one spectrum hold it once.
+TEST_F(DescriptionTest, ManyLampsOfOneSpectrumWeighLittle) {
+  constexpr std::size_t kLamps = 1000;
+  const auto strength = [](std::size_t i) {
+    return std::ldexp(1 + 0.37 * static_cast<double>(i % 7), static_cast<int>(i % 5));
+  };
+  const auto weight = [&](std::size_t count) {
+    std::string lamps;
+    for (std::size_t i = 0; i < count; ++i)
+      lamps += fmt::format(
+          R"({}{{"point": {{"at": [{}, 0, 1]}}, "emission": {{"illuminant": "{}", "luminous_intensity": {}}}}})",
+          i == 0 ? "" : ",", i, i % 2 == 0 ? "A" : "FL11", strength(i));
+    const Loaded loaded = load(fmt::format(R"({{"lights": [{}]}})", lamps));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    for (std::size_t i = 0; i < count; ++i) {
+      const ScaledCurve& emission = loaded->lights[i].emission;
+      EXPECT_EQ(&emission.base(), &loaded->lights[i % 2].emission.base());
+      EXPECT_NEAR(photometric(emission.curve()) / strength(i), 1, 1e-12) << i;
+      EXPECT_LE(emission.base().max(), 1);
+    }
+    return loaded->memory_bytes();
+  };
+  EXPECT_LE(weight(kLamps) - weight(2), 300 * kLamps);
+  EXPECT_GT(weight(2), 2 * 800 * 3 * sizeof(double));  // what is shared is counted too
 }
 
 TEST_F(DescriptionTest, LampsAreShapes) {

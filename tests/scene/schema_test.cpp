@@ -93,7 +93,7 @@ TEST_F(SchemaTest, CornellBoxIsSeenAsMeasured) {
   const auto& lens = std::get<LensCamera>(scene->camera.kind);
   const double half = scene->camera.width * scene->camera.pixel_pitch / 2;
   EXPECT_NEAR(2 * std::atan(half / lens.image_distance) * 180 / std::numbers::pi, 39.3077, 1e-4);
-  EXPECT_NEAR(photometric(scene->lights.at(0).emission), kLuminousEfficacy * 20, 1e-6);
+  EXPECT_NEAR(photometric(scene->lights.at(0).emission.curve()), kLuminousEfficacy * 20, 1e-6);
   EXPECT_EQ(scene->triangle_count(), 32U);
 }
 

@@ -49,6 +49,22 @@ TEST(Plan, EqualEmissionsCountOnce) {
   EXPECT_GT(red_share(1), 0.003);
 }
 
+// Of lamps that differ in strength alone, each is seen as strong as it is.
+TEST(Plan, ProportionalEmissionsCountOnce) {
+  const auto plan_of = [](bool shared) {
+    Scene scene = lamps_over_glass(3);
+    const auto blue = std::make_shared<const Curve>(std::vector<Knot>{{400, 0}, {450, 1}, {500, 0}});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ScaledCurve emission(blue, static_cast<double>(1U << i));
+      scene.lights[i].emission = shared ? emission : ScaledCurve(emission.curve());
+    }
+    scene.commit();
+    return std::pair(make_plan(scene).path_lights.probability(2), make_plan(scene).wavelengths.pdf(430));
+  };
+  EXPECT_EQ(plan_of(true), plan_of(false));
+  EXPECT_NEAR(plan_of(true).first, 0.9F * 4 / 7 + 0.1F / 3, 1e-6F);
+}
+
 TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = lamps_over_glass(2);
   const Plan one = make_plan(scene, 1);

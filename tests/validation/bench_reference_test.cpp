@@ -106,7 +106,7 @@ TEST(BenchSuites, QuickOnesHaveAQuarterOfTheEdges) {
 TEST(BenchSuites, NarrowLampHasTheSameLuminanceInTenNanometres) {
   const BenchFolder folder;
   const Scene scene = load_suite(choose_suites({"cornell-10nm"}).front(), folder.path(), false);
-  const Curve& emission = scene.lights.at(0).emission;
+  const Curve emission = scene.lights.at(0).emission.curve();
   EXPECT_EQ(emission(583.9), 0);
   EXPECT_GT(emission(584), 0);
   EXPECT_GT(emission(593.9), 0);

@@ -104,7 +104,7 @@ TEST(CompareCommand, MapsAreWritten) {
 Image planted_film(const Scene& scene, double brighter) {
   Image film{scene.camera.width, scene.camera.height, {}, cli::sensor_identity(scene)};
   for (const Channel& channel : scene.channels) film.channels.push_back({channel.name, {}});
-  const Curve& light = scene.lights.front().emission;
+  const Curve light = scene.lights.front().emission.curve();
   for (ImageChannel& channel : film.channels) channel.values.assign(film.pixels(), 0);
   for (int y = 0; y < film.height; ++y)
     for (int x = 0; x < film.width; ++x) {

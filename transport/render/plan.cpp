@@ -59,34 +59,36 @@ double weighed(const Curve& emission, const Curve& response) {
   return Curve(std::move(knots)).integral();
 }
 
-// The mean emissions of the lights, equal ones once, so that many lamps of one kind cost what one costs and
-// starve no other kind of wavelengths; and how strongly the sensor sees each, its largest channel.
+bool comes_before(const ScaledCurve& a, const ScaledCurve& b) {
+  if (&a.base() == &b.base()) return false;
+  const auto first = a.base().knots();
+  const auto second = b.base().knots();
+  return std::lexicographical_compare(
+      first.begin(), first.end(), second.begin(), second.end(), [](const Knot& x, const Knot& y) {
+        return std::tie(x.wavelength_nm, x.value) < std::tie(y.wavelength_nm, y.value);
+      });
+}
+
+// The mean emissions of the lights, proportional ones once, so that many lamps of one kind cost what one
+// costs and starve no other kind of wavelengths; and how strongly the sensor sees each light, its largest
+// channel.
 struct Emissions {
   std::vector<Curve> distinct;
   std::vector<double> seen;
-  std::vector<std::size_t> of_light;
 };
 
 Emissions emissions_of(const Scene& scene) {
-  const auto before = [](const Curve* a, const Curve* b) {
-    return std::lexicographical_compare(a->knots().begin(), a->knots().end(), b->knots().begin(),
-                                        b->knots().end(), [](const Knot& x, const Knot& y) {
-                                          return std::tie(x.wavelength_nm, x.value) <
-                                                 std::tie(y.wavelength_nm, y.value);
-                                        });
-  };
   Emissions emissions;
-  emissions.distinct.reserve(scene.lights.size());  // so that they stay where `known` finds them
-  std::map<const Curve*, std::size_t, decltype(before)> known(before);
+  std::map<ScaledCurve, double, decltype(&comes_before)> known(comes_before);  // seen for a factor of 1
   for (const Light& light : scene.lights) {
-    Curve emission = mean_emission(light);
-    const auto found = known.find(&emission);
-    emissions.of_light.push_back(found == known.end() ? emissions.distinct.size() : found->second);
-    if (found != known.end()) continue;
-    double& seen = emissions.seen.emplace_back(0);
-    for (const Channel& channel : scene.channels) seen = std::max(seen, weighed(emission, reach(channel)));
-    emissions.distinct.push_back(std::move(emission));
-    known.emplace(&emissions.distinct.back(), emissions.distinct.size() - 1);
+    const ScaledCurve emission = mean_emission(light);
+    const auto [at, is_new] = known.emplace(emission, 0);
+    if (is_new) {
+      for (const Channel& channel : scene.channels)
+        at->second = std::max(at->second, weighed(emission.base(), reach(channel)));
+      emissions.distinct.push_back(emission.base());
+    }
+    emissions.seen.push_back(at->second * emission.factor());
   }
   return emissions;
 }
@@ -101,15 +103,14 @@ double nominal_value(const Scene& scene, const Emissions& emissions) {
   const double radius = scene_radius(scene);
   double nominal = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    nominal = std::max(
-        nominal, emissions.seen[emissions.of_light[i]] / (scene.lights[i].is_delta() ? radius * radius : 1));
+    nominal = std::max(nominal, emissions.seen[i] / (scene.lights[i].is_delta() ? radius * radius : 1));
   return nominal * weight;
 }
 
 std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& emissions) {
   std::vector<double> powers;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    powers.push_back(emissions.seen[emissions.of_light[i]] * etendue(scene.lights[i], scene_radius(scene)));
+    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene)));
   return powers;
 }
 
@@ -168,14 +169,14 @@ Plan make_plan(const Scene& scene, int threads) {
             LightPicker(powers),
             LightPicker(traced_powers),
             traced,
-            make_aims(scene, traced_powers, light_only),
+            light_active ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
             !light_only,
             light_active,
             light_only,
             nominal_value(scene, emissions),
             make_own_wavelengths(scene, emissions),
             around_camera(scene),
-            std::vector<Enclosures>(scene.lights.size())};
+            std::vector<Enclosures>(light_active ? scene.lights.size() : 0)};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
   plan.light_active = light_active && !plan.traced_lights.empty();

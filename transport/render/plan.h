@@ -38,14 +38,14 @@ struct Plan {
   LightPicker path_lights;    ///< For light sampling at path vertices.
   LightPicker traced_lights;  ///< For starting photons.
   std::vector<bool> traced;   ///< Per light: the light tracer owns its caustics.
-  std::vector<Aim> aims;      ///< Per light.
+  std::vector<Aim> aims;      ///< Per light where photons start at all.
   bool path_active;
   bool light_active;
   bool light_owns_all;                                  ///< The light tracer alone renders the scene.
   double nominal_value;                                 ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
   Enclosures camera_inside;                             ///< Where camera paths start,
-  std::vector<Enclosures> light_inside;                 ///< and photons, per light.
+  std::vector<Enclosures> light_inside;                 ///< and photons, likewise.
 
   /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
   /// `wavelengths`.

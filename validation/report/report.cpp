@@ -22,7 +22,7 @@ Specimen render_specimen(const std::string& file, const std::string& caption,
   const RenderResult rendered = render(*scene, {.threads = threads});
   std::vector<std::string> names;
   for (const Channel& channel : scene->channels) names.push_back(channel.name);
-  const DisplayTransform display = make_display(scene->channels, scene->lights.front().emission);
+  const DisplayTransform display = make_display(scene->channels, scene->lights.front().emission.curve());
   return {fmt::format("{} {} samples per pixel, {:.1f} CPU s.", caption, scene->render.samples,
                       rendered.stats.cpu_s),
           display(rendered.film.image(names)).image};

@@ -20,7 +20,7 @@ ChartFilm read_film(const Scene& scene, const Image& film) {
   if (!colors.to_xyz) return read;
   Matrix3 to_xyz = *colors.to_xyz;
   // The patches are judged as they look in the scene's light, which the film's matrix took to D65.
-  if (colors.adapted) to_xyz = light_adaptation(scene.lights.front().emission).inverse(true) * to_xyz;
+  if (colors.adapted) to_xyz = light_adaptation(scene.lights.front().emission.curve()).inverse(true) * to_xyz;
   read.xyz.emplace();
   for (const PatchReading& patch : read.patches)
     read.xyz->push_back(multiply(to_xyz, {patch.mean[0], patch.mean[1], patch.mean[2]}));
@@ -46,7 +46,7 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
                                            DeltaE formula) {
   if (scene.charts.empty()) throw Error(ErrorCode::input, "", "the scene has no chart");
   if (scene.lights.empty()) throw Error(ErrorCode::input, "", "the scene has no light for its chart");
-  const Curve& light = scene.lights.front().emission;
+  const Curve light = scene.lights.front().emission.curve();
   const XYZ white = tristimulus(light, Curve(1), Observer::cie1931);
   const ChartFilm film = read_film(scene, image);
   std::vector<XYZ> integrated;

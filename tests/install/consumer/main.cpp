@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   for (const abbe::Channel& channel : scene->channels) names.push_back(channel.name);
   const abbe::Image film = abbe::render(*scene, {}).film.image(names);
   abbe::write_exr(argv[2], film);
-  const abbe::DisplayTransform display = abbe::make_display(scene->channels, scene->lights.front().emission);
+  const abbe::DisplayTransform display =
+      abbe::make_display(scene->channels, scene->lights.front().emission.curve());
   abbe::write_picture(argv[3], display(film).image);
 }
