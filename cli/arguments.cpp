@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -60,6 +61,17 @@ double parse_seconds(const std::string& option, const std::string& text) {
   const std::optional<double> number = parse_number(text.substr(0, text.size() - (has_unit ? 1 : 0)));
   if (!number || *number <= 0) refuse(option, "\"" + text + "\"", "a time above 0 such as 60s, 2m or 1h");
   return *number * factor;
+}
+
+std::size_t parse_bytes(const std::string& option, const std::string& text) {
+  constexpr double kMost = 1e18;
+  const std::size_t unit = text.empty() ? std::string::npos : std::string_view("kMG").find(text.back());
+  const bool has_unit = unit != std::string_view::npos;
+  const std::optional<double> number = parse_number(text.substr(0, text.size() - (has_unit ? 1 : 0)));
+  const double bytes = number.value_or(0) * (has_unit ? std::pow(1e3, static_cast<double>(unit + 1)) : 1);
+  if (!(bytes >= 1 && bytes <= kMost))
+    refuse(option, "\"" + text + "\"", "an amount of memory such as 4G, 500M or a number of bytes");
+  return static_cast<std::size_t>(bytes);
 }
 
 double parse_share(const std::string& option, const std::string& text) {

@@ -27,6 +27,8 @@ namespace abbe::cli {
 [[nodiscard]] std::array<double, 3> parse_triple(const std::string& option, const std::string& text);
 /// A time above 0: "60s", "2m", "1h" or a number of seconds [s].
 [[nodiscard]] double parse_seconds(const std::string& option, const std::string& text);
+/// An amount of memory above 0: "4G", "500M", "64k" (powers of 1000) or a number of bytes [bytes].
+[[nodiscard]] std::size_t parse_bytes(const std::string& option, const std::string& text);
 /// A share in (0, 1): "0.5%" or "0.005".
 [[nodiscard]] double parse_share(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.

@@ -1,12 +1,14 @@
 #include "cli/bench.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "cli/answer.h"
 #include "cli/arguments.h"
+#include "cli/output_files.h"
 #include "io/text.h"
 #include "validation/bench/report.h"
 #include "validation/bench/scale.h"
@@ -89,8 +91,11 @@ int bench(const BenchOptions& options) {
   if (options.list) return list_suites(options.json);
   if (options.scale) return scale(options);
   const std::vector<Suite> suites = choose_suites(options.suites);
+  if (!options.output.empty()) {
+    require_report_folder(options.output);
+    require_distinct(report_files(options.output, suites), std::array{options.baseline});
+  }
   const std::vector<BaselineRow> before = read_baseline(options.baseline);
-  if (!options.output.empty()) require_report_folder(options.output);
   BenchReport report{this_machine(), settings_of(options), {}, {}, {}};
   if (!options.quick) report.rivals = load_rivals();
   for (const Suite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));

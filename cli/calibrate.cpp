@@ -1,11 +1,14 @@
 #include "cli/calibrate.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "calibration/chart/measured_patches.h"
 #include "calibration/chart/photographed_series.h"
 #include "calibration/output/ocio.h"
 #include "cli/calibrate_report.h"
+#include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/text.h"
@@ -14,6 +17,22 @@
 
 namespace abbe::cli {
 namespace {
+
+namespace fs = std::filesystem;
+
+// Every file that may be written.
+std::vector<fs::path> output_files(const CalibrateOptions& options) {
+  const fs::path& folder = options.output;
+  if (folder.empty()) return {};
+  std::vector<fs::path> files{folder / "report.json", folder / "response.csv", folder / "config.ocio"};
+  for (const std::string& illuminant : split(options.illuminants, ',')) {
+    CameraProfile profile;
+    profile.light = illuminant;
+    for (const char* end : {".spi1d", ".cube", ".clf", "_to_aces.clf"})
+      files.push_back(folder / camera_file(profile, end));
+  }
+  return files;
+}
 
 // "400-500": the two wavelengths of an ideal filter.
 Curve box_filter(const std::string& text) {
@@ -59,9 +78,11 @@ CalibrationCase simulate(const CalibrateOptions& options, const std::string& ill
   return made;
 }
 
-std::vector<ChannelResponse> recover(const std::filesystem::path& file) {
+std::vector<ChannelResponse> recover(const CalibrateOptions& options) {
   Diagnostics diagnostics;
-  const auto photographs = accepted(read_series(file, diagnostics), diagnostics);
+  Inputs inputs(options.max_memory_bytes);
+  const auto photographs = accepted(read_series(options.series, diagnostics, &inputs), diagnostics);
+  require_distinct(output_files(options), inputs.files());
   std::vector<ChannelResponse> responses;
   for (std::size_t k = 0; k < photographs.channels.size(); ++k)
     responses.push_back({photographs.channels[k], recover_response(photographs.series[k]), {}});
@@ -85,7 +106,7 @@ CalibrationCase measure(const CalibrateOptions& options, const std::string& illu
   check(diagnostics);
   MeasuredCamera camera{options.measured.stem().string(), illuminant, {}, {}, {}};
   if (!options.series.empty()) {
-    camera.responses = recover(options.series);
+    camera.responses = recover(options);
     linearise_all(*patches, camera.responses);
   }
   const BalancedPatches balanced = balance(*chart, *patches);
@@ -95,7 +116,7 @@ CalibrationCase measure(const CalibrateOptions& options, const std::string& illu
 }
 
 int calibrate_response(const CalibrateOptions& options) {
-  const std::vector<ChannelResponse> responses = recover(options.series);
+  const std::vector<ChannelResponse> responses = recover(options);
   Json report{{"series", options.series.string()}, {"responses", Json::array()}};
   for (const ChannelResponse& r : responses) report["responses"].push_back(json_of(r));
   if (!options.output.empty()) {
@@ -141,6 +162,11 @@ int calibrate(const CalibrateOptions& options) {
   if (options.camera.empty() && options.illuminants.find(',') != std::string::npos)
     throw Error(ErrorCode::usage, "--illuminant",
                 fmt::format("got {}, allowed one light, or several with --camera", options.illuminants));
+  std::vector<fs::path> inputs =
+      files_among({options.camera, options.chart, options.test, options.measured.string()});
+  for (const std::string& illuminant : split(options.illuminants, ','))
+    for (fs::path& file : files_among({illuminant})) inputs.push_back(std::move(file));
+  require_distinct(output_files(options), inputs);
   if (options.all_cameras) return calibrate_all(options);
   if (is_real && options.measured.empty()) return calibrate_response(options);
   std::vector<CalibrationCase> cases;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "calibration/camera_calibration.h"
+#include "io/inputs.h"
 
 namespace abbe::cli {
 
@@ -23,6 +24,7 @@ struct CalibrateOptions {
   CharacterisationOptions how;
   std::filesystem::path
       output;  ///< Folder for the OpenColorIO configuration and the report; nothing is written when empty.
+  std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 

@@ -85,6 +85,13 @@ inline void add_json(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object");
 }
 
+/// `--max-memory`, of commands that read scenes, films or photographs.
+template <typename Options>
+void add_max_memory(CLI::App& app, const std::shared_ptr<Options>& options) {
+  add_parsed(app, "--max-memory", options->max_memory_bytes, parse_bytes,
+             "Memory that images, meshes and films may take, as 4G (default: 80 % of the machine's)", "SIZE");
+}
+
 /// `--set`, which may be repeated.
 template <typename Options>
 void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options, const std::string& help) {

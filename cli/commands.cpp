@@ -29,7 +29,9 @@ namespace {
 void add_render(CLI::App& app, Command& command) {
   const Sub<RenderOptions> sub(app, "render", "Render a scene", command, render);
   CLI::App& render = *sub.app;
-  render.add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
+  render.add_option("scene", sub->scene, "Scene file, or - for standard input")
+      ->required()
+      ->type_name("SCENE");
   render
       .add_option("-o,--output", sub->output,
                   "Film to write, or its exact sums (default: the scene's, else SCENE.exr)")
@@ -74,7 +76,9 @@ void add_render(CLI::App& app, Command& command) {
       .add_option("--gamut", sub->gamut,
                   "Also write, in white, which colours lay outside the display's gamut")
       ->type_name("FILE.png");
-  render.add_option("--stats", sub->stats, "Write what the render did as JSON")->type_name("FILE.json");
+  render.add_option("--stats", sub->stats, "Write what the render did as JSON, - for standard output")
+      ->type_name("FILE.json");
+  add_max_memory(render, sub.options);
   render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
   render.add_flag(
       "--strict", sub->strict,
@@ -84,12 +88,17 @@ void add_render(CLI::App& app, Command& command) {
 
 void add_scene_commands(CLI::App& app, Command& command) {
   const Sub<InfoOptions> info_sub(app, "info", "Say what a scene contains, needs and skips", command, info);
-  info_sub.app->add_option("scene", info_sub->scene, "Scene file")->required()->type_name("SCENE");
+  info_sub.app->add_option("scene", info_sub->scene, "Scene file, or - for standard input")
+      ->required()
+      ->type_name("SCENE");
+  add_max_memory(*info_sub.app, info_sub.options);
   add_json(*info_sub.app, info_sub->json);
 
   const Sub<TraceOptions> sub(app, "trace", "Follow one ray through a scene in double precision", command,
                               trace);
-  sub.app->add_option("scene", sub->scene, "Scene file")->required()->type_name("SCENE");
+  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
+      ->required()
+      ->type_name("SCENE");
   add_parsed(*sub.app, "--lambda", sub->wavelength_nm, number_in(kMinWavelengthNm, kMaxWavelengthNm),
              "Wavelength in standard air", "NM")
       ->required();
@@ -99,6 +108,7 @@ void add_scene_commands(CLI::App& app, Command& command) {
       ->required();
   add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
              "Events to follow at most (default 64)", "N");
+  add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
 
@@ -108,6 +118,7 @@ void add_merge(CLI::App& app, Command& command) {
   sub.app->add_option("-o,--output", sub->output, "Film to write")
       ->required()
       ->type_name("FILE.exr|FILE.abbepart");
+  add_max_memory(*sub.app, sub.options);
 }
 
 // How `calibrate` fits and judges colours.
@@ -142,6 +153,7 @@ void add_develop(CLI::App& app, Command& command) {
                 "Replace a value of the read-out, as /readout/bits=12; may be repeated");
   add_parsed(options, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Seed of the noise (default: the render's)", "N");
+  add_max_memory(options, sub.options);
   add_json(options, sub->json);
 }
 
@@ -156,6 +168,7 @@ void add_compare(CLI::App& app, Command& command) {
              "Formula of colour difference (default 2000)", "2000|94|76");
   sub.app->add_option("--maps", sub->maps, "Folder for maps and histograms of the differences")
       ->type_name("FOLDER");
+  add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
 
@@ -206,6 +219,7 @@ void add_calibrate(CLI::App& app, Command& command) {
       .add_option("-o,--output", calibration->output,
                   "Folder for the OpenColorIO configuration, CLF, ACES input transform and report")
       ->type_name("FOLDER");
+  add_max_memory(options, calibration.options);
   add_json(options, calibration->json);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/picture.h"
@@ -64,20 +65,34 @@ void add_patch_summary(Json& answer, const std::vector<PatchDifference>& patches
   answer["patches_" + key + "_max"] = known ? Json(largest) : Json();
 }
 
+std::string histogram_of(const std::string& map) {
+  return map + "_histogram";
+}
+
+// The files that maps may be written to, none of which may be read.
+std::vector<std::filesystem::path> map_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (folder.empty()) return files;
+  for (const char* map : {kRelativeErrorMap, kDeltaEMap})
+    for (const std::string& name : {std::string(map), histogram_of(map)})
+      files.push_back(folder / (name + ".png"));
+  return files;
+}
+
 Json write_maps(const std::filesystem::path& folder, const std::vector<DifferenceMap>& maps) {
   Json written = Json::array();
   for (const DifferenceMap& map : maps) {
     write_picture(folder / (map.name + ".png"), map.map);
-    write_picture(folder / (map.name + "_histogram.png"), map.histogram);
-    written.push_back(
-        {{"map", map.name + ".png"}, {"histogram", map.name + "_histogram.png"}, {"to", map.high}});
+    const std::string histogram = histogram_of(map.name) + ".png";
+    write_picture(folder / histogram, map.histogram);
+    written.push_back({{"map", map.name + ".png"}, {"histogram", histogram}, {"to", map.high}});
   }
   return written;
 }
 
-Scene load_chart_scene(const std::filesystem::path& path) {
+Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
   Diagnostics diagnostics;
-  return accepted(load_scene(path, {}, diagnostics), diagnostics);
+  return accepted(load_scene(path, {}, diagnostics, &inputs), diagnostics);
 }
 
 // The figures of two images, and their maps if wanted.
@@ -106,18 +121,22 @@ int compare(const CompareOptions& options) {
   if (!options.maps.empty()) {
     std::error_code ignored;
     std::filesystem::create_directories(options.maps, ignored);
-    require_writable(options.maps / "relative_error.png");
+    for (const std::filesystem::path& file : map_files(options.maps)) require_writable(file);
   }
-  const Image image = read_exr(options.image);
+  Inputs inputs(options.max_memory_bytes);
+  for (const std::filesystem::path& file : {options.image, options.reference}) inputs.add_file(file);
+  std::optional<Scene> scene;
+  if (!options.chart.empty()) scene = load_chart_scene(options.chart, inputs);
+  require_distinct(map_files(options.maps), inputs.files());
+  const Image image = read_exr(options.image, &inputs);
   std::optional<Image> reference;
-  if (!options.reference.empty()) reference = read_exr(options.reference);
+  if (!options.reference.empty()) reference = read_exr(options.reference, &inputs);
   Json answer;
   if (reference) compare_films(options, image, *reference, answer);
-  if (!options.chart.empty()) {
-    const Scene scene = load_chart_scene(options.chart);
+  if (scene) {
     const std::string key = key_of(options.formula);
     const std::vector<PatchDifference> patches =
-        compare_chart(scene, image, reference ? &*reference : nullptr, options.formula);
+        compare_chart(*scene, image, reference ? &*reference : nullptr, options.formula);
     add_patch_summary(answer, patches, key);
     if (options.json)
       answer["patches"] = patch_answer(patches, key);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "io/inputs.h"
 #include "validation/statistics/image_difference.h"
 
 namespace abbe::cli {
@@ -13,6 +14,7 @@ struct CompareOptions {
   DeltaE formula = DeltaE::cie2000;  ///< Of patches and maps, and of further figures unless it is this one.
   std::filesystem::path chart{};     ///< Scene whose chart is read out; empty: none.
   std::filesystem::path maps{};      ///< Folder for pictures of the differences; empty: none.
+  std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 

@@ -11,6 +11,7 @@
 #include "cli/answer.h"
 #include "cli/film_output.h"
 #include "cli/film_sensor.h"
+#include "cli/output_files.h"
 #include "cli/spectral.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
@@ -44,16 +45,13 @@ std::vector<fs::path> check_outputs(const DevelopOptions& options) {
     files.push_back(options.display);
   }
   for (const fs::path& file : files) require_writable(file);
-  std::vector<fs::path> all = files;
-  all.push_back(options.film);
-  all.push_back(options.scene);
-  require_distinct(all);
+  require_distinct(files, std::array{options.film, options.scene});
   return files;
 }
 
 // A film as it was rendered, or one that was developed into parts before.
-Image read_film(const fs::path& path) {
-  std::vector<ImagePart> parts = read_exr_parts(path);
+Image read_film(const fs::path& path, Inputs& inputs) {
+  std::vector<ImagePart> parts = read_exr_parts(path, &inputs);
   if (parts.size() == 1) return std::move(parts.front().image);
   Image film;
   for (ImagePart& part : parts) {
@@ -100,11 +98,11 @@ struct Exposed {
   FilmSensor sensor;
 };
 
-Exposed expose_spectral(Image file, const DevelopOptions& options) {
+Exposed expose_spectral(Image file, const DevelopOptions& options, Inputs& inputs) {
   const SpectralImage image = spectral_image(std::move(file), options.film.string());
   if (!options.scene.empty()) {
     Diagnostics diagnostics;
-    const std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics);
+    const std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics, &inputs);
     if (!scene) check(diagnostics);  // warnings are about what nobody renders here
     Image film = seen_by(*scene, image, options.film);
     FilmSensor sensor = film_sensor(film, options.scene, options.overrides, view_of(options));
@@ -119,10 +117,10 @@ Exposed expose_spectral(Image file, const DevelopOptions& options) {
   return {observed(image), std::move(sensor)};
 }
 
-Exposed load(const DevelopOptions& options) {
-  Image film = read_film(options.film);
+Exposed load(const DevelopOptions& options, Inputs& inputs) {
+  Image film = read_film(options.film, inputs);
   require_finite(film, options.film);
-  if (is_spectral(film)) return expose_spectral(std::move(film), options);
+  if (is_spectral(film)) return expose_spectral(std::move(film), options, inputs);
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
   FilmSensor sensor = film_sensor(film, options.film, options.overrides, view_of(options));
@@ -252,10 +250,14 @@ Json report(const Exposed& exposed, const Developed& developed) {
 }  // namespace
 
 int develop(const DevelopOptions& options) {
+  const std::vector<fs::path> outputs = check_outputs(options);
   std::deque<FileLock> locks;
-  for (const fs::path& file : check_outputs(options)) locks.emplace_back(file);
-  const Exposed exposed = load(options);
+  for (const fs::path& file : outputs) locks.emplace_back(file);
+  Inputs inputs(options.max_memory_bytes);
+  const Exposed exposed = load(options, inputs);
+  require_distinct(outputs, inputs.files());
   const FilmSensor& sensor = exposed.sensor;
+  if (sensor.display) require_distinct(outputs, sensor.display->files());
   const bool wants_raw = std::any_of(options.outputs.begin(), options.outputs.end(),
                                      [](const fs::path& path) { return !is_exr(path); });
   if (wants_raw && !sensor.readout)
@@ -268,6 +270,8 @@ int develop(const DevelopOptions& options) {
   const auto rendered = exposed.film.metadata.find("seed");
   const double render_seed =
       rendered == exposed.film.metadata.end() ? 0 : parse_number(rendered->second).value_or(0);
+  // At most three planes beside each of the film and of its variance.
+  inputs.take_memory("developing", 3 * exposed.film.memory_bytes());
   const Developed developed =
       read_film_out(exposed, options.seed.value_or(static_cast<std::uint64_t>(render_seed)));
   const Image planes =

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/inputs.h"
 #include "scene/description/load.h"
 
 namespace abbe::cli {
@@ -17,6 +18,7 @@ struct DevelopOptions {
   std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
   std::vector<Override> overrides;             ///< Of the read-out.
   std::optional<std::uint64_t> seed;           ///< Of the noise; that of the render when absent.
+  std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include <fmt/format.h>
 
 #include "cli/film_sensor.h"
+#include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
@@ -34,28 +34,14 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
   return identity;
 }
 
-void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed) {
-  const auto same = [&path](const char* extension) { return path.extension() == extension; };
-  if (std::none_of(allowed.begin(), allowed.end(), same))
-    throw Error(
-        ErrorCode::usage, path.string(),
-        fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
-}
-
-void require_distinct(std::span<const std::filesystem::path> files) {
-  std::map<std::filesystem::path, std::filesystem::path> names;
-  for (const std::filesystem::path& file : files) {
-    if (file.empty()) continue;
-    const auto [there, added] = names.emplace(weakly_canonical(absolute(destination(file))), file);
-    if (!added)
-      throw Error(ErrorCode::usage, file.string(),
-                  fmt::format("is the same file as {}: each needs one of its own", there->second.string()));
-  }
-}
-
 void require_film_output(const std::filesystem::path& path) {
   require_extension(path, {".exr", kPartExtension});
   require_writable(path);
+}
+
+std::size_t film_bytes(const Scene& scene, const abbe::RenderOptions& how) {
+  return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
+         scene.film_planes().size() * static_cast<std::size_t>(replicate_count(scene, how)) * sizeof(Int128);
 }
 
 void write_film(const std::filesystem::path& path, const RenderPart& part) {

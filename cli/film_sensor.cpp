@@ -32,6 +32,15 @@ std::optional<double> f_number(const Camera& camera) {
   return focal_length / (2 * lens->aperture_radius);
 }
 
+// How long every channel was exposed; nothing where they differ, as those of a filter wheel may.
+std::optional<double> common_exposure(const Scene& scene) {
+  const double ratio = scene.channels.front().exposure_ratio;
+  if (std::any_of(scene.channels.begin(), scene.channels.end(),
+                  [ratio](const Channel& c) { return c.exposure_ratio != ratio; }))
+    return std::nullopt;
+  return scene.exposure_s * ratio;
+}
+
 void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
   if (std::any_of(scene.channels.begin(), scene.channels.end(),
                   [](const Channel& c) { return c.kind != ResponseKind::quantum; }))
@@ -135,8 +144,8 @@ FilmIdentity sensor_identity(const Scene& scene) {
   const double area_m2 = gathering_area(scene.camera.pixel_pitch, scene.fill_factor);
   FilmIdentity identity{{"sensor", scene.sensor_text},
                         {"exposure_s", fmt::format("{}", scene.exposure_s)},
-                        {"expTime", single(scene.exposure_s)},
                         {"gathering_area_m2", fmt::format("{}", area_m2)}};
+  if (const auto seconds = common_exposure(scene)) identity["expTime"] = single(*seconds);
   if (const auto n = f_number(scene.camera)) identity["aperture"] = single(*n);
   const std::vector<std::string> names = scene.channel_names();
   for (const Channel& channel : scene.channels) {

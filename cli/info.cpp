@@ -3,18 +3,12 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/film_output.h"
 #include "scene/description/load.h"
-#include "sensor/film/film.h"
 #include "transport/render/plan.h"
-#include "transport/render/render.h"
 
 namespace abbe::cli {
 namespace {
-
-std::size_t film_bytes(const Scene& scene) {
-  return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
-         scene.film_planes().size() * static_cast<std::size_t>(replicate_count(scene, {})) * sizeof(Int128);
-}
 
 // The channels of a mosaic by name, rows from the top.
 std::string pattern(const Scene& scene) {
@@ -80,7 +74,8 @@ void warn_about_polarisation(const Needs& needs) {
 
 int info(const InfoOptions& options) {
   Diagnostics diagnostics;
-  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics), diagnostics);
+  Inputs inputs(options.max_memory_bytes);
+  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
   if (options.json)
     print(answer_for(scene), true);
   else

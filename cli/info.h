@@ -3,13 +3,15 @@
 #include <filesystem>
 #include <string>
 
+#include "io/inputs.h"
 #include "scene/scene.h"
 
 namespace abbe::cli {
 
 /// What `abbe info` was asked for.
 struct InfoOptions {
-  std::filesystem::path scene;
+  std::filesystem::path scene;  ///< "-" is standard input.
+  std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 

@@ -1,8 +1,12 @@
 #include "cli/lab.h"
 
+#include <array>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/picture.h"
 #include "scene/description/load_material.h"
@@ -89,8 +93,13 @@ void print_table(const Json& answer, const LabOptions& options, const LabReport&
 }  // namespace
 
 int lab(const LabOptions& options) {
+  for (const std::filesystem::path& output : {options.plot, options.map})
+    if (!output.empty()) require_writable(output);
   Diagnostics diagnostics;
-  const Material material = accepted(load_material(options.material, diagnostics), diagnostics);
+  Inputs inputs(options.max_memory_bytes);
+  const Material material = accepted(load_material(options.material, diagnostics, &inputs), diagnostics);
+  for (std::filesystem::path& file : files_among({options.illuminant})) inputs.add_file(std::move(file));
+  require_distinct(std::array{options.plot, options.map}, inputs.files());
   const LabSettings settings = settings_of(options);
   const LabReport report = measure(material, settings);
   const Json answer = answer_of(material.name, options, report);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/inputs.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::cli {
@@ -19,6 +20,7 @@ struct LabOptions {
   int samples = 1 << 13;
   std::filesystem::path plot{};  ///< SVG of the lobes; empty: none.
   std::filesystem::path map{};   ///< Picture of the hemispheres; empty: none.
+  std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 

@@ -1,4 +1,6 @@
 #include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -25,6 +27,12 @@ void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   for (const int stream : {0, 1, 2})
     if (::fcntl(stream, F_GETFD) < 0) (void)!::open("/dev/null", O_RDONLY);
+}
+
+// Whether standard output is a pipe that nobody reads any more.
+bool reader_has_left() {
+  pollfd output{STDOUT_FILENO, 0, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
 int run(int argc, char** argv) {
@@ -73,8 +81,10 @@ int guarded(int argc, char** argv) {
 int main(int argc, char** argv) {
   abbe::cli::prepare_streams();
   const int code = abbe::cli::guarded(argc, argv);
-  // An answer that did not reach its reader is no answer.
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush()) {
+  // An answer that did not reach its reader is no answer; but one who leaves, as `head` does, has read
+  // enough.
+  const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush();
+  if (!told && !abbe::cli::reader_has_left()) {
     abbe::cli::say("cannot write to standard output");
     return static_cast<int>(abbe::ErrorCode::output);
   }

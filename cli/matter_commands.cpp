@@ -128,6 +128,7 @@ void add_lab(CLI::App& app, Command& command) {
              "Samples per angle and eight wavelengths (default 8192)", "N");
   options.add_option("--plot", sub->plot, "Write polar plots of the lobes")->type_name("FILE.svg");
   options.add_option("--map", sub->map, "Write pictures of the hemispheres")->type_name("FILE.png");
+  add_max_memory(options, sub.options);
   add_json(options, sub->json);
 }
 

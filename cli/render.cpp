@@ -9,10 +9,12 @@
 
 #include "calibration/output/display.h"
 #include "cli/answer.h"
+#include "cli/cost.h"
 #include "cli/film_output.h"
 #include "cli/film_sensor.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
@@ -26,9 +28,11 @@ namespace fs = std::filesystem;
 
 constexpr int kSignalExit = 128;
 
-Scene load(const RenderOptions& options) {
+constexpr const char* kStandardOutput = "-";
+
+Scene load(const RenderOptions& options, Inputs& inputs) {
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
-  Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics), diagnostics);
+  Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   scene.render.samples = options.samples.value_or(scene.render.samples);
   scene.render.integrator = options.integrator.value_or(scene.render.integrator);
   scene.render.seed = options.seed.value_or(scene.render.seed);
@@ -42,11 +46,21 @@ struct Outputs {
   fs::path stats;    ///< Likewise.
 };
 
+std::array<fs::path, 5> files_of(const Outputs& outputs, const RenderOptions& options) {
+  return {outputs.film, outputs.display, outputs.gamut, outputs.stats, options.checkpoint};
+}
+
+// What the film is called after.
+fs::path name_of(const fs::path& scene) {
+  return scene == kStandardInput ? "stdin" : scene;
+}
+
 // Where to write, checked before any time is spent on rendering.
-Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
-  Outputs outputs{options.output, options.display, options.gamut, options.stats};
+Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const Inputs& inputs) {
+  Outputs outputs{options.output, options.display, options.gamut, {}};
+  if (options.stats != kStandardOutput) outputs.stats = options.stats;
   if (outputs.film.empty()) outputs.film = scene.output.image;
-  if (outputs.film.empty()) outputs.film = options.scene.stem().concat(".exr");
+  if (outputs.film.empty()) outputs.film = name_of(options.scene).stem().concat(".exr");
   if (outputs.display.empty()) outputs.display = scene.output.display;
   require_film_output(outputs.film);
   for (const fs::path& picture : {outputs.display, outputs.gamut}) {
@@ -59,8 +73,7 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene) {
     require_extension(options.checkpoint, {kPartExtension});
     require_writable(options.checkpoint);
   }
-  require_distinct(std::array{options.scene, outputs.film, outputs.display, outputs.gamut, outputs.stats,
-                              options.checkpoint});
+  require_distinct(files_of(outputs, options), inputs.files());
   return outputs;
 }
 
@@ -84,7 +97,6 @@ abbe::RenderOptions how_to_render(const RenderOptions& options) {
   how.crop = options.crop;
   how.samples = options.sample_range;
   how.checkpoint_interval_s = options.checkpoint_interval_s;
-  how.measure_replay = !options.stats.empty();
   return how;
 }
 
@@ -120,7 +132,7 @@ void try_to_save(const fs::path& path, const FilmIdentity& identity, const Rende
 RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch) {
   ProgressDisplay display;
   abbe::RenderOptions how = how_to_render(options);
-  const FilmIdentity identity = identity_of(scene, options.scene, how);
+  const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
   how.stop = &watch.stop();
   if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
   const fs::path& checkpoint = options.checkpoint;
@@ -148,16 +160,30 @@ void write_all(const std::vector<std::function<void()>>& writers) {
   if (failure) throw *failure;
 }
 
-void write_stats(const fs::path& path, const Scene& scene, const RenderResult& result) {
+/// What came before and after the render itself.
+struct Overhead {
+  Cost load;     ///< Reading the scene and building what it describes.
+  Cost display;  ///< Making pictures of the film, and writing them.
+  Cost write;    ///< Writing the film and the last checkpoint.
+};
+
+Json json_of(const Cost& cost) {
+  return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
+}
+
+std::string stats_text(const Scene& scene, const RenderResult& result, const Overhead& overhead) {
   const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
   answer["cpu_s"] = stats.cpu_s;
+  answer["overhead"] = {{"load", json_of(overhead.load)},
+                        {"display", json_of(overhead.display)},
+                        {"write", json_of(overhead.write)}};
   answer["threads"] = stats.threads;
   answer["samples_per_pixel"] = stats.samples_per_pixel;
   answer["paths"] = stats.paths;
   answer["rays"] = stats.rays;
-  answer["embree_replay_share"] = stats.embree_replay_share;
+  answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again
   answer["relative_error"] = stats.relative_error;
   answer["nonfinite_samples"] = stats.nonfinite_samples;
   const std::vector<std::string> planes = scene.film_planes();
@@ -169,13 +195,21 @@ void write_stats(const fs::path& path, const Scene& scene, const RenderResult& r
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;
   answer["data_sha256"] = data_sha256();
-  write_atomically(path, text(answer, true));
+  return text(answer, true);
 }
 
 DisplayTransform chosen_display(const Scene& scene, const RenderOptions& options) {
   ViewOptions view = options.view;
   if (view.config.empty()) view.config = users_configuration();
   return display_of(scene, view);
+}
+
+// To standard output where there is no file.
+void write_stats(const fs::path& path, const std::string& stats) {
+  if (path.empty())
+    fmt::print("{}", stats);
+  else
+    write_atomically(path, stats);
 }
 
 void write_pictures(const Outputs& outputs, const DisplayTransform& display, const Scene& scene,
@@ -192,19 +226,24 @@ void write_pictures(const Outputs& outputs, const DisplayTransform& display, con
 }  // namespace
 
 int render(const RenderOptions& options) {
-  const Scene scene = load(options);
-  const Outputs outputs = choose_outputs(options, scene);
+  Overhead overhead;
+  Inputs inputs(options.max_memory_bytes);
+  const CostMeter loading;
+  const Scene scene = load(options, inputs);
+  overhead.load = loading.spent();
+  const Outputs outputs = choose_outputs(options, scene, inputs);
   check_ranges(options, scene);
   const InterruptWatch watch;
   std::deque<FileLock> locks;
-  for (const fs::path& output :
-       {outputs.film, outputs.display, outputs.gamut, outputs.stats, options.checkpoint})
+  for (const fs::path& output : files_of(outputs, options))
     if (!output.empty()) locks.emplace_back(output);
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty() || !outputs.gamut.empty()) display = chosen_display(scene, options);
+  if (display) require_distinct(files_of(outputs, options), display->files());
   if (options.explain) tell(describe(scene));
   warn_about_polarisation(scene.needs);
 
+  inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
   const RenderPart part = develop(scene, options, watch);
   const RenderStats& stats = part.result.stats;
   const auto write_display = [&] {
@@ -212,10 +251,12 @@ int render(const RenderOptions& options) {
   };
   std::vector<std::function<void()>> writers;
   if (!options.checkpoint.empty())
-    writers.emplace_back([&] { write_part(options.checkpoint, part.identity, part.result); });
-  writers.emplace_back([&] { write_film(outputs.film, part); });
-  if (display) writers.emplace_back(write_display);
-  if (!outputs.stats.empty()) writers.emplace_back([&] { write_stats(outputs.stats, scene, part.result); });
+    writers.emplace_back(
+        metered(overhead.write, [&] { write_part(options.checkpoint, part.identity, part.result); }));
+  writers.emplace_back(metered(overhead.write, [&] { write_film(outputs.film, part); }));
+  if (display) writers.emplace_back(metered(overhead.display, write_display));
+  if (!options.stats.empty())
+    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, overhead)); });
   write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/output/display.h"
+#include "io/inputs.h"
 #include "scene/description/load.h"
 #include "transport/render/render.h"
 
@@ -14,12 +15,12 @@ namespace abbe::cli {
 
 /// What `abbe render` was asked for; what is absent is as the scene says.
 struct RenderOptions {
-  std::filesystem::path scene;
+  std::filesystem::path scene;  ///< "-" is standard input.
   std::filesystem::path output;
   std::filesystem::path display;
   ViewOptions view;             ///< Of the display; without a configuration here that of $OCIO, if it is set.
   std::filesystem::path gamut;  ///< Picture of what the display could not show as it is.
-  std::filesystem::path stats;
+  std::filesystem::path stats;  ///< "-" is standard output.
   std::optional<int> samples;
   std::optional<double> target_error;
   std::optional<double> time_limit_s;
@@ -31,6 +32,7 @@ struct RenderOptions {
   std::optional<std::uint64_t> seed;
   std::optional<Crop> crop;
   int threads = 0;
+  std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;
   bool explain = false;
   bool strict = false;  ///< What makes the image wrong ends the command: of the scene before it starts (3), a

@@ -145,8 +145,8 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
   Image film = expose(image, scene.channels, exposure_per_radiance(camera, scene.exposure_s));
   if (scene.mosaic) film = mosaicked(film, *scene.mosaic, scene.channel_names());
   film.metadata = image.metadata;
-  for (const char* key :
-       {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", kSpectralBinsKey, kAxisKey, kDistanceKey})
+  for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime",
+                          kSpectralBinsKey, kAxisKey, kDistanceKey})
     film.metadata.erase(key);
   for (const auto& [key, value] : sensor_identity(scene)) film.metadata[key] = value;
   return film;

@@ -79,7 +79,8 @@ void print_readable(const Json& answer) {
 
 int trace(const TraceOptions& options) {
   Diagnostics diagnostics;
-  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics), diagnostics);
+  Inputs inputs(options.max_memory_bytes);
+  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
   if (!(options.direction.length() > 0))
     throw Error(ErrorCode::usage, "--dir", "a direction must not be zero");
   const BasicRay<double> ray{options.origin * scene.unit_m - scene.origin_m, options.direction.normalized()};

@@ -4,15 +4,18 @@
 
 #include <ImathVec.h>
 
+#include "io/inputs.h"
+
 namespace abbe::cli {
 
 /// What `abbe trace` was asked for, in the units of length of the scene file.
 struct TraceOptions {
-  std::filesystem::path scene;
+  std::filesystem::path scene;  ///< "-" is standard input.
   double wavelength_nm = 0;
   Imath::V3d origin{0, 0, 0};
   Imath::V3d direction{0, 0, 0};
   int max_events = 64;
+  std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 

@@ -1,11 +1,13 @@
 #include "cli/validate.h"
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/text.h"
 #include "validation/report/report.h"
@@ -16,7 +18,9 @@ namespace {
 void require_folder(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  require_writable(folder / "report.html");
+  const std::array files{folder / "report.html", folder / "report.json"};
+  for (const std::filesystem::path& file : files) require_writable(file);
+  require_distinct(files, {});
 }
 
 }  // namespace

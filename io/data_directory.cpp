@@ -74,6 +74,16 @@ void set_data_directory(const fs::path& folder) {
   chosen_folder() = folder;
 }
 
+std::vector<fs::path> data_tables() {
+  std::vector<fs::path> tables;
+  try {
+    for (const std::string& name : tables_of(data_directory())) tables.push_back(data_directory() / name);
+  } catch (const Error&) {
+  } catch (const fs::filesystem_error&) {
+  }
+  return tables;
+}
+
 const std::string& data_sha256() {
   static const std::string hash = hash_tables(data_directory());
   return hash;

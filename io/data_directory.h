@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace abbe {
 
@@ -15,9 +16,12 @@ namespace abbe {
 /// `data_directory` counts.
 void set_data_directory(const std::filesystem::path& folder);
 
-/// SHA-256 over the tables of `data_directory`, its `scenes` left out: of what `sha256sum` prints for all
-/// `.csv` files by their paths within the folder, in the order of the paths' bytes. Worked out when first
-/// asked for. Throws Error{input} when a table cannot be read.
+/// The tables of `data_directory`: every `.csv` file, its `scenes` left out; none where there is no folder.
+[[nodiscard]] std::vector<std::filesystem::path> data_tables();
+
+/// SHA-256 over `data_tables`: of what `sha256sum` prints for them all by their paths within the folder, in
+/// the order of the paths' bytes. Worked out when first asked for. Throws Error{input} when a table cannot be
+/// read.
 [[nodiscard]] const std::string& data_sha256();
 
 }  // namespace abbe

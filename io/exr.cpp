@@ -110,7 +110,7 @@ Image announced(const Imf::Header& header, const std::string& name) {
   return image;
 }
 
-std::vector<ImagePart> read(const std::filesystem::path& path) {
+std::vector<ImagePart> read(const std::filesystem::path& path, Inputs* inputs) {
   const std::string name = path.string();
   if (!std::filesystem::is_regular_file(path)) throw Error(ErrorCode::input, name, "no such regular file");
   Imf::MultiPartInputFile file(name.c_str());
@@ -120,12 +120,13 @@ std::vector<ImagePart> read(const std::filesystem::path& path) {
     const Imf::Header& header = file.header(i);
     ImagePart& part =
         parts.emplace_back(ImagePart{header.hasName() ? header.name() : "", announced(header, name)});
-    bytes += part.image.pixels() * part.image.channels.size() * sizeof(float);
+    bytes += part.image.memory_bytes();
     if (bytes > kMaxImageBytes)
       throw Error(ErrorCode::resource, name,
                   fmt::format("image too large (got {} parts of more than {} bytes in all)", file.parts(),
                               kMaxImageBytes));
   }
+  if (inputs) inputs->take_memory(name, bytes);
   for (int i = 0; i < file.parts(); ++i) {
     if (!file.partComplete(i)) throw Error(ErrorCode::input, name, "truncated");
     Image& image = parts[static_cast<std::size_t>(i)].image;
@@ -165,9 +166,9 @@ void write_exr(const std::filesystem::path& path, std::span<const ImagePart> par
       });
 }
 
-std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path) {
+std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path, Inputs* inputs) {
   try {
-    return read(path);
+    return read(path, inputs);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
@@ -175,8 +176,8 @@ std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path) {
   }
 }
 
-Image read_exr(const std::filesystem::path& path) {
-  std::vector<ImagePart> parts = read_exr_parts(path);
+Image read_exr(const std::filesystem::path& path, Inputs* inputs) {
+  std::vector<ImagePart> parts = read_exr_parts(path, inputs);
   if (parts.size() != 1)
     throw Error(ErrorCode::input, path.string(), fmt::format("has {} parts (allowed 1)", parts.size()));
   return std::move(parts.front().image);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/image.h"
+#include "io/inputs.h"
 
 namespace abbe {
 
@@ -24,10 +25,11 @@ void write_exr(const std::filesystem::path& path, std::span<const ImagePart> par
 
 /// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes and those numbers as
 /// metadata. Throws Error{input} for a missing, truncated or malformed file and Error{resource} for one
-/// beyond the limits of `io/image.h`.
-[[nodiscard]] Image read_exr(const std::filesystem::path& path);
+/// beyond the limits of `io/image.h`, or beyond the memory that `inputs` has left, told by its header.
+[[nodiscard]] Image read_exr(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The same for a file of one part or more, which together keep within the limits; a single part may have no
 /// name.
-[[nodiscard]] std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path);
+[[nodiscard]] std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path,
+                                                    Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -29,6 +29,8 @@ struct Image {
       if (channel.name == name) return &channel;
     return nullptr;
   }
+  /// Of the channels that there are.
+  [[nodiscard]] std::size_t memory_bytes() const { return pixels() * channels.size() * sizeof(float); }
   [[nodiscard]] std::size_t pixels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }

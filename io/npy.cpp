@@ -98,7 +98,7 @@ std::vector<float> read_values(std::istream& file, std::size_t count) {
 
 }  // namespace
 
-NumberArray read_npy(const fs::path& path) {
+NumberArray read_npy(const fs::path& path, Inputs* inputs) {
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(path, "cannot be read");
   const Header header = read_header(file, path);
@@ -114,9 +114,11 @@ NumberArray read_npy(const fs::path& path) {
   const std::uintmax_t bytes = fs::file_size(path, error);  // before memory is asked for
   if (error || bytes != header.end + count * (wide ? 8 : 4))
     refuse(path, fmt::format("is cut or too long for its {} values", count));
+  if (inputs) inputs->take_memory(path.string(), count * (wide ? 8 + 4 : 2 * 4));
   file.seekg(static_cast<std::streamoff>(header.end));
   array.values = wide ? read_values<double>(file, count) : read_values<float>(file, count);
   if (!file) refuse(path, "cannot be read");
+  if (inputs) inputs->give_back_memory(count * (wide ? 8 : 4));  // as read
   return array;
 }
 

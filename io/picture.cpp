@@ -116,11 +116,13 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
   write_atomically(path, encoded(path, spec, interleaved(image, channels, whole_number).data()));
 }
 
-Image read_picture(const std::filesystem::path& path) {
+Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
   const auto input = open(path);
   const OIIO::ImageSpec spec = input->spec();
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   Image image{spec.width, spec.height, {}, {}};
+  const std::size_t bytes = image.pixels() * channels * sizeof(float);
+  if (inputs) inputs->take_memory(path.string(), 2 * bytes);  // pixel by pixel, then channel by channel
   std::vector<float> pixels(image.pixels() * channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
     throw Error(ErrorCode::input, path.string(), "truncated or corrupt");
@@ -132,11 +134,12 @@ Image read_picture(const std::filesystem::path& path) {
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       image.metadata[attribute.name().string()] = attribute.get_string();
+  if (inputs) inputs->give_back_memory(bytes);
   return image;
 }
 
-Image read_image(const std::filesystem::path& path) {
-  return path.extension() == ".exr" ? read_exr(path) : read_picture(path);
+Image read_image(const std::filesystem::path& path, Inputs* inputs) {
+  return path.extension() == ".exr" ? read_exr(path, inputs) : read_picture(path, inputs);
 }
 
 }  // namespace abbe

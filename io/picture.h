@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/image.h"
+#include "io/inputs.h"
 
 namespace abbe {
 
@@ -20,10 +21,11 @@ void write_picture(const std::filesystem::path& path, const Image& image);
 void write_raw_picture(const std::filesystem::path& path, const Image& image);
 
 /// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files. Throws
-/// Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
-[[nodiscard]] Image read_picture(const std::filesystem::path& path);
+/// Error{input}, or Error{resource} for one beyond the limits of `io/image.h` or beyond the memory that
+/// `inputs` has left, told by its header.
+[[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Any image file: .exr by `read_exr`, others by `read_picture`.
-[[nodiscard]] Image read_image(const std::filesystem::path& path);
+[[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -59,27 +59,29 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, Diagnostics& diagnostics,
-                                            ErrorCode code, std::size_t limit_bytes) {
-  const auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
-  const auto refuse = [&](std::string message, std::size_t offset, ErrorCode why) {
-    diagnostics.error({source, offset, ""}, std::move(message), why);
-    return nullptr;
-  };
-  constexpr std::size_t kFile = SourcePosition::kWholeFile;
+namespace {
 
-  const Descriptor file(path);
-  struct stat status {};
-  if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
-    return refuse(fmt::format("cannot open the file ({})", reason(errno)), kFile, code);
-  if (!S_ISREG(status.st_mode)) return refuse("not a regular file", kFile, code);
-  const auto too_large = [&] {
-    return refuse(fmt::format("file too large (allowed {} bytes)", limit_bytes), kFile, ErrorCode::resource);
-  };
-  if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > limit_bytes) return too_large();
-  if (const int error = read_bytes(file.value(), limit_bytes + 1, source->text))
-    return refuse(fmt::format("cannot read the file ({})", reason(error)), kFile, code);
-  if (source->text.size() > limit_bytes) return too_large();
+constexpr std::size_t kFile = SourcePosition::kWholeFile;
+
+std::nullptr_t refuse(const std::shared_ptr<const SourceText>& source, std::size_t offset,
+                      std::string message, ErrorCode code, Diagnostics& diagnostics) {
+  diagnostics.error({source, offset, ""}, std::move(message), code);
+  return nullptr;
+}
+
+std::nullptr_t refuse_length(const std::shared_ptr<const SourceText>& source, std::size_t limit_bytes,
+                             Diagnostics& diagnostics) {
+  return refuse(source, kFile, fmt::format("file too large (allowed {} bytes)", limit_bytes),
+                ErrorCode::resource, diagnostics);
+}
+
+// What the open file holds, as the text of `source`.
+std::shared_ptr<const SourceText> read_text(int descriptor, const std::shared_ptr<SourceText>& source,
+                                            Diagnostics& diagnostics, ErrorCode code,
+                                            std::size_t limit_bytes) {
+  if (const int error = read_bytes(descriptor, limit_bytes + 1, source->text))
+    return refuse(source, kFile, fmt::format("cannot read the file ({})", reason(error)), code, diagnostics);
+  if (source->text.size() > limit_bytes) return refuse_length(source, limit_bytes, diagnostics);
 
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (source->text.starts_with(kByteOrderMark)) source->text.erase(0, kByteOrderMark.size());
@@ -87,8 +89,29 @@ std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, D
   if (valid == source->text.size()) return source;
   const auto byte = static_cast<unsigned char>(source->text[valid]);
   source->text.resize(valid);  // so that no excerpt shows the bad bytes
-  return refuse(byte == 0 ? "NUL byte in a text" : fmt::format("invalid UTF-8 (got byte 0x{:02X})", byte),
-                valid, code);
+  return refuse(source, valid,
+                byte == 0 ? "NUL byte in a text" : fmt::format("invalid UTF-8 (got byte 0x{:02X})", byte),
+                code, diagnostics);
+}
+
+}  // namespace
+
+std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                            ErrorCode code, std::size_t limit_bytes) {
+  const auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
+  const Descriptor file(path);
+  struct stat status {};
+  if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
+    return refuse(source, kFile, fmt::format("cannot open the file ({})", reason(errno)), code, diagnostics);
+  if (!S_ISREG(status.st_mode)) return refuse(source, kFile, "not a regular file", code, diagnostics);
+  if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > limit_bytes)
+    return refuse_length(source, limit_bytes, diagnostics);
+  return read_text(file.value(), source, diagnostics, code, limit_bytes);
+}
+
+std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code) {
+  return read_text(STDIN_FILENO, std::make_shared<SourceText>(SourceText{"<stdin>", {}}), diagnostics, code,
+                   kMaxTextBytes);
 }
 
 bool is_file(const std::filesystem::path& path, const SourcePosition& where, Diagnostics& diagnostics) {

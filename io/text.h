@@ -12,12 +12,16 @@
 
 namespace abbe {
 
+inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
+
 /// Reads a regular file of at most `limit_bytes` of valid UTF-8 text. A missing file, a folder, a FIFO or
 /// device, an oversized file, a NUL byte or invalid UTF-8 is reported and gives nullptr.
 [[nodiscard]] std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path,
                                                           Diagnostics& diagnostics,
                                                           ErrorCode code = ErrorCode::input,
-                                                          std::size_t limit_bytes = std::size_t{1} << 28);
+                                                          std::size_t limit_bytes = kMaxTextBytes);
+/// The same of standard input, of any kind, under the name "<stdin>".
+[[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
 
 /// Whether `path` is a regular file; another is reported at `where`, as what names it.
 [[nodiscard]] bool is_file(const std::filesystem::path& path, const SourcePosition& where,

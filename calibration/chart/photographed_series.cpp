@@ -176,7 +176,8 @@ void forget_certainty(ExposureSeries& series) {
 
 }  // namespace
 
-std::optional<PhotographedSeries> read_series(const std::filesystem::path& path, Diagnostics& diagnostics) {
+std::optional<PhotographedSeries> read_series(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                              Inputs* inputs) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
   const std::optional<JsonValue> root = parse_json(source, diagnostics);
@@ -184,11 +185,15 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   const Listing listing = read_listing(*root, path.parent_path(), diagnostics);
   if (listing.photographs.empty()) diagnostics.error(root->where, "no exposures", ErrorCode::input);
   if (diagnostics.has_errors()) return std::nullopt;
+  if (inputs) {
+    inputs->add_file(path);
+    for (const Photograph& photograph : listing.photographs) inputs->add_file(photograph.file);
+  }
   PhotographedSeries all;
   std::optional<Image> first;
   std::vector<Region> regions = listing.regions;
   for (const Photograph& photograph : listing.photographs) {
-    Image image = read_image(photograph.file);
+    Image image = read_image(photograph.file, inputs);
     const std::string wrong = objection(image, first ? *first : image, listing);
     if (!wrong.empty()) {
       diagnostics.error(photograph.where, photograph.file.string() + " " + wrong, ErrorCode::input);
@@ -204,6 +209,7 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
       first = image;
     }
     add(image, regions, listing, all);
+    if (inputs) inputs->give_back_memory(image.memory_bytes());
     for (ExposureSeries& series : all.series) series.times_s.push_back(photograph.exposure_s);
   }
   if (listing.regions.empty())

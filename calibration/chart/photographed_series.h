@@ -7,6 +7,7 @@
 
 #include "calibration/chart/exposure_series.h"
 #include "io/diagnostics.h"
+#include "io/inputs.h"
 
 namespace abbe {
 
@@ -26,8 +27,9 @@ struct PhotographedSeries {
 /// with a black or clipped pixel counts as black or clipped. Without regions, single pixels of a regular grid
 /// are the patches, and nothing is known of their noise. Codes are divided by `full_scale`, the value at
 /// which the camera clips (default 1, an integer file's largest). Reports photographs of unequal size or
-/// channels, regions beyond them, and values that are not finite.
+/// channels, regions beyond them, and values that are not finite. `inputs` learns of every file.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
-                                                            Diagnostics& diagnostics);
+                                                            Diagnostics& diagnostics,
+                                                            Inputs* inputs = nullptr);
 
 }  // namespace abbe

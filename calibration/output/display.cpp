@@ -137,10 +137,15 @@ DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matr
     const Matrix3 from_xyz = own ? Matrix3() : rgb_to_xyz_d65(kAces2065).inverse();
     // Lossless, because the fast powers and logarithms of other settings have errors (for negative values on
     // some processors gross ones) that nobody bounds.
-    processor_ = std::make_shared<const Processor>(Processor{
-        gamut, from_xyz * gamut.to_xyz_d65,
-        config->getProcessor(input.c_str(), display.c_str(), view.c_str(), OCIO::TRANSFORM_DIR_FORWARD)
-            ->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)});
+    const OCIO::ConstProcessorRcPtr processor =
+        config->getProcessor(input.c_str(), display.c_str(), view.c_str(), OCIO::TRANSFORM_DIR_FORWARD);
+    processor_ = std::make_shared<const Processor>(
+        Processor{gamut, from_xyz * gamut.to_xyz_d65,
+                  processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)});
+    if (own) return;
+    files_.push_back(options.config);
+    const OCIO::ConstProcessorMetadataRcPtr used = processor->getProcessorMetadata();
+    for (int i = 0; i < used->getNumFiles(); ++i) files_.emplace_back(used->getFile(i));
   } catch (const OCIO::Exception& e) {
     throw Error(own ? ErrorCode::internal : ErrorCode::input, "OpenColorIO", e.what());
   }

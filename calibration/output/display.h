@@ -58,6 +58,8 @@ class DisplayTransform {
 
   /// Film values to XYZ relative to D65.
   [[nodiscard]] const Matrix3& to_xyz_d65() const { return to_xyz_d65_; }
+  /// The user's configuration and the tables of it that are used; none of Abbe's own.
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
   /// How the matrix was fitted; nothing where it follows from the channels themselves.
   [[nodiscard]] const std::optional<CorrectionFit>& fit() const { return fit_; }
 
@@ -66,6 +68,7 @@ class DisplayTransform {
   std::vector<std::string> channels_;
   Matrix3 to_xyz_d65_;
   std::optional<CorrectionFit> fit_;
+  std::vector<std::filesystem::path> files_;
   std::shared_ptr<const Processor> processor_;
 };
 

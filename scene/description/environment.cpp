@@ -44,9 +44,12 @@ std::optional<Sky> read_sky(const JsonValue& json, Reading& reading) {
   const std::string extension = path->extension().string();
   if (extension != ".exr" && extension != ".hdr")
     return refuse(fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", extension));
-  const Image image = read_image(*path);
+  const Image image = read_image(*path, reading.inputs);
+  const HeldMemory held(reading.inputs, image.memory_bytes());
   const auto planes = find_planes(image);
   if (!planes) return refuse("no channels R, G, B or Y");
+  // Texels, and the cumulative distribution by which they are drawn.
+  reading.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
           environment_frame(*up, turn)};
   std::size_t negative = 0;

@@ -173,7 +173,17 @@ std::optional<std::filesystem::path> Reading::file(const std::string& name, cons
     diagnostics.error(where, fmt::format("expected a file (got the URL \"{}\")", name), ErrorCode::input);
     return std::nullopt;
   }
-  return files.emplace_back(folder / name);
+  remember(folder / name);
+  return files.back();
+}
+
+void Reading::remember(const std::filesystem::path& file) {
+  files.push_back(file);
+  if (inputs != nullptr) inputs->add_file(file);
+}
+
+void Reading::take_memory(const std::string& what, std::size_t bytes) const {
+  if (inputs != nullptr) inputs->take_memory(what, bytes);
 }
 
 std::optional<std::string> Reading::table(const JsonValue& json) {
@@ -191,16 +201,19 @@ std::optional<std::string> Reading::table(const JsonValue& json) {
 }  // namespace description
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
-                                Diagnostics& diagnostics) {
+                                Diagnostics& diagnostics, Inputs* inputs) {
   // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
   std::error_code error;
   const bool there = std::filesystem::is_regular_file(path, error);
-  const auto source = read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  const auto source = path == kStandardInput
+                          ? read_standard_input(diagnostics, ErrorCode::scene)
+                          : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
   if (!source) return std::nullopt;
+  if (inputs && path != kStandardInput) inputs->add_file(path);
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
-  description::Reading reading{diagnostics, path.parent_path()};
+  description::Reading reading{diagnostics, path.parent_path(), inputs};
   Scene scene = description::read_scene(*root, reading);
   if (diagnostics.has_errors()) return std::nullopt;
   description::recentre(scene, reading);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/diagnostics.h"
+#include "io/inputs.h"
 #include "scene/scene.h"
 
 namespace abbe {
@@ -16,9 +17,15 @@ struct Override {
   std::string value;
 };
 
+/// The path that stands for a scene read from standard input; the files it names are looked for in the
+/// current folder.
+inline constexpr const char* kStandardInput = "-";
+
 /// Reads, checks and builds a scene. Everything wrong with it is reported; nothing is returned if there is an
-/// error.
+/// error. `inputs` learns of every file that scene and meshes name, and counts the memory of images, grids
+/// and meshes: throws Error{resource} for one that is too large.
 [[nodiscard]] std::optional<Scene> load_scene(const std::filesystem::path& path,
-                                              std::span<const Override> overrides, Diagnostics& diagnostics);
+                                              std::span<const Override> overrides, Diagnostics& diagnostics,
+                                              Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -47,7 +47,7 @@ const Material* chosen(const std::vector<Material>& materials, const std::string
 
 }  // namespace
 
-std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics) {
+std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics, Inputs* inputs) {
   const bool in_place = words.starts_with('{');
   const Place place = in_place ? Place{} : split_name(words);
   const auto source = in_place ? std::make_shared<const SourceText>(SourceText{"MATERIAL", words})
@@ -56,7 +56,8 @@ std::optional<Material> load_material(const std::string& words, Diagnostics& dia
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
   const JsonValue materials = materials_of(*std::move(root));
-  description::Reading reading{diagnostics, place.path.parent_path()};
+  if (inputs && !in_place) inputs->add_file(place.path);
+  description::Reading reading{diagnostics, place.path.parent_path(), inputs};
   Scene scene{};
   description::read_materials(materials, reading, scene);
   if (diagnostics.has_errors()) return std::nullopt;

@@ -36,7 +36,7 @@ std::optional<DensityGrid> read_densities(const JsonValue& json, Reading& readin
   if (!path) return std::nullopt;
   NumberArray array;
   try {
-    array = read_npy(*path);
+    array = read_npy(*path, reading.inputs);
   } catch (const Error& e) {
     reading.diagnostics.error(json.where, e.what(), e.code);
     return std::nullopt;

@@ -15,6 +15,7 @@
 #include <ImathMatrix.h>
 #include <ImathVec.h>
 
+#include "io/inputs.h"
 #include "io/json.h"
 #include "io/object_reader.h"
 #include "scene/scene.h"
@@ -53,6 +54,7 @@ struct LampSpectrum {
 struct Reading {
   Diagnostics& diagnostics;
   std::filesystem::path folder;  ///< Of the scene file: where the files it names are looked for.
+  Inputs* inputs = nullptr;      ///< Of the command, if it keeps account of them.
   double unit_m = 1;             ///< Metres per unit of length.
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
   std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
@@ -64,6 +66,9 @@ struct Reading {
   /// A file named by the scene, remembered for the hash; a URL is reported.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,
                                                           const SourcePosition& where);
+  void remember(const std::filesystem::path& file);
+  /// Counts memory that is about to be taken. Throws Error{resource} when it is too much.
+  void take_memory(const std::string& what, std::size_t bytes) const;
   /// A table's name as the libraries take it: a user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml` is looked
   /// for beside the scene.
   [[nodiscard]] std::optional<std::string> table(const JsonValue& name);

@@ -44,7 +44,9 @@ std::optional<TextureFile> read_texture_file(ObjectReader& reader, Reading& read
   const auto path = name ? reading.file(*name, json->where) : std::nullopt;
   if (!path) return std::nullopt;
   try {
-    return TextureFile{*name, json->where, read_image(*path), mapping};
+    Image image = read_image(*path, reading.inputs);
+    const std::size_t bytes = image.memory_bytes();
+    return TextureFile{*name, json->where, std::move(image), mapping, {reading.inputs, bytes}};
   } catch (const Error& e) {
     reading.diagnostics.error(json->where, e.what(), e.code);
     return std::nullopt;
@@ -53,6 +55,8 @@ std::optional<TextureFile> read_texture_file(ObjectReader& reader, Reading& read
 
 std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span<const std::string> channels,
                                               Encoding encoding, Reading& reading) {
+  reading.take_memory(fmt::format("texture \"{}\"", file.name),
+                      file.image.pixels() * channels.size() * sizeof(float));
   std::vector<float> texels(file.image.pixels() * channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const ImageChannel* channel = file.image.find(channels[c]);

@@ -19,6 +19,7 @@ struct TextureFile {
   SourcePosition where;
   Image image;
   TextureMapping mapping;
+  HeldMemory held;  ///< By the image.
 
   /// The complaint `what` about this image, as an error of that kind.
   void refuse(const std::string& what, ErrorCode code, Reading& reading) const;

@@ -65,6 +65,14 @@ TEST(Arguments, SharesArePercentOrPlain) {
     EXPECT_NE(refusal([&] { return parse_share("--error", text); }), "accepted") << text;
 }
 
+TEST(Arguments, AmountsOfMemoryHaveUnits) {
+  EXPECT_EQ(parse_bytes("--max-memory", "4G"), 4000000000U);
+  EXPECT_EQ(parse_bytes("--max-memory", "1.5M"), 1500000U);
+  EXPECT_EQ(parse_bytes("--max-memory", "12"), 12U);
+  for (const char* text : {"", "G", "0", "-1M", "1T", "0.1", "1e30"})
+    EXPECT_NE(refusal([&] { return parse_bytes("--max-memory", text); }), "accepted") << text;
+}
+
 TEST(Arguments, CropsAreWholeAndNotEmpty) {
   const Crop crop = parse_crop("--crop", "1,2,30,40");
   EXPECT_EQ(crop.x0, 1);

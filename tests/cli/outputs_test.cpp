@@ -67,6 +67,25 @@ TEST(Outputs, NamesMayHoldBlanksAndLineBreaks) {
   EXPECT_EQ(read_exr(scratch() / "a b\nc: d.exr").metadata.at("scene"), "a b?c: d.json");
 }
 
+TEST(Outputs, ScenesComeFromStandardInputAndStatsGoToStandardOutput) {
+  (void)ball();
+  for (const char* name : {"stdin.exr", "named.exr"}) fs::remove(scratch() / name);
+  const Outcome run = here(ABBE_BINARY " render - --quiet --stats - < ball.json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.json()["samples_per_pixel"], 8);
+  EXPECT_EQ(read_exr(scratch() / "stdin.exr").metadata.at("scene"), "stdin");
+  ASSERT_EQ(here("cat ball.json | " ABBE_BINARY " render - --quiet -o named.exr").code, 0);
+  ASSERT_EQ(here(ABBE_BINARY " render ball.json --quiet -o file.exr").code, 0);
+  EXPECT_EQ(read_exr(scratch() / "named.exr").find("Y")->values,
+            read_exr(scratch() / "file.exr").find("Y")->values);
+  EXPECT_EQ(here(ABBE_BINARY " info - --json < ball.json").json(),
+            here(ABBE_BINARY " info ball.json --json").json());
+  const Outcome wrong = here("echo '{\"abbe\": 2}' | " ABBE_BINARY " render -");
+  EXPECT_EQ(wrong.code, 3);
+  EXPECT_NE(wrong.err.find("<stdin>:1:10: /abbe: "), std::string::npos) << wrong.err;
+  EXPECT_EQ(here(ABBE_BINARY " render - --quiet < /dev/null").code, 3);
+}
+
 TEST(Outputs, UnwritablePlacesAreFoundBeforeRendering) {
   // At this many samples a render that started would not end within the test.
   const std::string render = ABBE_BINARY " render " + ball() + " --spp 10000000 --quiet -o a.exr ";
@@ -91,17 +110,18 @@ TEST(Outputs, ACheckpointThatIsAFolderIsNoCheckpoint) {
   EXPECT_NE(run.err.find("folder.abbepart: is a folder"), std::string::npos) << run.err;
 }
 
-TEST(Merge, MayReplaceAPartByTheSum) {
+TEST(Merge, ReplacesNoPart) {
   const std::string part = ABBE_BINARY " render " + ball() + " --quiet --sample-range ";
   ASSERT_EQ(here(part + "0:4 -o one.abbepart").code, 0);
   ASSERT_EQ(here(part + "4:8 -o two.abbepart").code, 0);
   const std::string one = read_file(file("one.abbepart"));
-  EXPECT_EQ(here(ABBE_BINARY " merge one.abbepart ./one.abbepart -o one.abbepart").code, 4);
-  EXPECT_EQ(here(ABBE_BINARY " merge one.abbepart two.abbepart nowhere.abbepart -o one.abbepart").code, 4);
+  EXPECT_EQ(here(ABBE_BINARY " merge one.abbepart ./one.abbepart -o sum.abbepart").code, 4);
+  EXPECT_EQ(here(ABBE_BINARY " merge one.abbepart two.abbepart nowhere.abbepart -o sum.abbepart").code, 4);
+  EXPECT_EQ(here(ABBE_BINARY " merge two.abbepart one.abbepart -o ./one.abbepart").code, 2);
   EXPECT_EQ(read_file(file("one.abbepart")), one);
-  ASSERT_EQ(here(ABBE_BINARY " merge one.abbepart two.abbepart -o one.abbepart").code, 0);
+  ASSERT_EQ(here(ABBE_BINARY " merge one.abbepart two.abbepart -o sum.abbepart").code, 0);
   ASSERT_EQ(here(ABBE_BINARY " render ball.json --quiet -o all.abbepart").code, 0);
-  EXPECT_EQ(read_file(file("one.abbepart")), read_file(file("all.abbepart")));
+  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(file("all.abbepart")));
 }
 
 TEST(Merge, CroppedRangesAddUp) {

@@ -30,7 +30,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 14U);
+  EXPECT_EQ(stats.size(), 15U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
@@ -42,13 +42,33 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_GT(stats["rays"], 0);
   EXPECT_GT(stats["wall_s"], 0);
   EXPECT_GT(stats["cpu_s"], 0);
-  EXPECT_GT(stats["embree_replay_share"], 0);
+  EXPECT_TRUE(stats["embree_replay_share"].is_null());
+  for (const char* part : {"load", "display", "write"}) {
+    EXPECT_GT(stats["overhead"][part]["wall_s"], 0) << part;
+    EXPECT_GT(stats["overhead"][part]["cpu_s"], 0) << part;
+  }
   EXPECT_GT(stats["relative_error"], 0);
   double sum = 0;
   for (const float y : image.find("Y")->values) sum += static_cast<double>(y);
   EXPECT_EQ(stats["film"].size(), 3U);
   EXPECT_NEAR(stats["film"]["Y"]["mean"], sum / (24 * 16), 1e-6 * sum);
   EXPECT_GT(stats["film"]["Y"]["standard_error"], 0);
+}
+
+TEST(Render, ExpTimeIsTheExposure) {
+  const auto exposed = [](const std::string& sensor) {
+    const Outcome run = abbe("render " + ball() + " --quiet --set '/sensor={\"resolution\": [5, 4], " +
+                             sensor + "}' -o " + file("exposed.exr"));
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Image image = read_exr(file("exposed.exr"));
+    const auto found = image.metadata.find("expTime");
+    return found == image.metadata.end() ? "none" : found->second;
+  };
+  EXPECT_EQ(exposed(R"("observer": "1931", "exposure_s": 0.02)"), "0.02");
+  const std::string filters = R"("channels": {"a": {"filters": [{"band": [400, 500]}], "exposure_s": 0.25},
+      "b": {"filters": [{"band": [500, 600]}], "exposure_s": )";
+  EXPECT_EQ(exposed(filters + "0.25}}"), "0.25");
+  EXPECT_EQ(exposed(filters + "0.5}}"), "none");
 }
 
 TEST(Render, AMosaicHasOnePlaneThatTellsItsPattern) {

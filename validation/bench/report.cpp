@@ -88,6 +88,13 @@ LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals) {
   return plot;
 }
 
+std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder,
+                                                std::span<const Suite> suites) {
+  std::vector<std::filesystem::path> files{folder / "bench.csv", folder / "bench.json"};
+  for (const Suite& suite : suites) files.push_back(folder / (suite.name + ".svg"));
+  return files;
+}
+
 void require_report_folder(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
@@ -95,10 +102,13 @@ void require_report_folder(const std::filesystem::path& folder) {
 }
 
 void write_report(const std::filesystem::path& folder, const BenchReport& report) {
-  write_atomically(folder / "bench.csv", csv_text(report.runs));
-  write_atomically(folder / "bench.json", json_text(report));
-  for (const SuiteRun& run : report.runs)
-    write_atomically(folder / (run.suite.name + ".svg"), svg(error_plot(run, report.rivals)));
+  std::vector<Suite> suites;
+  for (const SuiteRun& run : report.runs) suites.push_back(run.suite);
+  const std::vector<std::filesystem::path> files = report_files(folder, suites);
+  write_atomically(files[0], csv_text(report.runs));
+  write_atomically(files[1], json_text(report));
+  for (std::size_t i = 0; i < suites.size(); ++i)
+    write_atomically(files[2 + i], svg(error_plot(report.runs[i], report.rivals)));
 }
 
 }  // namespace abbe

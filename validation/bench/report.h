@@ -33,6 +33,10 @@ struct BenchReport {
 /// relRMSE against CPU time of one suite, with its rivals.
 [[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals);
 
+/// The files of a report on those suites.
+[[nodiscard]] std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder,
+                                                              std::span<const Suite> suites);
+
 /// Makes the folder of a report if need be. Throws Error{output} now if nothing can be written there later.
 void require_report_folder(const std::filesystem::path& folder);
 

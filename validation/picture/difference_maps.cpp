@@ -113,8 +113,8 @@ Image histogram_picture(const std::vector<double>& values, double high) {
 std::vector<DifferenceMap> difference_maps(const std::vector<double>& relative_errors,
                                            const std::optional<ColorDifference>& color, int width,
                                            int height) {
-  std::vector<DifferenceMap> maps{map_of("relative_error", relative_errors, width, height)};
-  if (color) maps.push_back(map_of("delta_e", color->pixels, width, height));
+  std::vector<DifferenceMap> maps{map_of(kRelativeErrorMap, relative_errors, width, height)};
+  if (color) maps.push_back(map_of(kDeltaEMap, color->pixels, width, height));
   return maps;
 }
 

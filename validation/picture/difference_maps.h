@@ -17,6 +17,10 @@ struct DifferenceMap {
   Image histogram;  ///< How many pixels differ by how much; its bars have the colours of the map.
 };
 
+/// Names of the maps there are.
+inline constexpr const char* kRelativeErrorMap = "relative_error";
+inline constexpr const char* kDeltaEMap = "delta_e";
+
 /// The relative error, and the colour difference of images that have one. The scales end at the first of 1,
 /// 2, 5 times a power of ten beyond what 99 % of the pixels have.
 [[nodiscard]] std::vector<DifferenceMap> difference_maps(const std::vector<double>& relative_errors,

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <utility>
+
+#include "transport/render/replay.h"
+
+namespace abbe::cli {
+
+/// Time that some work took, by the clock and of all threads together.
+struct Cost {
+  double wall_s = 0;
+  double cpu_s = 0;
+};
+
+/// Measures from its making.
+class CostMeter {
+ public:
+  [[nodiscard]] Cost spent() const {
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start_).count(),
+            process_cpu_seconds() - cpu_start_};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_start_ = std::chrono::steady_clock::now();
+  double cpu_start_ = process_cpu_seconds();
+};
+
+/// The same work, whose cost is added to `sum`.
+[[nodiscard]] inline std::function<void()> metered(Cost& sum, std::function<void()> work) {
+  return [&sum, work = std::move(work)] {
+    const CostMeter meter;
+    work();
+    const Cost cost = meter.spent();
+    sum.wall_s += cost.wall_s;
+    sum.cpu_s += cost.cpu_s;
+  };
+}
+
+}  // namespace abbe::cli

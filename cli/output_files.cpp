@@ -1,0 +1,74 @@
+#include "cli/output_files.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+#include "io/data_directory.h"
+#include "io/error.h"
+
+namespace abbe::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Device and inode of a file that is there, wherever links lead; the place of one that is not.
+std::string identity_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);
+  return weakly_canonical(absolute(destination(file))).string();
+}
+
+[[noreturn]] void refuse(const fs::path& output, const fs::path& other, std::string_view why) {
+  throw Error(ErrorCode::usage, output.string(),
+              fmt::format("is the same file as {}{}", other.string(), why));
+}
+
+}  // namespace
+
+void require_extension(const fs::path& path, std::initializer_list<const char*> allowed) {
+  const auto same = [&path](const char* extension) { return path.extension() == extension; };
+  if (std::none_of(allowed.begin(), allowed.end(), same))
+    throw Error(
+        ErrorCode::usage, path.string(),
+        fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
+}
+
+void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {
+  constexpr std::string_view kIsRead = ", which is read: an output needs a place of its own";
+  std::map<std::string, fs::path> written;
+  bool replaces = false;
+  for (const fs::path& output : outputs) {
+    if (output.empty()) continue;
+    const auto [there, added] = written.emplace(identity_of(output), output);
+    if (!added) refuse(output, there->second, ": each output needs a place of its own");
+    std::error_code ignored;
+    replaces = replaces || fs::exists(output, ignored);
+  }
+  const auto guard = [&written, kIsRead](const fs::path& input) {
+    const auto found = written.find(identity_of(input));
+    if (found != written.end()) refuse(found->second, input, kIsRead);
+  };
+  for (const fs::path& input : inputs)
+    if (!input.empty()) guard(input);
+  if (replaces)
+    for (const fs::path& table : data_tables()) guard(table);
+}
+
+std::vector<fs::path> files_among(std::initializer_list<std::string> names) {
+  std::vector<fs::path> files;
+  for (const std::string& name : names) {
+    const std::size_t column = name.rfind(".csv:");
+    const fs::path path = column == std::string::npos ? name : name.substr(0, column + 4);
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored)) files.push_back(path);
+  }
+  return files;
+}
+
+}  // namespace abbe::cli

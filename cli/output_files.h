@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace abbe::cli {
+
+/// Throws Error{usage} unless the extension is one of the allowed, as ".exr".
+void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed);
+
+/// Throws Error{usage} for an output that is the same file as another output, as an input or as a table of
+/// the data directory, by whatever name or link, hard ones too; empty paths are none.
+void require_distinct(std::span<const std::filesystem::path> outputs,
+                      std::span<const std::filesystem::path> inputs);
+
+/// The files among `names`, which may also be names of tables: "FILE", or "FILE.csv:COLUMN".
+[[nodiscard]] std::vector<std::filesystem::path> files_among(std::initializer_list<std::string> names);
+
+}  // namespace abbe::cli

@@ -1,0 +1,72 @@
+#include "io/inputs.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The least number in the files of that name from a control group up to the root of its hierarchy.
+std::uint64_t least_up(const fs::path& root, const std::string& group, const char* name) {
+  std::uint64_t least = UINT64_MAX;
+  for (fs::path at = root / group; at.string().size() >= root.string().size(); at = at.parent_path()) {
+    std::uint64_t bytes = 0;
+    if (std::ifstream(at / name) >> bytes) least = std::min(least, bytes);  // else no file, or the word "max"
+  }
+  return least;
+}
+
+// Of the control groups this process is in, of the second version or the first: lines "0::/GROUP" or
+// "4:memory:/GROUP".
+std::uint64_t control_group_limit() {
+  const fs::path root = "/sys/fs/cgroup";
+  std::uint64_t least = UINT64_MAX;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const std::vector<std::string> parts = split(line, ':');
+    if (parts.size() != 3 || !parts[2].starts_with('/')) continue;
+    const std::string group = parts[2].substr(1);
+    if (parts[1].empty()) least = std::min(least, least_up(root, group, "memory.max"));
+    if (parts[1] == "memory")
+      least = std::min(least, least_up(root / "memory", group, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::size_t default_memory_limit() {
+  constexpr double kShare = 0.8;
+  std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  bytes = std::min(bytes, control_group_limit());
+  rlimit space{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0) bytes = std::min<std::uint64_t>(bytes, space.rlim_cur);
+  return static_cast<std::size_t>(kShare * static_cast<double>(bytes));
+}
+
+void Inputs::take_memory(const std::string& what, std::size_t bytes) {
+  const std::size_t left = limit_ - std::min(taken_, limit_);
+  if (bytes > left)
+    throw Error(ErrorCode::resource, what,
+                fmt::format("needs {:.1f} MB of memory (allowed {:.1f} MB, of {:.1f} in all; --max-memory "
+                            "allows more)",
+                            static_cast<double>(bytes) / 1e6, static_cast<double>(left) / 1e6,
+                            static_cast<double>(limit_) / 1e6));
+  taken_ += bytes;
+}
+
+}  // namespace abbe

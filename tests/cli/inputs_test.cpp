@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/data_directory.h"
+#include "io/exr.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// What commands read is never written over, whatever it is called, and takes no more memory than allowed.
+
+namespace abbe::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with a scene and files of all kinds that it names.
+class InputFiles : public ::testing::Test {
+ protected:
+  InputFiles() : folder_(scratch() / "inputs") {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "sub");
+    write_exr(folder_ / "wall.exr", {2, 1, {{"a", {0.25F, 1}}}, {}});
+    write("lamp.csv", "# unit: W/(m2 sr nm)\n# outside: zero\nwavelength_nm,L\n400,1\n700,3\n");
+    write("chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\n");
+    write("chair.obj", "mtllib chair.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("wall.json", R"({"abbe": 1, "units": "mm",
+      "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -300, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+      "sensor": {"resolution": [8, 6], "observer": "1931"},
+      "materials": {"wall": {"diffuse": {"reflectance": {"image": "wall.exr", "weights": {"a": 0.8}}}}},
+      "lights": [{"environment": {}, "emission": {"spectrum": "lamp.csv"}}],
+      "shapes": [{"mesh": "chair.obj"}, {"sphere": {"center": [0, 0, 0], "radius": 50}, "material": "wall"}],
+      "render": {"samples": 2}})");
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  [[nodiscard]] Outcome here(const std::string& command) const {
+    return shell("cd " + folder_.string() + " && " + command);
+  }
+  // No command may touch the file that it would write over.
+  void expect_kept(const std::string& command, const std::string& input) const {
+    const std::string before = read_file(folder_ / input);
+    const Outcome run = here(ABBE_BINARY " " + command);
+    EXPECT_EQ(run.code, 2) << command << '\n' << run.err;
+    EXPECT_NE(run.err.find("is the same file as"), std::string::npos) << command << '\n' << run.err;
+    EXPECT_EQ(read_file(folder_ / input), before) << command;
+    EXPECT_FALSE(before.empty()) << input;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(InputFiles, AreNotRenderedOver) {
+  fs::create_hard_link(folder_ / "wall.exr", folder_ / "hard.exr");
+  fs::create_symlink("wall.exr", folder_ / "soft.exr");
+  expect_kept("render wall.json --quiet", "wall.exr");  // where the film goes unless told otherwise
+  for (const char* name : {"hard.exr", "soft.exr", "sub/../wall.exr", "$PWD/wall.exr"})
+    expect_kept(fmt::format("render wall.json --quiet -o {}", name), "wall.exr");
+  for (const char* name : {"lamp.csv", "chair.obj", "chair.mtl", "wall.json", "wall.exr"})
+    expect_kept(fmt::format("render wall.json --quiet -o a.exr --stats {}", name), name);
+  ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.exr --stats a.json --display a.png").code, 0);
+  EXPECT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.exr --stats a.json --display a.png").code, 0);
+}
+
+TEST_F(InputFiles, TablesAndConfigurationsAreNotRenderedOver) {
+  fs::copy(data_directory(), folder_ / "data", fs::copy_options::recursive);
+  const std::string before = read_file(folder_ / "data/illuminant/cie_D65.csv");
+  const Outcome run = here("ABBE_DATA=$PWD/data " ABBE_BINARY
+                           " render wall.json --quiet -o a.exr --stats data/illuminant/cie_D65.csv");
+  EXPECT_EQ(run.code, 2) << run.err;
+  EXPECT_EQ(read_file(folder_ / "data/illuminant/cie_D65.csv"), before);
+  ASSERT_EQ(here(ABBE_BINARY " calibrate --camera observer:1931 -o users").code, 0);
+  expect_kept(
+      "render wall.json --quiet -o a.exr --display a.png --ocio users/config.ocio "
+      "--stats users/config.ocio",
+      "users/config.ocio");
+}
+
+TEST_F(InputFiles, AreKeptByEveryCommand) {
+  ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o one.abbepart --sample-range 0:1").code, 0);
+  ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o two.abbepart --sample-range 1:2").code, 0);
+  fs::create_hard_link(folder_ / "one.abbepart", folder_ / "hard.abbepart");
+  expect_kept("merge one.abbepart two.abbepart -o hard.abbepart", "one.abbepart");
+  ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o film.exr").code, 0);
+  fs::create_hard_link(folder_ / "film.exr", folder_ / "hard.exr");
+  expect_kept("develop film.exr -o hard.exr", "film.exr");
+  fs::create_directories(folder_ / "maps");
+  fs::copy_file(folder_ / "film.exr", folder_ / "maps/relative_error.png");
+  expect_kept("compare film.exr maps/relative_error.png --maps maps", "maps/relative_error.png");
+  write("paint.json", R"({"diffuse": {"reflectance": 0.5}})");
+  expect_kept("lab paint.json --plot sub/../paint.json", "paint.json");
+  expect_kept("lab wall.json:wall --plot wall.exr", "wall.exr");
+  fs::create_directories(folder_ / "users");
+  write("users/report.json", "{}");
+  expect_kept("calibrate --camera users/report.json -o users", "users/report.json");
+  write("users/bench.json", "{}");
+  expect_kept("bench cornell --baseline users/bench.json -o users", "users/bench.json");
+}
+
+TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
+  const auto refused = [this](const std::string& command, const std::string& what) {
+    const Outcome run = here(ABBE_BINARY " " + command);
+    EXPECT_EQ(run.code, 6) << command << '\n' << run.err;
+    EXPECT_NE(run.err.find(what), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("--max-memory"), std::string::npos) << run.err;
+  };
+  const Image large{1000, 1000, {{"a", std::vector<float>(1000000, 0.5F)}}, {}};
+  write_exr(folder_ / "wall.exr", large);
+  for (const char* command : {"render", "info"})
+    refused(fmt::format("{} wall.json --max-memory 3M", command), "wall.exr");
+  refused("lab wall.json:wall --max-memory 3M", "wall.exr");
+  refused("render wall.json --quiet -o a.exr --set /sensor/resolution=[1000,1000] --max-memory 20M", "film");
+  refused("compare wall.exr wall.exr --max-memory 6M", "wall.exr");
+  // The header alone tells: of the pixels there is not one.
+  fs::resize_file(folder_ / "wall.exr", fs::file_size(folder_ / "wall.exr") / 2);
+  refused("render wall.json --max-memory 3M", "wall.exr");
+  EXPECT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.exr").code, 4);
+  write_exr(folder_ / "wall.exr", large);
+  EXPECT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.exr --max-memory 20M").code, 0);
+  ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.abbepart").code, 0);
+  refused("merge a.abbepart -o b.exr --max-memory 1k", "a.abbepart");
+  refused("develop a.exr -o b.exr --max-memory 1k", "a.exr");
+}
+
+}  // namespace
+}  // namespace abbe::test
