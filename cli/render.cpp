@@ -160,8 +160,9 @@ void write_all(const std::vector<std::function<void()>>& writers) {
   if (failure) throw *failure;
 }
 
-/// What came before and after the render itself.
-struct Overhead {
+/// Of the command, and of what comes before and after the render itself.
+struct Costs {
+  CostMeter command;
   Cost load;     ///< Reading the scene and building what it describes.
   Cost display;  ///< Making pictures of the film, and writing them.
   Cost write;    ///< Writing the film and the last checkpoint.
@@ -171,14 +172,14 @@ Json json_of(const Cost& cost) {
   return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
 }
 
-std::string stats_text(const Scene& scene, const RenderResult& result, const Overhead& overhead) {
+std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs) {
   const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
   answer["cpu_s"] = stats.cpu_s;
-  answer["overhead"] = {{"load", json_of(overhead.load)},
-                        {"display", json_of(overhead.display)},
-                        {"write", json_of(overhead.write)}};
+  answer["command"] = json_of(costs.command.spent());
+  answer["overhead"] = {
+      {"load", json_of(costs.load)}, {"display", json_of(costs.display)}, {"write", json_of(costs.write)}};
   answer["threads"] = stats.threads;
   answer["samples_per_pixel"] = stats.samples_per_pixel;
   answer["paths"] = stats.paths;
@@ -226,11 +227,10 @@ void write_pictures(const Outputs& outputs, const DisplayTransform& display, con
 }  // namespace
 
 int render(const RenderOptions& options) {
-  Overhead overhead;
+  Costs costs;
   Inputs inputs(options.max_memory_bytes);
-  const CostMeter loading;
   const Scene scene = load(options, inputs);
-  overhead.load = loading.spent();
+  costs.load = costs.command.spent();
   const Outputs outputs = choose_outputs(options, scene, inputs);
   check_ranges(options, scene);
   const InterruptWatch watch;
@@ -238,7 +238,8 @@ int render(const RenderOptions& options) {
   for (const fs::path& output : files_of(outputs, options))
     if (!output.empty()) locks.emplace_back(output);
   std::optional<DisplayTransform> display;
-  if (!outputs.display.empty() || !outputs.gamut.empty()) display = chosen_display(scene, options);
+  if (!outputs.display.empty() || !outputs.gamut.empty())
+    metered(costs.display, [&] { display = chosen_display(scene, options); })();
   if (display) require_distinct(files_of(outputs, options), display->files());
   if (options.explain) tell(describe(scene));
   warn_about_polarisation(scene.needs);
@@ -252,11 +253,11 @@ int render(const RenderOptions& options) {
   std::vector<std::function<void()>> writers;
   if (!options.checkpoint.empty())
     writers.emplace_back(
-        metered(overhead.write, [&] { write_part(options.checkpoint, part.identity, part.result); }));
-  writers.emplace_back(metered(overhead.write, [&] { write_film(outputs.film, part); }));
-  if (display) writers.emplace_back(metered(overhead.display, write_display));
+        metered(costs.write, [&] { write_part(options.checkpoint, part.identity, part.result); }));
+  writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
+  if (display) writers.emplace_back(metered(costs.display, write_display));
   if (!options.stats.empty())
-    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, overhead)); });
+    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
   write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),

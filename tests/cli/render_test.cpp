@@ -30,7 +30,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 15U);
+  EXPECT_EQ(stats.size(), 16U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
@@ -46,6 +46,7 @@ TEST(Render, WritesImagePictureAndStats) {
   for (const char* part : {"load", "display", "write"}) {
     EXPECT_GT(stats["overhead"][part]["wall_s"], 0) << part;
     EXPECT_GT(stats["overhead"][part]["cpu_s"], 0) << part;
+    EXPECT_LT(stats["overhead"][part]["wall_s"], stats["command"]["wall_s"]) << part;
   }
   EXPECT_GT(stats["relative_error"], 0);
   double sum = 0;
