@@ -53,6 +53,20 @@ std::string_view line_from(std::string_view text, std::size_t offset) {
   return line;
 }
 
+/// What spreadsheets write before UTF-8 text.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool has_byte_order_mark(const fs::path& path) {
+  std::string begin(kByteOrderMark.size(), '\0');
+  std::ifstream file(path);
+  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kByteOrderMark;
+}
+
+/// Whether a line has semicolons where commas are expected.
+bool has_semicolons(std::string_view line, const std::vector<Cell>& cells) {
+  return cells.size() == 1 && line.find(';') != std::string_view::npos;
+}
+
 bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
@@ -75,7 +89,7 @@ class TableReader {
 
   void read_lines() {
     const std::string_view text = source_->text;
-    for (std::size_t offset = 0; offset < text.size();) {
+    for (std::size_t offset = 0; offset < text.size() && !semicolons_;) {
       const std::string_view line = line_from(text, offset);
       if (line.starts_with('#'))
         read_key(line, offset);
@@ -83,7 +97,12 @@ class TableReader {
         read_cells(line, offset);
       offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
     }
-    if (table_.rows.empty()) complain(text.size(), "expected a line of column names and at least one row");
+    if (table_.rows.empty() && !semicolons_)
+      complain(text.size(), "expected a line of column names and at least one row");
+  }
+
+  void refuse_byte_order_mark() {
+    complain(0, "begins with a byte order mark; save it as UTF-8 without one");
   }
 
   void check_provenance(TableOrigin origin) {
@@ -131,6 +150,9 @@ class TableReader {
   void read_cells(std::string_view line, std::size_t offset) {
     auto cells = cells_of(line);
     if (!cells) return complain(offset, "quoted cell without its closing quote");
+    semicolons_ = table_.columns.size() != 1 && has_semicolons(line, *cells);
+    if (semicolons_)
+      return complain(offset + line.find(';'), "cells are separated by semicolons (got ';', allowed ',')");
     if (!table_.columns.empty()) {
       if (cells->size() != table_.columns.size())
         return complain(offset, fmt::format("wrong number of cells (got {}, allowed {})", cells->size(),
@@ -161,25 +183,29 @@ class TableReader {
   Table table_;
   std::map<std::string, std::size_t> key_offsets_;
   bool complained_ = false;
+  bool semicolons_ = false;  ///< Met, after which nothing more is read.
 };
 
 /// What the lines above the rows say of a table, without reading the rows.
 struct Heading {
   std::string aliases;
   std::vector<std::string> values;  ///< Column names but for the first, the abscissa.
+  bool semicolons = false;          ///< Between the column names, which hence are not known.
 };
 
 Heading heading_of(const fs::path& path) {
   Heading heading;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.starts_with('#')) {
       const auto key = key_line(line);
       if (key && key->first == "aliases") heading.aliases = key->second;
     } else if (!is_blank(line)) {
       if (line.ends_with('\r')) line.pop_back();
-      for (Cell& cell : cells_of(line).value_or(std::vector<Cell>{}))
-        heading.values.push_back(std::move(cell.text));
+      std::vector<Cell> cells = cells_of(line).value_or(std::vector<Cell>{});
+      heading.semicolons = has_semicolons(line, cells);
+      for (Cell& cell : cells) heading.values.push_back(std::move(cell.text));
       if (!heading.values.empty()) heading.values.erase(heading.values.begin());
       break;
     }
@@ -243,6 +269,7 @@ std::optional<TableColumn> user_column(const std::string& name, const SourcePosi
   const Heading heading = heading_of(path);
   if (end == name.size()) return TableColumn{path, only_value(heading)};
   const std::string column = name.substr(end + 1);
+  if (heading.semicolons) return TableColumn{path, column};  // which `read_table` refuses at its place
   if (std::find(heading.values.begin(), heading.values.end(), column) != heading.values.end())
     return TableColumn{path, column};
   diagnostics.error(where, unknown_name("column", column, heading.values), ErrorCode::input);
@@ -286,6 +313,7 @@ std::optional<Table> read_table(const std::filesystem::path& path, TableOrigin o
   auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
   TableReader reader(std::move(source), diagnostics);
+  if (has_byte_order_mark(path)) reader.refuse_byte_order_mark();
   reader.read_lines();
   reader.check_provenance(origin);
   return reader.result();

@@ -94,6 +94,19 @@ TEST(Table, MalformedLinesAreAllReported) {
             "1:1: error: missing unit; add a line \"# unit: <unit>\"\n");
 }
 
+TEST(Table, WhatSpreadsheetsWriteIsNamed) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(complaints(mark + "# unit: W\nl,a\n1,2\n", TableOrigin::user),
+            "1:1: error: begins with a byte order mark; save it as UTF-8 without one\n");
+  EXPECT_EQ(complaints("# unit: W\nl;a\n1;0,5\n2;0,25\n", TableOrigin::user),
+            "2:2: error: cells are separated by semicolons (got ';', allowed ',')\n");
+  EXPECT_EQ(complaints("# unit: W\nl,a\n1,2\n2;3\n3;4\n", TableOrigin::user),
+            "4:2: error: cells are separated by semicolons (got ';', allowed ',')\n");
+  Diagnostics diagnostics;
+  EXPECT_TRUE(table_of("# unit: W; per nm\nl,\"a;b\"\n1,x;y\n", TableOrigin::user, diagnostics))
+      << diagnostics.text();
+}
+
 TEST(Table, BadNumbersPointAtTheCell) {
   Diagnostics diagnostics;
   const auto table = table_of("# unit: W\nl,\"a\"\n1, x\n2,\n3,4\n4,nan\n", TableOrigin::user, diagnostics);
@@ -177,6 +190,11 @@ TEST_F(FindTable, FindsUserFilesByTheirPaths) {
   EXPECT_FALSE(
       find_table("light", (folder / "mine.csv:c").string(), {scene, 0, ""}, diagnostics).has_value());
   EXPECT_FALSE(find_table("light", (folder / "none.csv").string(), {scene, 0, ""}, diagnostics).has_value());
+  // What `read_table` will refuse in its own words is found, whatever its columns look like.
+  put(folder / "marked.csv", "\xEF\xBB\xBF# unit: W\nl,a,b\n1,2,3\n");
+  put(folder / "semicolons.csv", "# unit: W\nl;a;b\n1;2;3\n");
+  for (const char* name : {"marked.csv:b", "semicolons.csv:b"})
+    EXPECT_EQ(find_table("light", (folder / name).string(), {}, diagnostics).value().column, "b") << name;
   ASSERT_EQ(diagnostics.all().size(), 2U);
   EXPECT_EQ(diagnostics.all()[0].message, "unknown column \"c\"; known: a, b");
   EXPECT_EQ(diagnostics.all()[1].message, "no such file \"" + (folder / "none.csv").string() + "\"");
