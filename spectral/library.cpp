@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "io/data_directory.h"
+#include "io/object_reader.h"
 #include "io/table.h"
 #include "io/text.h"
 #include "spectral/sources.h"
@@ -73,8 +74,98 @@ std::optional<std::size_t> value_column(const Table& table, const std::string& n
   return column;
 }
 
+std::optional<Samples> samples_of(const Table& table, const std::string& column, Diagnostics& diagnostics) {
+  auto nm = wavelengths(table, diagnostics);
+  const auto values_at = value_column(table, column, diagnostics);
+  if (!nm || !values_at) return std::nullopt;
+  auto values = table.numbers(*values_at, diagnostics);
+  if (!values) return std::nullopt;
+  return Samples{*std::move(nm), *std::move(values)};
+}
+
+/// A line `# key: value` of a table, with its place.
+struct KeyLine {
+  std::string value;
+  SourcePosition where;
+};
+std::optional<KeyLine> key_line(const Table& table, const std::string& key) {
+  const auto found = table.keys.find(key);
+  if (found == table.keys.end()) return std::nullopt;
+  std::size_t offset = 0;
+  for (const std::string& line : split(table.where.source->text, '\n')) {
+    if (line.starts_with('#') && line.find(':') < line.npos && split(line.substr(1), ':').front() == key)
+      break;
+    offset = table.where.source->text.find('\n', offset) + 1;
+  }
+  return KeyLine{found->second, {table.where.source, offset, ""}};
+}
+
+std::optional<Interpolation> interpolation_of(const Table& table, std::span<const double> wavelengths_nm,
+                                              Diagnostics& diagnostics) {
+  const auto line = key_line(table, "interpolation");
+  if (!line) return Interpolation::linear;
+  const std::vector<std::string> names{"linear", "sprague", "cubic"};
+  const auto name = std::find(names.begin(), names.end(), line->value);
+  if (name == names.end()) {
+    diagnostics.error(line->where, unknown_name("interpolation", line->value, names), ErrorCode::input);
+    return std::nullopt;
+  }
+  const auto rule = static_cast<Interpolation>(name - names.begin());
+  const auto fault = interpolation_fault(wavelengths_nm, rule);
+  if (!fault) return rule;
+  diagnostics.error(
+      table.position(fault->row),
+      rule == Interpolation::sprague
+          ? fmt::format("\"interpolation: sprague\" needs six samples or more in even steps (got "
+                        "{}); declare \"cubic\" or \"linear\"",
+                        fault->text)
+          : fmt::format("\"interpolation: cubic\" needs more samples (got {})", fault->text),
+      ErrorCode::input);
+  return std::nullopt;
+}
+
+/// The values that a table's quantity can have, which are those of all its samples.
+std::optional<Range> value_range(const Table& table, std::span<const double> values,
+                                 Diagnostics& diagnostics) {
+  const auto line = key_line(table, "value_range");
+  const bool signed_values = std::any_of(values.begin(), values.end(), [](double v) { return v < 0; });
+  if (!line) return signed_values ? Range::any() : Range::non_negative();
+  std::vector<std::optional<double>> ends;
+  for (const std::string& end : split(line->value, ',')) ends.push_back(parse_number(end));
+  if (ends.size() != 2 || !ends[0] || !ends[1] || !(*ends[0] < *ends[1])) {
+    diagnostics.error(
+        line->where,
+        fmt::format("malformed range (got \"{}\", allowed two ascending numbers, as \"0, 1\")", line->value),
+        ErrorCode::input);
+    return std::nullopt;
+  }
+  const Range range{*ends[0], *ends[1]};
+  const auto beyond =
+      std::find_if(values.begin(), values.end(), [&](double v) { return !range.contains(v); });
+  if (beyond == values.end()) return range;
+  diagnostics.error(
+      table.position(static_cast<std::size_t>(beyond - values.begin())),
+      fmt::format("value outside the declared range (got {}, allowed {})", *beyond, range.text()),
+      ErrorCode::input);
+  return std::nullopt;
+}
+
 bool covers(const NamedCurve& curve, const NeededRange& needed) {
   return curve.low_nm <= needed.low_nm && curve.high_nm >= needed.high_nm;
+}
+
+/// A table of a folder with the name of one of its columns.
+struct NamedColumn {
+  Table table;
+  std::string column;
+};
+std::optional<NamedColumn> read_named(std::string_view folder, const std::string& name,
+                                      const SourcePosition& where, Diagnostics& diagnostics) {
+  const auto found = find_table(folder, name, where, diagnostics);
+  if (!found) return std::nullopt;
+  auto table = read_table(found->path, origin(found->path), diagnostics);
+  if (!table) return std::nullopt;
+  return NamedColumn{*std::move(table), found->column};
 }
 
 /// S = 100 (560/l)^5 (exp(c2/560) - 1)/(exp(c2/l) - 1), c2 = 1.435e7/2848 nm [CIE15, sec. 3.1].
@@ -114,25 +205,35 @@ std::optional<double> temperature(std::string_view name, std::string_view family
 std::optional<NamedCurve> load_curve(std::string_view folder, const std::string& name,
                                      const SourcePosition& where, Diagnostics& diagnostics,
                                      NeededRange needed) {
-  const auto found = find_table(folder, name, where, diagnostics);
-  if (!found) return std::nullopt;
-  const auto table = read_table(found->path, origin(found->path), diagnostics);
-  return table ? curve_of(*table, found->column, name, diagnostics, needed) : std::nullopt;
+  const auto read = read_named(folder, name, where, diagnostics);
+  return read ? curve_of(read->table, read->column, name, diagnostics, needed) : std::nullopt;
+}
+
+std::optional<TableSamples> load_samples(std::string_view folder, const std::string& name,
+                                         const SourcePosition& where, Diagnostics& diagnostics) {
+  auto read = read_named(folder, name, where, diagnostics);
+  if (!read) return std::nullopt;
+  auto samples = samples_of(read->table, read->column, diagnostics);
+  if (!samples || !interpolation_of(read->table, samples->wavelengths_nm, diagnostics) ||
+      !value_range(read->table, samples->values, diagnostics))
+    return std::nullopt;
+  return TableSamples{std::move(read->table), *std::move(samples)};
 }
 
 std::optional<NamedCurve> curve_of(const Table& table, const std::string& column, const std::string& name,
                                    Diagnostics& diagnostics, NeededRange needed) {
-  const auto nm = wavelengths(table, diagnostics);
-  const auto values_at = value_column(table, column, diagnostics);
-  if (!nm || !values_at) return std::nullopt;
-  const auto values = table.numbers(*values_at, diagnostics);
-  if (!values) return std::nullopt;
+  const auto samples = samples_of(table, column, diagnostics);
+  if (!samples) return std::nullopt;
+  const auto rule = interpolation_of(table, samples->wavelengths_nm, diagnostics);
+  const auto range = value_range(table, samples->values, diagnostics);
+  if (!rule || !range) return std::nullopt;
+  const Samples fine = every_nanometre(*samples, *rule, range->low, range->high);
   NamedCurve result{name,
                     table.provenance.source,
                     table.provenance.unit,
-                    nm->front(),
-                    nm->back(),
-                    table_curve(*nm, *values, table.outside)};
+                    samples->wavelengths_nm.front(),
+                    samples->wavelengths_nm.back(),
+                    table_curve(fine.wavelengths_nm, fine.values, table.outside)};
   if (table.outside == Outside::error && !covers(result, needed)) {
     diagnostics.error(
         table.where,

@@ -7,6 +7,7 @@
 #include "io/diagnostics.h"
 #include "io/table.h"
 #include "spectral/curve.h"
+#include "spectral/interpolation.h"
 
 namespace abbe {
 
@@ -26,10 +27,24 @@ struct NeededRange {
   double high_nm = 780;
 };
 
+/// A column of a table, as it stands there.
+struct TableSamples {
+  Table table;
+  Samples samples;  ///< One for each row.
+};
+
+/// Reads the samples of the curve `name` of a data folder, whose names, units and faults are those of
+/// `load_curve`; they may cover any wavelengths.
+[[nodiscard]] std::optional<TableSamples> load_samples(std::string_view folder, const std::string& name,
+                                                       const SourcePosition& where, Diagnostics& diagnostics);
+
 /// Reads the curve `name` of a data folder ("illuminant", "reflectance", "camera", "filter", "observer"): see
 /// `find_table` for the names. The wavelength column is `wavelength_nm` (a user's file may have
 /// `wavelength_um`). Reports unsorted or duplicate wavelengths, fewer than two samples, wavelengths all
 /// outside [300, 1100] nm (a wrong unit), and a table declared `outside: error` that does not cover `needed`.
+/// Between its samples the table is read as its line `# interpolation:` says (default linear), overshoot cut
+/// to its line `# value_range: low, high`; without one, what has no negative sample is not interpolated below
+/// 0. Reports an unknown rule, samples that the rule cannot take, and those outside the range.
 [[nodiscard]] std::optional<NamedCurve> load_curve(std::string_view folder, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});

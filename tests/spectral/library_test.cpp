@@ -135,5 +135,66 @@ TEST(Library, a_table_that_holds_nothing_outside_must_cover_what_is_needed) {
   EXPECT_TRUE(load_curve("reflectance", file.name(), {}, diagnostics, {400, 700})) << diagnostics.text();
 }
 
+const std::string kEvenRows = "400,0\n410,0\n420,0\n430,1\n440,1\n450,1\n";
+std::string table_of(const std::string& keys, const std::string& rows) {
+  return "# unit: 1\n# outside: clamp\n" + keys + "wavelength_nm,r\n" + rows;
+}
+
+Curve curve_of_text(const std::string& text) {
+  const UserFile file(text);
+  Diagnostics diagnostics;
+  const auto curve = load_curve("reflectance", file.name(), {}, diagnostics);
+  EXPECT_TRUE(curve) << diagnostics.text();
+  return curve ? curve->curve : Curve();
+}
+
+TEST(Library, a_table_says_how_it_is_read_between_its_samples) {
+  const Curve plain = curve_of_text(table_of("", kEvenRows));
+  const Curve linear = curve_of_text(table_of("# interpolation: linear\n", kEvenRows));
+  const Curve smooth = curve_of_text(table_of("# interpolation: sprague\n", kEvenRows));
+  const Curve cubic = curve_of_text(table_of("# interpolation: cubic\n", kEvenRows));
+  for (const double nm : {400.0, 420.0, 430.0, 450.0, 380.0, 780.0}) {
+    EXPECT_EQ(smooth(nm), plain(nm)) << nm;
+    EXPECT_EQ(cubic(nm), plain(nm)) << nm;
+  }
+  EXPECT_EQ(linear(424), plain(424));
+  EXPECT_EQ(smooth(424), sprague(std::vector<double>{0, 0, 0, 1, 1, 1}, 2.4));
+  EXPECT_NEAR(cubic(424), 0.4 * 1.4 * 1.6 / 2 - 1.4 * 0.4 * 0.6 / 6, 1e-12);
+  EXPECT_NEAR(smooth(424.5), (smooth(424) + smooth(425)) / 2, 1e-12) << "straight between whole nanometres";
+}
+
+TEST(Library, overshoot_is_cut_to_the_declared_range) {
+  const std::string dip = "400,0.2\n410,0.2\n420,0.2\n430,1\n440,1\n450,1\n";
+  const auto ends = [](const Curve& curve) { return std::pair{curve.min(), curve.max()}; };
+  for (const char* rule : {"sprague", "cubic"}) {
+    const std::string key = std::string("# interpolation: ") + rule + "\n";
+    EXPECT_GT(curve_of_text(table_of(key, dip)).max(), 1.02) << rule;
+    EXPECT_LT(curve_of_text(table_of(key, dip)).min(), 0.18) << rule;
+    EXPECT_EQ(ends(curve_of_text(table_of(key + "# value_range: 0.2, 1\n", dip))), (std::pair{0.2, 1.0}))
+        << rule;
+    EXPECT_EQ(curve_of_text(table_of(key, kEvenRows)).min(), 0) << "no sample is negative";
+    EXPECT_LT(curve_of_text(table_of(key, kEvenRows + "460,-1\n470,-1\n")).min(), -1) << "but here one is";
+  }
+}
+
+TEST(Library, refuses_what_a_rule_of_interpolation_cannot_take) {
+  const std::string sprague = "# interpolation: sprague\n";
+  expect_refused(
+      table_of(sprague, kEvenRows + "470,1\n"),
+      ".csv:11:1: error: \"interpolation: sprague\" needs six samples or more in even steps (got a step "
+      "of 20 nm after one of 10 nm); declare \"cubic\" or \"linear\"");
+  expect_refused(table_of(sprague, "400,0\n410,1\n"), "(got 2 samples (allowed 6 or more))");
+  expect_refused(table_of("# interpolation: cubic\n", "400,0\n410,1\n"),
+                 "(got 2 samples (allowed 4 or more))");
+  expect_refused(table_of("# interpolation: spraque\n", kEvenRows),
+                 ".csv:3:1: error: unknown interpolation \"spraque\"; did you mean \"sprague\"?");
+  expect_refused(table_of(sprague, "400,0\n410,0\n410,0\n430,1\n"), "wavelengths must ascend");
+  expect_refused(table_of("# value_range: 0, 0.5\n", kEvenRows),
+                 ".csv:8:1: error: value outside the declared range (got 1, allowed [0, 0.5])");
+  for (const char* range : {"0", "1, 0", "0, x", "0, 1, 2"})
+    expect_refused(table_of(std::string("# value_range: ") + range + "\n", kEvenRows),
+                   ".csv:3:1: error: malformed range (got \"" + std::string(range));
+}
+
 }  // namespace
 }  // namespace abbe
