@@ -68,6 +68,12 @@ Json one_or_all(Json list) {
   return list.size() == 1 ? list.front() : list;
 }
 
+Json without_lists_of_one(Json answer) {
+  if (!answer.is_structured()) return answer;
+  for (Json& inner : answer) inner = without_lists_of_one(std::move(inner));
+  return answer.is_array() ? one_or_all(std::move(answer)) : answer;
+}
+
 void tell(const std::string& text) {
   (void)!std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);

@@ -24,6 +24,9 @@ void print(const Json& answer, bool as_json);
 /// several.
 [[nodiscard]] Json one_or_all(Json list);
 
+/// The answer with every list of one element, within lists too, replaced by that element.
+[[nodiscard]] Json without_lists_of_one(Json answer);
+
 /// Writes to stderr. Nothing fails because nobody reads it.
 void tell(const std::string& text);
 

@@ -15,6 +15,12 @@ void add_at(CLI::App& app, std::vector<double>& at_nm) {
       ->required();
 }
 
+void add_json_with_arrays(CLI::App& app, bool& json, bool& arrays) {
+  add_json(app, json);
+  app.add_flag("--arrays", arrays, "In JSON, give lists for a single wavelength or angle too")
+      ->needs(app.get_option("--json"));
+}
+
 constexpr const char* kMaterialHelp = "Material, FILE.csv or FILE.yml of refractiveindex.info";
 
 Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
@@ -22,7 +28,7 @@ Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, cons
   Sub<IndexOptions> sub(query, name, help, command, run);
   sub.app->add_option("name", sub->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*sub.app, sub->at_nm);
-  add_json(*sub.app, sub->json);
+  add_json_with_arrays(*sub.app, sub->json, sub->arrays);
   return sub;
 }
 
@@ -44,7 +50,7 @@ void add_matter_queries(CLI::App& query, Command& command) {
       ->add_option("--coating", reflectance->coating,
                    "Thin films on it, from outside inwards; T is then told too")
       ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
-  add_json(*reflectance.app, reflectance->json);
+  add_json_with_arrays(*reflectance.app, reflectance->json, reflectance->arrays);
 
   const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
                                 query_prism);
@@ -54,7 +60,7 @@ void add_matter_queries(CLI::App& query, Command& command) {
       ->required();
   add_parsed(*prism.app, "--incidence", prism->incidence_deg, number_in(-90 + 1e-6, 90 - 1e-6),
              "Incidence at the first face (default: least deviation)", "DEG");
-  add_json(*prism.app, prism->json);
+  add_json_with_arrays(*prism.app, prism->json, prism->arrays);
 }
 
 void add_color_queries(CLI::App& query, Command& command) {
@@ -68,6 +74,11 @@ void add_color_queries(CLI::App& query, Command& command) {
   color.app
       ->add_option("--reflectance", color->reflectance, "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
       ->type_name("REFLECTANCE");
+  add_parsed(
+      *color.app, "--method", color->method, one_of<ColorMethod>({"1nm", "astm-e308"}),
+      "Sum over every nanometre, or over the measured wavelengths by the weights of ASTM E308 (default "
+      "1nm)",
+      "1nm|astm-e308");
   add_json(*color.app, color->json);
 
   const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);

@@ -19,6 +19,7 @@ struct IndexOptions {
   std::vector<double> at_nm;
   bool json = false;
   std::optional<double> thickness_mm = {};  ///< Of `query ior`: of the piece whose inside is asked about.
+  bool arrays = false;                      ///< Lists of wavelengths stay lists where they hold only one.
 };
 /// With a thickness, what of the light between two faces reaches the second: exp(-4 pi k d / lambda).
 int query_ior(const IndexOptions& options);
@@ -34,6 +35,7 @@ struct ReflectanceOptions {
   std::vector<double> angles_deg{0};
   bool json = false;
   std::string coating = {};  ///< Films on it, from outside inwards, as "MATERIAL:NM,MATERIAL:NM".
+  bool arrays = false;       ///< As of `IndexOptions`; lists of angles too.
 };
 int query_reflectance(const ReflectanceOptions& options);
 
@@ -44,8 +46,12 @@ struct PrismOptions {
   std::vector<double> at_nm;
   std::optional<double> incidence_deg;
   bool json = false;
+  bool arrays = false;  ///< As of `IndexOptions`.
 };
 int query_prism(const PrismOptions& options);
+
+/// How colours are summed: every nanometre, or by the weights of ASTM E308 at the measured wavelengths.
+enum class ColorMethod { one_nm, astm_e308 };
 
 /// `query color`: of a reflectance, or of the perfect diffuser when none is named.
 struct ColorOptions {
@@ -53,6 +59,7 @@ struct ColorOptions {
   Observer observer = Observer::cie1931;
   std::string reflectance;
   bool json = false;
+  ColorMethod method = ColorMethod::one_nm;
 };
 int query_color(const ColorOptions& options);
 

@@ -11,6 +11,7 @@
 #include "io/table.h"
 #include "materials/index/library.h"
 #include "sensor/response/channel.h"
+#include "spectral/astm_e308.h"
 #include "spectral/library.h"
 
 namespace abbe::cli {
@@ -27,6 +28,30 @@ LitSurface load(const std::string& illuminant, const std::string& reflectance, D
   if (!reflectance.empty()) surface = load_curve("reflectance", reflectance, {}, diagnostics);
   check(diagnostics);
   return {light->curve, surface ? surface->curve : Curve(1.0)};
+}
+
+// X, Y, Z of a surface and of the perfect diffuser in the same light.
+struct SurfaceColor {
+  XYZ xyz;
+  XYZ white;
+};
+
+SurfaceColor summed_every_nm(const ColorOptions& options, Diagnostics& diagnostics) {
+  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
+  return {tristimulus(lit.illuminant, lit.reflectance, options.observer),
+          tristimulus(lit.illuminant, Curve(1.0), options.observer)};
+}
+
+SurfaceColor summed_by_astm(const ColorOptions& options, Diagnostics& diagnostics) {
+  const auto light = load_illuminant(options.illuminant, {}, diagnostics,
+                                     {double{kAstmRange.low_nm}, double{kAstmRange.high_nm}});
+  std::optional<Samples> samples = Samples{{double{kAstmRange.low_nm}, kAstmRange.low_nm + 10.0}, {1, 1}};
+  if (!options.reflectance.empty()) samples = load_astm_samples(options.reflectance, {}, diagnostics);
+  check(diagnostics);
+  const std::vector<double>& nm = samples->wavelengths_nm;
+  const TristimulusWeights weights =
+      astm_weights(light->curve, options.observer, static_cast<int>(nm[1] - nm[0]));
+  return {astm_tristimulus(weights, *samples), astm_white(weights)};
 }
 
 struct Kind {
@@ -74,12 +99,12 @@ std::string described(const Json& answer, std::size_t i) {
 
 int query_color(const ColorOptions& options) {
   Diagnostics diagnostics;
-  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
-  const XYZ xyz = tristimulus(lit.illuminant, lit.reflectance, options.observer);
-  const XYZ white = tristimulus(lit.illuminant, Curve(1.0), options.observer);
+  const auto [xyz, white] = options.method == ColorMethod::astm_e308 ? summed_by_astm(options, diagnostics)
+                                                                     : summed_every_nm(options, diagnostics);
   if (!std::isfinite(white[1]))
     throw Error(ErrorCode::input, options.illuminant, "has no light that an observer sees, hence no colour");
   Json answer;
+  if (options.method == ColorMethod::astm_e308) answer["method"] = "astm-e308";
   answer["XYZ"] = xyz;
   answer["xy"] = chromaticity(xyz);
   answer["Lab"] = xyz_to_lab(xyz, white);

@@ -35,7 +35,13 @@ template <typename F>
 Json each(const std::vector<double>& at_nm, F value) {
   Json list = Json::array();
   for (const double nm : at_nm) list.push_back(value(nm));
-  return one_or_all(std::move(list));
+  return list;
+}
+
+template <typename Options>
+int tell_about_matter(const Json& answer, const Options& options) {
+  print(options.arrays ? answer : without_lists_of_one(answer), options.json);
+  return 0;
 }
 
 template <typename F>
@@ -43,10 +49,9 @@ int answer_angle(const IndexOptions& options, F angle) {
   const NamedIndex matter = find(options.name, options.at_nm);
   Json answer;
   answer["name"] = matter.name;
-  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["wavelength_nm"] = options.at_nm;
   answer["angle_deg"] = each(options.at_nm, [&](double nm) { return angle(matter.index.catalogued_n(nm)); });
-  print(answer, options.json);
-  return 0;
+  return tell_about_matter(answer, options);
 }
 
 // "MATERIAL:NM,..." from outside inwards.
@@ -81,15 +86,14 @@ int query_ior(const IndexOptions& options) {
   answer["name"] = matter.name;
   answer["source"] = matter.source;
   answer["medium"] = matter.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
-  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["wavelength_nm"] = options.at_nm;
   answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
   answer["k"] = each(options.at_nm, [&](double nm) { return matter.index.k(nm); });
   if (options.thickness_mm)
     answer["internal_transmittance"] = each(options.at_nm, [&](double nm) {
       return std::exp(-matter.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
     });
-  print(answer, options.json);
-  return 0;
+  return tell_about_matter(answer, options);
 }
 
 int query_critical(const IndexOptions& options) {
@@ -108,19 +112,18 @@ int query_reflectance(const ReflectanceOptions& options) {
       Json row = Json::array();
       for (const double angle : options.angles_deg)
         row.push_back(quantity(reflect_from_air(matter.index, coating, nm, angle)));
-      return one_or_all(std::move(row));
+      return row;
     });
   };
   Json answer;
   answer["name"] = matter.name;
-  answer["angle_deg"] = one_or_all(options.angles_deg);
-  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["angle_deg"] = options.angles_deg;
+  answer["wavelength_nm"] = options.at_nm;
   answer["Rs"] = rows([](const auto& f) { return f.Rs; });
   answer["Rp"] = rows([](const auto& f) { return f.Rp; });
   answer["R"] = rows([](const auto& f) { return f.R(); });
   if (!coating.layers.empty()) answer["T"] = rows([](const auto& f) { return f.transmitted(); });
-  print(answer, options.json);
-  return 0;
+  return tell_about_matter(answer, options);
 }
 
 int query_prism(const PrismOptions& options) {
@@ -136,14 +139,13 @@ int query_prism(const PrismOptions& options) {
   Json answer;
   answer["name"] = matter.name;
   answer["apex_deg"] = options.apex_deg;
-  answer["wavelength_nm"] = one_or_all(options.at_nm);
+  answer["wavelength_nm"] = options.at_nm;
   answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
   answer["deviation_deg"] = column([](const PrismPassage& p) { return p.deviation_deg; });
   answer["incidence_deg"] = column([](const PrismPassage& p) { return p.incidence_deg; });
   answer["Ts"] = column([](const PrismPassage& p) { return p.Ts; });
   answer["Tp"] = column([](const PrismPassage& p) { return p.Tp; });
-  print(answer, options.json);
-  return 0;
+  return tell_about_matter(answer, options);
 }
 
 }  // namespace abbe::cli

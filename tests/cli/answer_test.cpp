@@ -28,6 +28,13 @@ TEST(Answer, OneValueIsNoList) {
   EXPECT_EQ(one_or_all({1.5, 2.0}).dump(), "[1.5,2.0]");
 }
 
+TEST(Answer, ListsOfOneAreTheirElementAtAnyDepth) {
+  EXPECT_EQ(without_lists_of_one(
+                Json::parse(R"({"a":[1.5],"b":[[2.5],[3.5]],"c":[[4.5]],"d":"x","e":{"f":[5.5]},"g":[]})"))
+                .dump(),
+            R"({"a":1.5,"b":[2.5,3.5],"c":4.5,"d":"x","e":{"f":5.5},"g":[]})");
+}
+
 TEST(Answer, UnknownNamesOfTheCommandLineAreMissingInputs) {
   Diagnostics diagnostics;
   diagnostics.error({}, "unknown material \"x\"");

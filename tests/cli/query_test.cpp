@@ -271,6 +271,62 @@ TEST(QueryColor, EveryPatchOfTheChart) {
   }
 }
 
+TEST(QueryColor, ByTheWeightsOfAstmE308) {
+  const ReferenceTable table("colorchecker_babelcolor_2deg");
+  const auto by = [](const std::string& light, const std::string& reflectance, cli::ColorMethod method) {
+    return ask(cli::query_color, {light, Observer::cie1931, reflectance, true, method});
+  };
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string& light = table.text(row, "illuminant");
+    if (light.starts_with("FL")) continue;  // see tests/spectral/astm_e308_test.cpp
+    const json found = by(light, patch("colorchecker24_babelcolor_average", table.number(row, "index")),
+                          cli::ColorMethod::astm_e308);
+    EXPECT_EQ(found["method"], "astm-e308");
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(found["Lab"][i].get<double>(), table.number(row, std::string(1, "Lab"[i]) + "_E308"),
+                  5.1e-6)
+          << light << ' ' << table.text(row, "patch");
+  }
+  const json white = by("D65", "", cli::ColorMethod::astm_e308);
+  EXPECT_NEAR(white["XYZ"][1].get<double>(), 100, 1e-12);
+  EXPECT_NEAR(white["Lab"][0].get<double>(), 100, 1e-12);
+  EXPECT_FALSE(by("D65", "", cli::ColorMethod::one_nm).contains("method"));
+  EXPECT_EQ(fault(
+                [] {
+                  cli::query_color({"D65", Observer::cie1931, "colorchecker24_ohta1997:blue", true,
+                                    cli::ColorMethod::astm_e308});
+                },
+                "every 10 or 20 nm at whole steps from 360 nm (got 5 nm)"),
+            ErrorCode::input);
+}
+
+TEST(QueryArrays, OneWavelengthIsAListOnlyWhereListsWereAskedFor) {
+  cli::IndexOptions index{"N-BK7", {550}, true, 10.0};
+  cli::ReflectanceOptions surface{"N-BK7", {550}, {60}, true};
+  cli::PrismOptions prism{"N-BK7", 60, {550}, {}, true};
+  const auto all = [&] {
+    json answers{{"ior", ask(cli::query_ior, index)},
+                 {"critical", ask(cli::query_critical, index)},
+                 {"brewster", ask(cli::query_brewster, index)},
+                 {"reflectance", ask(cli::query_reflectance, surface)},
+                 {"prism", ask(cli::query_prism, prism)}};
+    return answers.flatten();
+  };
+  const json plain = all();
+  index.arrays = surface.arrays = prism.arrays = true;
+  const json lists = all();
+  EXPECT_EQ(plain.size(), lists.size());
+  std::size_t longer = 0;
+  for (const auto& [pointer, value] : plain.items()) {
+    const bool nested =
+        pointer == "/reflectance/R" || pointer == "/reflectance/Rs" || pointer == "/reflectance/Rp";
+    const std::string listed = pointer + (nested ? "/0/0" : "/0");
+    if (lists.contains(listed)) ++longer;
+    EXPECT_EQ(lists.contains(listed) ? lists[listed] : lists.value(pointer, json()), value) << pointer;
+  }
+  EXPECT_EQ(longer, 4U + 2U + 2U + 5U + 6U);
+}
+
 TEST(QueryDeltaE, PublishedPair) {
   const json found = ask(cli::query_delta_e, {{50, 2.6772, -79.7751}, {50, 0, -82.7485}});
   EXPECT_NEAR(found["dE00"].get<double>(), 2.0425, 5e-5);

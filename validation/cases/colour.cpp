@@ -6,6 +6,7 @@
 #include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
 #include "io/reference_table.h"
+#include "spectral/astm_e308.h"
 #include "spectral/sources.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
@@ -30,10 +31,6 @@ std::vector<Figure> observer_sums() {
   add(figures, "1931", color_matching(Observer::cie1931), {106.865469, 106.856917, 106.892251});
   add(figures, "1964", color_matching(Observer::cie1964), {116.648519, 116.661877, 116.673981});
   return figures;
-}
-
-Observer observer(const std::string& degrees) {
-  return degrees == "2" ? Observer::cie1931 : Observer::cie1964;
 }
 
 void add_chromaticity(std::vector<Figure>& figures, const std::string& name,
@@ -75,6 +72,37 @@ std::vector<Figure> defined_whites() {
 }
 std::vector<Figure> printed_whites() {
   return white_points("pub", {}, shipped_illuminant);
+}
+
+// What ASTM E308's tables take for A, which is its definition, and for D65: the table, and its components
+// where that ends.
+Curve astm_illuminant(const std::string& name) {
+  if (name == "A") return by_definition(name);
+  return sum(shipped_illuminant(name), product(by_definition(name), band(780.5, kMaxWavelengthNm, 1)));
+}
+
+// The weights that ASTM E308 prints.
+std::vector<Figure> astm_printed_weights() {
+  const ReferenceTable table("astm_e308_weights");
+  std::vector<Figure> figures;
+  std::string of;
+  TristimulusWeights weights{};
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string& light = table.text(row, "illuminant");
+    const std::string& degrees = table.text(row, "observer");
+    const int step = static_cast<int>(table.number(row, "step_nm"));
+    const int nm = static_cast<int>(table.number(row, "wavelength_nm"));
+    const std::string name = fmt::format("{} {}° {} nm", light, degrees, step);
+    if (name != of) weights = astm_weights(astm_illuminant(light), observer(degrees), step, kWholeObserver);
+    of = name;
+    const XYZ& weight = weights.weights.at(static_cast<std::size_t>((nm - weights.low_nm) / step));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string column(1, "XYZ"[i]);
+      figures.push_back(exact_figure(fmt::format("{} at {} nm {}", name, nm, column),
+                                     table.number(row, column), weight[i]));
+    }
+  }
+  return figures;
 }
 
 std::vector<Figure> planckian_locus() {
@@ -206,6 +234,8 @@ std::vector<Case> colour_cases() {
                {0.51e-6}, observer_sums),
       computed("whites", "white points of 50 illuminants for both observers, 1 nm sums", "[CIE15, sec. 7.1]",
                "", millionth, summed_whites),
+      computed("astm-weights", "tristimulus weights for 10 and 20 nm as printed", "[ASTM308], [ASTM2022]", "",
+               {5.01e-4}, astm_printed_weights),
       computed("whites-defined", "white points over the whole observer, A and D by definition",
                "[CIE15, sec. 3]", "", millionth, defined_whites),
       computed("whites-printed", "white points as printed, from rounded tables", "[CIE15, tables]", "",

@@ -8,6 +8,7 @@
 
 #include "calibration/chart/delta_e.h"
 #include "io/reference_table.h"
+#include "spectral/astm_e308.h"
 #include "validation/cases/charts.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
@@ -48,6 +49,30 @@ std::vector<Figure> babelcolor_patches() {
 }
 std::vector<Figure> ohta_patches() {
   return patches_of(kTables[1]);
+}
+
+// L*a*b* of every patch by the weights of ASTM E308, which another program computed from the same tables.
+std::vector<Figure> astm_patches() {
+  const ReferenceTable table(kTables[0].reference);
+  std::map<std::string, TristimulusWeights> weights;
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string& light = table.text(row, "illuminant");
+    if (light.starts_with("FL")) continue;  // that program holds their first value below 380 nm
+    if (!weights.contains(light))
+      weights[light] = astm_weights(shipped_illuminant(light), Observer::cie1931, 10);
+    Diagnostics diagnostics;
+    const std::string& patch = table.text(row, "patch");
+    const Samples samples = shipped(
+        load_astm_samples(std::string(kTables[0].spectra) + ":" + patch, {}, diagnostics), diagnostics);
+    const Lab lab = xyz_to_lab(astm_tristimulus(weights[light], samples), astm_white(weights[light]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string name(1, "Lab"[i]);
+      figures.push_back(
+          exact_figure(light + " " + patch + " " + name, table.number(row, name + "_E308"), lab[i]));
+    }
+  }
+  return figures;
 }
 
 // Mean CIEDE2000 of the integrated patches against the known answers, for each table and illuminant.
@@ -141,6 +166,8 @@ std::vector<Case> chart_cases() {
                "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, babelcolor_patches),
       computed("chart-ohta", "ColorChecker of Ohta: XYZ and L*a*b* of each patch",
                "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, ohta_patches),
+      computed("chart-astm", "ColorChecker by the weights of ASTM E308: L*a*b* of each patch",
+               "spectra of [Pascale2012], [ASTM308]", {1e-5}, astm_patches),
       computed("chart-integrated", "ColorChecker integrated against the same spectra: mean ΔE2000",
                "[Pascale2012], [Ohta1997], [CIE15, sec. 7.1]", {0.001}, integrated_differences),
       computed("chart-editions", "editions of the ColorChecker against each other, D50: ΔE2000",

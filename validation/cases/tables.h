@@ -9,6 +9,7 @@
 #include "materials/index/library.h"
 #include "sensor/response/channel.h"
 #include "spectral/chart.h"
+#include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
 namespace abbe {
@@ -18,6 +19,11 @@ template <typename T>
 [[nodiscard]] T shipped(std::optional<T> value, const Diagnostics& diagnostics) {
   if (!value) throw Error(ErrorCode::input, "", diagnostics.text());
   return *std::move(value);
+}
+
+/// The observer of a table's column of degrees, "2" or "10".
+[[nodiscard]] inline Observer observer(const std::string& degrees) {
+  return degrees == "2" ? Observer::cie1931 : Observer::cie1964;
 }
 
 /// Shipped data by name. Each throws Error{input} where there is none.
