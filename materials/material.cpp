@@ -62,6 +62,10 @@ const Matter* matter(const Material& material) {
       material.model);
 }
 
+bool encloses_matter(const Material& material) {
+  return interior(material) != nullptr || matter(material) != nullptr || is_boundary(material);
+}
+
 bool is_boundary(const Material& material) {
   return std::holds_alternative<MediumMaterial>(material.model);
 }

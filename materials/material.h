@@ -50,6 +50,8 @@ struct Material {
 [[nodiscard]] const RefractiveIndex* interior(const Material& material);
 /// What light meets inside besides the absorption of that index, or nullptr.
 [[nodiscard]] const Matter* matter(const Material& material);
+/// Whether its surfaces bound matter that light enters, so that they must be closed.
+[[nodiscard]] bool encloses_matter(const Material& material);
 /// Matter begins and ends at a surface of this material, but light is neither reflected nor refracted there.
 [[nodiscard]] bool is_boundary(const Material& material);
 

@@ -28,13 +28,17 @@ Imath::V3d turned(const BumpMap& map, const SurfaceCoordinates& at, const Imath:
 SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit) {
   const ShapeInstance& instance = scene.shapes[hit.shape];
   const Material& material = scene.materials[instance.material];
-  if (!needs_coordinates(material)) return {Basis<float>(hit.normal)};
-  const SurfaceCoordinates at = coordinates(instance.shape, Imath::V3d(hit.point), hit.primitive);
+  const Imath::V3d point(hit.point);
+  const auto smooth = interpolated_normal(instance.shape, point, hit.primitive, Imath::V3d(hit.normal));
+  const Imath::V3f normal = smooth ? Imath::V3f(*smooth) : hit.normal;
+  const bool relief = smooth || material.relief;
+  if (!needs_coordinates(material)) return {Basis<float>(normal), {0, 0}, relief};
+  const SurfaceCoordinates at = coordinates(instance.shape, point, hit.primitive);
   const Imath::V3f along(at.dp_du.normalized());
-  if (!material.relief) return {Basis<float>(hit.normal, along), Imath::V2f(at.uv)};
-  const Imath::V3d normal =
-      std::visit([&](const auto& map) { return turned(map, at, Imath::V3d(hit.normal)); }, *material.relief);
-  return {Basis<float>(Imath::V3f(normal), along), Imath::V2f(at.uv), true};
+  if (!material.relief) return {Basis<float>(normal, along), Imath::V2f(at.uv), relief};
+  const Imath::V3d carved =
+      std::visit([&](const auto& map) { return turned(map, at, Imath::V3d(normal)); }, *material.relief);
+  return {Basis<float>(Imath::V3f(carved), along), Imath::V2f(at.uv), relief};
 }
 
 }  // namespace abbe

@@ -7,17 +7,17 @@
 
 namespace abbe {
 
-/// What scattering at a hit refers to: axes whose z is the outward normal, or the one that a relief says, and
-/// the surface coordinates.
+/// What scattering at a hit refers to: axes whose z is the outward normal, or the one that vertex normals or
+/// a relief say, and the surface coordinates.
 struct SurfacePlace {
   Basis<float> frame;
   Imath::V2f uv{0, 0};
   bool relief = false;  ///< z may differ from the normal of the shape.
 };
 
-/// Of a hit; asked for where a scene has `needs.textures`, for without it the normal says all. Where the
-/// material needs coordinates they are worked out, and the frame's x runs along dp/du; elsewhere they are
-/// (0, 0).
+/// Of a hit; asked for where a scene has `needs.textures`, for without it the normal says all. A relief turns
+/// the normal that vertex normals give. Where the material needs coordinates they are worked out, and the
+/// frame's x runs along dp/du; elsewhere they are (0, 0).
 [[nodiscard]] SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit);
 
 }  // namespace abbe

@@ -126,6 +126,12 @@ struct Transform {
 /// Those, scales along the axes and matrices; a map without an inverse is reported.
 [[nodiscard]] std::optional<Imath::M44d> read_affine(const JsonValue& json, const Reading& reading);
 
+/// Makes a mesh the surface of the matter that its material may be: closed, facing outward, without vertex
+/// normals. Says what it puts right, and what it cannot as what strictness refuses; `name` is that of the
+/// mesh there.
+void prepare_for_matter(Mesh& mesh, const std::string& name, const Material& material,
+                        const SourcePosition& where, const Reading& reading);
+
 [[nodiscard]] std::optional<Sphere> read_sphere(const JsonValue& json, const Reading& reading);
 [[nodiscard]] std::optional<Disc> read_disc(const JsonValue& json, const Reading& reading);
 [[nodiscard]] std::optional<Quad> read_quad(const JsonValue& json, const Reading& reading);

@@ -19,6 +19,9 @@ Imath::V3d moved_direction(const Imath::V3d& v, const Transform& by) {
 }
 void move(Mesh& mesh, const Transform& by) {
   for (Imath::V3d& vertex : mesh.vertices) vertex *= by.matrix;
+  for (std::array<Imath::V3f, 3>& corners : mesh.normals)
+    for (Imath::V3f& normal : corners)
+      normal = Imath::V3f(moved_direction(Imath::V3d(normal), by).normalized());
 }
 void move(Sphere& sphere, const Transform& by) {
   sphere.center *= by.matrix;
@@ -147,17 +150,20 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
   return parts;
 }
 
+std::string mesh_name(const std::string* file) {
+  return file ? fmt::format("mesh \"{}\"", *file) : "the mesh";
+}
+
 // Reports a mesh without the texture coordinates that its material needs.
 void require_coordinates(std::span<const Part> parts, const Material& material, const JsonValue& json,
                          const std::string* file, const Reading& reading) {
   if (!needs_coordinates(material)) return;
   for (const Part& part : parts)
     if (const auto* mesh = std::get_if<Mesh>(&part.shape); mesh && mesh->coordinates.empty())
-      reading.diagnostics.error(
-          json.where,
-          fmt::format("{}: no texture coordinates, which its material \"{}\" needs",
-                      file ? fmt::format("mesh \"{}\"", *file) : "the mesh", material.name),
-          file ? ErrorCode::input : ErrorCode::scene);
+      reading.diagnostics.error(json.where,
+                                fmt::format("{}: no texture coordinates, which its material \"{}\" needs",
+                                            mesh_name(file), material.name),
+                                file ? ErrorCode::input : ErrorCode::scene);
 }
 
 // The shape of the kind `key` before its transform.
@@ -177,6 +183,10 @@ std::vector<Part> read_unplaced(ObjectReader& reader, std::string_view key, cons
     if (shape && material) parts.push_back({name, std::move(*shape), *material});
   }
   if (material) require_coordinates(parts, scene.materials[*material], json, file, reading);
+  if (key == "mesh")
+    for (Part& part : parts)
+      prepare_for_matter(std::get<Mesh>(part.shape), mesh_name(file), scene.materials[part.material],
+                         json.where, reading);
   return parts;
 }
 

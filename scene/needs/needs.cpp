@@ -37,7 +37,7 @@ constexpr std::array<NeedName, 14> kNeeds{{
      "caustics of a light too small to be hit by chance, seen by a camera"},
     {"environment", &Needs::environment, "light from infinity all around"},
     {"textures", &Needs::textures,
-     "a material or its relief varies over the surface, or has a direction along it"},
+     "a material, its relief or vertex normals vary over the surface, or it has a direction along it"},
     {"delta_lights", &Needs::delta_lights, "point or spot lights"},
     {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &Needs::polarisation_matters,
@@ -127,6 +127,12 @@ const ShapeInstance* nested_shape(const Scene& scene) {
   return nullptr;
 }
 
+// Whether scattering depends on where on the surface it happens.
+bool varies(const ShapeInstance& instance, const Material& material) {
+  const auto* mesh = plain<Mesh>(instance.shape);
+  return needs_coordinates(material) || (mesh != nullptr && !mesh->normals.empty());
+}
+
 void analyse_matter(const Scene& scene, Needs& needs) {
   const ShapeInstance* specular = nullptr;
   bool scattering = false;
@@ -140,7 +146,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
     require(needs, &Needs::media, absorbing, "shape", instance.name);
     require(needs, &Needs::scattering, turbid, "shape", instance.name);
     require(needs, &Needs::boundaries, is_boundary(material), "shape", instance.name);
-    require(needs, &Needs::textures, needs_coordinates(material), "shape", instance.name);
+    require(needs, &Needs::textures, varies(instance, material), "shape", instance.name);
     const Lobes sent = lobes(material);
     scattering = scattering || sent.spread || turbid;
     if (sent.delta && specular == nullptr) specular = &instance;

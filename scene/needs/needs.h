@@ -22,7 +22,8 @@ struct Needs {
   bool light_tracing =
       false;  ///< Caustics, a camera that can be connected to, and a light too small to be hit by chance.
   bool environment = false;
-  bool textures = false;  ///< Some scattering depends on surface coordinates.
+  bool textures =
+      false;  ///< Some scattering depends on where on its surface: by coordinates or vertex normals.
   bool delta_lights = false;
   bool narrow_bands = false;  ///< Some emission or response has features narrower than 10 nm.
   bool polarisation_matters =

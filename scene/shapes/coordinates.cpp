@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/shapes/placed.h"
+
 namespace abbe {
 namespace {
 
@@ -79,6 +81,25 @@ SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Imath::V3d& p
 }
 
 }  // namespace
+
+std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V3d& point,
+                                              std::size_t triangle, const Imath::V3d& geometric) {
+  const auto* mesh = plain<Mesh>(shape);
+  if (mesh == nullptr || mesh->normals.empty()) return std::nullopt;
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  const auto& [a, b, c] = mesh->triangles[triangle];
+  const Imath::V3d& origin = mesh->vertices[a];
+  const PlaneShares share((placed ? point * placed->at->to_prototype : point) - origin,
+                          mesh->vertices[b] - origin, mesh->vertices[c] - origin);
+  const auto& [at_a, at_b, at_c] = mesh->normals[triangle];
+  Imath::V3d normal = Imath::V3d(at_a) * (1 - share.first - share.second) + Imath::V3d(at_b) * share.first +
+                      Imath::V3d(at_c) * share.second;
+  if (placed) normal = normal_to_world(*placed->at, normal);
+  normal.normalize();
+  const double side = normal.dot(geometric);
+  if (side == 0) return geometric;  // normals that cancel out
+  return side < 0 ? -normal : normal;
+}
 
 SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std::size_t triangle) {
   return std::visit([&](const auto& s) { return coordinates_on(s, point, triangle); }, shape);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "scene/shapes/shape.h"
 
@@ -26,5 +27,12 @@ struct SurfaceCoordinates {
 /// An instance has the coordinates of its prototype.
 [[nodiscard]] SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point,
                                              std::size_t triangle);
+
+/// The normal that the vertex normals of a mesh give by interpolation over triangle number `triangle`, of
+/// unit length and on the side of the `geometric` one, however the file's point. Nothing for a shape without
+/// them.
+[[nodiscard]] std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V3d& point,
+                                                            std::size_t triangle,
+                                                            const Imath::V3d& geometric);
 
 }  // namespace abbe

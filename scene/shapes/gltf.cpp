@@ -18,7 +18,9 @@
 #include "io/json.h"
 #include "io/text.h"
 #include "scene/shapes/gltf_material.h"
+#include "scene/shapes/gltf_numbers.h"
 #include "scene/shapes/mesh_formats.h"
+#include "scene/shapes/placed.h"
 
 namespace abbe {
 namespace {
@@ -124,84 +126,8 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
   return true;
 }
 
-/// Numbers stored in a buffer, checked to lie within it: the library checks none.
-struct Numbers {
-  const unsigned char* first;
-  std::size_t count;
-  std::size_t stride;
-  int component_type;
-};
-
-template <typename T>
-const T* at(const std::vector<T>& list, int index) {
-  return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)]
-                                                                     : nullptr;
-}
-
-std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, int type, MeshReading& reading) {
-  const auto refuse = [&](const std::string& what) {
-    reading.refuse(fmt::format("accessor {}: {}", index, what));
-    return std::nullopt;
-  };
-  const auto* accessor = at(model.accessors, index);
-  if (!accessor) return refuse("there is none");
-  if (accessor->sparse.isSparse) return refuse("sparse accessors are not read");
-  if (accessor->type != type)
-    return refuse(fmt::format("wrong type (allowed {})", type == TINYGLTF_TYPE_VEC3   ? "VEC3"
-                                                         : type == TINYGLTF_TYPE_VEC2 ? "VEC2"
-                                                                                      : "SCALAR"));
-  const auto* view = at(model.bufferViews, accessor->bufferView);
-  const auto* buffer = view ? at(model.buffers, view->buffer) : nullptr;
-  if (!buffer || view->byteOffset > buffer->data.size() ||
-      view->byteLength > buffer->data.size() - view->byteOffset)
-    return refuse("its view leaves the buffer, or there is none");
-  const int stride = accessor->ByteStride(*view);
-  const int width = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType)) *
-                    tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
-  if (width <= 0) return refuse("unknown component type");
-  if (accessor->count == 0) return refuse("it is empty");
-  const std::size_t room = view->byteLength;
-  const Numbers numbers{buffer->data.data() + view->byteOffset + std::min(accessor->byteOffset, room),
-                        accessor->count, static_cast<std::size_t>(std::max(stride, 0)),
-                        accessor->componentType};
-  if (stride < width || accessor->byteOffset > room ||
-      static_cast<std::size_t>(width) > room - accessor->byteOffset ||
-      numbers.count - 1 > (room - accessor->byteOffset - static_cast<std::size_t>(width)) / numbers.stride)
-    return refuse("it promises more than the buffer holds");
-  return numbers;
-}
-
-template <typename T>
-T number_at(const Numbers& numbers, std::size_t i, std::size_t component = 0) {
-  T value;
-  std::memcpy(&value, numbers.first + i * numbers.stride + component * sizeof value, sizeof value);
-  return value;
-}
-std::uint32_t index_at(const Numbers& numbers, std::size_t i) {
-  if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
-    return number_at<std::uint8_t>(numbers, i);
-  if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-    return number_at<std::uint16_t>(numbers, i);
-  return number_at<std::uint32_t>(numbers, i);
-}
-
 /// What nodes have put together so far, by material.
 using Parts = std::map<std::optional<std::size_t>, Mesh>;
-
-// Texture coordinates of vertex `i`, as floats or as shares of the largest integer; v runs downwards in the
-// format.
-Imath::V2f coordinates_at(const Numbers& numbers, std::size_t i) {
-  Imath::V2f uv;
-  for (unsigned c = 0; c < 2; ++c) {
-    if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
-      uv[static_cast<int>(c)] = static_cast<float>(number_at<std::uint8_t>(numbers, i, c)) / 255;
-    else if (numbers.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-      uv[static_cast<int>(c)] = static_cast<float>(number_at<std::uint16_t>(numbers, i, c)) / 65535;
-    else
-      uv[static_cast<int>(c)] = number_at<float>(numbers, i, c);
-  }
-  return {uv.x, 1 - uv.y};
-}
 
 /// Those of a primitive's vertices: none when it has none, or nobody wants them. False after a fault.
 bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -222,6 +148,21 @@ bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& p
   return true;
 }
 
+/// Those of a primitive's vertices, moved as these are: none when it has none. False after a fault.
+bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
+                  std::vector<Imath::V3f>& normals, MeshReading& reading) {
+  const auto named = primitive.attributes.find("NORMAL");
+  if (named == primitive.attributes.end()) return true;
+  const auto numbers = numbers_of(model, named->second, TINYGLTF_TYPE_VEC3, reading);
+  if (!numbers) return false;
+  if (numbers->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    return reading.refuse("normals must be floats");
+  const Placement at = placement(map);
+  for (std::size_t i = 0; i < numbers->count; ++i)
+    normals.push_back(unit_normal(normal_to_world(at, vector_at(*numbers, i))));
+  return true;
+}
+
 // How a primitive's vertices follow each other in triangles; nothing for points and lines.
 std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -234,6 +175,20 @@ std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
   return triangles;
 }
 
+// Those of a triangle's corners, the next of the mesh's; what came before without is zero. False after a
+// fault.
+bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
+                 const std::vector<Imath::V3f>& normals, Mesh& mesh, MeshReading& reading) {
+  mesh.normals.resize(mesh.triangles.size());
+  auto& corners = mesh.normals.emplace_back();
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners.at(i) = normals[triangle.at(i) - base];
+    if (corners.at(i) == Imath::V3f(0))
+      return reading.refuse(fmt::format("the normal of vertex {} has no direction", triangle.at(i) - base));
+  }
+  return true;
+}
+
 bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                    Parts& parts, MeshReading& reading) {
   const auto named = primitive.attributes.find("POSITION");
@@ -242,7 +197,7 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   if (!positions) return false;
   if (positions->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
     return reading.refuse("positions must be floats");
-  std::optional<Numbers> indices;
+  std::optional<GltfNumbers> indices;
   if (primitive.indices >= 0) {
     indices = numbers_of(model, primitive.indices, TINYGLTF_TYPE_SCALAR, reading);
     if (!indices) return false;
@@ -260,15 +215,16 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   if (static_cast<double>(mesh.triangles.size() + triangles.size()) > kMaxTriangles ||
       static_cast<double>(base + positions->count) > kMaxTriangles)
     return reading.refuse(fmt::format("too many triangles (allowed {})", kMaxTriangles));
-  for (std::size_t i = 0; i < positions->count; ++i)
-    mesh.vertices.push_back(
-        Imath::V3d(Imath::V3f(number_at<float>(*positions, i, 0), number_at<float>(*positions, i, 1),
-                              number_at<float>(*positions, i, 2))) *
-        map);
+  for (std::size_t i = 0; i < positions->count; ++i) mesh.vertices.push_back(vector_at(*positions, i) * map);
   std::vector<Imath::V2f> coordinates;
   if (!read_coordinates(model, primitive, coordinates, reading)) return false;
   if (!coordinates.empty() && coordinates.size() != positions->count)
     return reading.refuse("as many texture coordinates as positions are needed");
+  std::vector<Imath::V3f> normals;
+  if (!read_normals(model, primitive, map, normals, reading)) return false;
+  if (!normals.empty() && normals.size() != positions->count)
+    return reading.refuse(fmt::format("as many normals as positions are needed (got {}, allowed {})",
+                                      normals.size(), positions->count));
   const bool mirror = map.determinant() < 0;
   for (std::array<std::size_t, 3> triangle : triangles) {
     for (std::size_t& corner : triangle) {
@@ -283,6 +239,7 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
     if (!coordinates.empty())
       mesh.coordinates.push_back({coordinates[triangle[0] - base], coordinates[triangle[1] - base],
                                   coordinates[triangle[2] - base]});
+    if (!normals.empty() && !add_normals(triangle, base, normals, mesh, reading)) return false;
     mesh.triangles.push_back({static_cast<std::uint32_t>(triangle[0]),
                               static_cast<std::uint32_t>(triangle[1]),
                               static_cast<std::uint32_t>(triangle[2])});
@@ -347,6 +304,9 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
   tinygltf::Model model;
   if (!load(bytes, model, reading)) return false;
   bytes = {};
+  for (const auto& [count, what] :
+       {std::pair(model.lights.size(), "lights"), {model.cameras.size(), "cameras"}})
+    if (count > 0) reading.lost.push_back(fmt::format("its {} are not read ({} of them)", what, count));
   Parts parts;
   if (!walk(model, parts, reading)) return false;
   if (reading.materials == FileMaterials::wanted) {
@@ -359,6 +319,7 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
   for (auto& [material, mesh] : parts) {
     if (mesh.triangles.empty()) continue;  // points and lines
     if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();
+    if (!mesh.normals.empty()) mesh.normals.resize(mesh.triangles.size());
     const std::size_t last = reading.file.materials.size();
     const bool wanted = reading.materials == FileMaterials::wanted;
     if (wanted && material && *material >= last) return reading.refuse("a material does not exist");

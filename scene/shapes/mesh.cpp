@@ -54,7 +54,8 @@ Imath::V3d area_vector(const Mesh& mesh, std::size_t triangle) {
 
 std::size_t memory_bytes(const Mesh& mesh) {
   return mesh.vertices.size() * sizeof(mesh.vertices[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]) +
-         mesh.coordinates.size() * sizeof(mesh.coordinates[0]);
+         mesh.coordinates.size() * sizeof(mesh.coordinates[0]) +
+         mesh.normals.size() * sizeof(mesh.normals[0]);
 }
 
 double area(const Mesh& mesh) {

@@ -1,6 +1,7 @@
 #include "scene/shapes/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -29,6 +30,34 @@ bool read_format(std::string&& bytes, MeshReading& reading) {
   if (extension == ".obj") return read_obj(std::move(bytes), reading);
   if (extension == ".gltf" || extension == ".glb") return read_gltf(std::move(bytes), reading);
   return read_ply(std::move(bytes), reading);
+}
+
+// Moves the triangles without area to the slivers, and says how many there are.
+std::size_t drop_slivers(Mesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!(area_vector(mesh, i).length() > 0)) {
+      mesh.slivers.push_back(mesh.triangles[i]);
+      continue;
+    }
+    if (!mesh.coordinates.empty()) mesh.coordinates[kept] = mesh.coordinates[i];
+    if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[i];
+    mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.coordinates.empty()) mesh.coordinates.resize(kept);
+  if (!mesh.normals.empty()) mesh.normals.resize(kept);
+  return mesh.slivers.size();
+}
+
+// Readers leave the corners zero to which the file gives no normal.
+void complete_normals(Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    std::array<Imath::V3f, 3>& corners = mesh.normals[i];
+    const auto missing = [](const Imath::V3f& normal) { return normal == Imath::V3f(0); };
+    if (std::any_of(corners.begin(), corners.end(), missing))
+      corners.fill(Imath::V3f(area_vector(mesh, i).normalized()));
+  }
 }
 
 bool known_format(const std::filesystem::path& path) {
@@ -80,11 +109,14 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
   if (!known_format(path))
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .obj, .gltf, .glb)",
                               path.extension().string()));
-  MeshReading reading{path, materials, coordinates, {}, {}};
+  MeshReading reading{path, materials, coordinates, {}, {}, {}};
   if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
   if (reading.file.parts.empty()) return refuse("no faces");
   for (MeshFile::Part& part : reading.file.parts)
     if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;
+  for (MeshFile::Part& part : reading.file.parts) complete_normals(part.mesh);
+  for (const std::string& lost : reading.lost)
+    diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), lost));
   return std::move(reading.file);
 }
 
@@ -105,16 +137,7 @@ bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostic
                       ErrorCode::input);
     return false;
   }
-  std::vector<std::array<std::uint32_t, 3>> kept;
-  std::vector<std::array<Imath::V2f, 3>> kept_coordinates;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!(area_vector(mesh, i).length() > 0)) continue;
-    kept.push_back(mesh.triangles[i]);
-    if (!mesh.coordinates.empty()) kept_coordinates.push_back(mesh.coordinates[i]);
-  }
-  const std::size_t dropped = mesh.triangles.size() - kept.size();
-  mesh.triangles = std::move(kept);
-  mesh.coordinates = std::move(kept_coordinates);
+  const std::size_t dropped = drop_slivers(mesh);
   if (dropped > 0) diagnostics.warning(where, fmt::format("triangles of zero area dropped: {}", dropped));
   if (!mesh.triangles.empty()) return true;
   diagnostics.error(where, "a mesh without a triangle of any area", ErrorCode::input);

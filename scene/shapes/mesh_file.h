@@ -39,17 +39,19 @@ enum class FileCoordinates { ignored, wanted };
 [[nodiscard]] bool brings_materials(const std::filesystem::path& path);
 
 /// Reads a PLY (ASCII or binary), OBJ, glTF or GLB file, told by its extension; convex polygons are cut into
-/// triangles. A part whose triangles do not all have texture coordinates has none. Reports, as input errors
-/// at `where`, a file that is missing, not regular or too large, anything malformed, a count that promises
-/// more than the file holds (before anything is allocated for it), a name of another file that leaves the
-/// folder, and whatever `check_mesh` reports.
+/// triangles. A part whose triangles do not all have texture coordinates has none; where some have vertex
+/// normals, the others get their own normal at each corner. Warns of lights and cameras, which are not read.
+/// Reports, as input errors at `where`, a file that is missing, not regular or too large, anything malformed,
+/// a count that promises more than the file holds (before anything is allocated for it), a name of another
+/// file that leaves the folder, and whatever `check_mesh` reports.
 [[nodiscard]] std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path,
                                                      FileMaterials materials, const SourcePosition& where,
                                                      Diagnostics& diagnostics,
                                                      FileCoordinates coordinates = FileCoordinates::ignored);
 
 /// Reports a vertex that is not finite and a triangle naming a vertex that does not exist, each by index;
-/// drops triangles of zero area with a warning that counts them. False when the mesh cannot be used.
+/// takes triangles of zero area for slivers, with a warning that counts them. False when the mesh cannot be
+/// used.
 [[nodiscard]] bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostics);
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -20,6 +21,7 @@ struct MeshReading {
   FileCoordinates coordinates;
   MeshFile file;
   std::string fault;
+  std::vector<std::string> lost;  ///< What of the file is not read, in words.
 
   /// Remembers the fault; false, so that a reader can end with it.
   bool refuse(std::string what) {
@@ -43,6 +45,12 @@ template <typename Corner>
 void add_fan(const std::vector<Corner>& polygon, std::vector<std::array<Corner, 3>>& triangles) {
   for (std::size_t i = 2; i < polygon.size(); ++i)
     triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+}
+
+/// A file's normal of unit length; zero for one that is zero or not finite.
+[[nodiscard]] inline Imath::V3f unit_normal(const Imath::V3d& given) {
+  const double length2 = given.length2();
+  return length2 > 0 && std::isfinite(length2) ? Imath::V3f(given.normalized()) : Imath::V3f(0);
 }
 
 /// The most triangles of a file, counted after nodes have been followed: a small file can name many.

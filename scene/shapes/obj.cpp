@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <sstream>
 #include <string>
@@ -26,6 +27,7 @@ struct Refused {};
 struct Faces {
   std::vector<Triangle> triangles;
   std::vector<std::array<Imath::V2f, 3>> coordinates;
+  std::vector<std::array<Imath::V3f, 3>> normals;  // zero where a face has none
 };
 
 /// A file being read by the library, which calls back with what each line says.
@@ -34,6 +36,7 @@ struct Obj {
   std::istringstream stream;
   std::vector<Imath::V3d> vertices;
   std::vector<Imath::V2f> coordinates;
+  std::vector<Imath::V3f> normals;
   std::map<std::optional<std::size_t>, Faces> faces;  // by material
   std::optional<std::size_t> material;
 
@@ -56,27 +59,66 @@ struct Obj {
   }
 };
 
+// What comes before a "#" that follows a blank, without blanks at its ends.
+std::string without_comment(std::string_view text) {
+  const std::size_t hash = std::min(text.find(" #"), text.find("\t#"));
+  return split(text.substr(0, hash), '\n')[0];
+}
+
+// The library takes a comment behind numbers for numbers. Names may have a "#" in them.
+void erase_comments(std::string& bytes) {
+  std::size_t kept = 0;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size() - 1) + 1;
+    const std::string_view line = std::string_view(bytes).substr(begin, end - begin);
+    const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
+    const bool named = line.substr(key).starts_with("usemtl") || line.substr(key).starts_with("mtllib");
+    std::size_t length = named ? line.size() : std::min(line.find('#'), line.size());
+    while (!named && length < line.size() && length > 0 &&
+           (line[length - 1] == ' ' || line[length - 1] == '\t'))
+      --length;
+    const bool cut = length < line.size() && line.back() == '\n';
+    std::memmove(&bytes[kept], &bytes[begin], length);
+    kept += length;
+    if (cut) bytes[kept++] = '\n';
+    begin = end;
+  }
+  bytes.resize(kept);
+}
+
 // Numbers at the start of a text. The library takes for 0 what is none.
 template <std::size_t N>
-std::optional<std::array<double, N>> numbers(const std::string& text) {
-  std::istringstream words(text);
+std::optional<std::array<double, N>> numbers(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
   std::array<double, N> v{};
   for (double& x : v) {
-    std::string word;
-    words >> word;
-    const auto number = parse_number(word);
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
+    const auto number = parse_number(text.substr(0, end));
     if (!number) return std::nullopt;
     x = *number;
+    text.remove_prefix(end);
   }
   return v;
 }
 
+// What the library has read as three numbers; `what` names number `count` of those.
+void require_numbers(const Obj& obj, const Imath::V3d& v, const char* what, std::size_t count) {
+  const auto suspect = [](double x) { return x == 0 || !std::isfinite(x); };
+  if ((suspect(v.x) || suspect(v.y) || suspect(v.z)) && !numbers<3>(obj.rest()))
+    obj.refuse(fmt::format("{} {} needs three finite numbers (got {})", what, count, obj.rest()));
+}
+
 void take_vertex(void* user, double x, double y, double z, double /*w*/) {
   Obj& obj = *static_cast<Obj*>(user);
-  const auto suspect = [](double v) { return v == 0 || !std::isfinite(v); };
-  if ((suspect(x) || suspect(y) || suspect(z)) && !numbers<3>(obj.rest()))
-    obj.refuse(fmt::format("a vertex needs three finite numbers (got {})", obj.rest()));
+  require_numbers(obj, {x, y, z}, "vertex", obj.vertices.size() + 1);
   obj.vertices.emplace_back(x, y, z);
+}
+
+void take_normal(void* user, double x, double y, double z) {
+  Obj& obj = *static_cast<Obj*>(user);
+  require_numbers(obj, {x, y, z}, "vn", obj.normals.size() + 1);
+  obj.normals.push_back(unit_normal({x, y, z}));
 }
 
 void take_coordinates(void* user, double /*u*/, double /*v*/, double /*w*/) {
@@ -103,18 +145,29 @@ void take_face(void* user, tinyobj::index_t* indices, int count) {
   if (count < 3) obj.refuse(fmt::format("a face of {} corners (allowed 3 or more)", count));
   std::vector<std::uint32_t> polygon;
   std::vector<Imath::V2f> coordinates;
+  std::vector<Imath::V3f> normals;
   for (int i = 0; i < count; ++i) {
     polygon.push_back(
         static_cast<std::uint32_t>(position(obj, "vertex", indices[i].vertex_index, obj.vertices)));
     const int named = indices[i].texcoord_index;
     if (obj.reading.coordinates == FileCoordinates::wanted && named != 0)
       coordinates.push_back(obj.coordinates[position(obj, "vt", named, obj.coordinates)]);
+    if (const int normal = indices[i].normal_index; normal != 0) {
+      const std::size_t number = position(obj, "vn", normal, obj.normals);
+      normals.push_back(obj.normals[number]);
+      if (normals.back() == Imath::V3f(0)) obj.refuse(fmt::format("vn {} has no direction", number + 1));
+    }
   }
   Faces& faces = obj.faces[obj.material];
+  if (normals.size() == polygon.size()) {
+    faces.normals.resize(faces.triangles.size());
+    add_fan(normals, faces.normals);
+  }
   add_fan(polygon, faces.triangles);
   if (coordinates.size() == polygon.size()) add_fan(coordinates, faces.coordinates);
 }
 
+// A name may have blanks and "#" in it, so that a comment begins where no material would be named otherwise.
 void use_material(void* user, const char* name, int number) {
   Obj& obj = *static_cast<Obj*>(user);
   if (number >= 0) {
@@ -123,7 +176,10 @@ void use_material(void* user, const char* name, int number) {
   }
   std::vector<std::string> names;
   for (const FileMaterial& material : obj.reading.file.materials) names.push_back(material.name);
-  obj.refuse(unknown_name("material", name, names));
+  const std::string said = without_comment(name);
+  const auto found = std::find(names.begin(), names.end(), said);
+  if (found == names.end()) obj.refuse(unknown_name("material", said, names));
+  obj.material = static_cast<std::size_t>(found - names.begin());
 }
 
 // What a material says beyond its colour, in the words of the format.
@@ -188,7 +244,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
   bool operator()(const std::string& /*piece*/, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* numbers, std::string* warning, std::string* error) override {
     MeshReading& reading = obj_.reading;
-    const std::string name = obj_.rest();
+    const std::string name = without_comment(obj_.rest());
     std::string text;
     if (!read_named_bytes(name, text, reading) || !check_colors(name, text, reading)) throw Refused();
     std::istringstream stream(std::move(text));
@@ -218,17 +274,20 @@ Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces) {
     }
   mesh.triangles = std::move(faces.triangles);
   mesh.coordinates = std::move(faces.coordinates);
+  mesh.normals = std::move(faces.normals);
   return mesh;
 }
 
 }  // namespace
 
 bool read_obj(std::string&& bytes, MeshReading& reading) {
-  Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}};
+  erase_comments(bytes);
+  Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}, {}};
   MaterialFiles files(obj);
   const bool wanted = reading.materials == FileMaterials::wanted;
   tinyobj::callback_t take;
   take.vertex_cb = take_vertex;
+  take.normal_cb = take_normal;
   take.index_cb = take_face;
   if (reading.coordinates == FileCoordinates::wanted) take.texcoord_cb = take_coordinates;
   if (wanted) take.usemtl_cb = use_material;
@@ -237,12 +296,15 @@ bool read_obj(std::string&& bytes, MeshReading& reading) {
   } catch (const Refused&) {
     return false;
   }
-  for (auto& [material, faces] : obj.faces)
+  for (auto& [material, faces] : obj.faces) {
     if (faces.coordinates.size() < faces.triangles.size()) faces.coordinates.clear();
+    if (!faces.normals.empty()) faces.normals.resize(faces.triangles.size());
+  }
   if (obj.faces.size() == 1) {
     auto& [material, faces] = *obj.faces.begin();
-    reading.file.parts.push_back(
-        {{std::move(obj.vertices), std::move(faces.triangles), std::move(faces.coordinates)}, material});
+    reading.file.parts.push_back({{std::move(obj.vertices), std::move(faces.triangles),
+                                   std::move(faces.coordinates), std::move(faces.normals)},
+                                  material});
     return true;
   }
   for (auto& [material, faces] : obj.faces)

@@ -30,6 +30,11 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// Of the corners of each triangle; none, or as many as triangles.
   std::vector<std::array<Imath::V2f, 3>> coordinates = {};
+  /// Of the corners of each triangle, of unit length: what a smooth surface would have there, of which the
+  /// triangle is a piece. None, or as many as triangles.
+  std::vector<std::array<Imath::V3f, 3>> normals = {};
+  /// Triangles of no area: nothing meets them, but those beside them meet along their edges.
+  std::vector<std::array<std::uint32_t, 3>> slivers = {};
 };
 struct Sphere {
   Imath::V3d center;

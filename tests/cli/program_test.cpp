@@ -300,5 +300,32 @@ TEST(Info, TellsTheMosaicAndHoldsOnePlaneForIt) {
   EXPECT_EQ(plain["memory_bytes"].get<int>() - raw["memory_bytes"].get<int>(), 24 * 16 * 2 * 16);
 }
 
+// A triangle of glass is no closed surface: told by everything that loads it, refused by --strict alone.
+TEST(Program, StrictRefusesMatterThatIsNotClosed) {
+  const std::string scene =
+      scratch()
+          .write(
+              "open.json",
+              scene_text(
+                  R"("glass": {"dielectric": {"ior": 1.5}})",
+                  R"({"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]]}, "material": "glass"})"))
+          .string();
+  const std::string render = "render " + scene + " --quiet --crop 0,0,1,1 -o " + file("open.exr");
+  for (const std::string& command : {"info " + scene, render}) {
+    const Outcome run = abbe(command);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(
+        run.err.find(
+            "/shapes/0/mesh: warning: the mesh around matter \"glass\" is no closed surface: 3 open edges"),
+        std::string::npos)
+        << run.err;
+  }
+  std::filesystem::remove(file("open.exr"));
+  const Outcome strict = abbe(render + " --strict");
+  EXPECT_EQ(strict.code, 3) << strict.err;
+  EXPECT_NE(strict.err.find("error: the mesh around matter"), std::string::npos) << strict.err;
+  EXPECT_FALSE(std::filesystem::exists(file("open.exr")));
+}
+
 }  // namespace
 }  // namespace abbe::test

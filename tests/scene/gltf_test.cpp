@@ -18,7 +18,27 @@ using testing::shaped;
 using testing::triangle_bytes;
 using testing::write;
 
-class GltfTest : public testing::MeshFileTest {};
+class GltfTest : public testing::MeshFileTest {
+ protected:
+  // What is said of a scene with the asset.
+  std::string load_with(const Asset& asset) {
+    write(folder_ / "a.gltf", asset.text());
+    const Loaded loaded = load(shaped(R"("mesh": "a.gltf")"));
+    EXPECT_TRUE(loaded.scene);
+    return loaded.text();
+  }
+};
+
+TEST_F(GltfTest, WarnsOfLightsAndCameras) {
+  Asset asset;
+  EXPECT_EQ(load_with(asset).find("warning: mesh"), std::string::npos);
+  asset.nodes = R"([{"mesh": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}])";
+  asset.more = R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+      "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "directional"}]}})";
+  const std::string warned = load_with(asset);
+  EXPECT_NE(warned.find("a.gltf\": its lights are not read (2 of them)"), std::string::npos) << warned;
+  EXPECT_NE(warned.find("a.gltf\": its cameras are not read (1 of them)"), std::string::npos) << warned;
+}
 
 TEST_F(GltfTest, ReadsPrimitives) {
   const Asset asset;

@@ -25,6 +25,18 @@ TEST_F(ObjTest, ReadsFaces) {
   EXPECT_EQ(cut.vertices.size(), 4U);
 }
 
+// Behind anything; a "#" within a name is none.
+TEST_F(ObjTest, CommentsEndLines) {
+  write(folder_ / "a.mtl", "newmtl red # 2\nKd 0.8 0.1 0.05\nnewmtl plain\nKd 0.5 0.5 0.5 # grey\n");
+  const std::string text =
+      "# all\nmtllib a.mtl # colours\nv 0 0 0 # first\nv 1 0 0#second\r\nv 0 1 0\t# third\n  # v 5 5 5\n"
+      "usemtl red # 2\nf 1 2 3 # a face\nusemtl plain # the other\nf 3 2 1#f 1 1 1";
+  const MeshFile file = read("a.obj", text, FileMaterials::wanted);
+  ASSERT_EQ(file.parts.size(), 2U);
+  EXPECT_EQ(file.parts[0].mesh.vertices[1], Imath::V3d(1, 0, 0));
+  EXPECT_EQ(file.parts[1].mesh.triangles.size(), 1U);
+}
+
 TEST_F(ObjTest, BringsItsMaterials) {
   write(folder_ / "a.mtl",
         "newmtl red paint\nKd 0.8 0.1 0.05\nKs 1 1 1\nNs 10\nillum 2\nKs 0.5 0.5 0.5\n"
@@ -86,8 +98,10 @@ TEST_F(ObjTest, RefusesBadFiles) {
        {"no number", std::string(kCorners) + "f 1 2 x\n", in, "no such vertex (got 0"},
        {"two corners", std::string(kCorners) + "f 1 2\n", in,
         "line 5: a face of 2 corners (allowed 3 or more)"},
-       {"half a vertex", "v 1 2\nf 1 1 1\n", in, "line 1: a vertex needs three finite numbers (got 1 2)"},
+       {"half a vertex", "v 1 2\nf 1 1 1\n", in, "line 1: vertex 1 needs three finite numbers (got 1 2)"},
        {"infinite", "v 1 2 inf\n", in, "three finite numbers"},
+       {"not a number", "v 0 0 0\nv 1 nan 2\n", in,
+        "line 2: vertex 2 needs three finite numbers (got 1 nan 2)"},
        {"empty", "", in, "no faces"},
        {"no area", std::string(kCorners) + "f 1 1 2\n", in, "a mesh without a triangle of any area"},
        {"missing library", "mtllib gone.mtl\n", in, "\"gone.mtl\", which it names: no such file"},

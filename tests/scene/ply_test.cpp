@@ -53,7 +53,8 @@ TEST_F(PlyTest, ReadsPlyWhateverTheLocale) {
 
 TEST_F(PlyTest, RefusesBadPly) {
   const std::vector<Fault> faults{
-      {"29 NaN", ply(4, 1, "0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ErrorCode::input, "malformed PLY"},
+      {"29 NaN", ply(4, 1, "0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ErrorCode::input,
+       "vertex 2 needs finite numbers (got \"nan\")"},
       {"30 index", ply(4, 1, kSquare + "3 0 1 4\n"), ErrorCode::input,
        "triangle 0 names a vertex that does not exist (got 4, allowed [0, 3])"},
       {"30 index of a polygon", ply(4, 1, kSquare + "4 0 1 2 99\n"), ErrorCode::input,

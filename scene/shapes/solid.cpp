@@ -1,0 +1,275 @@
+// CGAL's Polygon_mesh_processing orients and mends meshes too, under a licence that would pass to Abbe.
+#include "scene/shapes/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scene/shapes/edges.h"
+#include "scene/shapes/mesh.h"
+
+namespace abbe {
+namespace {
+
+/// Sets of triangles, each of which winds like the first of its set or against it.
+class Windings {
+ public:
+  explicit Windings(std::size_t count) : parent_(count), against_(count, false) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  /// The first of the set, and whether the triangle winds against it.
+  std::pair<std::uint32_t, bool> find(std::uint32_t triangle) {
+    std::uint32_t first = triangle;
+    bool against = false;
+    for (; parent_[first] != first; first = parent_[first]) against = against != against_[first];
+    const bool found = against;
+    while (parent_[triangle] != first) {
+      const std::uint32_t next = parent_[triangle];
+      const bool step = against_[triangle];
+      parent_[triangle] = first;
+      against_[triangle] = against;
+      against = against != step;
+      triangle = next;
+    }
+    return {first, found};
+  }
+  /// Makes one set of two, unless they are.
+  void join(std::uint32_t a, std::uint32_t b, bool opposed) {
+    const auto [first, a_against] = find(a);
+    const auto [other, b_against] = find(b);
+    if (first == other) return;
+    parent_[other] = first;
+    against_[other] = (a_against != b_against) != opposed;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint8_t> against_;
+};
+
+/// What hangs together by edges of two triangles, and has no open edge.
+struct Component {
+  std::vector<std::uint32_t> triangles;
+  Imath::Box3d box = {};
+  double volume = 0;  ///< Negative when it faces inward.
+  bool turned = false;
+};
+
+/// A mesh whose triangles are turned; those that were are known, slivers after the others.
+struct Turning {
+  Mesh& mesh;
+  std::vector<bool> turned;
+
+  explicit Turning(Mesh& m) : mesh(m), turned(m.triangles.size() + m.slivers.size(), false) {}
+  void turn(std::uint32_t triangle) {
+    turned[triangle] = !turned[triangle];
+    const auto swap = [triangle](auto& corners) {
+      if (triangle < corners.size()) std::swap(corners[triangle][1], corners[triangle][2]);
+    };
+    swap(mesh.triangles);
+    swap(mesh.coordinates);
+    swap(mesh.normals);
+  }
+};
+
+// Marks the triangles with the corners and the winding of an earlier one. Each is met at three edges, and
+// looked at where its third corner is the last.
+std::vector<bool> repeated_triangles(const Mesh& mesh, const EdgeTable& edges) {
+  std::vector<bool> repeated(mesh.triangles.size() + mesh.slivers.size(), false);
+  edges.for_each([&](std::span<const EdgeSide> sides) {
+    auto run = sides.begin();
+    for (auto side = sides.begin(); side != sides.end(); ++side) {
+      if (side->opposite != run->opposite) run = side;
+      repeated[side->triangle] =
+          repeated[side->triangle] ||
+          (side->opposite > side->high &&
+           std::any_of(run, side, [&](const EdgeSide& s) { return s.forward == side->forward; }));
+    }
+  });
+  return repeated;
+}
+
+// Takes triangles out, and says how many.
+std::size_t take_out(Mesh& mesh, const std::vector<bool>& marked) {
+  const std::size_t before = mesh.triangles.size();
+  const auto keep = [&marked](auto& list, std::size_t first) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!marked[first + i]) list[kept++] = list[i];
+    list.resize(kept);
+  };
+  keep(mesh.slivers, before);
+  keep(mesh.coordinates, 0);
+  keep(mesh.normals, 0);
+  keep(mesh.triangles, 0);
+  return before - mesh.triangles.size();
+}
+
+// Which sets cannot face one way all over: by the first of each. Where more than two triangles meet, those of
+// a set must pair off.
+std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_t triangles) {
+  std::vector<bool> flawed(triangles, false);
+  std::vector<std::pair<std::uint32_t, int>> ends;
+  edges.for_each([&](std::span<const EdgeSide> sides) {
+    ends.clear();
+    for (const EdgeSide& side : sides) {
+      const auto [first, against] = sets.find(side.triangle);
+      ends.emplace_back(first, side.forward != against ? 1 : -1);
+    }
+    std::sort(ends.begin(), ends.end());
+    for (auto end = ends.begin(); end != ends.end();) {
+      const std::uint32_t set = end->first;
+      int balance = 0;
+      for (; end != ends.end() && end->first == set; ++end) balance += end->second;
+      if (balance != 0) flawed[set] = true;
+    }
+  });
+  return flawed;
+}
+
+// The closed components of which no triangle is wound against the others any more, and how many were.
+std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTable& edges, Turning& turning) {
+  const auto count = static_cast<std::uint32_t>(turning.turned.size());
+  Windings sets(count);
+  edges.for_each([&sets](std::span<const EdgeSide> sides) {
+    if (sides.size() == 2)
+      sets.join(sides[0].triangle, sides[1].triangle, sides[0].forward == sides[1].forward);
+  });
+  const std::vector<bool> flawed = flawed_sets(edges, sets, count);
+  std::vector<std::uint32_t> number(count, count);  // of the component, by the first of its set
+  std::vector<Component> components;
+  std::vector<std::vector<std::uint32_t>> against;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto [first, opposed] = sets.find(i);
+    if (flawed[first]) continue;
+    if (number[first] == count) {
+      number[first] = static_cast<std::uint32_t>(components.size());
+      components.emplace_back();
+      against.emplace_back();
+    }
+    components[number[first]].triangles.push_back(i);
+    if (opposed) against[number[first]].push_back(i);
+  }
+  std::size_t rewound = 0;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    std::vector<std::uint32_t>& fewer = against[i];
+    if (2 * fewer.size() > components[i].triangles.size()) {
+      std::vector<std::uint32_t> others;
+      std::set_difference(components[i].triangles.begin(), components[i].triangles.end(), fewer.begin(),
+                          fewer.end(), std::back_inserter(others));
+      fewer = std::move(others);
+    }
+    for (const std::uint32_t triangle : fewer) {
+      turning.turn(triangle);
+      rewound += triangle < turning.mesh.triangles.size() ? 1 : 0;
+    }
+  }
+  return {std::move(components), rewound};
+}
+
+void measure(const Mesh& mesh, Component& component) {
+  // Slivers, at the end, add nothing.
+  while (!component.triangles.empty() && component.triangles.back() >= mesh.triangles.size())
+    component.triangles.pop_back();
+  for (const std::uint32_t triangle : component.triangles) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const Imath::V3d& origin = mesh.vertices[mesh.triangles[component.triangles[0]][0]];
+    for (const std::uint32_t corner : {a, b, c}) component.box.extendBy(mesh.vertices[corner]);
+    component.volume += (mesh.vertices[a] - origin).dot(area_vector(mesh, triangle)) / 3;
+  }
+}
+
+// How often an edge goes round p in the xy plane, as half a turn each way: the count of those that pass it on
+// the side of +x. It is decided from the lower end, so that the triangles on both sides of an edge agree.
+int passes(const Imath::V3d& from, const Imath::V3d& to, const Imath::V3d& p) {
+  if ((from.y <= p.y) == (to.y <= p.y)) return 0;
+  const bool up = from.y < to.y;
+  const Imath::V3d& low = up ? from : to;
+  const Imath::V3d& high = up ? to : from;
+  const bool beyond = (high.x - low.x) * (p.y - low.y) > (p.x - low.x) * (high.y - low.y);
+  return !beyond ? 0 : up ? 1 : -1;
+}
+
+// How often the component goes round a point: 1 for one within it where it faces outward, -1 where it faces
+// inward, 0 outside. That is how often the line from the point towards +z leaves it less how often it enters.
+int turns_around(const Imath::V3d& point, const Mesh& mesh, const Component& component) {
+  if (!component.box.intersects(point)) return 0;
+  int turns = 0;
+  for (const std::uint32_t triangle : component.triangles) {
+    const auto& [first, second, third] = mesh.triangles[triangle];
+    const Imath::V3d& a = mesh.vertices[first];
+    const Imath::V3d& b = mesh.vertices[second];
+    const Imath::V3d& c = mesh.vertices[third];
+    const int leaving = passes(a, b, point) + passes(b, c, point) + passes(c, a, point);
+    const Imath::V3d normal = (b - a).cross(c - a);
+    if (leaving != 0 && (a - point).dot(normal) * normal.z > 0) turns += leaving;
+  }
+  return turns;
+}
+
+// From the largest to the smallest, as only a larger one can be around: whether it is to be turned, which a
+// smaller one within is told by.
+void turn_outward(std::vector<Component>& components, Turning& turning, SolidReport& report) {
+  const Mesh& mesh = turning.mesh;
+  std::sort(components.begin(), components.end(),
+            [](const Component& a, const Component& b) { return std::abs(a.volume) > std::abs(b.volume); });
+  for (auto component = components.begin(); component != components.end(); ++component) {
+    if (component->triangles.empty()) continue;
+    const auto& [a, b, c] = mesh.triangles[component->triangles[0]];
+    const Imath::V3d point = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
+    int matter = 0;
+    bool within_turned = false;
+    for (auto other = components.begin(); other != component; ++other)
+      if (const int turns = turns_around(point, mesh, *other); turns != 0) {
+        matter += turns;
+        within_turned = other->turned;
+      }
+    const bool inward = component->volume < 0;
+    component->turned = inward ? matter <= 0 : within_turned && matter > 0;
+    if (component->turned) ++report.inverted;
+    if (!inward && !component->turned && matter > 0) ++report.buried;
+    if (component->turned)
+      for (const std::uint32_t triangle : component->triangles) turning.turn(triangle);
+  }
+}
+
+void count_faults(const EdgeTable& edges, const Turning& turning, SolidReport& report) {
+  const std::size_t triangles = turning.mesh.triangles.size();
+  edges.for_each([&](std::span<const EdgeSide> sides) {
+    const auto forward = std::count_if(sides.begin(), sides.end(), [&](const EdgeSide& side) {
+      return side.forward != turning.turned[side.triangle];
+    });
+    if (sides.size() == 1)
+      ++report.open_edges;
+    else if (2 * static_cast<std::size_t>(forward) != sides.size())
+      ++(sides.size() == 2 ? report.clashing_edges : report.crowded_edges);
+    for (std::size_t i = 1; i < sides.size(); ++i)
+      if (sides[i].opposite == sides[i - 1].opposite && sides[i].opposite > sides[i].high &&
+          std::max(sides[i].triangle, sides[i - 1].triangle) < triangles)
+        ++report.back_to_back;
+  });
+}
+
+}  // namespace
+
+SolidReport make_solid(Mesh& mesh) {
+  SolidReport report;
+  std::optional<EdgeTable> edges(mesh);
+  report.repeated = take_out(mesh, repeated_triangles(mesh, *edges));
+  if (report.repeated > 0) edges.emplace(mesh);
+  Turning turning(mesh);
+  auto [components, rewound] = rewound_components(*edges, turning);
+  report.rewound = rewound;
+  for (Component& component : components) measure(mesh, component);
+  turn_outward(components, turning, report);
+  count_faults(*edges, turning, report);
+  return report;
+}
+
+}  // namespace abbe
