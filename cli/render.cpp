@@ -20,6 +20,7 @@
 #include "io/data_directory.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
+#include "transport/path/roulette.h"
 
 namespace abbe::cli {
 namespace {
@@ -187,6 +188,8 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again
   answer["relative_error"] = stats.relative_error;
   answer["nonfinite_samples"] = stats.nonfinite_samples;
+  answer["cut_paths"] = stats.cut_paths;
+  answer["cut_throughput"] = stats.cut_throughput;
   const std::vector<std::string> planes = scene.film_planes();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Film::Average average = result.film.average(static_cast<int>(i));
@@ -264,6 +267,12 @@ int render(const RenderOptions& options) {
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.relative_error, ", relative ")));
   if (stats.nonfinite_samples > 0)
     say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));
+  if (stats.cut_paths > 0 && !scene.render.max_depth)
+    say(fmt::format(
+        "warning: {} of {} paths were cut after {} events, with {:.3g} % of what all set out with: "
+        "their light is missing",
+        stats.cut_paths, stats.paths, kMostEvents,
+        100 * stats.cut_throughput / static_cast<double>(stats.paths)));
   if (stats.interrupted) return kSignalExit + watch.signal();
   return options.strict && stats.nonfinite_samples > 0 ? static_cast<int>(ErrorCode::internal) : 0;
 }

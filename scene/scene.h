@@ -48,8 +48,10 @@ enum class Integrator { automatic, path, light };
 /// How to render, as the scene file asks.
 struct RenderSettings {
   Integrator integrator = Integrator::automatic;
-  int samples = 64;        ///< Per pixel.
-  int max_depth = 64;      ///< Events per path, at surfaces and within matter.
+  int samples = 64;  ///< Per pixel.
+  /// Events a path may have between its ends, at surfaces and within matter: 1 is light that is scattered
+  /// once. Absent, chance alone ends paths.
+  std::optional<int> max_depth = {};
   int roulette_depth = 4;  ///< Events before Russian roulette; a negative value never plays it.
   std::uint64_t seed = 0;
 };

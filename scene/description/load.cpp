@@ -57,9 +57,12 @@ RenderSettings read_render(const JsonValue& json, Reading& reading) {
   ObjectReader reader(json, reading.diagnostics);
   render.integrator = read_integrator(reader, reading);
   if (const auto n = reader.integer("samples", kCount)) render.samples = static_cast<int>(*n);
-  if (const auto n = reader.integer("max_depth", {1, 10000})) render.max_depth = static_cast<int>(*n);
+  if (const auto n = reader.integer("max_depth", {1, 100000})) render.max_depth = static_cast<int>(*n);
   if (const auto n = reader.integer("roulette_depth", {-1, 10000}))
     render.roulette_depth = static_cast<int>(*n);
+  if (render.roulette_depth < 0 && !reader.find("max_depth"))
+    reading.diagnostics.error(json.find("roulette_depth")->where,
+                              "ends no path, so that max_depth must (got -1 without a max_depth)");
   if (const auto n = reader.integer("seed", {0, 9007199254740992.0}))
     render.seed = static_cast<std::uint64_t>(*n);
   reader.finish();

@@ -35,6 +35,8 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
   EXPECT_EQ(stats["nonfinite_samples"], 0);
+  EXPECT_EQ(stats["cut_paths"], 0);
+  EXPECT_EQ(stats["cut_throughput"], 0);
   EXPECT_EQ(stats["scene_sha256"], image.metadata.at("scene_sha256"));
   EXPECT_EQ(stats["data_sha256"], data_sha256());
   EXPECT_EQ(image.metadata.at("data_sha256"), data_sha256());

@@ -42,6 +42,8 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        "/shapes/0/sphere/radius: error: expected a number (got 1e+300, allowed (0, 1000000000000])"},
       {"9 negative count", R"({"render": {"samples": -1}})", ErrorCode::scene,
        "(got -1, allowed [1, 16777216])"},
+      {"9 endless paths", R"({"render": {"roulette_depth": -1}})", ErrorCode::scene,
+       "/render/roulette_depth: error: ends no path, so that max_depth must (got -1 without a max_depth)"},
       {"9 fractional count", R"({"render": {"samples": 1.5}})", ErrorCode::scene,
        "expected an integer (got 1.5"},
       {"10 deep nesting", std::string(1000000, '['), ErrorCode::scene,

@@ -27,7 +27,7 @@ struct Bench {
   std::string camera = R"("from": [0, -5, 0], "to": [0, 0, 0], "up": [0, 0, 1])";
   double fov_deg = 1;
   int samples = 256;
-  int max_depth = 2000;
+  std::string depth = "";
   std::string integrator = "path";
   std::string bands = R"("B": {"band": [445, 455]}, "G": {"band": [545, 555]}, "R": {"band": [645, 655]})";
 };
@@ -37,9 +37,9 @@ RenderResult rendered(const Bench& b) {
                     R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": {}}}, {}}},
       "sensor": {{"resolution": [4, 4], "channels": {{{}}}}},
       "materials": {{"black": {{"diffuse": {{"reflectance": 0}}}}{}}}, "lights": [{}], "shapes": [{}],
-      "render": {{"integrator": "{}", "samples": {}, "max_depth": {}, "roulette_depth": 16}}}})",
+      "render": {{"integrator": "{}", "samples": {}, {}"roulette_depth": 16}}}})",
                     b.fov_deg, b.camera, b.bands, b.materials.empty() ? "" : ", " + b.materials, b.lights,
-                    b.shapes, b.integrator, b.samples, b.max_depth)),
+                    b.shapes, b.integrator, b.samples, b.depth)),
                 {});
 }
 
@@ -143,6 +143,11 @@ TEST(Media, WhatOnlyScattersIsInvisibleInAFurnace) {
                              R"("fog": {{"dielectric": {{"ior": 1.5, "scattering_per_m": {}}}}})", kColoured),
                          .shapes = ball("fog")}),
               one, 0.03, "within glass");
+  // Dense: much of the light comes out after hundreds of events only.
+  expect_near(radiances({.materials = R"("fog": {"medium": {"scattering_per_m": 100}})",
+                         .shapes = ball("fog"),
+                         .samples = 1024}),
+              one, 0.03, "dense");
   expect_near(radiances({.materials = medium(R"("phase": "rayleigh")") +
                                       R"(, "haze": {"medium": {"scattering_per_m": 0.7}})",
                          .shapes = ball("fog", 0.3) + ", " + ball("haze", 1.5)}),
@@ -235,7 +240,7 @@ TEST(Media, LightScatteredOnceIsTheIntegralAlongTheLine) {
       .lights = kLamp,
       .fov_deg = 0.01,
       .samples = 2048,
-      .max_depth = 1};
+      .depth = R"("max_depth": 1, )"};
   const double expected = scattered_once(0.3, 0.4, forward, 0.5, 5, 95);
   expect_near(radiances(bench), {expected, expected, expected}, 0.02, "path");
   // A sphere of it around the lamp alone, which the camera is outside of.
@@ -261,7 +266,7 @@ TEST(Media, TheSkyIsBlue) {
        .lights = kLamp,
        .fov_deg = 0.01,
        .samples = 32768,
-       .max_depth = 1});
+       .depth = R"("max_depth": 1, )"});
   std::vector<double> expected;
   for (const double nm : {450, 550, 650})
     expected.push_back(scattered_once(scattering(nm), scattering(nm), rayleigh, 0.5, 3, 3));

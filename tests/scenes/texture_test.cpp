@@ -114,7 +114,7 @@ TEST_F(TextureScene, ReliefsShineNoMoreThanTheirSurroundings) {
         "sensor": {{"resolution": [4, 4], "channels": {{"all": {{"band": [500, 600]}}}}}},
         "materials": {{"ball": {{{}, "normal_map": {{"image": "{}", "scale": [4, 2]}}}}}},
         "shapes": [{}], "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
-        "render": {{"samples": 1024, "roulette_depth": -1}}}})",
+        "render": {{"samples": 1024, "max_depth": 64, "roulette_depth": -1}}}})",
           matter, path_.string(), ball));
       return render(scene, {}).film;
     };

@@ -8,6 +8,7 @@
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/exposure.h"
 #include "transport/path/packet.h"
+#include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
 
 namespace abbe {
@@ -91,10 +92,10 @@ TEST(Lanes, SurvivalIsTheSameWhicheverLaneIsTheHero) {
   PathPacket packet;
   packet.throughput = SampledSpectrum(0.3F) + SampledSpectrum::only(2, 0.2F);
   packet.lane_pdf = SampledSpectrum(0.8F);
-  const float q = survival(packet, 1);
+  const float q = survival(packet.carried(), 1);
   packet.throughput *= 1.7F;
   packet.lane_pdf *= 1.7F;
-  EXPECT_FLOAT_EQ(survival(packet, 1), q);
+  EXPECT_FLOAT_EQ(survival(packet.carried(), 1), q);
   EXPECT_FLOAT_EQ(q, 0.5F / 0.8F);
 }
 

@@ -7,6 +7,7 @@
 
 #include "transport/path/flight.h"
 #include "transport/path/packet.h"
+#include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
 #include "transport/render/threads.h"
 
@@ -35,7 +36,8 @@ class PhotonPath {
         sampler_(sampler),
         exposure_(exposure),
         splat_(splat),
-        flies_(needs_flights(scene_)) {
+        flies_(needs_flights(scene_)),
+        most_events_(most_events(scene_.render)) {
     exposure_.begin(wavelengths, static_cast<float>(share * scene_.exposure_s));
     end_.packet.wavelengths = wavelengths;
   }
@@ -45,7 +47,7 @@ class PhotonPath {
     end_.inside = inside;
     if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
     end_.packet.throughput = power;
-    for (int depth = 0; depth < scene_.render.max_depth; ++depth) {
+    for (int depth = 0; depth < most_events_; ++depth) {
       std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
       const bool owned = depth > 0 || plan_.light_owns_all;
       if (flies_) {
@@ -64,6 +66,7 @@ class PhotonPath {
       if (owned && scatters(vertex.bsdf)) connect(vertex, depth);
       if (!scatter(vertex, depth, owned)) return;
     }
+    caster_.count_cut(end_.packet.carried() / power.max());
   }
 
  private:
@@ -144,8 +147,8 @@ class PhotonPath {
 
   // Roulette by what the event itself `kept`: the power a photon starts with says nothing about its worth.
   bool survives(float kept, int depth, float u) {
-    if (scene_.render.roulette_depth < 0 || depth + 1 < scene_.render.roulette_depth) return true;
-    const float q = std::min(1.0F, std::max(0.1F, kept));
+    if (!plays_roulette(scene_.render, depth + 1)) return true;
+    const float q = survival(kept, depth + 1);
     if (u >= q) return false;
     end_.packet.throughput *= 1 / q;
     return true;
@@ -160,6 +163,7 @@ class PhotonPath {
   PathEnd end_;
   std::optional<Interface> interface_;  // met last, where matter may be nested
   bool flies_;
+  int most_events_;
 };
 
 // A photon that shows where to aim others, by what it adds to the film.

@@ -16,6 +16,9 @@ struct PathPacket {
   SampledWavelengths wavelengths;
   SampledSpectrum throughput{1.0F};  ///< f_j / P_hero.
   SampledSpectrum lane_pdf{1.0F};    ///< P_k / P_hero; 0 for a lane that cannot follow.
+
+  /// The largest throughput of a lane, the same whichever lane is the hero.
+  [[nodiscard]] float carried() const { return throughput.max() / lane_pdf.max(); }
 };
 
 }  // namespace abbe

@@ -6,6 +6,7 @@
 
 #include "transport/path/flight.h"
 #include "transport/path/packet.h"
+#include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
 
 namespace abbe {
@@ -37,7 +38,8 @@ class CameraPath {
         sampler_(sampler),
         exposure_(exposure),
         end_{start.ray, {}, plan.camera_inside, {}},
-        flies_(needs_flights(scene_)) {
+        flies_(needs_flights(scene_)),
+        most_events_(most_events(scene_.render)) {
     end_.packet.wavelengths = wavelengths;
     if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
     exposure_.begin(wavelengths, start.weight * static_cast<float>(scene_.exposure_s));
@@ -55,7 +57,7 @@ class CameraPath {
       std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
       if (flies_) {
         if (scatters_before(hit, depth)) {
-          if (depth >= scene_.render.max_depth || !scatter_within(depth)) return;
+          if (is_cut(depth) || !scatter_within(depth)) return;
           continue;
         }
       } else if (hit) {
@@ -70,16 +72,26 @@ class CameraPath {
         hit = interface_->hit;
       }
       add_emission(*hit, depth);
-      if (depth >= scene_.render.max_depth) return;
       const Vertex vertex = interface_ ? Vertex(scene_, *interface_, end_.ray.direction, lambda())
                                        : Vertex(scene_, *hit, end_.ray.direction, lambda());
-      if (is_black(vertex.bsdf)) return;
+      if (is_black(vertex.bsdf) || is_cut(depth)) return;
       if (!scatter(vertex, depth)) return;
     }
   }
 
  private:
   [[nodiscard]] const SampledSpectrum& lambda() const { return end_.packet.wavelengths.lambda_nm; }
+
+  // The throughput that decides about roulette: what refraction into glass takes off radiance counts as still
+  // there.
+  [[nodiscard]] float carried() const { return end_.packet.carried() * eta_scale_; }
+
+  // Whether the path may not have the event number `depth`, counted from 0.
+  bool is_cut(int depth) {
+    if (depth < most_events_) return false;
+    caster_.count_cut(carried());
+    return true;
+  }
 
   // Sum over lanes and techniques of the densities that could have made the path now ending on a light,
   // relative to the hero's by scattering. `light_pdf` is that of light sampling from the previous vertex.
@@ -143,8 +155,8 @@ class CameraPath {
 
   bool survives(int depth, float u) {
     if (end_.packet.throughput.is_zero()) return false;
-    if (scene_.render.roulette_depth < 0 || depth + 1 < scene_.render.roulette_depth) return true;
-    const float q = survival(end_.packet, eta_scale_);
+    if (!plays_roulette(scene_.render, depth + 1)) return true;
+    const float q = survival(carried(), depth + 1);
     if (u >= q) return false;
     end_.packet.throughput *= 1 / q;
     return true;
@@ -254,6 +266,7 @@ class CameraPath {
   PathEnd end_;
   std::optional<Interface> interface_;  // met last, where matter may be nested
   bool flies_;
+  int most_events_;
   float eta_scale_ = 1;
   // Sum of lane densities before the last scattering over the hero's density of it: what a unit of
   // light-sampling density weighs.

@@ -109,12 +109,4 @@ struct Vertex {
   }
 };
 
-/// Survival probability of Russian roulette, the same whichever lane is the hero: min(1, max(0.1, largest
-/// throughput)), where the throughput counts what refraction into glass takes off radiance as still there.
-/// [Marschner2021, sec. 14.4]
-[[nodiscard]] inline float survival(const PathPacket& packet, float eta_scale) {
-  const float throughput = packet.throughput.max() / packet.lane_pdf.max() * eta_scale;
-  return std::min(1.0F, std::max(0.1F, throughput));
-}
-
 }  // namespace abbe

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 // Keys of the header that belong to the sums; all others are the identity.
 constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
-constexpr const char* kCounts = "paths_rays_nonfinite";
+constexpr const char* kCounts = "paths_rays_nonfinite_cut";
+constexpr const char* kCutThroughput = "cut_throughput";
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>
@@ -75,20 +76,23 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
   header[kSamples] = to_text(result.samples);
   if (const auto& pass = result.unfinished)
     header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);
+  const RenderStats& stats = result.stats;
   header[kCounts] =
-      fmt::format("{} {} {}", result.stats.paths, result.stats.rays, result.stats.nonfinite_samples);
+      fmt::format("{} {} {} {}", stats.paths, stats.rays, stats.nonfinite_samples, stats.cut_paths);
+  header[kCutThroughput] = fmt::format("{}", stats.cut_throughput);
   write_part_file(path, header, result.film.bytes());
 }
 
 RenderPart read_checkpoint(const fs::path& path) {
   PartFile file = read_part_file(path);
   const auto shape = parse_shape(take(file.header, kShape));
-  const auto counts = parse_numbers<std::uint64_t>(take(file.header, kCounts), 3);
+  const auto counts = parse_numbers<std::uint64_t>(take(file.header, kCounts), 4);
+  const auto cut_throughput = parse_numbers<double>(take(file.header, kCutThroughput), 1);
   auto film = shape ? Film::from_bytes(*shape, file.bytes) : std::nullopt;
   const bool named = split(file.header["sensor_channels"], ',').size() ==
                      static_cast<std::size_t>(shape ? shape->channels : 0);
   const auto refuse = [&path] { throw Error(ErrorCode::input, path.string(), "holds no part of a render"); };
-  if (!film || !counts || !named) refuse();
+  if (!film || !counts || !cut_throughput || !named) refuse();
   RenderResult result{std::move(*film), {}, {}};
   if (!take_samples(file.header, result)) refuse();
   result.film.set_samples(count_per_replicate(result.samples, shape->replicates));
@@ -96,6 +100,8 @@ RenderPart read_checkpoint(const fs::path& path) {
   result.stats.paths = (*counts)[0];
   result.stats.rays = (*counts)[1];
   result.stats.nonfinite_samples = (*counts)[2];
+  result.stats.cut_paths = (*counts)[3];
+  result.stats.cut_throughput = cut_throughput->front();
   return {std::move(file.header), std::move(result)};
 }
 
@@ -136,6 +142,8 @@ void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   stats.paths += part.result.stats.paths;
   stats.rays += part.result.stats.rays;
   stats.nonfinite_samples += part.result.stats.nonfinite_samples;
+  stats.cut_paths += part.result.stats.cut_paths;
+  stats.cut_throughput += part.result.stats.cut_throughput;
 }
 
 Image image_of(const RenderPart& part) {

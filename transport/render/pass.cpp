@@ -46,6 +46,7 @@ PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
     total.paths += counts.paths;
     total.rays += counts.rays;
     total.nonfinite += counts.nonfinite;
+    total.cut += counts.cut;
   });
   return total;
 }
@@ -63,6 +64,7 @@ PassCounts Pass::work(const std::function<bool()>& pause) {
     if (pause()) break;
   }
   worker.counts.rays = worker.caster.rays();
+  worker.counts.cut = worker.caster.cut();
   return worker.counts;
 }
 

@@ -87,6 +87,8 @@ class Rendering {
       stats.paths += counts.paths;
       stats.rays += counts.rays;
       stats.nonfinite_samples += counts.nonfinite;
+      stats.cut_paths += counts.cut.paths;
+      stats.cut_throughput += counts.cut.throughput;
       result_.unfinished = {range, pass.done()};
       if (!pass.finished()) save();
     }

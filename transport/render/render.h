@@ -59,6 +59,8 @@ struct RenderStats {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
   std::uint64_t nonfinite_samples = 0;  ///< Dropped.
+  std::uint64_t cut_paths = 0;          ///< That had as many events as a path may have.
+  double cut_throughput = 0;            ///< Sum of what these still carried, each having set out with 1.
   double relative_error = 0;
   double embree_replay_share =
       0;  ///< Time of the logged rays through Embree alone over the time to trace their paths.

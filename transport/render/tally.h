@@ -15,6 +15,21 @@ class RayCaster {
 
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
+  /// Paths that were cut while they still carried something, and the sum of that, each in units of what it
+  /// had set out with.
+  struct Cut {
+    std::uint64_t paths = 0;
+    double throughput = 0;
+
+    Cut& operator+=(const Cut& other) {
+      paths += other.paths;
+      throughput += other.throughput;
+      return *this;
+    }
+  };
+  [[nodiscard]] const Cut& cut() const { return cut_; }
+  void count_cut(float throughput) { cut_ += {1, static_cast<double>(throughput)}; }
+
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) {
     ++rays_;
     if (log_ != nullptr) log_->push_back({ray, false});
@@ -39,6 +54,7 @@ class RayCaster {
   const Scene& scene_;
   std::vector<LoggedRay>* log_;
   std::uint64_t rays_ = 0;
+  Cut cut_;
 };
 
 }  // namespace abbe

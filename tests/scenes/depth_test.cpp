@@ -1,0 +1,91 @@
+// How long paths are: as long as it takes, unless the scene says otherwise.
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "tests/scenes/scene_fixture.h"
+#include "transport/path/roulette.h"
+
+namespace abbe {
+namespace {
+
+// A cubic room of side 4 m, reflectance 0.99 and a lamp of 10 000 lm: E = Phi/96/(1 - rho) in the mean of a
+// wall, of which the first 64 events make 48 %.
+TEST(Depth, AWhiteRoomIsAsBrightAsItsWallsMakeIt) {
+  const Scene scene = test::load("validation/room.json", {{"/materials/wall/diffuse/reflectance", "0.99"},
+                                                          {"/sensor/resolution", "[8, 8]"},
+                                                          {"/render/samples", "1024"}});
+  const RenderResult result = render(scene, {});
+  const Film::Average lux = result.film.average(1);
+  fmt::print("{:.0f} +- {:.0f} lx\n", lux.mean, lux.standard_error);
+  EXPECT_NEAR(lux.mean, 10000.0 / 96 / 0.01, 0.05 * 10416.67);
+  EXPECT_NEAR(lux.mean, 10000.0 / 96 / 0.01, 4.9 * lux.standard_error);
+  EXPECT_EQ(result.stats.cut_paths, 0U);
+}
+
+TEST(Depth, AnExplicitOneIsHonouredAndSaysWhatItCutsOff) {
+  Scene scene = test::load("validation/furnace.json", {{"/sensor/resolution", "[4, 4]"},
+                                                       {"/render", R"({"samples": 1024, "max_depth": 3})"}});
+  const RenderResult cut = render(scene, {});
+  EXPECT_NEAR(cut.film.average(1).mean, std::numbers::pi * (1 - std::pow(0.8, 4)), 0.01);
+  const auto paths = static_cast<double>(cut.stats.paths);
+  // Each path has three of the walls' events behind it and 0.8^3 of its throughput left.
+  EXPECT_EQ(cut.stats.cut_paths, cut.stats.paths);
+  EXPECT_NEAR(cut.stats.cut_throughput / paths, std::pow(0.8, 3), 1e-5);
+}
+
+// Camera and lamp within a ball that loses nothing, and perhaps more.
+std::string lossless(const char* integrator, const char* more) {
+  return fmt::format(R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 40}}, "from": [0, 0.3, 0], "to": [0.2, 0, 1], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [2, 2], "response": "energy", "channels": {{"all": 1}}}},
+    "materials": {{"wall": {{"mirror": {{"reflectance": 1}}}}, "card": {{"diffuse": {{"reflectance": 1}}}}}},
+    "lights": [{{"point": {{"at": [0, -0.2, 0]}}, "emission": {{"spectrum": 1}}}}],
+    "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "wall"}}{}],
+    "render": {{"integrator": "{}", "samples": 8}}}})",
+                     more, integrator);
+}
+
+TEST(Depth, PathsEndWhereNothingIsAbsorbed) {
+  const char* card = R"(, {"sphere": {"center": [0.5, 0, 0], "radius": 0.1}, "material": "card"})";
+  for (const char* integrator : {"path", "light"}) {
+    const RenderResult result = render(test::load_text(lossless(integrator, card)), {});
+    EXPECT_EQ(result.stats.cut_paths, 0U) << integrator;
+    // Past the 64th event a path has 1/(1 - 0.98) of them on average.
+    EXPECT_LT(result.stats.rays, 400 * result.stats.paths) << integrator;
+    EXPECT_GT(result.stats.rays, 64 * result.stats.paths) << integrator;
+    EXPECT_EQ(result.stats.nonfinite_samples, 0U) << integrator;
+  }
+}
+
+TEST(Depth, ThereIsACapThatCounts) {
+  for (const char* integrator : {"path", "light"}) {
+    Scene scene = test::load_text(lossless(integrator, ""));
+    scene.render.roulette_depth = -1;
+    scene.render.samples = 1;
+    const RenderResult one = render(scene, {.threads = 1});
+    EXPECT_EQ(one.stats.cut_paths, one.stats.paths) << integrator;
+    EXPECT_NEAR(one.stats.cut_throughput, static_cast<double>(one.stats.paths), 1e-3) << integrator;
+    EXPECT_GE(one.stats.rays, one.stats.paths * static_cast<std::uint64_t>(kMostEvents)) << integrator;
+    EXPECT_EQ(render(scene, {.threads = 2}).stats.cut_paths, one.stats.cut_paths);
+  }
+}
+
+TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
+  RenderSettings settings;
+  EXPECT_FALSE(plays_roulette(settings, 3));
+  EXPECT_TRUE(plays_roulette(settings, 4));
+  EXPECT_EQ(survival(0.7F, 4), 0.7F);
+  EXPECT_EQ(survival(0.01F, 4), 0.1F);
+  EXPECT_EQ(survival(3, 64), 1);
+  EXPECT_EQ(survival(3, 65), 0.98F);
+  EXPECT_EQ(survival(0.7F, 65), 0.7F);
+  EXPECT_EQ(most_events(settings), 100000);
+  settings.max_depth = 12;
+  settings.roulette_depth = -1;
+  EXPECT_EQ(most_events(settings), 12);
+  EXPECT_FALSE(plays_roulette(settings, 1000));
+}
+
+}  // namespace
+}  // namespace abbe
