@@ -38,12 +38,13 @@ void add_render(CLI::App& app, Command& command) {
       ->type_name("FILE.exr|FILE.abbepart");
   CLI::Option* spp =
       add_parsed(render, "--spp", sub->samples, integer_in<int>(1, kMaxSamples), "Samples per pixel", "N");
-  CLI::Option* error = add_parsed(render, "--error", sub->target_error, parse_share,
-                                  "Stop when the relative error is this small, as 0.5% or 0.005", "SHARE");
-  CLI::Option* time = add_parsed(render, "--time", sub->time_limit_s, parse_seconds,
-                                 "Stop after this time, as 60s, 2m or 1h", "TIME");
+  CLI::Option* error = add_parsed(
+      render, "--error", sub->target_error, parse_share,
+      "Stop when the median relative error of lit values is this small, as 0.5% or 0.005", "SHARE");
+  CLI::Option* time =
+      add_parsed(render, "--time", sub->time_limit_s, parse_seconds,
+                 "Stop after this time, as 60s, 2m or 1h; with --error, at whichever comes first", "TIME");
   spp->excludes(error)->excludes(time);
-  error->excludes(time);
   add_parsed(render, "--integrator", sub->integrator, one_of<Integrator>({"auto", "path", "light"}),
              "Technique", "auto|path|light");
   add_parsed(render, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
@@ -83,7 +84,7 @@ void add_render(CLI::App& app, Command& command) {
   render.add_flag(
       "--strict", sub->strict,
       "Refuse a scene with warnings of a wrong image (exit 3); exit with 70 if any sample was not finite");
-  render.add_flag("--quiet", sub->quiet, "Show no progress");
+  render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }
 
 void add_scene_commands(CLI::App& app, Command& command) {

@@ -10,6 +10,7 @@
 #include "cli/answer.h"
 #include "cli/film_output.h"
 #include "cli/output_files.h"
+#include "cli/progress.h"
 #include "io/file_lock.h"
 
 namespace abbe::cli {
@@ -39,8 +40,9 @@ int merge(const MergeOptions& options) {
     abbe::merge(sum, part, options.parts[i]);
   }
   write_film(options.output, sum);
-  say(fmt::format("{} from {} parts: samples {} of every pixel", options.output.string(),
-                  options.parts.size(), to_text(sum.result.samples)));
+  say(fmt::format("{} from {} parts: samples {} of every pixel{}", options.output.string(),
+                  options.parts.size(), to_text(sum.result.samples),
+                  error_text({.frame_mean = frame_mean_error(sum.result.film)}, ", ")));
   return 0;
 }
 

@@ -25,9 +25,15 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-std::string error_text(double relative_error, std::string_view before) {
-  if (!std::isfinite(relative_error) || relative_error <= 0) return "";
-  return fmt::format("{}error {:.3g} %", before, 100 * relative_error);
+std::string error_text(const RelativeError& error, std::string_view before) {
+  std::string text;
+  const auto tell = [&](double value, std::string_view of) {
+    if (std::isfinite(value)) text += fmt::format("{}{:.2g} %{}", text.empty() ? "" : ", ", 100 * value, of);
+  };
+  tell(error.median, " median");
+  tell(error.p95, " p95");
+  tell(error.frame_mean, " of the mean");
+  return text.empty() ? "" : fmt::format("{}error {}", before, text);
 }
 
 std::string progress_line(const Progress& progress, bool with_bar) {
@@ -40,7 +46,7 @@ std::string progress_line(const Progress& progress, bool with_bar) {
   line += fmt::format("{:3.0f} %  {} samples/pixel", std::floor(100 * share), progress.samples);
   if (progress.elapsed_s > 0)
     line += fmt::format("  {:.3g}/s", static_cast<double>(progress.samples) / progress.elapsed_s);
-  line += error_text(progress.relative_error, "  ");
+  line += error_text(progress.error, "  ");
   if (share > 0 && share < 1)
     line += fmt::format("  {} left", duration(progress.elapsed_s * (1 - share) / share));
   return line;

@@ -8,8 +8,9 @@
 
 namespace abbe::cli {
 
-/// `before` and the error as a percentage; nothing when it is not known, as after one sample.
-[[nodiscard]] std::string error_text(double relative_error, std::string_view before);
+/// `before` and the relative error in percent: of the median lit value, of the 95th percentile and of the
+/// mean of the film; what is not known is left out, and all of it after one sample.
+[[nodiscard]] std::string error_text(const RelativeError& error, std::string_view before);
 
 /// One line on how far a render has come: share, samples and their rate, error, time left; with a bar for a
 /// terminal.

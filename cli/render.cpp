@@ -98,6 +98,7 @@ abbe::RenderOptions how_to_render(const RenderOptions& options) {
   how.crop = options.crop;
   how.samples = options.sample_range;
   how.checkpoint_interval_s = options.checkpoint_interval_s;
+  how.measure_error = !options.stats.empty();
   return how;
 }
 
@@ -186,14 +187,18 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["paths"] = stats.paths;
   answer["rays"] = stats.rays;
   answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again
-  answer["relative_error"] = stats.relative_error;
+  answer["relative_error"] = stats.error.median;
+  answer["relative_error_p95"] = stats.error.p95;
+  answer["frame_mean_error"] = stats.error.frame_mean;
   answer["nonfinite_samples"] = stats.nonfinite_samples;
   answer["cut_paths"] = stats.cut_paths;
   answer["cut_throughput"] = stats.cut_throughput;
   const std::vector<std::string> planes = scene.film_planes();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Film::Average average = result.film.average(static_cast<int>(i));
-    answer["film"][planes[i]] = {{"mean", average.mean}, {"standard_error", average.standard_error}};
+    answer["film"][planes[i]] = {{"mean", average.mean},
+                                 {"standard_error", average.standard_error},
+                                 {"degrees_of_freedom", average.degrees_of_freedom}};
   }
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
@@ -264,7 +269,7 @@ int render(const RenderOptions& options) {
   write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
-                    stats.samples_per_pixel, stats.wall_s, error_text(stats.relative_error, ", relative ")));
+                    stats.samples_per_pixel, stats.wall_s, error_text(stats.error, ", ")));
   if (stats.nonfinite_samples > 0)
     say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));
   if (stats.cut_paths > 0 && !scene.render.max_depth)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "io/error.h"
@@ -40,9 +39,9 @@ double from_fixed(Int128 fixed, int unit_exponent) {
   return std::ldexp(static_cast<double>(fixed), unit_exponent);
 }
 
-Film::Film(int width, int height, int channels, int replicates, double nominal)
+Film::Film(int width, int height, int channels, int replicates, double nominal, bool shares_photons)
     : Film(FilmShape{width, height, channels, replicates,
-                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits}) {}
+                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits, shares_photons}) {}
 
 Film::Film(const FilmShape& shape)
     : shape_(shape),
@@ -94,16 +93,22 @@ std::optional<Film> Film::from_bytes(const FilmShape& shape, std::string_view by
   return film;
 }
 
-double Film::mean(std::size_t pixel, int channel) const {
+int Film::filled_replicates() const {
+  return static_cast<int>(
+      std::count_if(samples_.begin(), samples_.end(), [](std::uint64_t n) { return n > 0; }));
+}
+
+template <typename SumOf>
+double Film::mean_of(SumOf sum_of) const {
   Int128 total = 0;
-  for (int r = 0; r < shape_.replicates; ++r)
-    total += sums_[index(pixel, r) + static_cast<std::size_t>(channel)];
+  for (int r = 0; r < shape_.replicates; ++r) total += sum_of(r);
   const std::uint64_t count = std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0});
   return count == 0 ? 0 : from_fixed(total, shape_.unit_exponent) / static_cast<double>(count);
 }
 
-double Film::variance(std::size_t pixel, int channel) const {
-  const double center = mean(pixel, channel);
+template <typename SumOf>
+double Film::variance_of(SumOf sum_of) const {
+  const double center = mean_of(sum_of);
   const auto count = static_cast<double>(std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}));
   double spread = 0;
   int filled = 0;
@@ -111,36 +116,48 @@ double Film::variance(std::size_t pixel, int channel) const {
     const auto n = static_cast<double>(samples_[static_cast<std::size_t>(r)]);
     if (n == 0) continue;
     ++filled;
-    const double m =
-        from_fixed(sums_[index(pixel, r) + static_cast<std::size_t>(channel)], shape_.unit_exponent) / n;
+    const double m = from_fixed(sum_of(r), shape_.unit_exponent) / n;
     spread += n / count * (m - center) * (m - center);
   }
   return filled < 2 ? 0 : spread / (filled - 1);
 }
 
-Film::Average Film::average(int channel) const {
-  const std::size_t pixels = static_cast<std::size_t>(shape_.width) * static_cast<std::size_t>(shape_.height);
-  double sum = 0;
-  double error = 0;
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    sum += mean(pixel, channel);
-    error += variance(pixel, channel);
-  }
-  const auto n = static_cast<double>(pixels);
-  return {sum / n, std::sqrt(error) / n};
+double Film::mean(std::size_t pixel, int channel) const {
+  return mean_of([&](int r) { return sum(pixel, r, channel); });
 }
 
-double Film::relative_error() const {
-  double value = 0;
-  double error = 0;
-  const std::size_t pixels = static_cast<std::size_t>(shape_.width) * static_cast<std::size_t>(shape_.height);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    for (int channel = 0; channel < shape_.channels; ++channel) {
-      value += std::abs(mean(pixel, channel));
-      error += variance(pixel, channel);
+double Film::variance(std::size_t pixel, int channel) const {
+  return variance_of([&](int r) { return sum(pixel, r, channel); });
+}
+
+Film::Average Film::average(int channel) const {
+  return average(channel, 0, 0, shape_.width, shape_.height);
+}
+
+Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
+  std::vector<Int128> sums(static_cast<std::size_t>(shape_.replicates), 0);
+  const auto sum_of = [&sums](int r) { return sums[static_cast<std::size_t>(r)]; };
+  double variances = 0;
+  double squares = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);
+      for (int r = 0; r < shape_.replicates; ++r) sums[static_cast<std::size_t>(r)] += sum(pixel, r, channel);
+      const double own = shape_.shares_photons ? 0 : variance(pixel, channel);
+      variances += own;
+      squares += own * own;
     }
-  const double terms = static_cast<double>(pixels) * shape_.channels;
-  return value > 0 ? std::sqrt(error / terms) / (value / terms) : std::numeric_limits<double>::infinity();
+  const double pixels = static_cast<double>(x1 - x0) * (y1 - y0);
+  const double f = filled_replicates() - 1;
+  if (shape_.shares_photons) {
+    variances = variance_of(sum_of);
+    squares = variances * variances;
+  }
+  // The sum's variance squared is to that of its estimate as half its degrees are to 1; an estimate of f
+  // degrees squared is 1 + 2/f times too large in the mean.
+  const double degrees = squares > 0 ? (f + 2) * variances * variances / squares - 2 : std::max(f, 0.0);
+  return {mean_of(sum_of) / pixels, std::sqrt(variances) / pixels, degrees};
 }
 
 Image Film::image(std::span<const std::string> names) const {

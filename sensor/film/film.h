@@ -28,7 +28,8 @@ struct FilmShape {
   int height;
   int channels;
   int replicates;
-  int unit_exponent;  ///< Sums are multiples of 2^unit_exponent.
+  int unit_exponent;            ///< Sums are multiples of 2^unit_exponent.
+  bool shares_photons = false;  ///< One photon may add to many pixels, so that these are not independent.
 
   bool operator==(const FilmShape&) const = default;
 };
@@ -41,7 +42,7 @@ class Film {
  public:
   /// `nominal` is the order of magnitude of a film value: values from 2^-80 to 2^44 times it are kept exactly
   /// to 2^-80 of it.
-  Film(int width, int height, int channels, int replicates, double nominal);
+  Film(int width, int height, int channels, int replicates, double nominal, bool shares_photons = false);
   /// Throws Error{resource} when there is no memory for the sums.
   explicit Film(const FilmShape& shape);
 
@@ -62,15 +63,20 @@ class Film {
   /// Mean of a pixel's channel, and the variance of that mean (0 with fewer than two replicates).
   [[nodiscard]] double mean(std::size_t pixel, int channel) const;
   [[nodiscard]] double variance(std::size_t pixel, int channel) const;
-  /// Mean of a channel over all pixels, and its standard error: pixels are independent.
+  /// Mean of a channel over some pixels, and its standard error with the degrees of freedom it is estimated
+  /// with: Student's t of that many is the law of the mean's deviation in standard errors. Pixels that share
+  /// photons count as one, whose replicates tell its error; else each tells its own, and the degrees are
+  /// those of the sum [Satterthwaite1946]. Without two replicates the error is 0, of 0 degrees.
   struct Average {
     double mean;
     double standard_error;
+    double degrees_of_freedom;
   };
   [[nodiscard]] Average average(int channel) const;
-  /// Root of the mean variance over the image over its mean value: one figure for the noise; infinite until
-  /// known.
-  [[nodiscard]] double relative_error() const;
+  /// Over x0 <= x < x1, y0 <= y < y1.
+  [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1) const;
+  /// How many replicates have samples.
+  [[nodiscard]] int filled_replicates() const;
 
   /// The film as an image: one channel per name, and `Variance.<name>` beside each.
   [[nodiscard]] Image image(std::span<const std::string> names) const;
@@ -84,6 +90,14 @@ class Film {
 
  private:
   [[nodiscard]] std::size_t index(std::size_t pixel, int replicate) const;
+  [[nodiscard]] Int128 sum(std::size_t pixel, int replicate, int channel) const {
+    return sums_[index(pixel, replicate) + static_cast<std::size_t>(channel)];
+  }
+  // Mean and its variance of what has the sums `sum_of(replicate)`.
+  template <typename SumOf>
+  [[nodiscard]] double mean_of(SumOf sum_of) const;
+  template <typename SumOf>
+  [[nodiscard]] double variance_of(SumOf sum_of) const;
 
   FilmShape shape_;
   std::vector<Int128> sums_;  // pixel-major, then replicate, then channel

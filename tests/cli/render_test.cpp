@@ -30,7 +30,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 16U);
+  EXPECT_EQ(stats.size(), 18U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
@@ -155,8 +155,20 @@ TEST(Render, CropLeavesTheRestBlack) {
 }
 
 TEST(Render, TimeAndErrorStopTheRender) {
-  ASSERT_EQ(abbe("render " + ball() + " --quiet --error 5% -o " + file("error.exr")).code, 0);
-  EXPECT_LE(std::stod(read_exr(file("error.exr")).metadata.at("relative_error")), 0.05);
+  const std::string measured =
+      "render " + ball() + " --quiet --stats " + file("error.json") + " -o " + file("error.exr");
+  const auto stats = [] { return nlohmann::json::parse(read_file(file("error.json"))); };
+  ASSERT_EQ(abbe(measured + " --error 5%").code, 0);
+  EXPECT_LE(stats()["relative_error"], 0.05);
+  EXPECT_GE(stats()["relative_error_p95"], stats()["relative_error"]);
+  EXPECT_LT(stats()["frame_mean_error"], stats()["relative_error"]);
+  EXPECT_EQ(std::stod(read_exr(file("error.exr")).metadata.at("frame_mean_error")),
+            stats()["frame_mean_error"]);
+  const int enough = stats()["samples_per_pixel"];
+  ASSERT_EQ(abbe(measured + " --error 5% --time 1000s").code, 0) << "whichever comes first";
+  EXPECT_EQ(stats()["samples_per_pixel"], enough);
+  ASSERT_EQ(abbe(measured + " --error 0.0001% --time 0.3s").code, 0);
+  EXPECT_GT(stats()["relative_error"], 1e-6);
   ASSERT_EQ(abbe("render " + ball() + " --quiet --time 0.3s -o " + file("time.exr")).code, 0);
   EXPECT_GT(std::stoi(read_exr(file("time.exr")).metadata.at("samples_per_pixel")), 8);
 }

@@ -1,4 +1,5 @@
 #include "sensor/film/film.h"
+#include "sensor/film/relative_error.h"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +78,7 @@ TEST(Film, VarianceIsThatOfTheMeanOverReplicates) {
   film.set_samples({2, 2, 2, 2});
   EXPECT_DOUBLE_EQ(film.mean(0, 0), 2.5);
   EXPECT_DOUBLE_EQ(film.variance(0, 0), 5.0 / 3.0 / 4.0);
-  EXPECT_DOUBLE_EQ(film.relative_error(), std::sqrt(5.0 / 12.0) / 2.5);
+  EXPECT_DOUBLE_EQ(frame_mean_error(film), std::sqrt(5.0 / 12.0) / 2.5);
 }
 
 TEST(Film, AveragesPixelsWithTheErrorOfTheirMean) {
@@ -91,6 +92,27 @@ TEST(Film, AveragesPixelsWithTheErrorOfTheirMean) {
   film.set_samples({1, 1});
   EXPECT_DOUBLE_EQ(film.average(0).mean, 2.5);
   EXPECT_DOUBLE_EQ(film.average(0).standard_error, std::sqrt(0.25 + 2.25) / 2);
+  EXPECT_DOUBLE_EQ(film.average(0).degrees_of_freedom, 3 * 2.5 * 2.5 / (0.25 * 0.25 + 2.25 * 2.25) - 2);
+  EXPECT_DOUBLE_EQ(film.average(0, 1, 0, 2, 1).mean, 3.5);
+  EXPECT_DOUBLE_EQ(film.average(0, 1, 0, 2, 1).standard_error, 1.5);
+  EXPECT_DOUBLE_EQ(film.average(0, 1, 0, 2, 1).degrees_of_freedom, 1);
+}
+
+// What one replicate lost on the left it has on the right.
+TEST(Film, PixelsThatSharePhotonsHaveOneErrorTogether) {
+  for (const bool shared : {false, true}) {
+    Film film(2, 1, 1, 2, 1.0, shared);
+    for (int r = 0; r < 2; ++r) {
+      const double left = 1.0 + r;
+      const double right = 5.0 - r;
+      film.add(0, r, {&left, 1});
+      film.add(1, r, {&right, 1});
+    }
+    film.set_samples({1, 1});
+    EXPECT_DOUBLE_EQ(film.average(0).mean, 3);
+    EXPECT_DOUBLE_EQ(film.average(0).standard_error, shared ? 0 : std::sqrt(0.5) / 2);
+    EXPECT_DOUBLE_EQ(film.average(0, 0, 0, 1, 1).standard_error, 0.5);
+  }
 }
 
 TEST(Film, HoldsRefusesWhatWouldOverflow) {

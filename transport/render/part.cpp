@@ -35,9 +35,9 @@ std::optional<std::vector<Number>> parse_numbers(const std::string& text, std::s
 }
 
 std::optional<FilmShape> parse_shape(const std::string& text) {
-  const auto n = parse_numbers<int>(text, 5);
+  const auto n = parse_numbers<int>(text, 6);
   if (!n) return std::nullopt;
-  const FilmShape shape{(*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4]};
+  const FilmShape shape{(*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5] != 0};
   const bool possible = shape.width > 0 && shape.width <= kMaxImageEdge && shape.height > 0 &&
                         shape.height <= kMaxImageEdge && shape.channels > 0 && shape.channels <= 1 << 14 &&
                         shape.replicates > 0 && shape.replicates <= 1 << 14;
@@ -71,8 +71,8 @@ bool take_samples(FilmIdentity& header, RenderResult& result) {
 void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result) {
   FilmIdentity header = identity;
   const FilmShape& s = result.film.shape();
-  header[kShape] =
-      fmt::format("{} {} {} {} {}", s.width, s.height, s.channels, s.replicates, s.unit_exponent);
+  header[kShape] = fmt::format("{} {} {} {} {} {:d}", s.width, s.height, s.channels, s.replicates,
+                               s.unit_exponent, s.shares_photons);
   header[kSamples] = to_text(result.samples);
   if (const auto& pass = result.unfinished)
     header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);
@@ -152,7 +152,7 @@ Image image_of(const RenderPart& part) {
   image.metadata = part.identity;
   image.metadata["renderer"] = "Abbe";
   image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
-  image.metadata["relative_error"] = fmt::format("{}", result.film.relative_error());
+  image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));
   return image;
 }
 

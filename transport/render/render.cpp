@@ -10,6 +10,7 @@
 
 #include "io/error.h"
 #include "transport/render/pass.h"
+#include "transport/render/pilot.h"
 #include "transport/render/plan.h"
 #include "transport/render/replay.h"
 #include "transport/render/threads.h"
@@ -42,7 +43,7 @@ class Rendering {
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
                                                        static_cast<std::uint64_t>(scene.camera.height)))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
-                     replicate_count(scene, options), plan_.nominal_value),
+                     replicate_count(scene, options), plan_.nominal_value, plan_.light_active),
                 {},
                 {}} {
     if (start) {
@@ -52,7 +53,6 @@ class Rendering {
     }
     RenderStats& stats = result_.stats;
     stats.threads = threads_;
-    stats.relative_error = std::numeric_limits<double>::infinity();
     if (!result_.unfinished) look_at_error();
   }
 
@@ -66,7 +66,7 @@ class Rendering {
     RenderStats& stats = result_.stats;
     stats.wall_s = elapsed();
     stats.cpu_s = process_cpu_seconds() - cpu_start_;
-    stats.relative_error = result_.film.relative_error();
+    if (asks_for_error() || options_.measure_error) stats.error = error_now();
     if (options_.measure_replay) stats.embree_replay_share = measure_replay_share(plan_);
     return std::move(result_);
   }
@@ -97,22 +97,26 @@ class Rendering {
     stats.samples_per_pixel = count(result_.samples);
     result_.film.set_samples(count_per_replicate(result_.samples, result_.film.replicates()));
     look_at_error();
-    if (options_.progress) options_.progress({share(), samples(), elapsed(), stats.relative_error});
+    if (options_.progress) options_.progress({share(), samples(), elapsed(), stats.error});
   }
 
   // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
   // and known once every replicate has some. When depends on nothing but the number of samples, so that a
   // render goes on after an interruption as it would have without.
   void look_at_error() {
-    if (samples() < static_cast<std::uint64_t>(result_.film.replicates()) ||
-        !(options_.progress || options_.target_error))
-      return;
+    if (samples() < static_cast<std::uint64_t>(result_.film.replicates()) || !asks_for_error()) return;
     const auto stage = [](std::uint64_t n) {
       return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
     };
     const std::uint64_t before = (samples() - 1) / step_ * step_;
-    if (before == 0 || stage(before) != stage(samples()))
-      result_.stats.relative_error = result_.film.relative_error();
+    if (before == 0 || stage(before) != stage(samples())) result_.stats.error = error_now();
+  }
+
+  [[nodiscard]] bool asks_for_error() const { return options_.progress || options_.target_error; }
+
+  RelativeError error_now() {
+    if (!lit_) lit_ = lit_values(pilot_film(plan_, threads_, options_.crop));
+    return relative_error(result_.film, *lit_);
   }
 
   [[nodiscard]] bool stop_asked() const { return options_.stop != nullptr && options_.stop->load(); }
@@ -131,11 +135,10 @@ class Rendering {
   }
 
   [[nodiscard]] double share() const {
-    const double share =
-        options_.time_limit_s ? elapsed() / *options_.time_limit_s
-        : options_.target_error
-            ? std::pow(*options_.target_error / result_.stats.relative_error, 2)
-            : static_cast<double>(samples()) / static_cast<double>(wanted_.last - wanted_.first);
+    double share = static_cast<double>(samples()) / static_cast<double>(wanted_.last - wanted_.first);
+    if (options_.time_limit_s) share = std::max(share, elapsed() / *options_.time_limit_s);
+    if (options_.target_error)
+      share = std::max(share, std::pow(*options_.target_error / result_.stats.error.median, 2));
     return std::min(share, 1.0);
   }
 
@@ -143,7 +146,7 @@ class Rendering {
     result_.stats.interrupted = samples() > 0 && stop_asked();
     if (result_.stats.interrupted) return true;
     if (options_.time_limit_s && samples() > 0 && elapsed() >= *options_.time_limit_s) return true;
-    return options_.target_error && result_.stats.relative_error <= *options_.target_error;
+    return options_.target_error && result_.stats.error.median <= *options_.target_error;
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -156,6 +159,7 @@ class Rendering {
   // Passes end at multiples of their size, whatever the film starts with.
   std::uint64_t step_;
   RenderResult result_;
+  std::optional<std::vector<std::size_t>> lit_;  // once asked for
   double last_save_s_ = 0;
   double saving_s_ = 0;
   bool saved_at_stop_ = false;

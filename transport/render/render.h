@@ -7,6 +7,7 @@
 
 #include "scene/scene.h"
 #include "sensor/film/film.h"
+#include "sensor/film/relative_error.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
@@ -21,7 +22,7 @@ struct Progress {
   double share;           ///< Of the work, in [0, 1]; an estimate where time or error decides.
   std::uint64_t samples;  ///< Finished, per pixel.
   double elapsed_s;
-  double relative_error;  ///< Of the film so far; infinite until known.
+  RelativeError error;  ///< Of the film so far.
 };
 
 struct RenderResult;
@@ -36,8 +37,9 @@ struct UnfinishedPass {
 struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
   std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends later.
-  std::optional<double> target_error = {};  ///< Stops after the first pass whose relative error is no larger.
+  std::optional<double> target_error = {};  ///< Stops after a pass whose median relative error is no larger.
   std::optional<Crop> crop = {};
+  bool measure_error = false;  ///< Also find `error` where neither a target nor progress asks for it.
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
   std::optional<SampleRange> samples = {};  ///< Only these of the samples the scene asks for.
@@ -61,7 +63,7 @@ struct RenderStats {
   std::uint64_t nonfinite_samples = 0;  ///< Dropped.
   std::uint64_t cut_paths = 0;          ///< That had as many events as a path may have.
   double cut_throughput = 0;            ///< Sum of what these still carried, each having set out with 1.
-  double relative_error = 0;
+  RelativeError error = {};
   double embree_replay_share =
       0;  ///< Time of the logged rays through Embree alone over the time to trace their paths.
   bool interrupted = false;

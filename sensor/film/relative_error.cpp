@@ -1,0 +1,203 @@
+#include "sensor/film/relative_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace abbe {
+namespace {
+
+constexpr double kStep = 0.025;  // of the logarithm of a deviation
+constexpr int kRounds = 200;
+constexpr std::size_t kMostValues = 1U << 17;
+
+// A distribution over logarithms, in steps from `first` on.
+struct Histogram {
+  std::ptrdiff_t first;
+  std::vector<double> share;
+
+  [[nodiscard]] std::ptrdiff_t size() const { return std::ssize(share); }
+};
+
+std::ptrdiff_t step_of(double value) {
+  return std::lround(std::log(value) / kStep);
+}
+
+Histogram histogram_of(std::span<const double> values) {
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  Histogram all{step_of(*least), {}};
+  all.share.resize(static_cast<std::size_t>(step_of(*greatest) - all.first + 1));
+  for (const double value : values)
+    all.share[static_cast<std::size_t>(step_of(value) - all.first)] += 1 / static_cast<double>(values.size());
+  return all;
+}
+
+// The distribution of ln(chi/sqrt(f)), of density ~ e^(f x - f/2 e^(2x)), down to where it is negligible.
+Histogram spread_of_estimates(double f) {
+  constexpr double kNegligible = 1e-5;  // of the mode, which is at 0
+  const auto density = [f](std::ptrdiff_t i) {
+    const double x = static_cast<double>(i) * kStep;
+    return std::exp(f * x - f / 2 * (std::exp(2 * x) - 1));
+  };
+  Histogram spread{0, {}};
+  while (density(spread.first - 1) > kNegligible) --spread.first;
+  for (std::ptrdiff_t i = spread.first; i <= 0 || density(i) > kNegligible; ++i)
+    spread.share.push_back(density(i));
+  const double sum = std::accumulate(spread.share.begin(), spread.share.end(), 0.0);
+  for (double& share : spread.share) share /= sum;
+  return spread;
+}
+
+struct Moments {
+  double mean = 0;
+  double variance = 0;
+};
+Moments moments_of(const Histogram& of) {
+  Moments m;
+  for (std::ptrdiff_t i = 0; i < of.size(); ++i)
+    m.mean += of.share[static_cast<std::size_t>(i)] * static_cast<double>(of.first + i);
+  for (std::ptrdiff_t i = 0; i < of.size(); ++i)
+    m.variance +=
+        of.share[static_cast<std::size_t>(i)] * std::pow(static_cast<double>(of.first + i) - m.mean, 2);
+  return m;
+}
+
+// Where to start from: the normal distribution that explains mean and variance, and a little of everything,
+// so that nothing is ruled out.
+Histogram first_guess(const Histogram& seen, const Histogram& spread) {
+  constexpr double kEverything = 0.05;
+  const Moments all = moments_of(seen);
+  const Moments noise = moments_of(spread);
+  const double variance = std::max(all.variance - noise.variance, 0.25);
+  Histogram guess = seen;
+  for (std::ptrdiff_t i = 0; i < guess.size(); ++i)
+    guess.share[static_cast<std::size_t>(i)] =
+        std::exp(-std::pow(static_cast<double>(guess.first + i) - all.mean + noise.mean, 2) / (2 * variance));
+  const double sum = std::accumulate(guess.share.begin(), guess.share.end(), 0.0);
+  for (double& share : guess.share)
+    share = (1 - kEverything) * share / sum + kEverything / static_cast<double>(guess.size());
+  return guess;
+}
+
+// One round: each step's share times the mean, over what it spreads to, of seen over expected.
+void improve(Histogram& guess, const Histogram& seen, const Histogram& spread) {
+  const std::ptrdiff_t n = guess.size();
+  const auto each = [&](std::ptrdiff_t from, auto visit) {  // of the steps that `from` spreads to
+    const std::ptrdiff_t last = std::min(n - 1, from + spread.first + spread.size() - 1);
+    for (std::ptrdiff_t to = std::max<std::ptrdiff_t>(0, from + spread.first); to <= last; ++to)
+      visit(static_cast<std::size_t>(to), spread.share[static_cast<std::size_t>(to - from - spread.first)]);
+  };
+  std::vector<double> expected(guess.share.size(), 0.0);
+  for (std::ptrdiff_t j = 0; j < n; ++j)
+    each(j, [&, share = guess.share[static_cast<std::size_t>(j)]](std::size_t i, double p) {
+      expected[i] += p * share;
+    });
+  std::vector<double> ratio(expected.size());
+  for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] = expected[i] > 0 ? seen.share[i] / expected[i] : 0;
+  double sum = 0;
+  for (std::ptrdiff_t j = 0; j < n; ++j) {
+    double mean = 0;
+    each(j, [&](std::size_t i, double p) { mean += p * ratio[i]; });
+    sum += guess.share[static_cast<std::size_t>(j)] *= mean;
+  }
+  for (double& share : guess.share) share /= sum;
+}
+
+// Within a step the distribution is even.
+double quantile(const Histogram& of, double probability) {
+  double before = 0;
+  double at = static_cast<double>(of.first) - 0.5;
+  for (const double share : of.share) {
+    if (before + share >= probability) return std::exp(kStep * (at + (probability - before) / share));
+    before += share;
+    ++at;
+  }
+  return std::exp(kStep * at);
+}
+
+// Estimates of standard deviation over mean of some values; those without a mean are in neither.
+struct Deviations {
+  std::vector<double> noisy;
+  std::size_t exact = 0;
+};
+Deviations deviations_of(const Film& film, std::span<const std::size_t> values) {
+  constexpr double kRounding = 1e-7;  // what is steadier has no noise but that of single precision
+  const auto planes = static_cast<std::size_t>(film.channels());
+  Deviations all;
+  for (const std::size_t value : values) {
+    const auto channel = static_cast<int>(value % planes);
+    const double mean = std::abs(film.mean(value / planes, channel));
+    if (!(mean > 0)) continue;
+    const double deviation = std::sqrt(film.variance(value / planes, channel)) / mean;
+    if (deviation <= kRounding)
+      ++all.exact;
+    else
+      all.noisy.push_back(deviation);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::size_t> lit_values(const Film& pilot) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(pilot.width()) * static_cast<std::size_t>(pilot.height());
+  std::vector<std::size_t> lit;
+  std::size_t index = 0;
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    for (int channel = 0; channel < pilot.channels(); ++channel, ++index)
+      if (pilot.mean(pixel, channel) != 0) lit.push_back(index);
+  if (lit.size() <= kMostValues) return lit;
+  for (std::size_t i = 0; i < kMostValues; ++i) lit[i] = lit[i * lit.size() / kMostValues];
+  lit.resize(kMostValues);
+  return lit;
+}
+
+std::vector<double> quantiles_of_deviation(std::span<const double> estimates, double degrees_of_freedom,
+                                           std::span<const double> probabilities) {
+  const Histogram seen = histogram_of(estimates);
+  const Histogram spread = spread_of_estimates(degrees_of_freedom);
+  Histogram found = first_guess(seen, spread);
+  for (int round = 0; round < kRounds; ++round) improve(found, seen, spread);
+  std::vector<double> quantiles;
+  for (const double p : probabilities) quantiles.push_back(quantile(found, p));
+  return quantiles;
+}
+
+double frame_mean_error(const Film& film) {
+  double variance = 0;
+  double square = 0;
+  for (int channel = 0; channel < film.channels(); ++channel) {
+    const Film::Average average = film.average(channel);
+    variance += average.standard_error * average.standard_error;
+    square += average.mean * average.mean;
+  }
+  return film.filled_replicates() > 1 && square > 0 ? std::sqrt(variance / square)
+                                                    : std::numeric_limits<double>::infinity();
+}
+
+RelativeError relative_error(const Film& film, std::span<const std::size_t> lit) {
+  RelativeError error;
+  error.frame_mean = frame_mean_error(film);
+  if (lit.empty() || film.filled_replicates() < 2) return error;
+  const Deviations deviations = deviations_of(film, lit);
+  const auto noisy = static_cast<double>(deviations.noisy.size());
+  constexpr std::array kProbabilities{0.5, 0.95};
+  std::array<double, kProbabilities.size()> within;  // the noisy ones
+  for (std::size_t i = 0; i < within.size(); ++i)
+    within.at(i) =
+        (kProbabilities.at(i) * static_cast<double>(lit.size()) - static_cast<double>(deviations.exact)) /
+        std::max(noisy, 1.0);
+  std::vector<double> found(within.size(), 0.0);
+  if (noisy > 0) found = quantiles_of_deviation(deviations.noisy, film.filled_replicates() - 1, within);
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    if (within.at(i) <= 0) found[i] = 0;
+    if (within.at(i) * std::max(noisy, 1.0) > noisy) found[i] = std::numeric_limits<double>::infinity();
+  }
+  error.median = found[0];
+  error.p95 = found[1];
+  return error;
+}
+
+}  // namespace abbe

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "sensor/film/film.h"
+
+namespace abbe {
+
+/// How far a film is from what endless samples would make of it: standard deviations over means.
+struct RelativeError {
+  double median = std::numeric_limits<double>::infinity();  ///< Of the lit values; infinite until known.
+  double p95 = std::numeric_limits<double>::infinity();     ///< Their 95th percentile.
+  /// Of the mean over the whole film, its planes taken together: root of the summed variances over root of
+  /// the summed squares. Bright points that few pixels have weigh here, and in no median.
+  double frame_mean = std::numeric_limits<double>::infinity();
+};
+
+/// The values of a film that have light, by pixel times planes plus plane: those that are not 0 in a pilot,
+/// which must be independent of the film to be judged; of very many, evenly spread ones.
+[[nodiscard]] std::vector<std::size_t> lit_values(const Film& pilot);
+
+/// Percentiles over the lit values, corrected for the few replicates by `quantiles_of_deviation`. A lit value
+/// that the film has no light in counts as infinitely far off.
+[[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> lit);
+
+/// That of the mean over the whole film alone.
+[[nodiscard]] double frame_mean_error(const Film& film);
+
+/// Quantiles, at ascending `probabilities`, of standard deviations of which there are only estimates: each is
+/// its true one times chi/sqrt(f), f the degrees of freedom, which spreads even equal ones. The distribution
+/// of the true ones is that under which the estimates are likeliest [Laird1978], found by expectation
+/// maximisation over logarithmic steps of 2.5 %. Estimates are positive and finite.
+[[nodiscard]] std::vector<double> quantiles_of_deviation(std::span<const double> estimates,
+                                                         double degrees_of_freedom,
+                                                         std::span<const double> probabilities);
+
+}  // namespace abbe

@@ -1,0 +1,122 @@
+#include "sensor/film/relative_error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace abbe {
+namespace {
+
+constexpr std::size_t kValues = 20000;
+
+// True deviations and their estimates from normal replicates.
+struct Estimated {
+  std::vector<double> truth;
+  std::vector<double> estimates;
+
+  [[nodiscard]] double true_quantile(double p) const {
+    return truth[static_cast<std::size_t>(p * static_cast<double>(truth.size()))];
+  }
+  [[nodiscard]] double seen_quantile(double p) const {
+    std::vector<double> sorted = estimates;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size()))];
+  }
+};
+Estimated estimated(int degrees, const std::function<double(std::mt19937&)>& deviation) {
+  std::mt19937 random(7);
+  std::chi_squared_distribution<double> chi2(degrees);
+  Estimated all;
+  for (std::size_t i = 0; i < kValues; ++i) {
+    all.truth.push_back(deviation(random));
+    all.estimates.push_back(all.truth.back() * std::sqrt(chi2(random) / degrees));
+  }
+  std::sort(all.truth.begin(), all.truth.end());
+  return all;
+}
+
+double lognormal(std::mt19937& random, double width) {
+  return std::exp(width * std::normal_distribution<double>()(random));
+}
+
+// Equal deviations look up to 1.96 times as large at the 95th percentile of their estimates, and 0.67 times
+// as large at the median.
+TEST(RelativeError, QuantilesAreThoseOfTheTrueDeviations) {
+  struct Law {
+    const char* name;
+    std::function<double(std::mt19937&)> deviation;
+    double margin;
+  };
+  const Law laws[] = {
+      {"equal", [](std::mt19937&) { return 0.01; }, 0.04},
+      {"alike", [](std::mt19937& r) { return lognormal(r, 0.3); }, 0.04},
+      {"wide", [](std::mt19937& r) { return lognormal(r, 1); }, 0.06},
+      {"a tenth much larger", [](std::mt19937& r) { return (r() % 10 == 0 ? 1 : 0.1) * lognormal(r, 0.2); },
+       0.04},
+  };
+  for (const int degrees : {1, 3, 7})
+    for (const Law& law : laws) {
+      const Estimated all = estimated(degrees, law.deviation);
+      constexpr std::array kProbabilities{0.5, 0.95};
+      const auto found = quantiles_of_deviation(all.estimates, degrees, kProbabilities);
+      for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_NEAR(found[i] / all.true_quantile(kProbabilities.at(i)), 1,
+                    degrees == 1 ? 2 * law.margin : law.margin)
+            << law.name << ", " << degrees << " degrees, " << kProbabilities.at(i) << "; uncorrected "
+            << all.seen_quantile(kProbabilities.at(i)) / all.true_quantile(kProbabilities.at(i));
+    }
+}
+
+// Four replicates of a sample each; half of the film is dark, a quarter exact, and the rest has `noise`.
+Film half_dark(double noise) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  Film film(64, 64, 1, 4, 1.0);
+  for (std::size_t pixel = 0; pixel < 2048; ++pixel)
+    for (int r = 0; r < 4; ++r) {
+      const double value = pixel < 1024 ? 1 : 1 + 2 * noise * normal(random);
+      film.add(pixel, r, {&value, 1});
+    }
+  film.set_samples({1, 1, 1, 1});
+  return film;
+}
+
+TEST(RelativeError, IsThatOfLitValues) {
+  const Film film = half_dark(0.01);
+  const std::vector<std::size_t> lit = lit_values(film);
+  ASSERT_EQ(lit.size(), 2048U);
+  const RelativeError error = relative_error(film, lit);
+  EXPECT_NEAR(error.p95, 0.01, 0.0006);
+  EXPECT_LE(error.median, 0.01);
+  EXPECT_NEAR(error.frame_mean, 0.01 / std::sqrt(1024.0) / 2, 0.0001);
+
+  const std::vector<std::size_t> noisy(lit.begin() + 1024, lit.end());
+  EXPECT_NEAR(relative_error(film, noisy).median, 0.01, 0.0003);
+  const std::vector<std::size_t> exact(lit.begin(), lit.begin() + 1024);
+  EXPECT_EQ(relative_error(film, exact).p95, 0);
+}
+
+TEST(RelativeError, WhatIsLitAndNotFoundYetIsInfinitelyFarOff) {
+  const Film film = half_dark(0.01);
+  std::vector<std::size_t> lit = lit_values(film);
+  for (std::size_t dark = 2048; dark < 2248; ++dark) lit.push_back(dark);
+  const RelativeError error = relative_error(film, lit);
+  EXPECT_TRUE(std::isinf(error.p95));
+  EXPECT_LE(error.median, 0.011);
+}
+
+TEST(RelativeError, IsUnknownBeforeTwoReplicates) {
+  Film film(1, 1, 1, 2, 1.0);
+  const double value = 1;
+  film.add(0, 0, {&value, 1});
+  film.set_samples({1, 0});
+  const RelativeError error = relative_error(film, lit_values(film));
+  EXPECT_TRUE(std::isinf(error.median) && std::isinf(error.p95) && std::isinf(error.frame_mean));
+}
+
+}  // namespace
+}  // namespace abbe
