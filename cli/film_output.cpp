@@ -14,9 +14,13 @@
 
 namespace abbe::cli {
 
+const char* integrator_name(Integrator integrator) {
+  constexpr std::array kNames{"auto", "path", "light"};
+  return kNames.at(static_cast<std::size_t>(integrator));
+}
+
 FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
                          const abbe::RenderOptions& how) {
-  constexpr std::array kIntegrators{"auto", "path", "light"};
   std::string name = scene_file.filename().string();
   std::replace(name.begin(), name.end(), '\n', '?');  // headers have a line per entry
   FilmIdentity identity{
@@ -25,7 +29,7 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
       {"scene_sha256", scene.sha256},
       {"data_sha256", data_sha256()},
       {"seed", fmt::format("{}", scene.render.seed)},
-      {"integrator", kIntegrators.at(static_cast<std::size_t>(scene.render.integrator))},
+      {"integrator", integrator_name(scene.render.integrator)},
       {"replicates", fmt::format("{}", replicate_count(scene, how))},
   };
   identity.merge(sensor_identity(scene));

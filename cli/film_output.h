@@ -11,6 +11,9 @@ namespace abbe::cli {
 /// Of the files that hold exact sums.
 inline constexpr const char* kPartExtension = ".abbepart";
 
+/// As the scene file has it.
+[[nodiscard]] const char* integrator_name(Integrator integrator);
+
 /// What tells the film of this scene from any other, from its scene file's name to its crop.
 [[nodiscard]] FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
                                        const abbe::RenderOptions& how);

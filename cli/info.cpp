@@ -4,6 +4,7 @@
 
 #include "cli/answer.h"
 #include "cli/film_output.h"
+#include "cli/warnings.h"
 #include "scene/description/load.h"
 #include "transport/render/plan.h"
 
@@ -64,14 +65,6 @@ std::string describe(const Scene& scene) {
   return lines + fmt::format("memory       {:.1f} MB\n", answer["memory_bytes"].get<double>() / 1e6);
 }
 
-void warn_about_polarisation(const Needs& needs) {
-  if (!needs.polarisation_matters) return;
-  say("warning: polarisation is not carried: light is taken as unpolarised at every interface. Where oblique "
-      "interfaces follow each other the result is off: by -0.3 % through a 60 degree prism of N-BK7 and -3 % "
-      "through one of N-SF11, both at minimum deviation, and without bound between two mirrors or windows "
-      "whose planes of incidence cross");
-}
-
 int info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
@@ -80,7 +73,8 @@ int info(const InfoOptions& options) {
     print(answer_for(scene), true);
   else
     fmt::print("{}", describe(scene));
-  warn_about_polarisation(scene.needs);
+  warn_of_dark_camera(scene, false);
+  note_polarisation(scene.needs);
   return 0;
 }
 

@@ -21,7 +21,4 @@ int info(const InfoOptions& options);
 /// The same for reading, in lines.
 [[nodiscard]] std::string describe(const Scene& scene);
 
-/// Says on stderr what leaving polarisation out costs, when the scene has paths where it costs something.
-void warn_about_polarisation(const Needs& needs);
-
 }  // namespace abbe::cli

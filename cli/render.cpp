@@ -16,6 +16,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "cli/warnings.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/file_lock.h"
@@ -250,7 +251,9 @@ int render(const RenderOptions& options) {
     metered(costs.display, [&] { display = chosen_display(scene, options); })();
   if (display) require_distinct(files_of(outputs, options), display->files());
   if (options.explain) tell(describe(scene));
-  warn_about_polarisation(scene.needs);
+  if (!options.quiet) note_polarisation(scene.needs);
+  warn_of_dark_camera(scene, options.strict);
+  warn_of_lost_light(scene, options.strict);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
   const RenderPart part = develop(scene, options, watch);

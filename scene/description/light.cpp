@@ -112,6 +112,7 @@ std::optional<ScaledCurve> read_emission(const JsonValue& json, const LampKind& 
                                              "spectral_flux_W_per_nm"})
                        : reader.exactly_one({"illuminant", "blackbody_K", "daylight_K", "spectrum", "lines"});
   if (!key) return std::nullopt;
+  reading.emissions.push_back(json.where);
   LampSpectrum* spectrum = read_spectrum(*key, *reader.find(*key), reading);
   std::string_view name;
   std::optional<Scale> scale;

@@ -154,6 +154,7 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   reader.finish();
   if (reading.diagnostics.has_errors()) return scene;
   if (materials) check_validity(*materials, reading, scene);
+  check_lamps(reading, scene);
   if (scene.lights.empty()) reading.diagnostics.warning(root.where, "no light: the image will be black");
   return scene;
 }

@@ -57,6 +57,7 @@ struct Reading {
   Inputs* inputs = nullptr;      ///< Of the command, if it keeps account of them.
   double unit_m = 1;             ///< Metres per unit of length.
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
+  std::vector<SourcePosition> emissions{};     ///< Where each light's is told.
   std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
   std::map<std::string, Object> objects{};
   std::unordered_map<std::string, LampSpectrum> lamp_spectra{};  ///< By the words that name them.
@@ -113,6 +114,8 @@ void read_materials(const JsonValue& json, Reading& reading, Scene& scene);
                                               const JsonValue& at, Reading& reading, Scene& scene);
 /// Index of the material of lamps that name none: diffuse, reflecting nothing.
 [[nodiscard]] std::uint32_t black_material(Reading& reading, Scene& scene);
+/// Warns of every lamp that emits nothing the sensor sees.
+void check_lamps(const Reading& reading, const Scene& scene);
 /// Warns of every index used beyond the wavelengths it holds for.
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,24 @@ void check_validity(const JsonValue& json, const Reading& reading, const Scene& 
               check(material, matter.index_name, matter.index);
         },
         material.model);
+}
+
+void check_lamps(const Reading& reading, const Scene& scene) {
+  std::map<const Curve*, bool> seen;  // of each spectrum that lamps share
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const Curve& spectrum = light.emission.base();
+    const bool dark = light.emission.max() <= 0;
+    if (!seen.contains(&spectrum))
+      seen[&spectrum] =
+          std::any_of(scene.channels.begin(), scene.channels.end(), [&](const Channel& channel) {
+            const Curve exposed = product(spectrum, channel.weight);
+            return exposed.max() > 0 || exposed.min() < 0;
+          });
+    if (!dark && seen[&spectrum]) continue;
+    reading.diagnostics.warning(reading.emissions.at(i), fmt::format("\"{}\" emits nothing{}", light.name,
+                                                                     dark ? "" : " that the sensor sees"));
+  }
 }
 
 }  // namespace abbe::description

@@ -261,6 +261,20 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
   EXPECT_TRUE(dark.scene);
   EXPECT_NE(dark.text().find("warning: no light: the image will be black"), std::string::npos);
 
+  const std::string sensor =
+      R"("sensor": {"resolution": [1, 1], "channels": {"red": {"band": [600, 700]}}},)";
+  const auto lamp_of = [&](const std::string& spectrum) {
+    return load("{" + sensor +
+                R"("lights": [{"name": "bulb", "point": {"at": [0, 0, 1]}, "emission": {"spectrum": )" +
+                spectrum + "}}]}")
+        .text();
+  };
+  EXPECT_NE(lamp_of("0").find("/lights/0/emission: warning: \"bulb\" emits nothing\n"), std::string::npos);
+  EXPECT_NE(lamp_of(R"({"band": [400, 500]})")
+                .find("/lights/0/emission: warning: \"bulb\" emits nothing that the sensor sees\n"),
+            std::string::npos);
+  EXPECT_EQ(lamp_of(R"({"band": [400, 610]})"), "");
+
   // 22: the user is told that an index is held beyond its measurements.
   const std::string lamp = R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}],)";
   const Loaded beyond = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}}})");

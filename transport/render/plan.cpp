@@ -151,10 +151,14 @@ LightPicker::Pick LightPicker::pick(float u) const {
   return {i, probability_[i]};
 }
 
+bool traces_light(const Scene& scene) {
+  return scene.render.integrator == Integrator::light ||
+         (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
+}
+
 Plan make_plan(const Scene& scene, int threads) {
   const bool light_only = scene.render.integrator == Integrator::light;
-  const bool light_active =
-      light_only || (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
+  const bool light_active = traces_light(scene);
   const Emissions emissions = emissions_of(scene);
   const std::vector<double> powers = sensor_weighted_powers(scene, emissions);
   std::vector<bool> traced(scene.lights.size(), false);

@@ -55,6 +55,9 @@ struct Plan {
   }
 };
 
+/// Whether photons are traced: the integrator allows it, and the scene asks for it or there is no other way.
+[[nodiscard]] bool traces_light(const Scene& scene);
+
 /// On that many threads, which change nothing but the time it takes.
 [[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
 

@@ -1,0 +1,84 @@
+// What light an image lacks is said, also where nothing else is.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "scenes.h"
+
+namespace abbe::test {
+namespace {
+
+// Outside its shell the scene is lit by a lamp that has a shape; one more ball may be there.
+std::string room(const std::string& shapes, const std::string& lights) {
+  return scratch()
+      .write(
+          "room.json",
+          R"({"abbe": 1, "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+  "sensor": {"resolution": [4, 4], "observer": "1931"}, "render": {"samples": 1},
+  "materials": {"white": {"diffuse": {"reflectance": 0.8}}, "glass": {"dielectric": {"ior": 1.5}}, "mirror": {"mirror": {"reflectance": 1}}},
+  "lights": [)" +
+              lights + R"(], "shapes": [)" + shapes + "]}")
+      .string();
+}
+const std::string kLamp =
+    R"({"name": "lamp", "sphere": {"center": [0, -1, 2], "radius": 0.2}, "emission": {"illuminant": "A", "luminance": 100}})";
+const std::string kBulb =
+    R"({"name": "bulb", "point": {"at": [0, -1, 2]}, "emission": {"illuminant": "A", "luminous_flux_lm": 100}})";
+std::string ball(const char* material, const char* radius = "0.5") {
+  return fmt::format(
+      R"({{"name": "ball", "sphere": {{"center": [0, 0, 0], "radius": {}}}, "material": "{}"}})", radius,
+      material);
+}
+Outcome rendered(const std::string& scene, const std::string& options = "") {
+  return abbe("render " + scene + " --quiet -o " + (scratch() / "warned.exr").string() + options);
+}
+
+TEST(Warnings, LightThatAChosenTechniqueLosesIsNamed) {
+  const std::string scene = room(ball("white"), kLamp);
+  EXPECT_EQ(rendered(scene).err, "");
+  const Outcome light = rendered(scene, " --integrator light");
+  EXPECT_EQ(light.code, 0);
+  EXPECT_EQ(
+      light.err,
+      "abbe: warning: light that integrator \"light\" does not reach is missing: E L: lights seen directly "
+      "(\"lamp\")\n");
+  const Outcome strict = rendered(scene, " --integrator light --strict");
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_NE(strict.err.find("integrator \"light\" does not reach"), std::string::npos) << strict.err;
+}
+
+TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
+  const std::string scene = room(ball("glass") + ", " + ball("white", "0.1"), kBulb);
+  const Outcome run = rendered(scene, " --strict");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.err.find("warning: light that any technique does not reach"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("E S+ L: a point or spot light seen in mirrors or through glass (\"bulb\")"),
+            std::string::npos)
+      << run.err;
+}
+
+TEST(Warnings, PolarisationTakesALineUnlessQuiet) {
+  const std::string scene = room(ball("glass"), kLamp);
+  EXPECT_EQ(rendered(scene).err.find("polarisation"), std::string::npos);
+  const Outcome loud = abbe("render " + scene + " -o " + (scratch() / "warned.exr").string());
+  const std::size_t at =
+      loud.err.find("abbe: polarisation is not carried, which matters after shape \"ball\"");
+  ASSERT_NE(at, std::string::npos) << loud.err;
+  EXPECT_LT(loud.err.find('\n', at) - at, 220U);
+  const std::string mirrors = room(ball("mirror") + ", " + ball("mirror", "0.1"), kLamp);
+  EXPECT_EQ(abbe("info " + mirrors).err, "");
+}
+
+TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {
+  const std::string inside =
+      room(ball("white", "5"), R"({"name": "sky", "environment": {}, "emission": {"spectrum": 1}})");
+  const std::string said =
+      "abbe: warning: the camera stands within \"ball\", which is opaque and has no light inside\n";
+  EXPECT_EQ(rendered(inside).err, said);
+  EXPECT_EQ(abbe("info " + inside).err, said);
+  EXPECT_EQ(rendered(inside, " --strict").code, 3);
+  EXPECT_EQ(rendered(room(ball("white", "5"), kLamp)).err, "");
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,65 @@
+#include "transport/path/dark_enclosure.h"
+
+#include <algorithm>
+
+namespace abbe {
+namespace {
+
+bool opaque(const Material& material) {
+  return interior(material) == nullptr && matter(material) == nullptr &&
+         !std::holds_alternative<ThinGlassMaterial>(material.model) &&
+         !std::holds_alternative<MixtureMaterial>(material.model);
+}
+
+// How often more a ray leaves a shape than it enters it.
+int exits(const Shape& shape, const Imath::V3d& from, const Imath::V3d& direction, double apart) {
+  int count = 0;
+  double t = 0;
+  while (const auto met = intersect(shape, BasicRay<double>{from, direction}, t)) {
+    count += met->normal.dot(direction) > 0 ? 1 : -1;
+    t = met->t + apart;
+  }
+  return count;
+}
+
+bool encloses(const Shape& shape, const Imath::V3d& point) {
+  constexpr double kApart = 1e-9;  // of two surfaces, relative to the shape
+  const Imath::V3d askew = Imath::V3d(0.3618, 0.5119, 0.7791).normalized();
+  const Imath::Box3d box = bounds(shape);
+  const double apart = kApart * box.size().length();
+  return apart > 0 && box.intersects(point) && exits(shape, point, askew, apart) > 0 &&
+         exits(shape, point, -askew, apart) > 0;
+}
+
+Imath::V3d camera_position(const Camera& camera) {
+  if (const auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
+  const auto& probe = std::get<IrradianceProbe>(camera.kind);
+  return probe.corner + (probe.edge_u + probe.edge_v) * 0.5;
+}
+
+// Whether a light stands in the shape or emits into it.
+bool lit(const Scene& scene, std::uint32_t enclosure) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
+    const auto* area = std::get_if<AreaLight>(&light.kind);
+    if (area != nullptr && area->shape == enclosure) return area->two_sided;
+    if (area == nullptr && !std::holds_alternative<PointLight>(light.kind) &&
+        !std::holds_alternative<SpotLight>(light.kind))
+      return false;  // infinitely far
+    const EmissionPoint from = sample_emission_point(light, scene.shapes, {0.5F, 0.5F});
+    return encloses(scene.shapes[enclosure].shape, Imath::V3d(from.point));
+  });
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> dark_enclosure(const Scene& scene) {
+  const Imath::V3d camera = camera_position(scene.camera);
+  for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
+    const ShapeInstance& instance = scene.shapes[i];
+    if (opaque(scene.materials[instance.material]) && encloses(instance.shape, camera) && !lit(scene, i))
+      return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace abbe
