@@ -316,12 +316,13 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
 }
 
 // Embree is asked for all it meets on a stretch of the ray around the hit, on which it need not be exact.
-TouchingSurfaces Geometry::touching(const Ray& ray, const SurfaceHit& hit, float distance) const {
+TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const {
   TouchingSurfaces found;
   found.at[found.count++] = hit;
   const Imath::V3d normal(hit.normal);
+  const Imath::V3d point(hit.point);
   const Imath::V3d direction(ray.direction);
-  const double reach = 2 * static_cast<double>(distance) / std::abs(normal.dot(direction));
+  const double reach = 2 * scene.touch_distance(point, hit.shape) / std::abs(normal.dot(direction));
   const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
   std::vector<SurfaceHit> all;
@@ -340,8 +341,9 @@ TouchingSurfaces Geometry::touching(const Ray& ray, const SurfaceHit& hit, float
       return met.shape == other.shape && (met.normal.dot(other.normal) > 0);
     };
     const bool parallel = std::abs(normal.dot(Imath::V3d(other.normal))) > TouchingSurfaces::kParallel;
-    const double apart = std::abs((Imath::V3d(other.point) - Imath::V3d(hit.point)).dot(normal));
-    if (found.count < TouchingSurfaces::kMost && parallel && apart <= static_cast<double>(distance) &&
+    const double apart = std::abs((Imath::V3d(other.point) - point).dot(normal));
+    if (found.count < TouchingSurfaces::kMost && parallel &&
+        apart <= scene.touch_distance(point, hit.shape, other.shape) &&
         std::none_of(found.at.begin(), found.at.begin() + static_cast<std::ptrdiff_t>(found.count), same))
       found.at[found.count++] = other;
   }

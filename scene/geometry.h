@@ -46,8 +46,8 @@ class Geometry {
   Geometry& operator=(const Geometry&) = delete;
 
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
-  /// The surfaces within `distance` of the hit that are parallel to it.
-  [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit, float distance) const;
+  /// As `Scene::touching`, of the scene whose shapes these are.
+  [[nodiscard]] TouchingSurfaces touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
   /// Whether anything but a boundary of matter is met at t in (0, ray.t_max).
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
   /// Every ray through Embree, the answers dropped.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "scene/extent.h"
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
 
@@ -25,6 +26,12 @@ std::size_t texture_bytes(const Material& material) {
   return bytes;
 }
 
+// Vertices are off the plane they belong to by up to a float step, a point spawned on a surface is up to six
+// from it: what is nearer than these is met together, what is further by the ray that leaves.
+double touching_at(double size) {
+  return 6 * float_step(size);
+}
+
 }  // namespace
 
 std::vector<std::string> Scene::channel_names() const {
@@ -42,16 +49,19 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
 }
 
 TouchingSurfaces Scene::touching(const Ray& ray, const SurfaceHit& hit) const {
-  return geometry_->touching(ray, hit, touch_distance());
+  return geometry_->touching(*this, ray, hit);
 }
 
-// Vertices are off the plane they belong to by up to a float step, a point spawned on a surface is up to six
-// from it: what is nearer than these is met together, what is further by the ray that leaves.
-float Scene::touch_distance() const {
-  if (bounds.isEmpty()) return 0;
-  double largest = 0;
-  for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
-  return 6 * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
+double Scene::touch_distance(const Imath::V3d& point, std::uint32_t shape, std::uint32_t other) const {
+  return touching_at(std::max({largest_coordinate(point), shapes[shape].rounding, shapes[other].rounding}));
+}
+
+double Scene::touch_distance(const Imath::V3d& point, std::uint32_t shape) const {
+  return touching_at(std::max({largest_coordinate(point), shapes[shape].rounding, coarsest_}));
+}
+
+double Scene::touch_distance() const {
+  return touching_at(largest_coordinate(bounds));
 }
 
 bool Scene::occluded(const Imath::V3f& from, const Imath::V3f& to) const {
@@ -68,12 +78,33 @@ void Scene::replay(std::span<const LoggedRay> rays) const {
   geometry_->replay(rays);
 }
 
-void Scene::commit() {
+void Scene::measure_extent() {
+  far_from_m = extent_of(camera, shapes).far_from;
   bounds.makeEmpty();
-  for (const ShapeInstance& instance : shapes) bounds.extendBy(abbe::bounds(instance.shape));
-  environment_ = -1;
+  coarsest_ = 0;
+  for (ShapeInstance& instance : shapes) {
+    const Imath::Box3d box = abbe::bounds(instance.shape);
+    const bool vertices = plain<Mesh>(instance.shape) != nullptr || plain<Quad>(instance.shape) != nullptr;
+    instance.rounding = vertices ? largest_coordinate(box) : 0;
+    instance.far = distance_to(box, position(camera)) > far_from_m;
+    if (instance.far) continue;
+    bounds.extendBy(box);
+    coarsest_ = std::max(coarsest_, instance.rounding);
+  }
+}
+
+bool Scene::is_far(const Light& light) const {
+  if (const auto* emitter = std::get_if<AreaLight>(&light.kind)) return shapes[emitter->shape].far;
+  const Imath::V3f* at = place(light);
+  return at != nullptr && (Imath::V3d(*at) - position(camera)).length() > far_from_m;
+}
+
+void Scene::commit() {
+  measure_extent();
+  background_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (lights[i].is_environment()) environment_ = static_cast<std::int32_t>(i);
+    if (lights[i].at_infinity() && !lights[i].is_delta())
+      background_.push_back(static_cast<std::uint32_t>(i));
     auto* emitter = std::get_if<AreaLight>(&lights[i].kind);
     if (emitter == nullptr) continue;
     ShapeInstance& instance = shapes[emitter->shape];

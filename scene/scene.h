@@ -33,6 +33,9 @@ struct ShapeInstance {
   Shape shape;
   std::uint32_t material;
   std::int32_t light = -1;  ///< Index into `Scene::lights`, or -1.
+  // Worked out by `Scene::commit`:
+  bool far = false;     ///< Wholly beyond `Scene::far_from_m`.
+  double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
 };
 
 /// A colour chart of the scene: its patches are the quads `shapes[first]` and those that follow.
@@ -117,9 +120,10 @@ class Scene {
   OutputSettings output;
   Needs needs;
   Imath::V3d origin_m{0, 0, 0};
-  double unit_m = 1;    ///< Metres per scene-file unit.
-  Imath::Box3d bounds;  ///< Of the shapes.
-  std::string sha256;   ///< Of the scene file after overrides, and of every file it names.
+  double unit_m = 1;      ///< Metres per scene-file unit.
+  Imath::Box3d bounds;    ///< Of the shapes, but for those that are far.
+  double far_from_m = 0;  ///< What lies wholly beyond this distance from the camera is far; see Extent.
+  std::string sha256;     ///< Of the scene file after overrides, and of every file it names.
 
   [[nodiscard]] std::vector<std::string> channel_names() const;
   /// Names of the film's planes: the channels, or the one plane of a mosaic.
@@ -130,8 +134,14 @@ class Scene {
   /// The surfaces that touch where `ray` meets the scene at `hit`, which is the first of them: parallel to it
   /// and within `touch_distance`. Of a shape, each side once.
   [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit) const;
-  /// Surfaces closer than this [m] count as one: floats this far from the origin hardly tell them apart.
-  [[nodiscard]] float touch_distance() const;
+  /// Around `point`, surfaces of the two shapes that are closer than this [m] count as one: floats of the
+  /// size of the point, and of the vertices, hardly tell them apart.
+  [[nodiscard]] double touch_distance(const Imath::V3d& point, std::uint32_t shape,
+                                      std::uint32_t other) const;
+  /// The most that is, for a shape and any other one.
+  [[nodiscard]] double touch_distance(const Imath::V3d& point, std::uint32_t shape) const;
+  /// The most it is anywhere but among what is far.
+  [[nodiscard]] double touch_distance() const;
   /// Whether anything but boundaries of matter stands between two points that `offset_point` put beside their
   /// surfaces. Exact at both ends, at any angle and distance.
   [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) const;
@@ -141,19 +151,25 @@ class Scene {
   /// nothing else.
   void replay(std::span<const LoggedRay> rays) const;
 
-  /// The one environment light, or -1.
-  [[nodiscard]] std::int32_t environment() const { return environment_; }
+  /// The lights that a ray which leaves the scene may see: the environment and the suns.
+  [[nodiscard]] std::span<const std::uint32_t> background() const { return background_; }
 
-  /// Builds the acceleration structure, `bounds`, the lights' areas and `needs`; call once, after filling the
-  /// lists. Throws Error{resource} when there is no memory.
+  /// Whether the light has a place that is far, from where its rays are as good as parallel.
+  [[nodiscard]] bool is_far(const Light& light) const;
+
+  /// Builds the acceleration structure, `bounds`, what is far, the lights' areas and `needs`; call once,
+  /// after filling the lists. Throws Error{resource} when there is no memory.
   void commit();
 
   [[nodiscard]] std::size_t triangle_count() const;  ///< As rendered: a quad is two.
   [[nodiscard]] std::size_t memory_bytes() const;    ///< Of geometry, as Embree and the lists report it.
 
  private:
+  void measure_extent();
+
   std::shared_ptr<const Geometry> geometry_;
-  std::int32_t environment_ = -1;
+  std::vector<std::uint32_t> background_;
+  double coarsest_ = 0;  // rounding of those that are not far
 };
 
 /// Nearest hit at t in (t_min, ray.t_max) in double precision by each shape's own code, without Embree: for

@@ -77,6 +77,16 @@ CameraRay probe_ray(const Camera& camera, const IrradianceProbe& probe, Imath::V
 
 }  // namespace
 
+const Imath::V3d& position(const Camera& camera) {
+  if (const auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
+  return std::get<IrradianceProbe>(camera.kind).corner;
+}
+
+Imath::V3d& position(Camera& camera) {
+  if (auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
+  return std::get<IrradianceProbe>(camera.kind).corner;
+}
+
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens) {
   if (const auto* probe = std::get_if<IrradianceProbe>(&camera.kind))
     return probe_ray(camera, *probe, film, lens);

@@ -50,6 +50,10 @@ struct Camera {
   [[nodiscard]] bool is_pinhole() const { return kind.index() == 0 && std::get<LensCamera>(kind).pinhole; }
 };
 
+/// Where a lens has its centre, or a meter its corner.
+[[nodiscard]] const Imath::V3d& position(const Camera& camera);
+[[nodiscard]] Imath::V3d& position(Camera& camera);
+
 /// A ray into the scene. Radiance L along it adds `weight` L to the spectral irradiance at its film position.
 struct CameraRay {
   Ray ray;

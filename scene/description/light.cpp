@@ -24,8 +24,12 @@ constexpr std::array<std::string_view, 6> kLampScales{"radiant_flux_W", "luminou
 constexpr std::array<std::string_view, 6> kPointScales{
     "radiant_flux_W", "luminous_flux_lm", "intensity", "luminous_intensity", "irradiance", "illuminance"};
 constexpr std::array<std::string_view, 2> kEnvironmentScales{"radiance", "luminance"};
+constexpr std::array<std::string_view, 2> kBeamScales{"irradiance", "illuminance"};
+constexpr std::array<std::string_view, 4> kSunScales{"radiance", "luminance", "irradiance", "illuminance"};
 
-constexpr Range kHalfAngle{0.1, 180};  // degrees: below, a float's cosine no longer tells cones apart
+constexpr double kSunDiameter_deg = 0.533;  // of ours, in the mean
+constexpr Range kDiameter{0.01, 60};        // degrees: what looks smaller is as good as directional
+constexpr Range kHalfAngle{0.1, 180};       // degrees: below, a float's cosine no longer tells cones apart
 
 /// What fixes the strength of a lamp of one kind: the scales it may name, and what a lamp of unit radiance or
 /// intensity has of them.
@@ -35,6 +39,7 @@ struct LampKind {
   /// Irradiance on its axis at that distance [m], of a surface that faces it: [sr] for radiance, [m^-2] for
   /// intensity.
   std::function<double(double)> irradiance = {};
+  bool at_infinity = false;  ///< Irradiates alike everywhere, of a surface that faces it.
 };
 
 std::optional<Curve> read_spectrum_curve(std::string_view key, const JsonValue& json, Reading& reading) {
@@ -78,11 +83,13 @@ struct Scale {
   double of_unit;
 };
 
-// The quantity `name` of the lamp; the last two are had at a distance.
+// The quantity `name` of the lamp; irradiance and illuminance are had at a distance, but from infinity.
 std::optional<Scale> read_scale(ObjectReader& reader, std::string_view name, const LampKind& kind,
                                 const Reading& reading) {
   const auto value = reader.number(name, kPower);
   if (name == "irradiance" || name == "illuminance") {
+    if (kind.at_infinity)
+      return value ? std::optional(Scale{name, *value, kind.irradiance(0)}) : std::nullopt;
     const auto distance = reader.require_number("distance", kLength);
     if (!value || !distance) return std::nullopt;
     const double of_unit = kind.irradiance(*distance * reading.unit_m);
@@ -169,6 +176,51 @@ std::optional<Placed> read_spot(const JsonValue& json, const Reading& reading) {
   return Placed{spot, *at, {kPointScales, solid_angle, inverse_square}};
 }
 
+std::optional<Placed> read_directional(ObjectReader& reader, const Reading& reading) {
+  const auto towards = read_direction(reader, "towards", reading);
+  if (!towards) return std::nullopt;
+  return Placed{
+      DirectionalLight{Imath::V3f(*towards)}, {0, 0, 0}, {kBeamScales, 0, [](double) { return 1.0; }, true}};
+}
+
+std::optional<Placed> read_sun(ObjectReader& reader, const Reading& reading) {
+  const auto towards = read_direction(reader, "towards", reading);
+  const JsonValue* json = reader.find("angular_diameter_deg");
+  const auto diameter = reader.number("angular_diameter_deg", kDiameter);
+  if (!towards || (json && !diameter)) return std::nullopt;
+  const double sine = std::sin(diameter.value_or(kSunDiameter_deg) * std::numbers::pi / 720);
+  const SunLight sun{Imath::V3f(*towards), static_cast<float>(2 * sine * sine)};
+  const double of_unit = sun.projected_solid_angle();
+  return Placed{sun, {0, 0, 0}, {kSunScales, 0, [of_unit](double) { return of_unit; }, true}};
+}
+
+// The emission of daylight that a light from infinity has of an `irradiance` or `illuminance` of its own.
+std::optional<JsonValue> daylight(ObjectReader& reader) {
+  for (const std::string_view name : kBeamScales)
+    if (const JsonValue* scale = reader.find(name))
+      return JsonValue{
+          JsonValue::Object{{"illuminant", {std::string{"D65"}, scale->where}}, {std::string(name), *scale}},
+          scale->where};
+  return std::nullopt;
+}
+
+// A light may say its strength itself, without an emission beside it.
+void add_from_infinity(ObjectReader& reader, std::string name, std::string_view key, Reading& reading,
+                       Scene& scene) {
+  const JsonValue* emission = reader.find("emission");
+  ObjectReader of_light(*reader.find(key), reading.diagnostics);
+  const auto light = key == "sun" ? read_sun(of_light, reading) : read_directional(of_light, reading);
+  const auto own = emission ? std::nullopt : daylight(of_light);
+  of_light.finish();
+  if (!own) emission = reader.require("emission");
+  reader.finish();
+  if (!light || (!own && !emission)) return;
+  auto curve = read_emission(own ? *own : *emission, light->lamp, reading);
+  if (!curve) return;
+  scene.lights.push_back({std::move(name), light->kind, std::move(*curve)});
+  reading.light_positions.push_back(light->position);
+}
+
 void add_environment(ObjectReader& reader, std::string name, const JsonValue& json, Reading& reading,
                      Scene& scene) {
   auto sky = read_sky(json, reading);
@@ -224,7 +276,8 @@ void add_area(ObjectReader& reader, std::string name, std::optional<Shape> shape
 void read_light(const JsonValue& json, std::size_t number, Reading& reading, Scene& scene) {
   ObjectReader reader(json, reading.diagnostics);
   std::string name = reader.string("name").value_or(fmt::format("light {}", number));
-  const auto key = reader.exactly_one({"quad", "sphere", "disc", "point", "spot", "environment"});
+  const auto key =
+      reader.exactly_one({"quad", "sphere", "disc", "point", "spot", "directional", "sun", "environment"});
   if (!key) return;
   const JsonValue& kind = *reader.find(*key);
   if (*key == "quad") {
@@ -237,6 +290,8 @@ void read_light(const JsonValue& json, std::size_t number, Reading& reading, Sce
     add_placed(reader, std::move(name), read_point_light(kind, reading), reading, scene);
   } else if (*key == "spot") {
     add_placed(reader, std::move(name), read_spot(kind, reading), reading, scene);
+  } else if (*key == "directional" || *key == "sun") {
+    add_from_infinity(reader, std::move(name), *key, reading, scene);
   } else {
     add_environment(reader, std::move(name), kind, reading, scene);
   }
@@ -251,18 +306,20 @@ double axial_irradiance(const Disc& disc, double distance) {
   const double r2 = disc.radius * disc.radius;
   return std::numbers::pi * r2 / (r2 + distance * distance);
 }
-// Half the sum over the edges of the angle each takes up, times how it leans [Lambert1760].
+// Half the sum over the edges of the angle each takes up, times how it leans [Lambert1760]: with a and b from
+// the middle to the corners and n the normal, the plane through an edge and the point has the normal (a + n
+// d) x (b + n d), whose part along n is that of a x b. Taken so, nothing cancels however far the point is.
 double axial_irradiance(const Quad& quad, double distance) {
   const Imath::V3d normal = normal_of(quad);
-  const Imath::V3d to_corner = normal * distance - (quad.edge_u + quad.edge_v) / 2;
-  const std::array corners{to_corner, to_corner + quad.edge_u, to_corner + quad.edge_u + quad.edge_v,
-                           to_corner + quad.edge_v};
+  const Imath::V3d first = (quad.edge_u + quad.edge_v) / -2;
+  const std::array corners{first, first + quad.edge_u, -first, first + quad.edge_v};
   double sum = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Imath::V3d& a = corners.at(i);
     const Imath::V3d& b = corners.at((i + 1) % corners.size());
-    const Imath::V3d edge = a.cross(b);
-    sum += std::atan2(edge.length(), a.dot(b)) * edge.normalized().dot(normal);
+    const double along = a.cross(b).dot(normal);
+    const double across = std::hypot(along, distance * (b - a).length());
+    sum += std::atan2(across, a.dot(b) + distance * distance) * along / across;
   }
   return std::abs(sum) / 2;
 }
@@ -297,7 +354,10 @@ void add_area_light(const JsonValue& emission, bool two_sided, std::uint32_t sha
 void read_lights(const JsonValue& json, Reading& reading, Scene& scene) {
   const JsonValue::Array* list = read_array(json, "lights", 0, reading);
   if (!list) return;
-  for (std::size_t i = 0; i < list->size(); ++i) read_light((*list)[i], i, reading, scene);
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    read_light((*list)[i], i, reading, scene);
+    reading.shape_places.resize(scene.shapes.size(), (*list)[i].where);
+  }
 }
 
 }  // namespace abbe::description

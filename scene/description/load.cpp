@@ -13,6 +13,7 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "scene/description/pieces.h"
+#include "scene/extent.h"
 #include "scene/shapes/placed.h"
 
 namespace abbe {
@@ -79,23 +80,12 @@ OutputSettings read_output(const JsonValue& json, Reading& reading) {
   return output;
 }
 
-Imath::V3d& position(Camera& camera) {
-  if (auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
-  return std::get<IrradianceProbe>(camera.kind).corner;
-}
-
-// Moves the scene so that its middle is at (0, 0, 0), where floats are finest; everything up to here is in
-// double.
+// Moves the scene so that the middle of what is near is at (0, 0, 0), where floats are finest; everything up
+// to here is in double.
 void recentre(Scene& scene, Reading& reading) {
   const std::vector<Imath::V3d>& light_positions = reading.light_positions;
-  Imath::Box3d box;
-  for (const ShapeInstance& instance : scene.shapes) box.extendBy(bounds(instance.shape));
-  if (box.isEmpty()) {
-    box.extendBy(position(scene.camera));
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-      if (!scene.lights[i].is_environment()) box.extendBy(light_positions[i]);
-  }
-  scene.origin_m = box.center();
+  const Imath::Box3d near = extent_of(scene.camera, scene.shapes).near;
+  scene.origin_m = near.isEmpty() ? position(scene.camera) : near.center();
   for (ShapeInstance& instance : scene.shapes)
     std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
   for (const auto& at : reading.placements)
@@ -221,6 +211,8 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
   Scene scene = description::read_scene(*root, reading);
   if (diagnostics.has_errors()) return std::nullopt;
   description::recentre(scene, reading);
+  description::check_precision(*root, reading, scene);
+  if (diagnostics.has_errors()) return std::nullopt;
   scene.sha256 = description::hash(*source, overrides, reading);
   scene.commit();
   return scene;

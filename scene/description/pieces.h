@@ -59,6 +59,7 @@ struct Reading {
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
   std::vector<SourcePosition> emissions{};     ///< Where each light's is told.
   std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
+  std::vector<SourcePosition> shape_places{};  ///< Where each shape of the scene is described.
   std::map<std::string, Object> objects{};
   std::unordered_map<std::string, LampSpectrum> lamp_spectra{};  ///< By the words that name them.
   std::unordered_map<std::string, std::uint32_t> materials{};    ///< Numbers by name.
@@ -116,6 +117,9 @@ void read_materials(const JsonValue& json, Reading& reading, Scene& scene);
 [[nodiscard]] std::uint32_t black_material(Reading& reading, Scene& scene);
 /// Warns of every lamp that emits nothing the sensor sees.
 void check_lamps(const Reading& reading, const Scene& scene);
+/// Reports what floats cannot tell apart, once the scene is recentred: a shape with matter inside, or a mesh
+/// that emits, only few float steps large where it stands, and a view of little more than one direction.
+void check_precision(const JsonValue& root, const Reading& reading, const Scene& scene);
 /// Warns of every index used beyond the wavelengths it holds for.
 void check_validity(const JsonValue& json, const Reading& reading, const Scene& scene);
 

@@ -295,7 +295,10 @@ std::vector<Part> read_parts(ObjectReader& reader, std::string_view key, const s
 void read_shapes(const JsonValue& json, Reading& reading, Scene& scene) {
   const JsonValue::Array* list = read_array(json, "shapes", 0, reading);
   if (!list) return;
-  for (std::size_t i = 0; i < list->size(); ++i) read_shape((*list)[i], i, reading, scene);
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    read_shape((*list)[i], i, reading, scene);
+    reading.shape_places.resize(scene.shapes.size(), (*list)[i].where);
+  }
 }
 
 }  // namespace abbe::description

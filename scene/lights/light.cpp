@@ -14,6 +14,7 @@ namespace abbe {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // A point of a light, with its density per solid angle where it was not drawn by area.
 struct AreaSample {
@@ -119,7 +120,6 @@ std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, cons
 std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& environment,
                                        const std::vector<ShapeInstance>&, const Imath::V3f& point,
                                        Imath::V2f u) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   if (!environment.image)
     return LightSample{sample_area(Sphere{{0, 0, 0}, 1}, u).normal, kInfinity, 1,
                        static_cast<float>(1 / (4 * kPi)), point};
@@ -131,6 +131,19 @@ std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& env
   return LightSample{*wi, kInfinity, 1, pdf, point};
 }
 
+std::optional<LightSample> sample_kind(const Light&, const DirectionalLight& beam,
+                                       const std::vector<ShapeInstance>&, const Imath::V3f& point,
+                                       Imath::V2f) {
+  return LightSample{beam.towards, kInfinity, 1, 1, point};
+}
+
+std::optional<LightSample> sample_kind(const Light&, const SunLight& sun, const std::vector<ShapeInstance>&,
+                                       const Imath::V3f& point, Imath::V2f u) {
+  const float phi = 2 * std::numbers::pi_v<float> * u.y;
+  return LightSample{direction_about(sun.towards, u.x * sun.cap, phi), kInfinity, 1, cone_pdf(sun.cap),
+                     point};
+}
+
 }  // namespace
 
 void AreaLight::measure(const Shape& of) {
@@ -138,6 +151,17 @@ void AreaLight::measure(const Shape& of) {
   triangle_cdf = abbe::triangle_cdf(of);
   if (const auto* quad = std::get_if<Quad>(&of))
     flat = std::make_shared<const EmittingQuad>(EmittingQuad{RenderedQuad(*quad), Rectangle::of(*quad)});
+}
+
+double SunLight::projected_solid_angle() const {
+  const auto height = static_cast<double>(cap);
+  return kPi * height * (2 - height);
+}
+
+const Imath::V3f* place(const Light& light) {
+  if (const auto* lamp = std::get_if<PointLight>(&light.kind)) return &lamp->position;
+  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return &lamp->position;
+  return nullptr;
 }
 
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
@@ -156,6 +180,7 @@ float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, co
                 const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal) {
   if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind))
     return environment->image ? environment->image->pdf(wi) : static_cast<float>(1 / (4 * kPi));
+  if (const auto* sun = std::get_if<SunLight>(&light.kind)) return sun->shows(wi) ? cone_pdf(sun->cap) : 0.0F;
   if (light.is_delta() || !emits_towards(light, hit_normal, -wi)) return 0;
   const auto& emitter = std::get<AreaLight>(light.kind);
   const Shape& shape = shapes[emitter.shape].shape;
@@ -174,12 +199,11 @@ bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3
 
 EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeInstance>& shapes,
                                     Imath::V2f u) {
-  if (const auto* lamp = std::get_if<PointLight>(&light.kind)) return {lamp->position, Imath::V3f(0), 1};
-  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return {lamp->position, Imath::V3f(0), 1};
+  if (const Imath::V3f* at = place(light)) return {*at, Imath::V3f(0), 1};
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr)
     throw Error(ErrorCode::internal, "light \"" + light.name + "\"",
-                "an environment has no point to emit from");
+                "a light at infinity has no point to emit from");
   const SurfacePoint at = sample_area(*emitter, shapes[emitter->shape].shape, u);
   return {at.point, at.normal, static_cast<float>(1 / emitter->area)};
 }
@@ -189,7 +213,10 @@ double etendue(const Light& light, double scene_radius_m) {
     return kPi * emitter->area * (emitter->two_sided ? 2 : 1);
   if (std::holds_alternative<PointLight>(light.kind)) return 4 * kPi;
   if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return 2 * kPi * static_cast<double>(lamp->cap);
-  return 4 * kPi * kPi * scene_radius_m * scene_radius_m;  // pi r^2 from each of 4 pi directions
+  const double across = kPi * scene_radius_m * scene_radius_m;
+  if (std::holds_alternative<DirectionalLight>(light.kind)) return across;
+  if (const auto* sun = std::get_if<SunLight>(&light.kind)) return sun->projected_solid_angle() * across;
+  return 4 * kPi * across;
 }
 
 ScaledCurve mean_emission(const Light& light) {

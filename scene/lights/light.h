@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -18,11 +19,17 @@
 
 namespace abbe {
 
+/// Density [1/sr] of directions drawn uniformly from a cone, `cap` being 1 - cos of its half angle.
+[[nodiscard]] inline float cone_pdf(float cap) {
+  return 1 / (2 * std::numbers::pi_v<float> * cap);
+}
+
 /// A quad that emits, as points are drawn on it.
 struct EmittingQuad {
   RenderedQuad quad;
   std::optional<Rectangle> rectangle;  ///< Of one with right angles.
 };
+
 /// A surface that emits the same radiance in all directions from its outer side, or from both.
 struct AreaLight {
   std::uint32_t shape = 0;  ///< Index into `Scene::shapes`.
@@ -51,18 +58,43 @@ struct SpotLight {
 struct EnvironmentLight {
   std::shared_ptr<const EnvironmentImage> image = nullptr;
 };
+/// A parallel beam from infinity. `towards` is the unit direction from the scene to where it comes from.
+struct DirectionalLight {
+  Imath::V3f towards{0, 0, 1};
+};
+/// A disc at infinity around the unit direction `towards`, of the same radiance all over, which cameras see.
+struct SunLight {
+  Imath::V3f towards{0, 0, 1};
+  float cap = 1;  ///< 1 - cos of the half angle it is seen under, as of a spot.
+
+  /// Whether the unit direction `wi` meets it.
+  [[nodiscard]] bool shows(const Imath::V3f& wi) const { return (wi - towards).length2() <= 2 * cap; }
+  /// Irradiance of a surface that faces it, over its radiance [sr]: pi sin^2 of the half angle.
+  [[nodiscard]] double projected_solid_angle() const;
+};
 
 /// A light: where it is, and its emission: spectral radiance [W m^-2 sr^-1 nm^-1] of an area or environment
-/// light, spectral intensity [W sr^-1 nm^-1] of a point or spot light. With an image, that of a texel (1, 1,
+/// light or a sun, spectral intensity [W sr^-1 nm^-1] of a point or spot light, spectral irradiance
+/// [W m^-2 nm^-1], of a surface that faces it, of a directional light. With an image, that of a texel (1, 1,
 /// 1).
 struct Light {
   std::string name;
-  std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight> kind;
+  std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight> kind;
   ScaledCurve emission;
 
-  [[nodiscard]] bool is_delta() const { return kind.index() == 1 || kind.index() == 2; }
-  [[nodiscard]] bool is_environment() const { return kind.index() == 3; }
+  template <typename... Kinds>
+  [[nodiscard]] bool is() const {
+    return (std::holds_alternative<Kinds>(kind) || ...);
+  }
+  /// Comes from a single direction at every point, so that no scattering finds it.
+  [[nodiscard]] bool is_delta() const { return is<PointLight, SpotLight, DirectionalLight>(); }
+  [[nodiscard]] bool is_environment() const { return is<EnvironmentLight>(); }
+  /// Has no place.
+  [[nodiscard]] bool at_infinity() const { return is<EnvironmentLight, DirectionalLight, SunLight>(); }
 };
+
+/// Where a point or spot light is; nullptr for the others.
+[[nodiscard]] const Imath::V3f* place(const Light& light);
 
 /// The emission at these wavelengths of light arriving from the unit direction `wi`, which only an
 /// environment image asks for.
@@ -70,15 +102,15 @@ struct Light {
                                             const SampledSpectrum& wavelengths_nm);
 
 /// Light arriving at a point, without its spectrum: `factor` times `emission_from` is the incident radiance
-/// (area, environment) or irradiance per unit cosine (point, spot), and `pdf` the density of `wi` [1/sr] (1
-/// for delta lights, whose direction is no choice).
+/// (area, environment, sun) or irradiance per unit cosine (point, spot, directional), and `pdf` the density
+/// of `wi` [1/sr] (1 for delta lights, whose direction is no choice).
 struct LightSample {
   Imath::V3f wi;
-  float distance;  ///< infinity for the environment
+  float distance;  ///< infinity for lights there
   float factor;
   float pdf;
   Imath::V3f end;  ///< Where a shadow ray ends: the point of the light, moved off its surface; meaningless
-                   ///< for the environment.
+                   ///< at infinity.
 };
 
 struct ShapeInstance;
@@ -91,8 +123,8 @@ struct ShapeInstance;
                                                       const Imath::V3f& point, Imath::V2f u);
 
 /// Density [1/sr] with which `sample_light` draws the direction from `point` that hits the light at
-/// `hit_point` with outward normal `hit_normal`; for the environment pass the direction in `wi` only. 0 for
-/// delta lights.
+/// `hit_point` with outward normal `hit_normal`; for lights at infinity pass the direction in `wi` only. 0
+/// for delta lights.
 [[nodiscard]] float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes,
                               const Imath::V3f& point, const Imath::V3f& wi, const Imath::V3f& hit_point,
                               const Imath::V3f& hit_normal);
@@ -102,7 +134,7 @@ struct ShapeInstance;
 [[nodiscard]] bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo);
 
 /// A starting point of photons: the surface position and outward normal of an area light, or the point itself
-/// with a zero normal. Environments have none: Error{internal}.
+/// with a zero normal. Lights at infinity have none: Error{internal}.
 struct EmissionPoint {
   Imath::V3f point;
   Imath::V3f normal;
@@ -111,8 +143,8 @@ struct EmissionPoint {
 [[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
                                                   const std::vector<ShapeInstance>& shapes, Imath::V2f u);
 
-/// What its mean emission is multiplied by to give its power: [m^2 sr], or [sr] for point and spot lights; of
-/// the environment, through the sphere of radius `scene_radius_m`.
+/// What its mean emission is multiplied by to give its power: [m^2 sr], [sr] for point and spot lights, [m^2]
+/// for directional ones; of lights at infinity, through the sphere of radius `scene_radius_m`.
 [[nodiscard]] double etendue(const Light& light, double scene_radius_m);
 /// Emission averaged over directions: that of the light, or of the mean texel of an environment image.
 [[nodiscard]] ScaledCurve mean_emission(const Light& light);

@@ -38,7 +38,7 @@ constexpr std::array<NeedName, 14> kNeeds{{
     {"environment", &Needs::environment, "light from infinity all around"},
     {"textures", &Needs::textures,
      "a material, its relief or vertex normals vary over the surface, or it has a direction along it"},
-    {"delta_lights", &Needs::delta_lights, "point or spot lights"},
+    {"delta_lights", &Needs::delta_lights, "point, spot or directional lights"},
     {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &Needs::polarisation_matters,
      "interfaces may follow each other at oblique angles"},
@@ -74,6 +74,8 @@ std::vector<SpecularCenter> specular_centers(const Scene& scene) {
 // Whether the light looks small from every specular shape; delta lights do from anywhere. A ball of radius r
 // looks larger than the limit from nearer than r/sin, the sine being that of half the limit's cone.
 bool looks_small(const Scene& scene, const Light& light, std::span<const SpecularCenter> centers) {
+  if (const auto* sun = std::get_if<SunLight>(&light.kind))
+    return 2 * std::numbers::pi * static_cast<double>(sun->cap) < kSmallLight_sr;
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr) return light.is_delta();
   const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
@@ -165,7 +167,7 @@ const ShapeInstance* nested_shape(const Scene& scene) {
       all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr});
   }
   std::sort(all.begin(), all.end(), [](const Boxed& a, const Boxed& b) { return a.box.min.x < b.box.min.x; });
-  const auto reach = Imath::V3d(static_cast<double>(scene.touch_distance()));
+  const auto reach = Imath::V3d(scene.touch_distance());
   std::size_t pairs = 0;
   for (auto a = all.begin(); a != all.end(); ++a) {
     const Imath::Box3d grown(a->box.min - reach, a->box.max + reach);
@@ -302,7 +304,7 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
   if (scene.render.integrator == Integrator::light) {
     add(names_of(scene, [&](std::size_t i) { return lights[i].is_environment(); }), "E (S|D)* L",
         "all light of an environment");
-    add(names_of(scene, [&](std::size_t i) { return lights[i].kind.index() == 0; }), "E L",
+    add(names_of(scene, [&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }), "E L",
         "lights seen directly");
     if (specular)
       add(names_of(scene, [&](std::size_t i) { return !lights[i].is_environment(); }), "E S (S|D)* L",
@@ -312,12 +314,13 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
   if (!specular) return classes;
   const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
   const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
-  add(names_of(scene, delta), "E S+ L", "a point or spot light seen in mirrors or through glass");
+  add(names_of(scene, delta), "E S+ L",
+      "a point, spot or directional light seen in mirrors or through glass");
   if (!needs.caustics) return classes;
   add(names_of(scene, [&](std::size_t i) { return delta(i) && traced(i); }), "E S (S|D)* D (S|D)* S L",
-      "caustics of a point or spot light, seen in mirrors or through glass");
+      "caustics of a point, spot or directional light, seen in mirrors or through glass");
   add(names_of(scene, [&](std::size_t i) { return delta(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
-      "caustics of a point or spot light");
+      "caustics of a point, spot or directional light");
   return classes;
 }
 

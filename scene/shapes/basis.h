@@ -32,4 +32,10 @@ struct Basis {
   [[nodiscard]] Imath::Vec3<T> to_world(const Imath::Vec3<T>& v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
+/// The direction at azimuth `phi` [rad] around a unit `axis`, `cap` being 1 - cos of the angle between them.
+[[nodiscard]] inline Imath::V3f direction_about(const Imath::V3f& axis, float cap, float phi) {
+  const float sin_theta = std::sqrt(cap * (2 - cap));
+  return Basis<float>(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - cap});
+}
+
 }  // namespace abbe

@@ -152,6 +152,37 @@ TEST_F(DescriptionTest, NormalisesEmission) {
   EXPECT_NEAR(emission(point, R"({"lines": [{"nm": 500, "width_nm": 2, "power": 3}]})").integral(), 3, 1e-9);
 }
 
+TEST_F(DescriptionTest, LightsFromInfinityIrradiateASurfaceThatFacesThem) {
+  const std::string beam = R"("directional": {"towards": [0, 3, 4]})";
+  EXPECT_NEAR(photometric(emission(beam, R"({"illuminant": "A", "illuminance": 500})")), 500, 1e-9);
+  EXPECT_NEAR(emission(beam, R"({"spectrum": 1, "irradiance": 5})").integral(), 5, 1e-9);
+  const std::string sun = R"("sun": {"towards": [0, 3, 4], "angular_diameter_deg": 2})";
+  const double seen = kPi * std::pow(std::sin(kPi / 180), 2);
+  EXPECT_NEAR(photometric(emission(sun, R"({"illuminant": "A", "illuminance": 500})")) * seen, 500, 1e-5);
+  EXPECT_NEAR(photometric(emission(sun, R"({"illuminant": "A", "luminance": 500})")), 500, 1e-9);
+  EXPECT_NEAR(emission(sun, R"({"blackbody_K": 5772})")(500), planck_radiance(5772, 500),
+              1e-9 * planck_radiance(5772, 500));
+  // In short, by daylight.
+  const Loaded brief = load(R"({"lights": [{"sun": {"towards": [0, 3, 4], "illuminance": 1e5}},
+                                           {"directional": {"towards": [0, 3, 4], "irradiance": 7}}]})");
+  ASSERT_TRUE(brief.scene) << brief.text();
+  const Curve same =
+      emission(R"("sun": {"towards": [0, 3, 4]})", R"({"illuminant": "D65", "illuminance": 1e5})");
+  EXPECT_EQ(brief->lights[0].emission(560), same(560));
+  EXPECT_NEAR(brief->lights[1].emission.curve().integral(), 7, 1e-9);
+  const auto& disc = std::get<SunLight>(brief->lights[0].kind);
+  EXPECT_NEAR((Imath::V3d(disc.towards) - Imath::V3d(0, 0.6, 0.8)).length(), 0, 1e-7);
+  EXPECT_NEAR(disc.cap, 1 - std::cos(0.2665 * kPi / 180), 1e-11);
+}
+
+TEST_F(DescriptionTest, AFarQuadIrradiatesAsItsAreaDoes) {
+  const double radiance =
+      emission(R"("quad": {"corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [1, 3, 0]})",
+               R"({"spectrum": 1, "irradiance": 1, "distance": 1e11})")
+          .integral();
+  EXPECT_NEAR(radiance * 6 / 1e22, 1, 1e-12);
+}
+
 TEST_F(DescriptionTest, LampsLightASurfaceAtADistance) {
   const auto luminance = [this](const std::string& lamp, const char* distance) {
     return photometric(emission(

@@ -349,7 +349,7 @@ TEST(Scene, CommitSurvivesBrokenTriangles) {
 
 TEST(Scene, CommitFillsWhatItPromises) {
   Scene scene = testing::lit_by(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}});
-  EXPECT_EQ(scene.environment(), -1);
+  EXPECT_EQ(scene.background().size(), 0U);
   EXPECT_EQ(scene.shapes[0].light, 0);
   EXPECT_NEAR(std::get<AreaLight>(scene.lights[0].kind).area, 6, 1e-12);
   EXPECT_EQ(scene.triangle_count(), 2U);
@@ -357,7 +357,8 @@ TEST(Scene, CommitFillsWhatItPromises) {
   EXPECT_GT(scene.memory_bytes(), 500U);
   scene.lights.push_back({"sky", EnvironmentLight{}, Curve(1.0)});
   scene.commit();
-  EXPECT_EQ(scene.environment(), 1);
+  ASSERT_EQ(scene.background().size(), 1U);
+  EXPECT_EQ(scene.background()[0], 1U);
   const Scene large = scene_of({globe(1, 100, 100)});
   EXPECT_EQ(large.triangle_count(), 2U * 99 * 100);
   EXPECT_GT(large.memory_bytes(), large.triangle_count() * 50);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/lights/spherical_rectangle.h"
+#include "scene/shapes/basis.h"
 #include "scenes.h"
 
 namespace abbe {
@@ -273,6 +274,60 @@ TEST(EnvironmentLights, ComeFromEverywhere) {
   EXPECT_NEAR(irradiance / kCount, kPi, 0.03);
 }
 
+TEST(DeltaLights, ABeamComesFromOneDirection) {
+  const Light beam{"beam", DirectionalLight{{0, 0.6F, 0.8F}}, Curve(1.0)};
+  const auto sample = sample_light(beam, {}, {1, 2, 3}, {0.3F, 0.7F});
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->wi, V3f(0, 0.6F, 0.8F));
+  EXPECT_TRUE(std::isinf(sample->distance));
+  EXPECT_EQ(sample->factor, 1);
+  EXPECT_EQ(sample->pdf, 1);
+  EXPECT_EQ(light_pdf(beam, {}, {1, 2, 3}, sample->wi, V3f(0), V3f(0)), 0);
+  EXPECT_TRUE(beam.is_delta());
+}
+
+// Of any size a sun's directions are uniform in its disc, and surfaces that lean are irradiated by pi sin^2
+// cos.
+TEST(Suns, AreDiscsAtInfinity) {
+  for (const double half_angle_deg : {0.005, 0.2665, 5.0, 30.0}) {
+    const double sine = std::sin(half_angle_deg * kPi / 360);
+    const SunLight kind{V3f(V3d(0.48, 0.6, 0.64)), static_cast<float>(2 * sine * sine)};
+    const Light sun{"sun", kind, Curve(1.0)};
+    const V3d axis(0.48, 0.6, 0.64);
+    const V3d normal = V3d(0, 0, 1);
+    double irradiance = 0;
+    int inner = 0;
+    constexpr int kSide = 256;
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j) {
+        const auto s =
+            sample_light(sun, {}, {1, 2, 3},
+                         {(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide});
+        ASSERT_TRUE(s && std::isinf(s->distance));
+        irradiance += V3d(s->wi).dot(normal) / static_cast<double>(s->pdf);
+        inner += SunLight{kind.towards, kind.cap / 4}.shows(s->wi);
+        // One on the rim may fall off it by rounding.
+        if (i < kSide - 8) {
+          ASSERT_EQ(light_pdf(sun, {}, {1, 2, 3}, s->wi, V3f(0), V3f(0)), s->pdf);
+        }
+      }
+    const double all = kPi * std::pow(std::sin(half_angle_deg * kPi / 180), 2);
+    EXPECT_NEAR(irradiance / (kSide * kSide) / (all * axis.dot(normal)), 1, 1e-5) << half_angle_deg;
+    EXPECT_NEAR(kind.projected_solid_angle() / all, 1, 1e-6);
+    EXPECT_NEAR(inner / double(kSide * kSide), 0.25, 2e-3) << half_angle_deg;
+    // The share of directions that show it, from a cone of twice its height.
+    Random random(7);
+    int shown = 0;
+    constexpr int kCount = 400000;
+    for (int i = 0; i < kCount; ++i)
+      shown += light_pdf(sun, {}, {0, 0, 0},
+                         direction_about(kind.towards, random.uniform() * 2 * kind.cap,
+                                         random.uniform() * 2 * std::numbers::pi_v<float>),
+                         V3f(0), V3f(0)) > 0;
+    EXPECT_NEAR(shown / double(kCount), 0.5, 4e-3) << half_angle_deg;
+  }
+}
+
 TEST(Lights, EmitTheirPower) {
   const auto watts = [](const Light& light) { return power(light, 3)(555); };
   EXPECT_NEAR(watts(lit_by(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}).lights[0]), 6 * kPi, 1e-12);
@@ -280,6 +335,8 @@ TEST(Lights, EmitTheirPower) {
   EXPECT_NEAR(watts({"", PointLight{{0, 0, 0}}, Curve(2.0)}), 8 * kPi, 1e-12);
   EXPECT_NEAR(watts({"", SpotLight{{0, 0, 0}, {0, 0, 1}, 0.5F}, Curve(2.0)}), 2 * kPi, 1e-12);
   EXPECT_NEAR(watts({"", EnvironmentLight{}, Curve(1.0)}), 36 * kPi * kPi, 1e-10);
+  EXPECT_NEAR(watts({"", DirectionalLight{}, Curve(2.0)}), 18 * kPi, 1e-12);
+  EXPECT_NEAR(watts({"", SunLight{{0, 0, 1}, 0.5F}, Curve(1.0)}), 9 * kPi * 0.75 * kPi, 1e-10);
 }
 
 TEST(Lights, EmitFromWhereTheyAre) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/extent.h"
 #include "scenes.h"
 #include "spectral/sources.h"
 
@@ -268,7 +269,43 @@ TEST(Unreached, ClassesOfADeltaLight) {
   EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", "E S (S|D)* D (S|D)* S L"}));
   EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E (S|D)* D (S|D)* S L"}));
   const auto classes = unreached(scene, scene.needs, false);
-  EXPECT_EQ(classes[0], "E S+ L: a point or spot light seen in mirrors or through glass (\"bulb\")");
+  EXPECT_EQ(classes[0],
+            "E S+ L: a point, spot or directional light seen in mirrors or through glass (\"bulb\")");
+}
+
+TEST(Needs, SunsAndBeamsAreTracedUnlessTheyLookLarge) {
+  Scene scene = floor_scene();
+  add_ball(scene, kGlass);
+  scene.lights.push_back({"beam", DirectionalLight{}, Curve(1.0)});
+  scene.lights.push_back({"sun", SunLight{{0, 0, 1}, 1e-5F}, Curve(1.0)});
+  scene.lights.push_back({"moon of a gas giant", SunLight{{0, 0, 1}, 0.02F}, Curve(1.0)});
+  scene.commit();
+  EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>{true, true, false}));
+  EXPECT_TRUE(scene.needs.delta_lights && scene.needs.light_tracing && !scene.needs.environment);
+  EXPECT_EQ(scene.background().size(), 2U) << "no ray meets a beam";
+  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", "E S (S|D)* D (S|D)* S L"}));
+  scene.render.integrator = Integrator::light;
+  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E L", "E S (S|D)* L"}));
+}
+
+// A lamp as far as the sun, or the ground below, does not move the middle of the scene.
+TEST(Extent, WhatIsNearDecides) {
+  const auto near_of = [](std::vector<Shape> shapes) {
+    const Scene scene = testing::scene_of(std::move(shapes));
+    return std::pair(extent_of(scene.camera, scene.shapes).near, scene.bounds);
+  };
+  const Sphere ball{{0, 0, 5}, 1};
+  const auto [alone, bounds] = near_of({ball});
+  EXPECT_EQ(near_of({ball, Sphere{{0, 1.5e11, 0}, 7e8}}), std::pair(alone, bounds)) << "far";
+  const auto [over_ground, with_ground] = near_of({ball, Sphere{{0, -6.4e6, 0}, 6.4e6}});
+  EXPECT_EQ(over_ground, alone) << "large";
+  EXPECT_NE(with_ground, bounds) << "but not far";
+  EXPECT_EQ(near_of({ball, Sphere{{0, 0, 900}, 1}}).first.max.z, 901) << "no gap";
+  const Sphere distant{{0, 0, 1e5}, 1};
+  EXPECT_EQ(near_of({distant}).first, abbe::bounds(Shape(distant))) << "what a lens sees first";
+  Scene meter = testing::scene_of({distant});
+  meter.camera.kind = IrradianceProbe{};
+  EXPECT_TRUE(extent_of(meter.camera, meter.shapes).near.isEmpty()) << "a meter is lit where it is";
 }
 
 TEST(Unreached, ClassesOfTheLightTracerAlone) {

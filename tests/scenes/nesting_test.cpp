@@ -148,6 +148,30 @@ TEST(Nesting, NothingIsLostOrGainedInAFurnace) {
   }
 }
 
+// What is far, or large, leaves what is near as it is.
+TEST(Nesting, FarThingsChangeNothingNear) {
+  const char* settings = R"("max_depth": 1000, "roulette_depth": -1)";
+  const std::string sky = R"({"environment": {}, "emission": {"spectrum": 1}})";
+  for (const std::string& near :
+       {box("glass", -0.5, 0.2), box("glass", -0.5, 0.2) + "," + box("water", 0.2, 0.9)}) {
+    for (
+        const std::string& far :
+        {ball("white", 1, "1e7, 2e6, 0"), ball("white", 1e5, "0, 1e7, 0"), ball("water", 7e8, "0, 0, 1.5e11"),
+         std::string(
+             R"({"material": "white", "quad": {"corner": [1e7, 0, 0], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]}})")})
+      EXPECT_LT(furthest(render(scene_of(near + "," + far, settings), {}).film), 2e-5) << far;
+    for (
+        const std::string& lights :
+        {sky + R"(, {"sphere": {"center": [1e6, 0, 0], "radius": 1}, "emission": {"spectrum": 1e-3}})",
+         sky +
+             R"(, {"disc": {"center": [0, 1e8, 0], "normal": [0, -1, 0], "radius": 9}, "emission": {"spectrum": 1e-3}})",
+         sky + R"(, {"sun": {"towards": [0, 1, 0]}, "emission": {"spectrum": 1e-3}})",
+         std::string(
+             R"({"sphere": {"center": [0, -9e6, 0], "radius": 1e7}, "two_sided": true, "emission": {"spectrum": 1}})")})
+      EXPECT_LT(furthest(render(scene_of(near, settings, lights), {}).film), 2e-5) << lights;
+  }
+}
+
 TEST(Stress, TenShellsKeepAllEnergy) {
   std::string shapes;
   for (int shell = 0; shell < 10; ++shell)

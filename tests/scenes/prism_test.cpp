@@ -9,12 +9,19 @@ namespace {
 
 using V3d = Imath::V3d;
 
-// Column [pixels] at which the film of `prism.json` shows the chief ray of a wavelength: the axis of both
-// slits through the prism and the screen's plane, then the lens's centre.
-double chief_column(const Scene& scene, double lambda_nm) {
+// From the middle of the slit of `prism.json`, or into that of `sunlit_prism.json`, along the axis of the
+// beam.
+BasicRay<double> axis_of(const Scene& scene) {
+  if (const auto* beam = std::get_if<DirectionalLight>(&scene.lights[0].kind))
+    return {V3d(-0.020055575, 0, -0.0038770365) - scene.origin_m, -V3d(beam->towards)};
   const auto& light = std::get<Quad>(scene.shapes[std::get<AreaLight>(scene.lights[0].kind).shape].shape);
-  const V3d start = light.corner + (light.edge_u + light.edge_v) / 2;
-  BasicRay<double> ray{start, light.edge_u.cross(light.edge_v).normalized()};
+  return {light.corner + (light.edge_u + light.edge_v) / 2, light.edge_u.cross(light.edge_v).normalized()};
+}
+
+// Column [pixels] at which the film shows the chief ray of a wavelength: the axis of the beam through the
+// prism and the screen's plane, then the lens's centre.
+double chief_column(const Scene& scene, double lambda_nm) {
+  BasicRay<double> ray = axis_of(scene);
   const auto prism = std::find_if(scene.shapes.begin(), scene.shapes.end(),
                                   [](const ShapeInstance& s) { return s.name == "prism"; });
   const double n = interior(scene.materials[prism->material])->n(lambda_nm);
@@ -67,6 +74,24 @@ TEST(Prism, FraunhoferLinesFallWhereTheSellmeierFormulaPutsThem) {
     const Film film = render(scene, {}).film;
     const double column =
         centroid(film, channel, middle - 40, film.height() / 2 - 8, middle + 40, film.height() / 2 + 8);
+    EXPECT_NEAR(column, expected, 0.1) << line.name;
+  }
+}
+
+TEST(Prism, FraunhoferLinesOfAParallelSunbeamFallThereToo) {
+  for (const Line& line : kLines) {
+    const Scene scene = test::load(
+        "sunlit_prism.json",
+        {{"/lights/0",
+          R"({"directional": {"towards": [-238.555886, 0, -155.936158]}, "emission": {"lines": [{"nm": )" +
+              std::to_string(line.nm) + R"(, "width_nm": 0.01, "power": 1}], "irradiance": 1}})"},
+         {"/sensor/observer", "\"1931\""},
+         {"/render/samples", "4"}});
+    const double expected = chief_column(scene, line.nm);
+    const auto middle = static_cast<int>(expected);
+    const Film film = render(scene, {}).film;
+    const double column =
+        centroid(film, 1, middle - 20, film.height() / 2 - 6, middle + 20, film.height() / 2 + 6);
     EXPECT_NEAR(column, expected, 0.1) << line.name;
   }
 }

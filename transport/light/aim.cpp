@@ -15,12 +15,6 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kEmissionShare = 0.05F;
 constexpr float kBelowOne = 0x1.fffffep-1F;
 
-// `cap` is 1 - cos of the angle to the axis.
-Imath::V3f direction_about(const Imath::V3f& axis, float cap, float phi) {
-  const float sin_theta = std::sqrt(cap * (2 - cap));
-  return Basis<float>(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - cap});
-}
-
 // A direction by the light's own emission: cosine-distributed on the emitting side or sides, uniform for
 // point and spot lights.
 Imath::V3f emission_direction(const Light& light, const EmissionPoint& from, Imath::V2f u) {
@@ -41,7 +35,7 @@ float emission_pdf(const Light& light, const EmissionPoint& from, const Imath::V
     return area->two_sided ? std::abs(cos_theta) / (2 * kPi) : std::max(0.0F, cos_theta) / kPi;
   }
   if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return spot->lights(wi) ? 1 / (2 * kPi * spot->cap) : 0.0F;
+    return spot->lights(wi) ? cone_pdf(spot->cap) : 0.0F;
   return 1 / (4 * kPi);
 }
 
@@ -62,15 +56,32 @@ Aim::Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float 
   const Imath::V3f to_target = target_center - light_center;
   const float distance = to_target.length();
   if (!(distance > 1.2F * target_radius) || !(target_radius > 0)) return;
+  // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
+  face(to_target / distance, target_center,
+       target_radius * distance / std::sqrt((distance - target_radius) * (distance + target_radius)));
+  guide();
+}
+
+// The shadow of the sphere on the plane through its centre is an ellipse, 1/cos as long as it is wide.
+Aim Aim::from_afar(const Imath::V3f& axis, double least_cosine, const Imath::V3f& target_center,
+                   double target_radius) {
+  Aim aim;
+  aim.face(axis, target_center, static_cast<float>(target_radius / least_cosine));
+  return aim;
+}
+
+void Aim::guide() {
   guided_ = true;
+  build(std::vector<double>(kGrid, 1.0));
+}
+
+void Aim::face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size) {
   center_ = target_center;
-  axis_ = to_target / distance;
+  axis_ = axis;
   const Basis<float> frame(axis_);
   side_ = frame.x;
   top_ = frame.y;
-  // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
-  half_size_ = target_radius * distance / std::sqrt((distance - target_radius) * (distance + target_radius));
-  build(std::vector<double>(kGrid, 1.0));
+  half_size_ = half_size;
 }
 
 void Aim::learn(const std::vector<double>& importance, int reach) {
@@ -135,18 +146,28 @@ float Aim::target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int c
          std::abs(cos_theta);
 }
 
+AimedPoint Aim::point(Imath::V2f u) const {
+  const float even = 1 / (4 * half_size_ * half_size_);
+  const auto on_target = [this](float a, float b) {
+    return center_ + side_ * ((2 * a - 1) * half_size_) + top_ * ((2 * b - 1) * half_size_);
+  };
+  if (!guided_) return {on_target(u.x, u.y), even, -1};
+  const Step row = find_step(row_cdf_.data(), kCells, u.y);
+  const Step column = find_step(&column_cdf_[static_cast<std::size_t>(row.index * kCells)], kCells, u.x);
+  const float a = (static_cast<float>(column.index) + column.within) / kCells;
+  const float b = (static_cast<float>(row.index) + row.within) / kCells;
+  const int cell = row.index * kCells + column.index;
+  return {on_target(a, b), density_[static_cast<std::size_t>(cell)] * even, cell};
+}
+
 AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u) const {
   AimedDirection aimed;
   if (!guided_ || choice < kEmissionShare) {
     aimed.wi = emission_direction(light, from, u);
   } else {
-    const Step row = find_step(row_cdf_.data(), kCells, u.y);
-    const Step column = find_step(&column_cdf_[static_cast<std::size_t>(row.index * kCells)], kCells, u.x);
-    const float a = (static_cast<float>(column.index) + column.within) / kCells;
-    const float b = (static_cast<float>(row.index) + row.within) / kCells;
-    const Imath::V3f point = center_ + side_ * ((2 * a - 1) * half_size_) + top_ * ((2 * b - 1) * half_size_);
-    aimed.wi = (point - from.point).normalized();
-    aimed.cell = row.index * kCells + column.index;
+    const AimedPoint target = point(u);
+    aimed.wi = (target.point - from.point).normalized();
+    aimed.cell = target.cell;
   }
   const float by_emission = emission_pdf(light, from, aimed.wi);
   // A direction drawn through a cell counts as through that cell: rounded, it may meet the next one.

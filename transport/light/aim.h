@@ -15,6 +15,14 @@ struct AimedDirection {
   int cell = -1;  ///< Cell of the target it was aimed at, or -1.
 };
 
+/// Where photons of a light that is far are sent through: a point of the target facing it, with its density
+/// [1/m^2] there.
+struct AimedPoint {
+  Imath::V3f point;
+  float pdf;
+  int cell;  ///< Of the target, or -1 where there is nothing to learn.
+};
+
 /// Aims photons of one light at the sphere that bounds the specular shapes: directions are drawn through a
 /// disc-shaped target facing the light, by a grid of importances over it, except for a share drawn from the
 /// light's own emission. The share keeps every direction possible, so aiming changes the noise and not the
@@ -28,6 +36,11 @@ class Aim {
   Aim() = default;
   /// At the bounding sphere of `targets`, seen from `light_center`; all parts of it alike.
   Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius);
+  /// Of a light so far that its rays all run within an angle of cosine `least_cosine` to the unit direction
+  /// `axis`: `point` covers the whole sphere for each of them, evenly until `guide` lets it learn.
+  [[nodiscard]] static Aim from_afar(const Imath::V3f& axis, double least_cosine,
+                                     const Imath::V3f& target_center, double target_radius);
+  void guide();
 
   /// Replaces the importances, one per cell, by measured ones, spread over the cells within `reach` of each
   /// and mixed with a tenth of the uniform ones.
@@ -35,12 +48,17 @@ class Aim {
 
   [[nodiscard]] bool guided() const { return guided_; }
 
+  [[nodiscard]] AimedPoint point(Imath::V2f u) const;
+  [[nodiscard]] const Imath::V3f& axis() const { return axis_; }
+  [[nodiscard]] float half_size() const { return half_size_; }
+
   /// Draws a direction for a photon leaving `from`; `u` aims, `choice` picks between target and emission. A
   /// direction in which the light does not emit has no power, not no density.
   [[nodiscard]] AimedDirection sample(const Light& light, const EmissionPoint& from, float choice,
                                       Imath::V2f u) const;
 
  private:
+  void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);
   [[nodiscard]] int cell_met(const Imath::V3f& from, const Imath::V3f& direction) const;  // or -1
   [[nodiscard]] float target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const;
   [[nodiscard]] int cell_of(float a, float b) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "transport/light/photon_start.h"
 #include "transport/path/flight.h"
 #include "transport/path/packet.h"
 #include "transport/path/roulette.h"
@@ -200,20 +201,13 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
   const std::array<float, 4> a = sampler.group(kAimGroup);
   const std::array<float, 4> b = sampler.group(kStartGroup);
   const LightPicker::Pick pick = plan.traced_lights.pick(b[3]);
-  const Light& light = plan.scene.lights[pick.light];
-  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, {b[0], b[1]});
-  const AimedDirection aimed = plan.aims[pick.light].sample(light, from, b[2], {a[0], a[1]});
-
-  PhotonStart start{pick.light, aimed.cell};
-  const bool area = std::holds_alternative<AreaLight>(light.kind);
-  if (area && !emits_towards(light, from.normal, aimed.wi)) return start;
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind); spot && !spot->lights(aimed.wi)) return start;
+  const PhotonRay photon = start_photon(plan, caster, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2]});
+  const PhotonStart start{pick.light, photon.cell};
+  if (!(photon.factor > 0)) return start;
   const SampledWavelengths wavelengths = plan.wavelengths.sample(a[2]);
-  const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
-  const float factor = cosine / (pick.probability * from.pdf_area * aimed.pdf);
-  const Ray ray = area ? spawn(from.point, from.normal, aimed.wi) : Ray{from.point, aimed.wi};
+  const SampledSpectrum power = plan.scene.lights[pick.light].emission(wavelengths.lambda_nm) * photon.factor;
   PhotonPath(plan, caster, sampler, wavelengths, share, exposure, splat)
-      .trace(ray, light.emission(wavelengths.lambda_nm) * factor, plan.light_inside[pick.light]);
+      .trace(photon.ray, power, plan.light_inside[pick.light]);
   return start;
 }
 

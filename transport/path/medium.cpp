@@ -106,7 +106,7 @@ Enclosures around_camera(const Scene& scene) {
 }
 
 Enclosures around_light(const Scene& scene, const Light& light) {
-  if (light.is_environment()) return {};
+  if (light.at_infinity() || scene.is_far(light)) return {};
   const auto around = [&](const Imath::V2f& u) {
     const EmissionPoint at = sample_emission_point(light, scene.shapes, u);
     return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));

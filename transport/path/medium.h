@@ -47,7 +47,8 @@ class Enclosures {
 /// point if both leave it more often than they enter.
 [[nodiscard]] Enclosures enclosing(const Scene& scene, const Imath::V3f& point);
 /// Around where a scene's camera stands, its lens or the middle of its probe, and around where a light does:
-/// neither may stand in two matters at once. Throws Error{scene} for a lamp whose corners do.
+/// neither may stand in two matters at once. A light that is far, or at infinity, stands outside of them all.
+/// Throws Error{scene} for a lamp whose corners do.
 [[nodiscard]] Enclosures around_camera(const Scene& scene);
 [[nodiscard]] Enclosures around_light(const Scene& scene, const Light& light);
 

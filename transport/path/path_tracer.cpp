@@ -64,7 +64,7 @@ class CameraPath {
         end_.medium.attenuate(end_.packet.throughput, hit->t);
       }
       if (!hit) {
-        add_environment();
+        add_background(depth);
         return;
       }
       if (scene_.needs.nesting) {
@@ -99,18 +99,26 @@ class CameraPath {
     return end_.packet.lane_pdf.sum() + light_pdf * light_sampling_lanes_;
   }
 
-  void add_environment() {
-    const std::int32_t index = scene_.environment();
-    if (index < 0) return;
-    const Light& light = scene_.lights[static_cast<std::size_t>(index)];
+  // Whether photons bring what a light met after `depth` events sends along this path.
+  [[nodiscard]] bool owned_by_photons(std::uint32_t light, int depth) const {
+    return depth > 0 && !light_sampled_before_ && !first_specular_ && plan_.traced[light];
+  }
+
+  void add_background(int depth) {
+    if (scene_.background().empty()) return;
     end_.medium.attenuate(end_.packet.throughput, std::numeric_limits<float>::infinity());
-    const float pdf = !light_sampled_before_
-                          ? 0.0F
-                          : plan_.path_lights.probability(static_cast<std::uint32_t>(index)) *
-                                light_pdf(light, scene_.shapes, end_.ray.origin, end_.ray.direction,
-                                          Imath::V3f(0), Imath::V3f(0));
-    exposure_.deposit(end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) *
-                      (1 / balance(pdf)));
+    for (const std::uint32_t index : scene_.background()) {
+      const Light& light = scene_.lights[index];
+      const auto* sun = std::get_if<SunLight>(&light.kind);
+      if ((sun != nullptr && !sun->shows(end_.ray.direction)) || owned_by_photons(index, depth)) continue;
+      const float pdf = !light_sampled_before_
+                            ? 0.0F
+                            : plan_.path_lights.probability(index) *
+                                  light_pdf(light, scene_.shapes, end_.ray.origin, end_.ray.direction,
+                                            Imath::V3f(0), Imath::V3f(0));
+      exposure_.deposit(end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) *
+                        (1 / balance(pdf)));
+    }
   }
 
   void add_emission(const SurfaceHit& hit, int depth) {
@@ -119,7 +127,7 @@ class CameraPath {
     const auto light_index = static_cast<std::uint32_t>(index);
     const Light& light = scene_.lights[light_index];
     if (!emits_towards(light, hit.normal, -end_.ray.direction)) return;
-    if (depth > 0 && !light_sampled_before_ && !first_specular_ && plan_.traced[light_index]) return;
+    if (owned_by_photons(light_index, depth)) return;
     const float pdf = !light_sampled_before_ ? 0.0F
                                              : plan_.path_lights.probability(light_index) *
                                                    light_pdf(light, scene_.shapes, end_.ray.origin,

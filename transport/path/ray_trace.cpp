@@ -73,17 +73,17 @@ struct Meeting {
 Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& first, double nearest,
              const Enclosures& inside) {
   if (!scene.needs.nesting) return {first, {0}, 0};
-  const auto distance = static_cast<double>(scene.touch_distance());
   const Imath::V3d& normal = first.hit.normal;
   BasicRay<double> rest = ray;
-  rest.t_max = first.hit.t + distance / std::abs(normal.dot(ray.direction));
+  rest.t_max =
+      first.hit.t + scene.touch_distance(first.hit.point, first.shape) / std::abs(normal.dot(ray.direction));
   std::vector<ExactHit> met{first};
   double spread = 0;
   for (std::uint32_t i = 0; i < scene.shapes.size() && met.size() < TouchingSurfaces::kMost; ++i) {
     const auto hit = i == first.shape ? std::nullopt : intersect(scene.shapes[i].shape, rest, nearest);
     if (!hit || std::abs(hit->normal.dot(normal)) <= TouchingSurfaces::kParallel) continue;
     const double apart = std::abs((hit->point - first.hit.point).dot(normal));
-    if (apart > distance) continue;
+    if (apart > scene.touch_distance(first.hit.point, first.shape, i)) continue;
     spread = std::max(spread, apart);
     met.push_back({*hit, i});
   }

@@ -8,6 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "scene/extent.h"
 #include "transport/light/light_tracer.h"
 
 namespace abbe {
@@ -17,19 +21,73 @@ double scene_radius(const Scene& scene) {
   return scene.bounds.isEmpty() ? 1.0 : std::max(scene.bounds.size().length() / 2, 1e-12);
 }
 
-// The sphere around all specular shapes, as what photons are aimed at.
-Imath::Box3d specular_bounds(const Scene& scene) {
+bool is_filled(const Material& material) {
+  return interior(material) != nullptr || matter(material) != nullptr;
+}
+
+// Around all shapes that are not far and whose material `holds`, as what photons are aimed at.
+template <typename Holds>
+Imath::Box3d bounds_where(const Scene& scene, Holds holds) {
   Imath::Box3d box;
   for (const ShapeInstance& shape : scene.shapes)
-    if (lobes(scene.materials[shape.material]).delta) box.extendBy(bounds(shape.shape));
+    if (!shape.far && holds(scene.materials[shape.material])) box.extendBy(bounds(shape.shape));
   return box;
 }
 
-Imath::V3f center_of(const Light& light, const Scene& scene) {
-  if (const auto* point = std::get_if<PointLight>(&light.kind)) return point->position;
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->position;
-  const auto& area = std::get<AreaLight>(light.kind);
-  return Imath::V3f(bounds(scene.shapes[area.shape].shape).center());
+Imath::Box3d bounds_of(const Light& light, const Scene& scene) {
+  if (const Imath::V3f* at = place(light)) return Imath::Box3d(Imath::V3d(*at));
+  return bounds(scene.shapes[std::get<AreaLight>(light.kind).shape].shape);
+}
+
+// Of a light that is far: how far it is from the middle of the scene, and how large.
+struct FarAway {
+  Imath::V3d center;
+  double distance;
+  double radius;
+};
+std::optional<FarAway> far_away(const Light& light, const Scene& scene) {
+  if (light.at_infinity() || !scene.is_far(light)) return std::nullopt;
+  const Imath::Box3d box = bounds_of(light, scene);
+  return FarAway{box.center(), box.center().length(), box.size().length() / 2};
+}
+
+// For a light that is far or at infinity; nothing for the others.
+std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const Imath::Box3d& box) {
+  const Imath::V3f center(box.isEmpty() ? Imath::V3d(0) : box.center());
+  const double radius = box.isEmpty() ? 1 : box.size().length() / 2;
+  if (const auto* beam = std::get_if<DirectionalLight>(&light.kind))
+    return Aim::from_afar(-beam->towards, 1, center, radius);
+  if (const auto* sun = std::get_if<SunLight>(&light.kind))
+    return Aim::from_afar(-sun->towards, 1 - static_cast<double>(sun->cap), center, radius);
+  const auto lamp = far_away(light, scene);
+  if (!lamp) return std::nullopt;
+  const double sine = (lamp->radius + radius) / lamp->distance;
+  return Aim::from_afar(Imath::V3f(-lamp->center.normalized()), std::sqrt(std::max(0.5, 1 - sine * sine)),
+                        center, radius);
+}
+
+// Photons from afar are sent through what is near, so that they meet nothing that is far; and they start
+// outside of all that may bend them, so that they are no finer than floats there.
+void refuse_for_photons(const Scene& scene, const std::vector<bool>& traced, bool light_only) {
+  constexpr double kSmallest = 1e-5;  // of a radian: less of the view than this may go without caustics
+  bool from_afar = false;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    from_afar = from_afar || (traced[i] && (scene.lights[i].at_infinity() || scene.is_far(scene.lights[i])));
+  if (!from_afar) return;
+  for (const ShapeInstance& shape : scene.shapes) {
+    const Imath::Box3d box = bounds(shape.shape);
+    const double size = box.size().length();
+    const Material& material = scene.materials[shape.material];
+    const bool met = lobes(material).delta || (light_only && shape.light < 0);
+    const bool far = shape.far && met && size > kSmallest * box.center().length();
+    const bool large = !shape.far && (met || is_filled(material)) && size > 2 * scene.far_from_m;
+    if (far || large)
+      throw Error(ErrorCode::scene, shape.name,
+                  fmt::format("photons of a light from afar cannot light a shape {:g} m across, {:g} m from "
+                              "the middle of the scene, beside what is {:g} m from the camera: --integrator "
+                              "path renders it",
+                              size, box.center().length(), scene.far_from_m / Extent::kGap));
+  }
 }
 
 // Aims cost half a megabyte each, so that of very many traced lights only the strongest have one; the others
@@ -37,17 +95,27 @@ Imath::V3f center_of(const Light& light, const Scene& scene) {
 constexpr std::ptrdiff_t kMostAims = 128;
 
 std::vector<Aim> make_aims(const Scene& scene, const std::vector<double>& traced_powers, bool light_only) {
-  const Imath::Box3d box = specular_bounds(scene);
+  const Imath::Box3d box = bounds_where(scene, [](const Material& m) { return lobes(m).delta; });
+  const Imath::Box3d bends =
+      light_only ? scene.bounds
+                 : bounds_where(scene, [](const Material& m) { return lobes(m).delta || is_filled(m); });
   std::vector<Aim> aims(scene.lights.size());
+  for (std::size_t i = 0; i < aims.size(); ++i)
+    if (traced_powers[i] > 0)
+      if (auto aim = aim_from_afar(scene, scene.lights[i], bends)) aims[i] = std::move(*aim);
   if (light_only || box.isEmpty() || aims.empty()) return aims;
   std::vector<double> strongest(traced_powers);
   const auto least = strongest.begin() + std::min<std::ptrdiff_t>(kMostAims, std::ssize(strongest)) - 1;
   std::nth_element(strongest.begin(), least, strongest.end(), std::greater<>());
   std::ptrdiff_t count = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (traced_powers[i] > 0 && traced_powers[i] >= *least && count++ < kMostAims)
-      aims[i] = Aim(center_of(scene.lights[i], scene), Imath::V3f(box.center()),
-                    static_cast<float>(box.size().length() / 2));
+    if (traced_powers[i] > 0 && traced_powers[i] >= *least && count++ < kMostAims) {
+      if (scene.lights[i].at_infinity() || scene.is_far(scene.lights[i]))
+        aims[i].guide();
+      else
+        aims[i] = Aim(Imath::V3f(bounds_of(scene.lights[i], scene).center()), Imath::V3f(box.center()),
+                      static_cast<float>(box.size().length() / 2));
+    }
   return aims;
 }
 
@@ -93,24 +161,38 @@ Emissions emissions_of(const Scene& scene) {
   return emissions;
 }
 
-// A bright pixel's value to within a few orders of magnitude: the strongest light filling the view, or
-// shining from a scene's size away.
+// What a pixel sees of a light, over its emission, to within a few orders of magnitude: the light fills the
+// view, or shines from a scene's size away. Of a far lamp that is half way between its radiance and what it
+// lights.
+double strength(const Scene& scene, const Light& light) {
+  const auto lamp = far_away(light, scene);
+  if (place(light) != nullptr) return std::pow(lamp ? lamp->distance : scene_radius(scene), -2);
+  return lamp ? std::min(1.0, lamp->radius / lamp->distance) : 1;
+}
+
+// A bright pixel's value to within a few orders of magnitude, of the strongest light.
 double nominal_value(const Scene& scene, const Emissions& emissions) {
   const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
                           static_cast<float>(scene.camera.height) / 2);
   const double weight =
       static_cast<double>(sample_ray(scene.camera, center, {0.5F, 0.5F}).weight) * scene.exposure_s;
-  const double radius = scene_radius(scene);
   double nominal = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    nominal = std::max(nominal, emissions.seen[i] / (scene.lights[i].is_delta() ? radius * radius : 1));
+    nominal = std::max(nominal, emissions.seen[i] * strength(scene, scene.lights[i]));
   return nominal * weight;
+}
+
+// The share of a light's power that comes to the scene.
+double arriving_share(const Scene& scene, const Light& light) {
+  const auto lamp = far_away(light, scene);
+  return lamp ? std::min(1.0, std::pow(scene_radius(scene) / lamp->distance, 2)) : 1;
 }
 
 std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& emissions) {
   std::vector<double> powers;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene)));
+    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene)) *
+                     arriving_share(scene, scene.lights[i]));
   return powers;
 }
 
@@ -168,6 +250,7 @@ Plan make_plan(const Scene& scene, int threads) {
         light_active && !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
     if (traced[i]) traced_powers[i] = powers[i];
   }
+  refuse_for_photons(scene, traced, light_only);
   Plan plan{scene,
             make_wavelengths(scene, emissions),
             LightPicker(powers),

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <ImathBox.h>
+#include <ImathVec.h>
+
+#include "scene/camera/camera.h"
+#include "scene/shapes/shape.h"
+
+namespace abbe {
+
+struct ShapeInstance;
+
+/// Where the floats of a render are to be finest, and from where on they are not needed to be fine.
+///
+/// Shapes are taken in the order of their furthest points, seen from the camera. Those before the first gap
+/// of a factor `kGap` are near: what reaches further does not decide where the origin is. Of that, what also
+/// lies wholly beyond the gap is far; the rest, such as the ground below or a dome above, is large.
+struct Extent {
+  static constexpr double kGap = 1000;
+
+  Imath::Box3d near;    ///< Around what is near; empty where nothing is, as around a meter of a far lamp.
+  double far_from = 0;  ///< What lies wholly beyond this distance from the camera [m] is far.
+};
+/// For a camera of a lens the shapes it comes to first are near, however far it stands; for a meter, which is
+/// lit where it is, they are so only if it sees them larger than 1/`kGap`.
+[[nodiscard]] Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes);
+
+/// From a point to the nearest point of a box, 0 within it.
+[[nodiscard]] double distance_to(const Imath::Box3d& box, const Imath::V3d& point);
+
+[[nodiscard]] inline double largest_coordinate(const Imath::V3d& point) {
+  return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+}
+/// 0 of an empty box.
+[[nodiscard]] inline double largest_coordinate(const Imath::Box3d& box) {
+  return box.isEmpty() ? 0 : std::max(largest_coordinate(box.min), largest_coordinate(box.max));
+}
+
+/// How far apart floats of this size are at most.
+[[nodiscard]] inline double float_step(double size) {
+  return static_cast<double>(std::numeric_limits<float>::epsilon()) * size;
+}
+
+}  // namespace abbe

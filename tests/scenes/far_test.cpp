@@ -1,0 +1,222 @@
+// Light and things from afar: lamps up to the distance of the sun, parallel beams, and what they leave of
+// what is near.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "materials/material.h"
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3d;
+
+constexpr double kPi = std::numbers::pi;
+const V3d kTowards(0.48, 0.6, 0.64);
+constexpr const char* kBand = R"("emission": {"spectrum": {"band": [500, 600]}, "irradiance": 1000)";
+
+std::string numbers(const V3d& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x, v.y, v.z);
+}
+
+// Lamps of that size at a distance along `kTowards`, which irradiate a surface that faces them by 1000 W/m^2.
+std::vector<std::string> lamps(double distance, double radius) {
+  const V3d center = kTowards * distance;
+  const V3d u = V3d(0, 0, 1).cross(kTowards).normalized() * radius;
+  const V3d v = u.cross(kTowards);
+  const std::string emission = fmt::format("{}, \"distance\": {:.17g}}}", kBand, distance);
+  return {fmt::format(R"({{"sphere": {{"center": {}, "radius": {:.17g}}}, {}}})", numbers(center), radius,
+                      emission),
+          fmt::format(R"({{"disc": {{"center": {}, "normal": {}, "radius": {:.17g}}}, {}}})", numbers(center),
+                      numbers(-kTowards), radius, emission),
+          fmt::format(R"({{"quad": {{"corner": {}, "edge_u": {}, "edge_v": {}}}, {}}})",
+                      numbers(center - u - v), numbers(u * 2), numbers(v * 2), emission)};
+}
+const std::string kBeam =
+    fmt::format(R"({{"directional": {{"towards": {}}}, {}}}}})", numbers(kTowards), kBand);
+const std::string kSun = fmt::format(R"({{"sun": {{"towards": {}}}, {}}}}})", numbers(kTowards), kBand);
+
+// A white card seen squarely, and some light.
+std::string card(const std::string& light, const std::string& more = "") {
+  return fmt::format(R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 20}}, "from": [0, 0, 3], "to": [0, 0, 0], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [8, 8], "response": "energy", "channels": {{"all": {{"band": [500, 600]}}}}}},
+    "materials": {{"white": {{"diffuse": {{"reflectance": 0.8}}}}, "air": {{"dielectric": {{"ior": 1}}}}, "glass": {{"dielectric": {{"ior": 1.5}}}}}},
+    "shapes": [{{"quad": {{"corner": [-1, -1, 0], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}}, "material": "white"}}{}],
+    "lights": [{}], "render": {{"samples": 64}}}})",
+                     more, light);
+}
+double mean(const Scene& scene) {
+  const Film film = render(scene, {}).film;
+  return test::region(film, 0, 0, 0, film.width(), film.height()).mean;
+}
+double mean(const std::string& text) {
+  return mean(test::load_text(text));
+}
+
+// What light sampling says of a surface that faces the lamp, on a grid of strata; every sample is seen, and
+// where the lamp looks larger than the steps of float directions, met and counted by the density of
+// scattering too.
+void expect_irradiance(const Scene& scene, bool met, const std::string& what) {
+  const Imath::V3f point(-scene.origin_m);
+  const Light& light = scene.lights[0];
+  constexpr int kSide = 64;
+  double sum = 0;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      const auto s =
+          sample_light(light, scene.shapes, point,
+                       {(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide});
+      ASSERT_TRUE(s) << what;
+      sum += static_cast<double>(s->factor) / static_cast<double>(s->pdf) * V3d(s->wi).dot(kTowards);
+      ASSERT_FALSE(scene.occluded(point, s->end)) << what;
+      const auto hit = scene.intersect({point, s->wi});
+      if (!met || !hit) continue;  // a rim
+      ASSERT_EQ(scene.shapes[hit->shape].light, 0) << what;
+      ASSERT_NEAR(light_pdf(light, scene.shapes, point, s->wi, hit->point, hit->normal) / s->pdf, 1, 1e-5)
+          << what;
+    }
+  EXPECT_NEAR(sum / (kSide * kSide) * light.emission.curve().integral() / 1000, 1, 1e-5) << what;
+}
+
+TEST(Far, LampsIrradiateFromAnyDistance) {
+  for (const double distance : {1.0, 1e3, 1e6, 1e8, 1.5e11})
+    for (const double looks : {4.65e-3, 1e-5, 1 / distance}) {
+      if (looks > 0.01) continue;
+      for (const std::string& lamp : lamps(distance, looks * distance))
+        expect_irradiance(test::load_text(card(lamp)), looks > 1e-3, lamp);
+    }
+}
+
+TEST(Far, ACardUnderAFarLampIsAsBrightAsInAParallelBeam) {
+  const double beam = mean(card(kBeam));
+  // Through the lens: E rho cos / pi, as what a dome of that radiance would make of the card.
+  const double dome =
+      mean(card(R"({"environment": {}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})"));
+  EXPECT_NEAR(beam / dome / (1000 * kTowards.z / kPi), 1, 2e-3);
+  EXPECT_NEAR(mean(card(kSun)) / beam, 1, 1e-4);
+  for (const double distance : {1e6, 1e8, 1.5e11})
+    for (const std::string& lamp : lamps(distance, 1e-5 * distance))
+      EXPECT_NEAR(mean(card(lamp)) / beam, 1, 1e-5) << lamp;
+}
+
+TEST(Far, ASunIsADiscOfItsRadiance) {
+  const auto seen = [](const std::string& light, const char* to) {
+    return mean(test::load_text(fmt::format(
+        R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 0.1}}, "from": [0, 0, 0], "to": {}, "up": [0, 1, 0]}},
+      "sensor": {{"resolution": [2, 2], "channels": {{"all": {{"band": [500, 600]}}}}}}, "lights": [{}], "render": {{"samples": 16}}}})",
+        to, light)));
+  };
+  const double dome = seen(
+      R"({"environment": {}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})", "[0, 0, 1]");
+  const double sine = std::sin(0.533 / 2 * kPi / 180);
+  EXPECT_NEAR(seen(kSun, "[0.48, 0.6, 0.64]") / dome / (1000 / (kPi * sine * sine)), 1, 1e-5);
+  EXPECT_EQ(seen(kSun, "[0.48, 0.6, 0.65]"), 0) << "beside it";
+  EXPECT_EQ(seen(kBeam, "[0.48, 0.6, 0.64]"), 0) << "a beam is not seen";
+}
+
+// Photons are aimed at a pane that does not show, and must bring what light sampling finds without it: from
+// lamps near and far, and from infinity.
+TEST(Far, PhotonsOfEveryLightBringAllOfIt) {
+  const std::string pane =
+      R"(, {"quad": {"corner": [-6, -6, 1.5], "edge_u": [13, 0, 0], "edge_v": [0, 13, 0]}, "material": "air"})";
+  // From below the pane.
+  const Override from{"/camera/from", "[0, -2.5, 1]"};
+  std::vector<std::string> lights = lamps(1e8, 4.65e5);
+  lights.push_back(kBeam);
+  lights.push_back(kSun);
+  lights.push_back(
+      R"({"sun": {"towards": [0.1, 0.2, 1], "angular_diameter_deg": 14}, "emission": {"spectrum": {"band": [500, 600]}, "irradiance": 1000}})");
+  lights.push_back(
+      R"({"point": {"at": [2e6, 0, 3e6]}, "emission": {"spectrum": {"band": [500, 600]}, "intensity": 1e15}})");
+  lights.push_back(
+      R"({"spot": {"at": [2e6, 0, 3e6], "direction": [-2, 0, -3], "half_angle_deg": 1}, "emission": {"spectrum": {"band": [500, 600]}, "intensity": 1e15}})");
+  for (const std::string& light : lights) {
+    const Scene with = test::load_text(card(light, pane), {from, {"/render/samples", "1024"}});
+    const RenderResult traced = render(with, {});
+    ASSERT_GT(traced.stats.paths, 1024U * 64) << "photons were traced";
+    const test::Region all = test::region(traced.film, 0, 0, 0, 8, 8);
+    EXPECT_NEAR(all.mean / mean(test::load_text(card(light), {from})), 1, 3e-3) << light;
+  }
+}
+
+// A ball of glass throws a caustic on the card: by chance, and by photons.
+TEST(Far, CausticsOfASunAgree) {
+  const std::string ball = R"(, {"sphere": {"center": [0, 0, 0.6], "radius": 0.4}, "material": "glass"})";
+  const auto caustic = [&](const std::string& light, const char* integrator, int samples) {
+    Scene scene = test::load_text(card(light, ball), {{"/render/integrator", integrator},
+                                                      {"/sensor/resolution", "[32, 32]"},
+                                                      {"/render/samples", std::to_string(samples)}});
+    scene.needs.light_tracing = true;
+    scene.needs.light_is_traced.assign(1, true);
+    return render(scene, {}).film;
+  };
+  for (
+      const std::string& light :
+      {std::string(
+           R"({"sun": {"towards": [0.3, 0.2, 1], "angular_diameter_deg": 40}, "emission": {"spectrum": {"band": [500, 600]}, "irradiance": 1}})"),
+       std::string(
+           R"({"sphere": {"center": [3e7, 2e7, 1e8], "radius": 3e7}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})")}) {
+    const test::Comparison c =
+        test::compare_regions(caustic(light, "path", 1024), caustic(light, "auto", 256), 4);
+    EXPECT_LT(c.largest_z, 5.6) << light;
+    EXPECT_NEAR(c.ratio, 1, 0.003) << light;
+  }
+}
+
+// Radius on the screen of `rainbow.json` [mm] where the bow of rays with one inner reflection ends: rays turn
+// around the middle of the drop, entering at the angle of incidence i and leaving after two chords of pi - 2
+// r each.
+double bow_edge(double n) {
+  constexpr double kDrop = 10;
+  constexpr double kScreen = 200;
+  double largest = 0;
+  for (int step = 1; step < 100000; ++step) {
+    const double i = std::asin(step / 100000.0);
+    const double r = std::asin(step / 100000.0 / n);
+    const double back = 4 * r - 2 * i;  // from the way back
+    const double leaves = 4 * r - i;    // where, about the middle, from the way it came
+    largest =
+        std::max(largest, kDrop * std::sin(leaves) + (kScreen - kDrop * std::cos(leaves)) * std::tan(back));
+  }
+  return largest;
+}
+
+TEST(Far, ADropInAParallelBeamThrowsTheBowWhereDescartesPutsIt) {
+  for (const double nm : {400.0, 550.0, 700.0}) {
+    const Scene scene = test::load(
+        "rainbow.json",
+        {{"/lights/0",
+          fmt::format(
+              R"({{"directional": {{"towards": [0, 0, 1]}}, "emission": {{"lines": [{{"nm": {}, "width_nm": 0.1, "power": 1}}], "irradiance": 1}}}})",
+              nm)},
+         {"/camera/pinhole/fov_deg", "90"},
+         {"/sensor", R"({"resolution": [201, 201], "channels": {"all": 1}})"},
+         {"/render/samples", "24"}});
+    const Film film = render(scene, {}).film;
+    // Millimetres of the screen per pixel, and the mean over rings of 1 mm around the middle of the drop.
+    const double scale = 400 / 201.0;
+    std::vector<double> sum(300);
+    std::vector<double> count(300);
+    for (int y = 0; y < 201; ++y)
+      for (int x = 0; x < 201; ++x) {
+        const auto ring = static_cast<std::size_t>(std::hypot((x - 100) * scale, (100 - y) * scale - 30) / 2);
+        sum.at(ring) += film.mean(static_cast<std::size_t>(y * 201 + x), 0);
+        ++count.at(ring);
+      }
+    std::size_t brightest = 40;
+    for (std::size_t ring = 40; ring < 100; ++ring)
+      if (sum[ring] / count[ring] > sum[brightest] / count[brightest]) brightest = ring;
+    const double n = interior(scene.materials[scene.shapes[0].material])->n(nm);
+    const double edge = bow_edge(n);
+    EXPECT_NEAR(2 * static_cast<double>(brightest) + 1, edge, 2.5) << nm;
+    const auto ring_beyond = static_cast<std::size_t>(edge / 2) + 4;
+    EXPECT_LT(sum[ring_beyond] / count[ring_beyond], 0.05 * sum[brightest] / count[brightest])
+        << "Alexander's band";
+  }
+}
+
+}  // namespace
+}  // namespace abbe

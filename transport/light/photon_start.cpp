@@ -1,0 +1,73 @@
+#include "transport/light/photon_start.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/shapes/basis.h"
+
+namespace abbe {
+namespace {
+
+bool shines(const Light& light, const EmissionPoint& from, const Imath::V3f& wi) {
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->lights(wi);
+  return emits_towards(light, from.normal, wi);
+}
+
+PhotonRay start_near(const Plan& plan, const LightPicker::Pick& pick, const PhotonRandom& u) {
+  const Light& light = plan.scene.lights[pick.light];
+  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start);
+  const AimedDirection aimed = plan.aims[pick.light].sample(light, from, u.choice, u.aim);
+  if (!shines(light, from, aimed.wi)) return {{}, 0, aimed.cell};
+  const bool area = light.is<AreaLight>();
+  const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
+  return {area ? spawn(from.point, from.normal, aimed.wi) : Ray{from.point, aimed.wi},
+          cosine / (pick.probability * from.pdf_area * aimed.pdf), aimed.cell};
+}
+
+// The way through a point of the target, from outside of the sphere it stands for.
+Ray arriving(const Aim& aim, const AimedPoint& at, const Imath::V3f& direction) {
+  return {at.point - direction * (2 * aim.half_size()), direction};
+}
+
+PhotonRay start_far(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
+                    const PhotonRandom& u) {
+  const Light& light = plan.scene.lights[pick.light];
+  const Aim& aim = plan.aims[pick.light];
+  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start);
+  const AimedPoint at = aim.point(u.aim);
+  const Imath::V3d way = Imath::V3d(at.point) - Imath::V3d(from.point);
+  const double distance = way.length();
+  const Imath::V3f wi(way * (1 / distance));
+  const Ray ray = arriving(aim, at, wi);
+  if (!shines(light, from, wi)) return {ray, 0, at.cell};
+  const bool area = light.is<AreaLight>();
+  if (caster.occluded(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point))
+    return {ray, 0, at.cell};
+  const float cosines = (area ? std::abs(from.normal.dot(wi)) : 1.0F) * std::abs(aim.axis().dot(wi));
+  const double density = static_cast<double>(pick.probability * from.pdf_area) * static_cast<double>(at.pdf) *
+                         distance * distance;
+  return {ray, static_cast<float>(static_cast<double>(cosines) / density), at.cell};
+}
+
+PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
+                            const PhotonRandom& u) {
+  const Light& light = plan.scene.lights[pick.light];
+  const Aim& aim = plan.aims[pick.light];
+  const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start);
+  const AimedPoint at = aim.point(u.aim);
+  const Ray ray = arriving(aim, at, -from.wi);
+  if (caster.occluded(Ray{ray.origin, from.wi})) return {ray, 0, at.cell};
+  const float cosine = std::abs(aim.axis().dot(from.wi));
+  return {ray, cosine / (pick.probability * at.pdf * from.pdf), at.cell};
+}
+
+}  // namespace
+
+PhotonRay start_photon(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
+                       const PhotonRandom& u) {
+  const Light& light = plan.scene.lights[pick.light];
+  if (light.at_infinity()) return start_at_infinity(plan, caster, pick, u);
+  return plan.scene.is_far(light) ? start_far(plan, caster, pick, u) : start_near(plan, pick, u);
+}
+
+}  // namespace abbe
