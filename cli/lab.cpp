@@ -46,8 +46,10 @@ Json rows_of(const LabReport& report) {
                     {"R_error", errors(at.reflected)},
                     {"T", means(at.transmitted)},
                     {"T_error", errors(at.transmitted)},
-                    {"reflected_Lab", at.reflected_color},
-                    {"transmitted_Lab", at.transmitted_color},
+                    {"reflected_XYZ", at.reflected_color.xyz},
+                    {"reflected_Lab", at.reflected_color.lab},
+                    {"transmitted_XYZ", at.transmitted_color.xyz},
+                    {"transmitted_Lab", at.transmitted_color.lab},
                     {"sampling_p", at.sampling_p},
                     {"spread", at.spread_integral}});
   return rows;
@@ -73,6 +75,10 @@ std::string cells(const std::vector<Estimate>& estimates) {
   return all;
 }
 
+std::string cells(const std::array<double, 3>& color) {
+  return fmt::format("{:>7.2f}{:>7.2f}{:>7.2f}", color[0], color[1], color[2]);
+}
+
 void print_table(const Json& answer, const LabOptions& options, const LabReport& report) {
   Json head = answer;
   head.erase("angles");
@@ -83,10 +89,11 @@ void print_table(const Json& answer, const LabOptions& options, const LabReport&
     for (const double nm : options.at_nm) all += fmt::format("{:>10}", fmt::format("{}({:g})", what, nm));
     return all;
   };
-  fmt::print("\n{:>7}{}{}   L*     a*     b*   sampling p\n", "angle", columns("R"), columns("T"));
+  fmt::print("\n{:>7}{}{}      X      Y      Z     L*     a*     b*   sampling p\n", "angle", columns("R"),
+             columns("T"));
   for (const LabAngle& at : report.angles)
-    fmt::print("{:>7g}{}{}{:>7.2f}{:>7.2f}{:>7.2f}   {}\n", at.angle_deg, cells(at.reflected),
-               cells(at.transmitted), at.reflected_color[0], at.reflected_color[1], at.reflected_color[2],
+    fmt::print("{:>7g}{}{}{}{}   {}\n", at.angle_deg, cells(at.reflected), cells(at.transmitted),
+               cells(at.reflected_color.xyz), cells(at.reflected_color.lab),
                report.lobes.spread ? fmt::format("{:.3f}", at.sampling_p) : "-");
 }
 

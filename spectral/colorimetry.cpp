@@ -41,18 +41,35 @@ double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange rang
   return total;
 }
 
-XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
+std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer, SumRange range) {
   const ColorMatching& cmf = color_matching(observer);
   const double k = 100 / sum_product(illuminant, cmf.y, range);
-  return {k * sum_product(illuminant, reflectance, cmf.x, range),
-          k * sum_product(illuminant, reflectance, cmf.y, range),
-          k * sum_product(illuminant, reflectance, cmf.z, range)};
+  std::vector<XYZ> weights;
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
+    const double power = k * illuminant(nm);
+    weights.push_back({power * cmf.x(nm), power * cmf.y(nm), power * cmf.z(nm)});
+  }
+  return weights;
 }
 
-std::array<double, 2> chromaticity(const XYZ& xyz) {
+XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
+  XYZ sum{};
+  int nm = range.low_nm;
+  for (const XYZ& weight : tristimulus_weights(illuminant, observer, range)) {
+    const double share = reflectance(nm++);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight[k] * share;
+  }
+  return sum;
+}
+
+Chromaticity chromaticity(const XYZ& xyz) {
   const double total = xyz[0] + xyz[1] + xyz[2];
   if (total == 0) return {0, 0};
   return {xyz[0] / total, xyz[1] / total};
+}
+
+Chromaticity chromaticity(const Curve& light) {
+  return chromaticity(tristimulus(light, Curve(1.0), Observer::cie1931));
 }
 
 XYZ lab_to_xyz(const Lab& lab, const XYZ& white) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "io/diagnostics.h"
 #include "spectral/curve.h"
@@ -35,13 +36,23 @@ struct SumRange {
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, SumRange range = {});
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range = {});
 
-/// Tristimulus values of a reflectance under an illuminant, Y = 100 for the perfect diffuser [CIE15,
-/// sec. 7.1].
+/// What each nanometre of the range, from its low end on, adds to the tristimulus values of the perfect
+/// diffuser under an illuminant, Y = 100 in all [CIE15, sec. 7.1].
+[[nodiscard]] std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer,
+                                                   SumRange range = {});
+
+/// Tristimulus values of a reflectance under an illuminant, Y = 100 for the perfect diffuser: the sum of
+/// `tristimulus_weights` times the reflectance.
 [[nodiscard]] XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer,
                               SumRange range = {});
 
+/// CIE 1931 chromaticity coordinates.
+using Chromaticity = std::array<double, 2>;
+
 /// Chromaticity coordinates x, y; {0, 0} for black.
-[[nodiscard]] std::array<double, 2> chromaticity(const XYZ& xyz);
+[[nodiscard]] Chromaticity chromaticity(const XYZ& xyz);
+/// Those of a light for the CIE 1931 observer; no numbers for one that nobody sees.
+[[nodiscard]] Chromaticity chromaticity(const Curve& light);
 
 /// CIE 1976 L*a*b* relative to `white`, both in the same scale [CIE15, sec. 8.2.1].
 template <typename T>

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 
+#include "calibration/chart/delta_e.h"
 #include "cli/query.h"
 #include "io/picture.h"
+#include "spectral/library.h"
 #include "tests/cli/ask.h"
 #include "tests/cli/program.h"
 
@@ -65,6 +67,41 @@ TEST(Lab, PaintHasItsReflectanceAndColour) {
   }
   EXPECT_EQ(lab["reciprocity_error_max"], 0);
   EXPECT_NEAR(lab["energy_max"].get<double>(), 0.5, 1e-6);
+}
+
+// Fringes of 20 nm under the lines of a fluorescent lamp: a sum at 10 nm was off by 7.7.
+TEST(Lab, ColoursAreSumsAtOneNanometre) {
+  cli::LabOptions options = about(R"({"film": {"layers": [{"ior": "water", "thickness_nm": 5000}]}})");
+  options.illuminant = "FL11";
+  options.angles_deg = {0, 30};
+  const json lab = ask(cli::lab, options);
+  options.at_nm.clear();
+  for (int nm = 380; nm <= 780; ++nm) options.at_nm.push_back(nm);
+  const json spectrum = ask(cli::lab, options);
+  Diagnostics diagnostics;
+  const Curve light = load_illuminant("FL11", {}, diagnostics)->curve;
+  for (std::size_t angle : {0U, 1U})
+    for (const char* side : {"reflected", "transmitted"}) {
+      std::vector<Knot> knots;
+      for (std::size_t i = 0; i < options.at_nm.size(); ++i)
+        knots.push_back(
+            {options.at_nm[i], spectrum["angles"][angle][*side == 'r' ? "R" : "T"][i].get<double>()});
+      const XYZ xyz = tristimulus(light, Curve(std::move(knots)), Observer::cie1931);
+      const Lab exact = xyz_to_lab(xyz, tristimulus(light, Curve(1.0), Observer::cie1931));
+      const json& row = lab["angles"][angle];
+      const std::string name = side;
+      EXPECT_LT(delta_e_2000(row[name + "_Lab"].get<Lab>(), exact), 1e-4) << side;
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(row[name + "_XYZ"][k].get<double>(), xyz[k], 1e-4);
+    }
+}
+
+TEST(Lab, WhatReflectsAllHasTheXyzOfTheLight) {
+  cli::LabOptions options = about(R"({"mirror": {"reflectance": 1}})");
+  options.illuminant = "A";
+  options.angles_deg = {45};
+  const json xyz = ask(cli::lab, options)["angles"][0]["reflected_XYZ"];
+  const json light = ask(cli::query_color, {"A"})["XYZ"];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(xyz[k].get<double>(), light[k].get<double>(), 1e-4);
 }
 
 TEST(Lab, TakesAMaterialOutOfAScene) {

@@ -13,22 +13,16 @@ namespace {
 
 constexpr int kDisc = 96;  // edge of a disc [pixels]
 
-// The material at packets of wavelengths that cover the visible, with what each lane adds to XYZ, 1 for the
-// perfect mirror's Y.
+// The material at packets of the visible wavelengths, with what each lane adds to XYZ.
 class Eye {
  public:
-  Eye(const Material& material, const LabSettings& settings) {
-    std::vector<double> visible;
-    for (double nm = 390; nm <= 730; nm += 10) visible.push_back(nm);
+  Eye(const Material& material, const LabSettings& settings)
+      : weights_(tristimulus_weights(settings.illuminant, settings.observer)) {
+    const std::vector<double> visible = visible_wavelengths();
     for (std::size_t first = 0; first < visible.size(); first += kLanes)
-      packets_.push_back(packet_of(visible, first));
-    for (const SampledSpectrum& packet : packets_) models_.push_back(make_bsdf(material, {packet}));
-    const ColorMatching& eye = color_matching(settings.observer);
-    for (const double nm : visible) {
-      const double light = settings.illuminant(nm);
-      weights_.push_back({light * eye.x(nm), light * eye.y(nm), light * eye.z(nm)});
-      for (std::size_t k = 0; k < 3; ++k) white_[k] += weights_.back()[k];
-    }
+      models_.push_back(make_bsdf(material, {packet_of(visible, first)}));
+    for (const XYZ& weight : weights_)
+      for (std::size_t k = 0; k < 3; ++k) white_[k] += weight[k];
   }
 
   // Of f cos, under the display's white.
@@ -46,7 +40,6 @@ class Eye {
   }
 
  private:
-  std::vector<SampledSpectrum> packets_;
   std::vector<Bsdf> models_;
   std::vector<XYZ> weights_;
   XYZ white_{};

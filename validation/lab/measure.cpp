@@ -20,7 +20,7 @@ Albedo exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
   return all;
 }
 
-// Reflectance and transmittance at many wavelengths, packet by packet.
+// Reflectance and transmittance at many wavelengths, packet by packet, each by random numbers of its own.
 struct Spectra {
   std::vector<Estimate> reflected, transmitted;
 };
@@ -30,8 +30,9 @@ Spectra spectra(const Material& material, const std::vector<double>& wavelengths
   for (std::size_t first = 0; first < wavelengths_nm.size(); first += kLanes) {
     const SampledSpectrum packet = packet_of(wavelengths_nm, first);
     const Bsdf bsdf = make_bsdf(material, {packet});
-    const Albedo part = scatters(bsdf) ? albedo(sampler_of(bsdf, wo, TransportMode::power), wo, samples)
-                                       : exact_albedo(bsdf, wo);
+    const Albedo part = scatters(bsdf)
+                            ? albedo(sampler_of(bsdf, wo, TransportMode::power), wo, samples, first / kLanes)
+                            : exact_albedo(bsdf, wo);
     for (std::size_t j = 0; j < kLanes && first + j < wavelengths_nm.size(); ++j) {
       all.reflected.push_back(part.reflected[j]);
       all.transmitted.push_back(part.transmitted[j]);
@@ -40,24 +41,21 @@ Spectra spectra(const Material& material, const std::vector<double>& wavelengths
   return all;
 }
 
-Curve curve_of(const std::vector<double>& wavelengths_nm, const std::vector<Estimate>& values) {
+LabColor color_of(const std::vector<Estimate>& visible, const LabSettings& settings) {
   std::vector<Knot> knots;
-  for (std::size_t i = 0; i < values.size(); ++i) knots.push_back({wavelengths_nm[i], values[i].mean});
-  return Curve(std::move(knots));
+  for (const double nm : visible_wavelengths()) knots.push_back({nm, visible[knots.size()].mean});
+  const XYZ xyz = tristimulus(settings.illuminant, Curve(std::move(knots)), settings.observer);
+  return {xyz, xyz_to_lab(xyz, tristimulus(settings.illuminant, Curve(1.0), settings.observer))};
 }
 
-Lab color_of(const Curve& spectrum, const LabSettings& settings) {
-  const XYZ white = tristimulus(settings.illuminant, Curve(1.0), settings.observer);
-  return xyz_to_lab(tristimulus(settings.illuminant, spectrum, settings.observer), white);
-}
-
+// A colour is a mean over wavelengths, so that few samples of each are enough.
 void add_colors(const Material& material, const Imath::V3f& wo, const LabSettings& settings, LabAngle& at) {
-  constexpr double kStep_nm = 10;
-  std::vector<double> visible;
-  for (double nm = SumRange{}.low_nm; nm <= SumRange{}.high_nm; nm += kStep_nm) visible.push_back(nm);
-  const Spectra found = spectra(material, visible, wo, std::max(settings.samples / 4, 256));
-  at.reflected_color = color_of(curve_of(visible, found.reflected), settings);
-  at.transmitted_color = color_of(curve_of(visible, found.transmitted), settings);
+  constexpr int kShare = 32;
+  constexpr int kLeast = 64;
+  const Spectra found =
+      spectra(material, visible_wavelengths(), wo, std::max(settings.samples / kShare, kLeast));
+  at.reflected_color = color_of(found.reflected, settings);
+  at.transmitted_color = color_of(found.transmitted, settings);
 }
 
 LabAngle measure_angle(const Material& material, const LabSettings& settings, double angle_deg) {
@@ -81,6 +79,12 @@ LabAngle measure_angle(const Material& material, const LabSettings& settings, do
 Imath::V3f incidence(const LabSettings& settings, double angle_deg) {
   const double cosine = std::cos(angle_deg * std::numbers::pi / 180);
   return direction_at(settings.from_inside ? -cosine : cosine, std::numbers::pi);
+}
+
+std::vector<double> visible_wavelengths() {
+  std::vector<double> visible;
+  for (int nm = SumRange{}.low_nm; nm <= SumRange{}.high_nm; ++nm) visible.push_back(nm);
+  return visible;
 }
 
 SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first) {

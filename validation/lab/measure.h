@@ -16,7 +16,13 @@ struct LabSettings {
   bool from_inside = false;                                   ///< Against the normal.
   Curve illuminant;                                           ///< Relative, of the colours.
   Observer observer = Observer::cie1931;
-  int samples = 1 << 13;  ///< Per angle and eight wavelengths.
+  int samples = 1 << 13;  ///< Per angle and eight of `wavelengths_nm`.
+};
+
+/// A colour in the light of the bench.
+struct LabColor {
+  XYZ xyz;  ///< Y = 100 for what sends on all of the beam.
+  Lab lab;  ///< Relative to that.
 };
 
 /// What a beam at one angle turns into.
@@ -24,8 +30,8 @@ struct LabAngle {
   double angle_deg;
   std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance, by wavelength.
   std::vector<Estimate> transmitted;  ///< The same of what passes.
-  Lab reflected_color;                ///< Of the hemisphere's light, relative to the perfect diffuser.
-  Lab transmitted_color;
+  LabColor reflected_color;           ///< Of the hemisphere's light.
+  LabColor transmitted_color;
   double sampling_p;       ///< Of chi-square, sampled against stated density; 1 where nothing spreads.
   double spread_integral;  ///< Of that density: the probability of leaving in no single direction.
 };
@@ -41,6 +47,8 @@ struct LabReport {
 
 /// Where the beam of an angle comes from: the side of -x.
 [[nodiscard]] Imath::V3f incidence(const LabSettings& settings, double angle_deg);
+/// The wavelengths of a colorimetric sum.
+[[nodiscard]] std::vector<double> visible_wavelengths();
 /// The packet of up to eight of the wavelengths from the `first` on; the last one fills up.
 [[nodiscard]] SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first);
 

@@ -94,7 +94,7 @@ std::string panel(const Material& material, const LabSettings& settings, const L
   const double bottom = kTop + kPanel;
   all += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"#888888\"/>\n",
                      x - kSwatch, bottom, 2 * kSwatch, kSwatch,
-                     css_color(display_code(linear_rgb(at.reflected_color))));
+                     css_color(display_code(linear_rgb(at.reflected_color.lab))));
   const std::string middle = "text-anchor=\"middle\"";
   all += svg_text(x, kTop, fmt::format("{:g}\u00b0", at.angle_deg), middle);
   return all + svg_text(x, bottom + kSwatch + 16,
