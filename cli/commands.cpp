@@ -151,7 +151,7 @@ void add_develop(CLI::App& app, Command& command) {
   options.add_option("--scene", sub->scene, "Scene whose camera and sensor look at a spectral image")
       ->type_name("SCENE");
   add_overrides(options, sub.options,
-                "Replace a value of the read-out, as /readout/bits=12; may be repeated");
+                "Replace a value of the read-out, as /readout/bits=12, or /output/white; may be repeated");
   add_parsed(options, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Seed of the noise (default: the render's)", "N");
   add_max_memory(options, sub.options);
@@ -167,6 +167,10 @@ void add_compare(CLI::App& app, Command& command) {
       ->type_name("SCENE");
   add_parsed(*sub.app, "--delta-e", sub->formula, one_of<DeltaE>({"2000", "94", "76"}),
              "Formula of colour difference (default 2000)", "2000|94|76");
+  sub.app
+      ->add_option("--white", sub->white,
+                   "What both images show as white, as output/white of a scene (default: what they tell)")
+      ->type_name("NAME|[X,Y]");
   sub.app->add_option("--maps", sub->maps, "Folder for maps and histograms of the differences")
       ->type_name("FOLDER");
   add_max_memory(*sub.app, sub.options);

@@ -8,12 +8,14 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
+#include "cli/white.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/picture.h"
 #include "scene/description/load.h"
 #include "validation/picture/difference_maps.h"
 #include "validation/statistics/chart_difference.h"
+#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {
@@ -97,13 +99,17 @@ Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
 
 // The figures of two images, and their maps if wanted.
 void compare_films(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
-  const Comparison c = compare_images(image, reference);
+  std::optional<Chromaticity> white;
+  if (!options.white.empty())
+    white = asked_white(options.white, recorded_white(reference) ? reference : image);
+  const Comparison c = compare_images(image, reference, white);
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;
   add_color(answer, "dE00", c.color);
   const std::optional<ColorDifference> color =
-      options.formula == DeltaE::cie2000 ? c.color : color_difference(image, reference, options.formula);
+      options.formula == DeltaE::cie2000 ? c.color
+                                         : color_difference(image, reference, options.formula, white);
   if (options.formula != DeltaE::cie2000) add_color(answer, key_of(options.formula), color);
   if (options.maps.empty()) return;
   answer["maps"] = write_maps(
@@ -118,6 +124,8 @@ int compare(const CompareOptions& options) {
                 "is compared with nothing: a reference or --chart is needed");
   if (options.reference.empty() && !options.maps.empty())
     throw Error(ErrorCode::usage, "--maps", "needs a reference");
+  if (options.reference.empty() && !options.white.empty())
+    throw Error(ErrorCode::usage, "--white", "needs a reference: a chart is seen in its scene's light");
   if (!options.maps.empty()) {
     std::error_code ignored;
     std::filesystem::create_directories(options.maps, ignored);

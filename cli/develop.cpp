@@ -13,6 +13,7 @@
 #include "cli/film_sensor.h"
 #include "cli/output_files.h"
 #include "cli/spectral.h"
+#include "cli/white.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/file_lock.h"
@@ -20,6 +21,7 @@
 #include "io/text.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
+#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {
@@ -98,14 +100,34 @@ struct Exposed {
   FilmSensor sensor;
 };
 
+constexpr const char* kWhitePointer = "/output/white";
+
+// The white asked for, the last of them, and what is left to ask for.
+struct Asked {
+  std::optional<std::string> white;
+  std::vector<Override> others;
+};
+Asked asked(const DevelopOptions& options) {
+  Asked all;
+  for (const Override& o : options.overrides)
+    if (o.pointer == kWhitePointer)
+      all.white = o.value;
+    else
+      all.others.push_back(o);
+  return all;
+}
+
 Exposed expose_spectral(Image file, const DevelopOptions& options, Inputs& inputs) {
+  const auto [white, others] = asked(options);
+  const Image told{0, 0, {}, file.metadata};
   const SpectralImage image = spectral_image(std::move(file), options.film.string());
   if (!options.scene.empty()) {
     Diagnostics diagnostics;
-    const std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics, &inputs);
+    std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics, &inputs);
     if (!scene) check(diagnostics);  // warnings are about what nobody renders here
+    settle_white(*scene, options.scene, told, white);
     Image film = seen_by(*scene, image, options.film);
-    FilmSensor sensor = film_sensor(film, options.scene, options.overrides, view_of(options));
+    FilmSensor sensor = film_sensor(film, options.scene, others, view_of(options));
     require_planes(film, sensor, options.film);
     return {std::move(film), std::move(sensor)};
   }
@@ -113,7 +135,8 @@ Exposed expose_spectral(Image file, const DevelopOptions& options, Inputs& input
     throw Error(ErrorCode::usage, "-o", "a spectral film needs a sensor that looks at it: --scene");
   FilmSensor sensor;
   sensor.planes = sensor.channels = {"R", "G", "B"};
-  sensor.display = display_of_radiance(view_of(options));
+  sensor.display = display_of_radiance(
+      view_of(options), white ? std::optional(asked_white(*white, told)) : recorded_white(told));
   return {observed(image), std::move(sensor)};
 }
 
@@ -123,7 +146,9 @@ Exposed load(const DevelopOptions& options, Inputs& inputs) {
   if (is_spectral(film)) return expose_spectral(std::move(film), options, inputs);
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
-  FilmSensor sensor = film_sensor(film, options.film, options.overrides, view_of(options));
+  const auto [white, others] = asked(options);
+  const auto xy = white ? std::optional(asked_white(*white, film)) : std::nullopt;
+  FilmSensor sensor = film_sensor(film, options.film, others, view_of(options), xy);
   require_planes(film, sensor, options.film);
   return {std::move(film), std::move(sensor)};
 }

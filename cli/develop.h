@@ -16,7 +16,7 @@ struct DevelopOptions {
   std::vector<std::filesystem::path> outputs;  ///< Raw pictures and multi-part images.
   std::filesystem::path display;               ///< Empty when no picture is wanted.
   std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
-  std::vector<Override> overrides;             ///< Of the read-out.
+  std::vector<Override> overrides;             ///< Of the read-out and the white.
   std::optional<std::uint64_t> seed;           ///< Of the noise; that of the render when absent.
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;

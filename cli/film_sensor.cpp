@@ -8,12 +8,15 @@
 
 #include "cli/answer.h"
 #include "cli/spectral.h"
+#include "cli/white.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "scene/description/readout.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
 #include "spectral/library.h"
+#include "transport/render/white.h"
+#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {
@@ -116,7 +119,8 @@ std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& s
     if (o.pointer != "/readout" && !o.pointer.starts_with("/readout/"))
       throw Error(
           ErrorCode::usage, "--set",
-          fmt::format("the film was rendered with it (got {}, allowed /readout and below)", o.pointer));
+          fmt::format("the film was rendered with it (got {}, allowed /readout and below, /output/white)",
+                      o.pointer));
     set_json(*json, o.pointer, o.value, diagnostics);
   }
   check(diagnostics);
@@ -130,11 +134,17 @@ std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& s
 }
 
 std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor,
-                                             const ViewOptions& view) {
+                                             const ViewOptions& view, std::optional<Chromaticity> white) {
   const auto text = data.find("to_xyz_d65");
   if (!text) return std::nullopt;
-  const std::optional<Matrix3> matrix = parse_matrix3(*text);
+  std::optional<Matrix3> matrix = parse_matrix3(*text);
   if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3)) data.refuse("to_xyz_d65");
+  if (white) {
+    const auto own = recorded_white(data.film);
+    if (!own)
+      throw Error(ErrorCode::usage, "/output/white", "the film tells no white that this could replace");
+    matrix = white_adaptation(*white) * white_adaptation(*own).inverse(true) * *matrix;
+  }
   return DisplayTransform(sensor.channels, *matrix, {}, view);
 }
 
@@ -162,6 +172,7 @@ FilmIdentity sensor_identity(const Scene& scene) {
   }
   add_speed(scene, area_m2, identity);
   add_display(scene, identity);
+  add_white(scene, identity);
   if (const auto exposure = scene.output.display_exposure)
     identity["display_exposure"] = fmt::format("{}", *exposure);
   if (scene.spectral) add_spectral_identity(scene, identity);
@@ -169,22 +180,23 @@ FilmIdentity sensor_identity(const Scene& scene) {
 }
 
 FilmSensor film_sensor(const Image& film, const std::filesystem::path& path,
-                       std::span<const Override> overrides, const ViewOptions& view) {
+                       std::span<const Override> overrides, const ViewOptions& view,
+                       std::optional<Chromaticity> white) {
   const Metadata data{film, path};
   FilmSensor sensor;
   read_planes(data, sensor);
   sensor.gathering_area_m2 = data.number("gathering_area_m2");
   sensor.readout = read_readout_of(data, sensor, overrides);
   sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
-  sensor.display = read_display(data, sensor, view);
+  sensor.display = read_display(data, sensor, view, white);
   sensor.display_exposure = data.find_number("display_exposure");
   return sensor;
 }
 
 DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
-  if (scene.spectral) return display_of_radiance(view);
-  return make_display(scene.channels,
-                      scene.lights.empty() ? Curve(1.0) : scene.lights.front().emission.curve(), view);
+  if (scene.spectral) return display_of_radiance(view, white_of(scene).xy);
+  const White white = has_colors(scene) ? white_of(scene) : White{"", "", {}, Curve(1.0)};
+  return make_display(scene.channels, *white.spectrum, view, white.xy);
 }
 
 Image film_image(const RenderPart& part) {

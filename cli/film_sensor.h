@@ -30,10 +30,11 @@ struct FilmSensor {
 [[nodiscard]] FilmIdentity sensor_identity(const Scene& scene);
 
 /// The reverse, from a film's metadata, after `--set /readout/...=` replaced values of the sensor's
-/// description. Throws Error{input} naming `path` when something is missing, Error{usage} for a `--set` of
-/// what a render has used already.
+/// description, its pictures showing `white` as white if one is given. Throws Error{input} naming `path` when
+/// something is missing, Error{usage} for a `--set` of what a render has used already.
 [[nodiscard]] FilmSensor film_sensor(const Image& film, const std::filesystem::path& path,
-                                     std::span<const Override> overrides, const ViewOptions& view);
+                                     std::span<const Override> overrides, const ViewOptions& view,
+                                     std::optional<Chromaticity> white = {});
 
 /// Takes what `shown_film` gives to pictures. Throws what `make_display` throws.
 [[nodiscard]] DisplayTransform display_of(const Scene& scene, const ViewOptions& view = {});

@@ -5,6 +5,7 @@
 #include "cli/answer.h"
 #include "cli/film_output.h"
 #include "cli/warnings.h"
+#include "cli/white.h"
 #include "scene/description/load.h"
 #include "transport/render/plan.h"
 
@@ -32,6 +33,10 @@ Json answer_for(const Scene& scene) {
   if (plan.light_active) answer["techniques"].push_back("light");
   answer["unreached"] = unreached(scene, scene.needs, plan.light_active);
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
+  if (scene.output.white)
+    answer["white"] = {{"name", scene.output.white->name},
+                       {"xy", scene.output.white->xy},
+                       {"because", scene.output.white->reason}};
   answer["wavelength_range_nm"] = {plan.wavelengths.low_nm(), plan.wavelengths.high_nm()};
   answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene);
   return answer;
@@ -62,13 +67,17 @@ std::string describe(const Scene& scene) {
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
   lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),
                        answer["wavelength_range_nm"][1].get<double>());
+  if (const auto& white = scene.output.white)
+    lines += fmt::format("white        {} (x {:.4f}, y {:.4f}: {})\n", white->name, white->xy[0],
+                         white->xy[1], white->reason);
   return lines + fmt::format("memory       {:.1f} MB\n", answer["memory_bytes"].get<double>() / 1e6);
 }
 
 int info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
-  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  settle_white(scene, options.scene);
   if (options.json)
     print(answer_for(scene), true);
   else

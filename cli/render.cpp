@@ -17,11 +17,13 @@
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/warnings.h"
+#include "cli/white.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
 #include "transport/path/roulette.h"
+#include "transport/render/threads.h"
 
 namespace abbe::cli {
 namespace {
@@ -38,6 +40,7 @@ Scene load(const RenderOptions& options, Inputs& inputs) {
   scene.render.samples = options.samples.value_or(scene.render.samples);
   scene.render.integrator = options.integrator.value_or(scene.render.integrator);
   scene.render.seed = options.seed.value_or(scene.render.seed);
+  settle_white(scene, options.scene, thread_count(options.threads));
   return scene;
 }
 

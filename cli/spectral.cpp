@@ -128,8 +128,9 @@ Image observed(const SpectralImage& image) {
   return rgb;
 }
 
-DisplayTransform display_of_radiance(const ViewOptions& view) {
-  return {{"R", "G", "B"}, rgb_to_xyz_d65(kRec709), {}, view};
+DisplayTransform display_of_radiance(const ViewOptions& view, std::optional<Chromaticity> white) {
+  const Matrix3 adapted = white ? white_adaptation(*white) : Matrix3();
+  return {{"R", "G", "B"}, adapted * rgb_to_xyz_d65(kRec709), {}, view};
 }
 
 Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path) {

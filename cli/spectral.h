@@ -22,8 +22,9 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
 /// Linear Rec.709 [cd/m^2] of radiances, channels R, G, B, as the CIE 1931 observer sees them.
 [[nodiscard]] Image observed(const SpectralImage& image);
 
-/// Takes that to pictures.
-[[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view);
+/// Takes that to pictures; without a white, colours are shown as they look beside daylight.
+[[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view,
+                                                   std::optional<Chromaticity> white);
 
 /// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
 /// the metadata of both; with a mosaic, its one plane. Says which channels respond beyond the image's bands.

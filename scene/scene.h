@@ -20,6 +20,7 @@
 #include "scene/needs/needs.h"
 #include "scene/ray.h"
 #include "scene/shapes/shape.h"
+#include "scene/white.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"
@@ -64,7 +65,8 @@ struct OutputSettings {
   std::filesystem::path image;
   std::filesystem::path display;
   std::optional<double>
-      display_exposure;  ///< Film value shown as diffuse white; chosen from the image when absent.
+      display_exposure;             ///< Film value shown as diffuse white; chosen from the image when absent.
+  std::optional<White> white = {};  ///< Chosen among the lights when absent.
 };
 
 /// Embree's view of the shapes.

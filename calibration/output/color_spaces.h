@@ -9,9 +9,6 @@
 
 namespace abbe {
 
-/// CIE 1931 chromaticity coordinates.
-using Chromaticity = std::array<double, 2>;
-
 /// XYZ of a chromaticity with Y = 1.
 [[nodiscard]] XYZ unit_xyz(const Chromaticity& xy);
 

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/patches.h"
-#include "calibration/output/color_spaces.h"
 #include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
@@ -98,10 +97,6 @@ Gamut gamut_of(bool own, const std::string& display, const std::string& view) {
 DisplayTransform grey_display(const Channel& channel, const ViewOptions& options) {
   const XYZ white = unit_xyz(kD65);
   return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), {}, options};
-}
-
-bool is_observer(const std::vector<Channel>& channels) {
-  return channels[0].name == "X" && channels[1].name == "Y" && channels[2].name == "Z";
 }
 
 }  // namespace
@@ -204,26 +199,25 @@ double DisplayTransform::automatic_scale(const Image& film) const {
   return bright > 0 ? 1 / bright : 1;
 }
 
-Matrix3 light_adaptation(const Curve& illuminant) {
-  XYZ white = tristimulus(illuminant, Curve(1.0), Observer::cie1931);
-  for (double& v : white) v /= 100;
-  return adaptation(white, unit_xyz(kD65)).value_or(Matrix3());
+Matrix3 white_adaptation(const Chromaticity& white) {
+  return adaptation(unit_xyz(white), unit_xyz(kD65)).value_or(Matrix3());
 }
 
 DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
-                              const ViewOptions& options) {
+                              const ViewOptions& options, std::optional<Chromaticity> white) {
   require_displayable(channels.size());
   if (channels.size() == 1) return grey_display(channels.front(), options);
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
-  if (is_observer(channels)) return {std::move(names), light_adaptation(illuminant), {}, options};
+  const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant)));
+  if (is_observer(channels)) return {std::move(names), adapted, {}, options};
   Diagnostics diagnostics;
   const std::optional<Chart> chart = load_chart(kChart, {}, diagnostics);
   if (!chart) throw Error(diagnostics.code(), kChart, diagnostics.text());
-  const std::vector<double> white = diffuser_values(channels, illuminant);
+  const std::vector<double> diffuser = diffuser_values(channels, illuminant);
   CorrectionFit fit = fit_correction(integrate(*chart, channels, illuminant));
-  const Matrix3 balance = diagonal({white[1] / white[0], 1, white[1] / white[2]});
-  const Matrix3 to_xyz_d65 = light_adaptation(illuminant) * linear_part(fit.correction) * balance;
+  const Matrix3 balance = diagonal({diffuser[1] / diffuser[0], 1, diffuser[1] / diffuser[2]});
+  const Matrix3 to_xyz_d65 = adapted * linear_part(fit.correction) * balance;
   return {std::move(names), to_xyz_d65, std::move(fit), options};
 }
 

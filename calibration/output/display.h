@@ -8,6 +8,7 @@
 
 #include "calibration/chart/matrix3.h"
 #include "calibration/fit/correction_fit.h"
+#include "calibration/output/color_spaces.h"
 #include "io/image.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve.h"
@@ -72,17 +73,18 @@ class DisplayTransform {
   std::shared_ptr<const Processor> processor_;
 };
 
-/// Adaptation of a light's white, as the standard observer sees it, to D65 (Bradford); none for a lamp of
-/// spectral lines, to whose colour no eye adapts: it is shown as it looks beside daylight.
-[[nodiscard]] Matrix3 light_adaptation(const Curve& illuminant);
+/// Adaptation of a white to D65 (Bradford); none for one of spectral lines or of no light that is seen, to
+/// whose colour no eye adapts: it is shown as it looks beside daylight.
+[[nodiscard]] Matrix3 white_adaptation(const Chromaticity& white);
 
-/// The display transform of a sensor in the light of a scene. Three channels named X, Y, Z are the observer:
-/// only the light's white is adapted to D65 (Bradford). Other three channels are white balanced on the light
-/// and corrected by the white-preserving matrix fitted on the ColorChecker (BabelColor average) in that
-/// light, then adapted; luminance is in units of the second channel's value of a neutral. One channel is
-/// shown as grey. Throws Error{usage} for another number, Error{input} when the light or the channels do not
-/// determine the colours.
+/// The display transform of a sensor in a light. Three channels named X, Y, Z are the observer: only the
+/// white is adapted to D65 (Bradford). Other three channels are white balanced on the light and corrected by
+/// the white-preserving matrix fitted on the ColorChecker (BabelColor average) in that light; then the white,
+/// which is the light's unless another is given, is adapted. Luminance is in units of the second channel's
+/// value of a neutral. One channel is shown as grey. Throws Error{usage} for another number, Error{input}
+/// when the light or the channels do not determine the colours.
 [[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
-                                            const ViewOptions& options = {});
+                                            const ViewOptions& options = {},
+                                            std::optional<Chromaticity> white = {});
 
 }  // namespace abbe

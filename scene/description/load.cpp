@@ -13,6 +13,7 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "scene/description/pieces.h"
+#include "scene/description/white.h"
 #include "scene/extent.h"
 #include "scene/shapes/placed.h"
 
@@ -70,12 +71,19 @@ RenderSettings read_render(const JsonValue& json, Reading& reading) {
   return render;
 }
 
-OutputSettings read_output(const JsonValue& json, Reading& reading) {
+std::optional<White> read_white(const JsonValue& json, Reading& reading, const Scene& scene) {
+  WhiteNames names = white_names(scene.lights, reading.diagnostics);
+  names.illuminant = [&reading](const JsonValue& name) { return reading.table(name); };
+  return read_white(json, names, reading.diagnostics);
+}
+
+OutputSettings read_output(const JsonValue& json, Reading& reading, const Scene& scene) {
   OutputSettings output;
   ObjectReader reader(json, reading.diagnostics);
   if (const auto path = reader.string("image")) output.image = *path;
   if (const auto path = reader.string("display")) output.display = *path;
   output.display_exposure = reader.number("exposure", {0, 1e30, true, false});
+  if (const JsonValue* white = reader.find("white")) output.white = read_white(*white, reading, scene);
   reader.finish();
   return output;
 }
@@ -140,7 +148,7 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, reading, scene);
   if (const JsonValue* json = reader.find("lights")) read_lights(*json, reading, scene);
   if (const JsonValue* json = reader.find("render")) scene.render = read_render(*json, reading);
-  if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, reading);
+  if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, reading, scene);
   reader.finish();
   if (reading.diagnostics.has_errors()) return scene;
   if (materials) check_validity(*materials, reading, scene);

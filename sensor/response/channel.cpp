@@ -91,4 +91,9 @@ std::vector<Channel> observer_channels(Observer observer) {
           energy_channel("Z", scaled(cmf.z, kLuminousEfficacy))};
 }
 
+bool is_observer(std::span<const Channel> channels) {
+  return channels.size() == 3 && channels[0].name == "X" && channels[1].name == "Y" &&
+         channels[2].name == "Z";
+}
+
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,7 @@ void limit_angles(Channel& channel, double least_cosine);
 /// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so Y
 /// is in lx s.
 [[nodiscard]] std::vector<Channel> observer_channels(Observer observer);
+/// Whether three channels are those, by their names.
+[[nodiscard]] bool is_observer(std::span<const Channel> channels);
 
 }  // namespace abbe

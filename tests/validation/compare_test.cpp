@@ -17,6 +17,7 @@
 #include "validation/picture/color_map.h"
 #include "validation/picture/difference_maps.h"
 #include "validation/statistics/chart_difference.h"
+#include "validation/statistics/film_colors.h"
 
 namespace abbe::test {
 namespace {
@@ -101,10 +102,10 @@ TEST(CompareCommand, MapsAreWritten) {
 
 // A film that holds exactly what the chart's spectra give, times 3, but for the first patch, which is
 // brighter.
-Image planted_film(const Scene& scene, double brighter) {
+Image planted_film(const Scene& scene, double brighter, std::size_t lamp = 0) {
   Image film{scene.camera.width, scene.camera.height, {}, cli::sensor_identity(scene)};
   for (const Channel& channel : scene.channels) film.channels.push_back({channel.name, {}});
-  const Curve light = scene.lights.front().emission.curve();
+  const Curve light = scene.lights[lamp].emission.curve();
   for (ImageChannel& channel : film.channels) channel.values.assign(film.pixels(), 0);
   for (int y = 0; y < film.height; ++y)
     for (int x = 0; x < film.width; ++x) {
@@ -227,6 +228,67 @@ TEST(ColorDifference, TheObserversChannelsAreTakenAsTheyAre) {
   ASSERT_TRUE(film.metadata.contains("to_xyz_d65"));
   const std::size_t middle = film.pixels() / 2 + 30;
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(tristimuli(film)[middle][c], film.channels[c].values[middle]);
+}
+
+// A lamp of no account does not decide how the film is seen, wherever in the list it stands.
+TEST(CompareChart, IsSeenInTheMainLightNotInTheFirst) {
+  for (const char* sensor : {R"({"observer": "1931", "resolution": [96, 64]})", kNikon}) {
+    const auto with = [&](const std::string& lights) {
+      Diagnostics diagnostics;
+      const std::vector<Override> overrides{{"/sensor", sensor}, {"/lights", lights}};
+      return load_scene(chart_file(), overrides, diagnostics).value();
+    };
+    const std::string faint =
+        R"({"name": "faint", "point": {"at": [0, 0, 900]}, "emission": {"illuminant": "A", "luminous_intensity": 0.001}})";
+    const std::string dome =
+        R"({"name": "dome", "environment": {}, "emission": {"illuminant": "D65", "luminance": 1}})";
+    const Scene first = with("[" + faint + "," + dome + "]");
+    const Scene last = with("[" + dome + "," + faint + "]");
+    const Image film = planted_film(first, 1, 1);
+    EXPECT_EQ(film.metadata.at("white"), "dome");
+    EXPECT_EQ(film.metadata.at("to_xyz_d65"), planted_film(last, 1).metadata.at("to_xyz_d65"));
+    EXPECT_LT(mean_delta_e(compare_chart(first, film, nullptr, DeltaE::cie2000)), 1.5) << sensor;
+    EXPECT_LT(color_difference(film, planted_film(last, 1))->max, 1e-6);
+  }
+}
+
+// What is white is a way to look at a film, and no difference between films.
+TEST(ColorDifference, FilmsAreSeenInOneWhite) {
+  const std::string observer = R"({"observer": "1931", "resolution": [96, 64]})";
+  Scene scene = chart_scene(observer, "A");
+  const Image own = planted_film(scene, 1);
+  const Image dim = planted_film(scene, 1.2);
+  scene.output.white = White{"D65", "asked for", kD65, Curve(1.0)};
+  const Image other = planted_film(scene, 1);
+  EXPECT_EQ(other.metadata.at("white"), "D65");
+  EXPECT_LT(color_difference(other, own)->max, 1e-6);
+  const double in_own = color_difference(dim, own)->mean;
+  EXPECT_DOUBLE_EQ(color_difference(dim, other, DeltaE::cie2000, recorded_white(own))->mean, in_own);
+  EXPECT_GT(std::abs(color_difference(dim, other)->mean / in_own - 1), 1e-4) << "white tells the colours";
+  Image untold = other;
+  untold.metadata.erase("white_xy");
+  EXPECT_GT(color_difference(own, untold)->max, 5) << "one of them relative to D65 already";
+}
+
+TEST(CompareCommand, AWhiteIsNamedByALightAnIlluminantOrItsCoordinates) {
+  const Image film = planted_film(chart_scene(R"({"observer": "1931", "resolution": [96, 64]})", "A"), 1);
+  const auto a = saved("white_a.exr", film);
+  const auto b = saved(
+      "white_b.exr", planted_film(chart_scene(R"({"observer": "1931", "resolution": [96, 64]})", "A"), 1.2));
+  const auto mean = [&](const std::string& white) {
+    cli::CompareOptions options{b, a};
+    options.white = white;
+    return ask(cli::compare, options)["dE00_mean"].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(mean("light 0"), mean(""));
+  EXPECT_NEAR(mean("A"), mean(""), 1e-9);
+  EXPECT_NEAR(mean("[0.447576, 0.407440]"), mean(""), 1e-5);
+  EXPECT_GT(std::abs(mean("D65") / mean("") - 1), 1e-4);
+  cli::CompareOptions wrong{b, a};
+  wrong.white = "D56";
+  EXPECT_EQ(fault([&] { cli::compare(wrong); }, "unknown light or illuminant \"D56\""), ErrorCode::usage);
+  wrong.white = "[0.7, 0.29]";
+  EXPECT_EQ(fault([&] { cli::compare(wrong); }, "no white that an eye adapts to"), ErrorCode::usage);
 }
 
 TEST(CompareChart, TwoFilmsAreScaledAlike) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,17 @@
 #include "spectral/packet.h"
 
 namespace abbe {
+
+/// What paths expose the film with in all, by the group that each light belongs to.
+struct ExposureByLight {
+  std::vector<std::uint32_t> group;  ///< Of each light of the scene.
+  std::vector<double> worth;         ///< Of each channel's film value; of a mosaic, of its plane's.
+  std::vector<double> exposure;      ///< Of each group: the sum of |film value| times its worth.
+
+  void add(std::uint32_t light, std::size_t channel, double value) {
+    if (std::isfinite(value)) exposure[group[light]] += worth[channel] * std::abs(value);
+  }
+};
 
 /// What the path in hand adds to a film value, channel by channel: a contribution c exposes channel k by
 /// sum_j c_j weight_k(lambda_j) / p(lambda_j). With a mosaic there is one value, that of the pixel's own
@@ -44,6 +57,8 @@ class PathExposure {
     cos_film_ = cos_film;
     weighed_ = false;
   }
+  /// From now on also adds up what each light deposits.
+  void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
   /// Forgets what was exposed, within the same path.
   void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
@@ -53,6 +68,13 @@ class PathExposure {
       weigh();  // many paths end without reaching the film, and the responses cost more than a ray
     for (std::size_t k = 0; k < weights_.size(); ++k)
       values_[k] += static_cast<double>((contribution * weights_[k]).sum());
+  }
+
+  /// The same of what comes from that light of the scene.
+  void deposit(const SampledSpectrum& contribution, std::uint32_t light) {
+    deposit(contribution);
+    if (by_light_ != nullptr) [[unlikely]]
+      attribute(contribution, light);
   }
 
   [[nodiscard]] std::span<const double> values() const { return values_; }
@@ -67,6 +89,10 @@ class PathExposure {
         weights_[k] = share * channels_[k].weight(wavelengths_.lambda_nm);
     weighed_ = true;
   }
+  [[gnu::noinline]] void attribute(const SampledSpectrum& contribution, std::uint32_t light) const {
+    for (std::size_t k = 0; k < weights_.size(); ++k)
+      by_light_->add(light, k, static_cast<double>((contribution * weights_[k]).sum()));
+  }
   [[gnu::noinline]] void weigh_by_angle(const SampledSpectrum& share) {  // out of the way of the others
     for (std::size_t k = 0; k < weights_.size(); ++k)
       weights_[k] = share * weight_at(channels_[k], wavelengths_.lambda_nm, cos_film_);
@@ -78,6 +104,7 @@ class PathExposure {
   std::span<const Channel> channels_;  // of the pixel
   std::vector<SampledSpectrum> weights_;
   std::vector<double> values_;
+  ExposureByLight* by_light_ = nullptr;
   SampledWavelengths wavelengths_;
   float scale_ = 1;
   float cos_film_ = 1;

@@ -117,7 +117,8 @@ class CameraPath {
                                   light_pdf(light, scene_.shapes, end_.ray.origin, end_.ray.direction,
                                             Imath::V3f(0), Imath::V3f(0));
       exposure_.deposit(end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) *
-                        (1 / balance(pdf)));
+                        (1 / balance(pdf)),
+                        index);
     }
   }
 
@@ -132,7 +133,7 @@ class CameraPath {
                                              : plan_.path_lights.probability(light_index) *
                                                    light_pdf(light, scene_.shapes, end_.ray.origin,
                                                              end_.ray.direction, hit.point, hit.normal);
-    exposure_.deposit(end_.packet.throughput * light.emission(lambda()) * (1 / balance(pdf)));
+    exposure_.deposit(end_.packet.throughput * light.emission(lambda()) * (1 / balance(pdf)), light_index);
   }
 
   // In line in the loop of `trace`: left to itself the compiler makes it a call, for the meter's sake, which
@@ -191,6 +192,7 @@ class CameraPath {
 
   // A light, a direction towards it from a point, and the density of both.
   struct Lit {
+    std::uint32_t index;
     const Light& light;
     LightSample towards;
     float density;
@@ -202,7 +204,7 @@ class CameraPath {
     const Light& light = scene_.lights[pick.light];
     const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {u[1], u[2]});
     if (!towards) return std::nullopt;
-    return Lit{light, *towards, pick.probability * towards->pdf};
+    return Lit{pick.light, light, *towards, pick.probability * towards->pdf};
   }
 
   // What comes from the light on an unobstructed way and is turned towards the path, `scattered` being the
@@ -231,7 +233,7 @@ class CameraPath {
     const float balance = (end_.packet.lane_pdf * (SampledSpectrum(lit->density) + density)).sum();
     if (!(balance > 0) || blocked(ray, lit->towards)) return;
     side_of(vertex, wi).attenuate(contribution, lit->towards.distance);
-    exposure_.deposit(contribution * (1 / balance));
+    exposure_.deposit(contribution * (1 / balance), lit->index);
   }
 
   void add_direct_within(const PhaseFunction& phase, int depth) {
@@ -252,7 +254,7 @@ class CameraPath {
     const Transmission way = transmission(scene_, caster_, start, lit.towards.distance);
     const float balance =
         (end_.packet.lane_pdf * (SampledSpectrum(lit.density) + density * way.density)).sum();
-    if (balance > 0) exposure_.deposit(contribution * way.transmittance * (1 / balance));
+    if (balance > 0) exposure_.deposit(contribution * way.transmittance * (1 / balance), lit.index);
   }
 
   // The medium that light from the local direction `wi` comes through.

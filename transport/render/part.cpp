@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "io/part_file.h"
@@ -20,6 +23,7 @@ constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutThroughput = "cut_throughput";
+constexpr std::array<std::string_view, 4> kTellNothing{"scene", "to_xyz_d65", "white", "white_xy"};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>
@@ -120,7 +124,8 @@ void require_same_film(const fs::path& path, const FilmIdentity& identity, const
     return found == of.end() ? std::string("none") : found->second;
   };
   for (const auto& [key, unused] : all) {
-    if (key == "scene" || key == "to_xyz_d65" || value(identity, key) == value(wanted, key)) continue;
+    const bool tells = std::find(kTellNothing.begin(), kTellNothing.end(), key) == kTellNothing.end();
+    if (!tells || value(identity, key) == value(wanted, key)) continue;
     throw Error(ErrorCode::input, path.string(),
                 fmt::format("is a part of another render: another {} (got {}, allowed {})", key,
                             value(identity, key), value(wanted, key)));

@@ -9,8 +9,9 @@
 namespace abbe {
 
 /// What a film is a film of, by name: version, scene, seed and all else its values are a function of, besides
-/// the samples. `sensor_channels` lists the film's channels, separated by commas. Two tell no films apart:
-/// `scene`, the name of the scene file, and `to_xyz_d65`, fitted on the machine that rendered.
+/// the samples. `sensor_channels` lists the film's channels, separated by commas. Some tell no films apart:
+/// `scene`, the name of the scene file, and how pictures show it: `to_xyz_d65`, fitted on the machine that
+/// rendered, `white` and `white_xy`.
 using FilmIdentity = std::map<std::string, std::string>;
 
 /// Some samples of a render. Parts of one identity add up, in any order and grouping, to the film that one

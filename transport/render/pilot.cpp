@@ -1,9 +1,15 @@
 #include "transport/render/pilot.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdint>
+#include <vector>
 
+#include "transport/light/light_tracer.h"
+#include "transport/path/path_tracer.h"
 #include "transport/render/pass.h"
+#include "transport/render/threads.h"
 
 namespace abbe {
 namespace {
@@ -11,6 +17,39 @@ namespace {
 constexpr std::uint64_t kPaths = 1U << 16;
 constexpr std::uint64_t kMostSamples = 16;
 constexpr std::uint64_t kSeed = std::uint64_t{1} << 63;  // scene files have none so large
+
+constexpr std::uint32_t kBatches = 64;
+constexpr std::uint32_t kBatch = 256;
+constexpr double kAll = kBatches * kBatch;
+
+// Camera paths through pixels all over the film, whose mean stands for all pixels.
+void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+  PathExposure exposure = exposure_of(plan.scene);
+  exposure.tell_lights_apart(sums);
+  const Camera& camera = plan.scene.camera;
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  for (std::uint32_t i = batch * kBatch; plan.path_active && i < (batch + 1) * kBatch; ++i) {
+    const std::array<float, 4> u = Sampler(kSeed, Purpose::pilot, 0, 0, i).group(0);
+    const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
+    const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
+    trace_camera_path(plan, caster, Sampler(kSeed, Purpose::camera, 0, 0, i), x, y, exposure);
+  }
+  for (double& sum : sums.exposure) sum *= pixels / kAll;
+}
+
+void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+  PathExposure exposure = exposure_of(plan.scene);
+  std::vector<double> values(exposure.values().size());
+  const Splat add = [&](int, int, std::span<const double> splat) {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += splat[k];
+  };
+  for (std::uint32_t i = batch * kBatch; plan.light_active && i < (batch + 1) * kBatch; ++i) {
+    std::fill(values.begin(), values.end(), 0.0);
+    const Sampler sampler(kSeed, Purpose::light, 0, 0, i);
+    const PhotonStart start = trace_photon(plan, caster, sampler, 1 / kAll, exposure, add);
+    for (std::size_t k = 0; k < values.size(); ++k) sums.add(start.light, k, values[k]);
+  }
+}
 
 }  // namespace
 
@@ -23,6 +62,23 @@ Film pilot_film(const Plan& plan, int threads, std::optional<Crop> crop) {
   Pass(plan, film, crop, {0, samples}, 0, kSeed).run(threads, [] { return false; });
   film.set_samples({samples});
   return film;
+}
+
+void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
+  std::vector<ExposureByLight> batches(kBatches, sums);
+  for (ExposureByLight& batch : batches) std::fill(batch.exposure.begin(), batch.exposure.end(), 0.0);
+  std::atomic<std::uint32_t> next = 0;
+  run_on_threads(threads, [&] {
+    RayCaster caster(plan.scene);
+    for (std::uint32_t batch = next++; batch < kBatches; batch = next++) {
+      expose_batch(plan, batch, caster, batches[batch]);
+      expose_photons(plan, batch, caster, batches[batch]);
+    }
+  });
+  // In their order, whichever threads traced them.
+  for (const ExposureByLight& batch : batches)
+    for (std::size_t group = 0; group < sums.exposure.size(); ++group)
+      sums.exposure[group] += batch.exposure[group];
 }
 
 }  // namespace abbe

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "sensor/film/film.h"
+#include "transport/path/exposure.h"
 #include "transport/render/plan.h"
 #include "transport/render/render.h"
 
@@ -12,5 +13,9 @@ namespace abbe {
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers
 /// are those of no render, so that what is chosen by it is independent of the samples it is chosen for.
 [[nodiscard]] Film pilot_film(const Plan& plan, int threads, std::optional<Crop> crop = {});
+
+/// What each group of lights adds to such a film in all: to `sums.exposure`, from 16384 paths, and as many
+/// photons where these are traced, however many pixels there are.
+void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums);
 
 }  // namespace abbe

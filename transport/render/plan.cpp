@@ -239,6 +239,10 @@ bool traces_light(const Scene& scene) {
 }
 
 Plan make_plan(const Scene& scene, int threads) {
+  return make_plan(scene, threads, scene.render.seed);
+}
+
+Plan make_plan(const Scene& scene, int threads, std::uint64_t seed) {
   const bool light_only = scene.render.integrator == Integrator::light;
   const bool light_active = traces_light(scene);
   const Emissions emissions = emissions_of(scene);
@@ -268,7 +272,7 @@ Plan make_plan(const Scene& scene, int threads) {
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
   plan.light_active = light_active && !plan.traced_lights.empty();
   if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
-  if (plan.light_active && !light_only) learn_aims(plan, scene.render.seed, threads);
+  if (plan.light_active && !light_only) learn_aims(plan, seed, threads);
   return plan;
 }
 

@@ -58,7 +58,9 @@ struct Plan {
 /// Whether photons are traced: the integrator allows it, and the scene asks for it or there is no other way.
 [[nodiscard]] bool traces_light(const Scene& scene);
 
-/// On that many threads, which change nothing but the time it takes.
+/// On that many threads, which change nothing but the time it takes. What it learns from pilots depends on
+/// `seed`, by default the render's.
 [[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
+[[nodiscard]] Plan make_plan(const Scene& scene, int threads, std::uint64_t seed);
 
 }  // namespace abbe

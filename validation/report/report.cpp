@@ -10,6 +10,7 @@
 #include "calibration/output/display.h"
 #include "io/data_directory.h"
 #include "transport/render/render.h"
+#include "transport/render/white.h"
 
 namespace abbe {
 namespace {
@@ -22,7 +23,7 @@ Specimen render_specimen(const std::string& file, const std::string& caption,
   const RenderResult rendered = render(*scene, {.threads = threads});
   std::vector<std::string> names;
   for (const Channel& channel : scene->channels) names.push_back(channel.name);
-  const DisplayTransform display = make_display(scene->channels, scene->lights.front().emission.curve());
+  const DisplayTransform display = make_display(scene->channels, *white_of(*scene).spectrum);
   return {fmt::format("{} {} samples per pixel, {:.1f} CPU s.", caption, scene->render.samples,
                       rendered.stats.cpu_s),
           display(rendered.film.image(names)).image};

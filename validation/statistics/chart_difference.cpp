@@ -4,6 +4,7 @@
 
 #include "calibration/output/display.h"
 #include "scene/chart/readout.h"
+#include "transport/render/white.h"
 #include "validation/statistics/film_colors.h"
 
 namespace abbe {
@@ -14,13 +15,13 @@ struct ChartFilm {
   std::optional<std::vector<XYZ>> xyz;
 };
 
-ChartFilm read_film(const Scene& scene, const Image& film) {
+ChartFilm read_film(const Scene& scene, const Image& film, const Chromaticity& light) {
   const FilmColors colors = film_colors(film);
   ChartFilm read{read_patches(scene, scene.charts.front(), film, colors.channels), {}};
   if (!colors.to_xyz) return read;
   Matrix3 to_xyz = *colors.to_xyz;
-  // The patches are judged as they look in the scene's light, which the film's matrix took to D65.
-  if (colors.adapted) to_xyz = light_adaptation(scene.lights.front().emission.curve()).inverse(true) * to_xyz;
+  // The patches are judged as they look in the scene's light; the film's matrix took its white to D65.
+  if (colors.adapted) to_xyz = white_adaptation(colors.white.value_or(light)).inverse(true) * to_xyz;
   read.xyz.emplace();
   for (const PatchReading& patch : read.patches)
     read.xyz->push_back(multiply(to_xyz, {patch.mean[0], patch.mean[1], patch.mean[2]}));
@@ -46,13 +47,15 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
                                            DeltaE formula) {
   if (scene.charts.empty()) throw Error(ErrorCode::input, "", "the scene has no chart");
   if (scene.lights.empty()) throw Error(ErrorCode::input, "", "the scene has no light for its chart");
-  const Curve light = scene.lights.front().emission.curve();
+  const White main = main_light(scene);
+  const Curve& light = *main.spectrum;
   const XYZ white = tristimulus(light, Curve(1), Observer::cie1931);
-  const ChartFilm film = read_film(scene, image);
+  const ChartFilm film = read_film(scene, image, main.xy);
   std::vector<XYZ> integrated;
   for (const PatchReading& patch : film.patches)
     integrated.push_back(tristimulus(light, *patch.reflectance, Observer::cie1931));
-  const auto other = reference != nullptr ? read_film(scene, *reference).xyz : std::optional(integrated);
+  const auto other =
+      reference != nullptr ? read_film(scene, *reference, main.xy).xyz : std::optional(integrated);
   const auto& exposed = reference != nullptr ? other : film.xyz;
   const double factor = exposed ? sum_of_y(integrated) / sum_of_y(*exposed) : 1;
   std::vector<PatchDifference> differences;

@@ -2,24 +2,40 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "calibration/output/color_spaces.h"
+#include "io/error.h"
 #include "io/text.h"
 
 namespace abbe {
 
+std::optional<Chromaticity> recorded_white(const Image& film) {
+  const auto found = film.metadata.find(kWhiteXyKey);
+  if (found == film.metadata.end() || !film.metadata.contains(kWhiteKey)) return std::nullopt;
+  const std::vector<std::string> words = split(found->second, ' ');
+  const auto x = parse_number(words.front());
+  const auto y = parse_number(words.back());
+  if (words.size() == 2 && x && y && *x > 0 && *y > 0) return Chromaticity{*x, *y};
+  throw Error(ErrorCode::input, "film",
+              fmt::format("attribute \"{}\" makes no sense (got \"{}\")", kWhiteXyKey, found->second));
+}
+
 FilmColors film_colors(const Image& image) {
+  const auto white = recorded_white(image);
   const std::vector<std::string> observer{"X", "Y", "Z"};
   if (std::all_of(observer.begin(), observer.end(),
                   [&](const std::string& name) { return image.find(name) != nullptr; }))
-    return {observer, Matrix3()};
+    return {observer, Matrix3(), false, white};
   const std::vector<std::string> rgb{"R", "G", "B"};
-  if (!image.metadata.contains("channel.R")) return {rgb, rgb_to_xyz(kRec709)};
+  if (!image.metadata.contains("channel.R")) return {rgb, rgb_to_xyz(kRec709), false, white};
   const auto matrix = image.metadata.find("to_xyz_d65");
   const auto names = image.metadata.find("sensor_channels");
-  if (matrix == image.metadata.end() || names == image.metadata.end()) return {rgb, {}};
+  if (matrix == image.metadata.end() || names == image.metadata.end()) return {rgb, {}, false, white};
   const std::vector<std::string> channels = split(names->second, ',');
-  if (!std::is_permutation(channels.begin(), channels.end(), rgb.begin(), rgb.end())) return {rgb, {}};
-  return {channels, parse_matrix3(matrix->second), true};
+  if (!std::is_permutation(channels.begin(), channels.end(), rgb.begin(), rgb.end()))
+    return {rgb, {}, false, white};
+  return {channels, parse_matrix3(matrix->second), true, white};
 }
 
 }  // namespace abbe

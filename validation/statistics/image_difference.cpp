@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/delta_e.h"
-#include "calibration/output/color_spaces.h"
+#include "calibration/output/display.h"
 #include "spectral/colorimetry.h"
 #include "validation/statistics/film_colors.h"
 
@@ -76,6 +76,27 @@ std::vector<Term> terms(const std::vector<Pair>& pairs, double mean, const Error
   return all;
 }
 
+std::vector<XYZ> tristimuli(const Image& image, const FilmColors& colors) {
+  const ImageChannel* a = image.find(colors.channels[0]);
+  const ImageChannel* b = image.find(colors.channels[1]);
+  const ImageChannel* c = image.find(colors.channels[2]);
+  if (!colors.to_xyz || a == nullptr || b == nullptr || c == nullptr) return {};
+  std::vector<XYZ> pixels(image.pixels());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = multiply(*colors.to_xyz, {a->values[i], b->values[i], c->values[i]});
+  return pixels;
+}
+
+// Takes colours to D65 for another white than their film's.
+void adapt(FilmColors& colors, const Chromaticity& white) {
+  if (!colors.to_xyz) return;
+  if (colors.adapted && !colors.white)
+    throw Error(ErrorCode::input, "",
+                "a film of a camera does not tell the white its colours are adapted to");
+  if (colors.adapted) *colors.to_xyz = white_adaptation(*colors.white).inverse(true) * *colors.to_xyz;
+  *colors.to_xyz = white_adaptation(white) * *colors.to_xyz;
+}
+
 }  // namespace
 
 double percentile(std::vector<double> values, double quantile) {
@@ -86,15 +107,7 @@ double percentile(std::vector<double> values, double quantile) {
 }
 
 std::vector<XYZ> tristimuli(const Image& image) {
-  const FilmColors colors = film_colors(image);
-  const ImageChannel* a = image.find(colors.channels[0]);
-  const ImageChannel* b = image.find(colors.channels[1]);
-  const ImageChannel* c = image.find(colors.channels[2]);
-  if (!colors.to_xyz || a == nullptr || b == nullptr || c == nullptr) return {};
-  std::vector<XYZ> pixels(image.pixels());
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    pixels[i] = multiply(*colors.to_xyz, {a->values[i], b->values[i], c->values[i]});
-  return pixels;
+  return tristimuli(image, film_colors(image));
 }
 
 double delta_e(DeltaE formula, const Lab& standard, const Lab& sample) {
@@ -131,19 +144,25 @@ double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& m
   return sum / static_cast<double>(kept - all.begin());
 }
 
-std::optional<ColorDifference> color_difference(const Image& image, const Image& reference, DeltaE formula) {
-  const std::vector<XYZ> x = tristimuli(image);
-  const std::vector<XYZ> r = tristimuli(reference);
+std::optional<ColorDifference> color_difference(const Image& image, const Image& reference, DeltaE formula,
+                                                std::optional<Chromaticity> white) {
+  FilmColors of_image = film_colors(image);
+  FilmColors of_reference = film_colors(reference);
+  const std::optional<Chromaticity> told = of_reference.white ? of_reference.white : of_image.white;
+  for (FilmColors* colors : {&of_image, &of_reference})
+    if (white || colors->white) adapt(*colors, white ? *white : *told);
+  const std::vector<XYZ> x = tristimuli(image, of_image);
+  const std::vector<XYZ> r = tristimuli(reference, of_reference);
   if (x.empty() || r.empty() || (image.find("X") == nullptr) != (reference.find("X") == nullptr))
     return std::nullopt;
   std::vector<double> luminance;
   for (const XYZ& xyz : r) luminance.push_back(xyz[1]);
   const double full = percentile(std::move(luminance), 0.99);
   if (!(full > 0)) return std::nullopt;
-  const XYZ white = unit_xyz(kD65);
+  const XYZ d65 = unit_xyz(kD65);
   const auto lab = [&](XYZ xyz) {
     for (double& v : xyz) v /= full;
-    return xyz_to_lab(xyz, white);
+    return xyz_to_lab(xyz, d65);
   };
   std::vector<double> differences;
   for (std::size_t i = 0; i < x.size(); ++i) differences.push_back(delta_e(formula, lab(r[i]), lab(x[i])));
@@ -154,7 +173,7 @@ std::optional<ColorDifference> color_difference(const Image& image, const Image&
   return ColorDifference{total / count, p95, largest, std::move(differences)};
 }
 
-Comparison compare_images(const Image& image, const Image& reference) {
+Comparison compare_images(const Image& image, const Image& reference, std::optional<Chromaticity> white) {
   const std::vector<Pair> pairs = common_channels(image, reference);
   const Means mean = means(pairs);
   double squares = 0;
@@ -163,7 +182,7 @@ Comparison compare_images(const Image& image, const Image& reference) {
       squares += std::pow(static_cast<double>(pair.image[i]) - pair.reference[i], 2);
   const double count = static_cast<double>(pairs.size() * reference.pixels());
   return {rel_mse(image, reference), std::sqrt(squares / count), mean.image / mean.reference,
-          color_difference(image, reference)};
+          color_difference(image, reference, DeltaE::cie2000, white)};
 }
 
 }  // namespace abbe

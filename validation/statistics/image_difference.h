@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/output/color_spaces.h"
 #include "io/image.h"
 #include "spectral/colorimetry.h"
 
@@ -27,17 +28,22 @@ struct Comparison {
   std::optional<ColorDifference> color;  ///< CIEDE2000.
 };
 
-/// Throws Error{input} for images of different size, without a common channel, or with a value that is not
-/// finite.
-[[nodiscard]] Comparison compare_images(const Image& image, const Image& reference);
+/// Colours as by `color_difference`. Throws Error{input} for images of different size, without a common
+/// channel, or with a value that is not finite.
+[[nodiscard]] Comparison compare_images(const Image& image, const Image& reference,
+                                        std::optional<Chromaticity> white = {});
 
 /// For images with X, Y, Z or R, G, B, each read as `film_colors` has it: both scaled so that the 99th
-/// percentile of the reference's Y is 100, and seen against a D65 white of Y = 100. Nothing for images
-/// whose colours are not known, and for a black reference.
+/// percentile of the reference's Y is 100, and seen against a D65 white of Y = 100, to which `white` is
+/// adapted: in images that tell a white the reference's or else the image's, or in both that which is given.
+/// Nothing for images whose colours are not known, and for a black reference. Throws Error{input} for a white
+/// given to a camera's film that tells none.
 [[nodiscard]] std::optional<ColorDifference> color_difference(const Image& image, const Image& reference,
-                                                              DeltaE formula = DeltaE::cie2000);
+                                                              DeltaE formula = DeltaE::cie2000,
+                                                              std::optional<Chromaticity> white = {});
 
-/// XYZ of every pixel of such an image, in its own scale; nothing where its colours are not known.
+/// XYZ of every pixel of such an image, in its own scale; nothing where its colours are not known. A camera's
+/// are relative to D65 for its film's white, all others as they are.
 [[nodiscard]] std::vector<XYZ> tristimuli(const Image& image);
 
 /// The smallest value that at least a share `quantile` in (0, 1] of `values`, of which there is one or more,

@@ -1,0 +1,104 @@
+#include "cli/white.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibration/output/color_spaces.h"
+#include "cli/answer.h"
+#include "scene/description/white.h"
+#include "transport/render/white.h"
+#include "validation/statistics/film_colors.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr const char* kLightsKey = "lights_xy";
+constexpr std::size_t kMostLights = 256;
+constexpr const char* kPointer = "/output/white";
+
+void require_adaptable(const White& white, ErrorCode code, const std::string& where) {
+  if (adaptation(unit_xyz(white.xy), unit_xyz(kD65))) return;
+  throw Error(code, where,
+              fmt::format("is no white that an eye adapts to (got {}, x {:.4f}, y {:.4f})", white.name,
+                          white.xy[0], white.xy[1]));
+}
+
+std::string on_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', '?');  // headers have a line per entry
+  return text;
+}
+
+White read_asked(const std::string& text, const WhiteNames& names, Diagnostics& diagnostics) {
+  JsonValue root{JsonValue::Object{}, {}, 0};
+  set_json(root, kPointer, text, diagnostics);
+  const JsonValue* output = root.find("output");
+  const JsonValue* json = output != nullptr ? output->find("white") : nullptr;
+  std::optional<White> white = json != nullptr ? read_white(*json, names, diagnostics) : std::nullopt;
+  if (!white) throw Error(ErrorCode::usage, "", diagnostics.text());
+  return *std::move(white);
+}
+
+// What the film says of its white, by a light of the scene where that is the same one.
+std::optional<White> white_of_film(const Scene& scene, const Image& film) {
+  const std::optional<Chromaticity> xy = recorded_white(film);
+  if (!xy) return std::nullopt;
+  const std::string& name = film.metadata.at(kWhiteKey);
+  for (const Light& light : scene.lights) {
+    if (light.name != name) continue;
+    White white = white_of(light, "the film's");
+    if (std::abs(white.xy[0] - (*xy)[0]) + std::abs(white.xy[1] - (*xy)[1]) < 1e-9) return white;
+  }
+  return White{name, "the film's", *xy};
+}
+
+}  // namespace
+
+void settle_white(Scene& scene, const std::filesystem::path& path, int threads) {
+  if (!has_colors(scene)) return;
+  if (scene.output.white)
+    require_adaptable(*scene.output.white, ErrorCode::scene, fmt::format("{}: {}", path.string(), kPointer));
+  scene.output.white = white_of(scene, threads);
+}
+
+void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
+                  const std::optional<std::string>& asked) {
+  Diagnostics diagnostics;
+  if (asked) scene.output.white = read_asked(*asked, white_names(scene.lights, diagnostics), diagnostics);
+  if (!scene.output.white) scene.output.white = white_of_film(scene, film);
+  settle_white(scene, path);
+}
+
+void add_white(const Scene& scene, FilmIdentity& identity) {
+  if (!has_colors(scene)) return;
+  const White white = white_of(scene);
+  if (!std::isfinite(white.xy[0])) return;
+  identity[kWhiteKey] = on_one_line(white.name);
+  identity[kWhiteXyKey] = fmt::format("{} {}", white.xy[0], white.xy[1]);
+  if (scene.lights.size() > kMostLights) return;
+  Json lights = Json::object();
+  for (const Light& light : scene.lights)
+    if (const Chromaticity xy = white_of(light, "").xy; std::isfinite(xy[0])) lights[light.name] = xy;
+  if (!lights.empty()) identity[kLightsKey] = lights.dump();
+}
+
+Chromaticity asked_white(const std::string& text, const Image& film) {
+  Diagnostics diagnostics;
+  const auto recorded = film.metadata.find(kLightsKey);
+  Json lights = Json::object();
+  if (recorded != film.metadata.end()) lights = Json::parse(recorded->second, nullptr, false);
+  const std::vector<Light> none;
+  WhiteNames names = white_names(none, diagnostics);
+  for (const auto& [name, xy] : lights.items())
+    if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
+      names.lights.push_back(name);
+  names.white_of_light = [&](std::size_t i) {
+    return White{names.lights[i], "", lights[names.lights[i]].get<Chromaticity>()};
+  };
+  const White white = read_asked(text, names, diagnostics);
+  require_adaptable(white, ErrorCode::usage, kPointer);
+  return white.xy;
+}
+
+}  // namespace abbe::cli

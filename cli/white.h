@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "io/image.h"
+#include "scene/scene.h"
+#include "transport/render/part.h"
+
+namespace abbe::cli {
+
+/// Decides what pictures of the scene's film show as white (`white_of`), once for all that ask. Throws
+/// Error{scene} when the scene asks for one to which no eye adapts.
+void settle_white(Scene& scene, const std::filesystem::path& path, int threads = 1);
+
+/// Adds it to what a film tells of itself, with the chromaticities of up to 256 lights, by which
+/// `asked_white` finds them.
+void add_white(const Scene& scene, FilmIdentity& identity);
+
+/// The white of the sensor of a scene that looks at a spectral film: the one it asks for, else the film's,
+/// else that of its own lights.
+void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
+                  const std::optional<std::string>& asked);
+
+/// The chromaticity asked for as `output/white` has it, lights being those a film tells of. Throws
+/// Error{usage} for an unknown one, and for one to which no eye adapts.
+[[nodiscard]] Chromaticity asked_white(const std::string& text, const Image& film);
+
+}  // namespace abbe::cli

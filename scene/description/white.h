@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/json.h"
+#include "scene/white.h"
+
+namespace abbe {
+
+/// What a white may be named by.
+struct WhiteNames {
+  std::vector<std::string> lights;
+  std::function<White(std::size_t)> white_of_light;  ///< Of one of them.
+  /// A name as `load_illuminant` takes it, such as where a file lies; nothing after an error.
+  std::function<std::optional<std::string>(const JsonValue&)> illuminant;
+};
+
+/// Reads a white: the name of a light, or else of an illuminant (see `load_illuminant`), or chromaticity
+/// coordinates [x, y]. Reports an unknown name with the nearest, and one that several lights have.
+[[nodiscard]] std::optional<White> read_white(const JsonValue& json, const WhiteNames& names,
+                                              Diagnostics& diagnostics);
+
+/// The names of a scene's lights, and of illuminants as they are.
+[[nodiscard]] WhiteNames white_names(const std::vector<Light>& lights, Diagnostics& diagnostics);
+
+}  // namespace abbe

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/exr.h"
+#include "io/picture.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+#include "transport/render/part.h"
+
+// What pictures show as white.
+
+namespace abbe::test {
+namespace {
+
+constexpr const char* kObserver = R"("observer": "1931")";
+constexpr const char* kNikon = R"("camera": "Nikon_D5100")";
+constexpr const char* kSpectral = R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 5})";
+
+// A white dome behind, and before it in the list, a lamp that hardly shines.
+std::string scene(const std::string& name, const std::string& sensor, const std::string& white = "",
+                  const std::string& dome = "A") {
+  return scratch()
+      .write(name, fmt::format(R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 40, "f_number": 8}},
+        "from": [0, 0, 0], "to": [0, 0, 1], "up": [0, 1, 0]}},
+        "sensor": {{"resolution": [24, 16], {}}},
+        "materials": {{"grey": {{"diffuse": {{"reflectance": 0.5}}}}}},
+        "lights": [{{"name": "faint", "point": {{"at": [0, 0, 1]}},
+                     "emission": {{"illuminant": "D65", "luminous_intensity": 0.001}}}},
+                   {{"name": "dome", "environment": {{}}, "emission": {{"illuminant": "{}", "luminance": 100}}}}],
+        "shapes": [{{"sphere": {{"center": [0, 0, 5], "radius": 1}}, "material": "grey"}}],
+        "render": {{"samples": 64}}, "output": {{{}}}}})",
+                               sensor, dome, white.empty() ? "" : "\"white\": " + white))
+      .string();
+}
+Outcome render(const std::string& file_name, const std::string& film, const std::string& options = "") {
+  return abbe("render " + file_name + " --quiet -o " + film + " " + options);
+}
+
+// Means of a picture's code values, or of channels.
+std::array<double, 3> means(const Image& picture) {
+  std::array<double, 3> mean{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const float v : picture.find(std::string(1, "RGB"[k]))->values)
+      mean[k] += static_cast<double>(v) / static_cast<double>(picture.pixels());
+  return mean;
+}
+// How much redder than blue.
+double warmth(const std::string& picture) {
+  const auto [r, g, b] = means(read_picture(picture));
+  return r - b;
+}
+
+// All sensors: the one light that matters is white by default, in the picture of the render and in that of
+// its film; another white is asked for by the name of a light, of an illuminant, or by coordinates.
+class AnySensor : public testing::TestWithParam<const char*> {};
+
+TEST_P(AnySensor, ShowsTheMainLightAsWhiteOrWhatIsAskedFor) {
+  const std::string film = file("film.exr");
+  const std::string picture = file("film.png");
+  ASSERT_EQ(render(scene("w.json", GetParam()), film, "--display " + picture).code, 0);
+  EXPECT_LT(std::abs(warmth(picture)), 0.02) << "the dome of A";
+  const Image rendered = read_exr(film);
+  EXPECT_EQ(rendered.metadata.at("white"), "dome");
+  const auto develop = [&](const std::string& white) {
+    const Outcome run = abbe("develop " + film + " --display " + file("developed.png") +
+                             (white.empty() ? "" : " --set '/output/white=" + white + "'"));
+    EXPECT_EQ(run.code, 0) << run.err;
+    return warmth(file("developed.png"));
+  };
+  EXPECT_EQ(develop(""), warmth(picture));
+  EXPECT_LT(std::abs(develop("A")), 0.02);
+  for (const char* white : {"faint", "D65", "[0.31272, 0.32903]"}) {
+    EXPECT_GT(develop(white), 0.3) << white;
+    const bool list = *white == '[';
+    const std::string text = list ? std::string(white) : fmt::format("\"{}\"", white);
+    ASSERT_EQ(render(scene("d.json", GetParam(), text), file("d.exr"), "--display " + file("d.png")).code, 0);
+    EXPECT_NEAR(warmth(file("d.png")), develop(white), 0.06) << white;
+    EXPECT_EQ(read_exr(file("d.exr")).metadata.at("white"), list ? "0.31272,0.32903" : white);
+    const Outcome same = abbe("compare " + file("d.exr") + " " + film + " --json");
+    const bool other_profile = GetParam() == kNikon && std::string(white) == "faint";
+    EXPECT_LT(same.json()["dE00_mean"].get<double>(), other_profile ? 15 : 1e-3)
+        << "a white is no difference: " << white;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kNikon, kSpectral));
+
+TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
+  const std::string film = file("spectral.exr");
+  ASSERT_EQ(render(scene("s.json", kSpectral), film).code, 0);
+  const auto seen = [&](const std::string& sensor, const std::string& options) {
+    const Outcome run =
+        abbe("develop " + film + " --scene " + sensor + " --display " + file("seen.png") + options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return warmth(file("seen.png"));
+  };
+  EXPECT_LT(std::abs(seen(scene("n.json", kNikon), "")), 0.02);
+  EXPECT_LT(std::abs(seen(scene("n.json", kNikon, "", "D65"), "")), 0.1) << "not what the sensor's scene has";
+  EXPECT_GT(seen(scene("n.json", kNikon, "\"D65\""), ""), 0.3);
+  EXPECT_GT(seen(scene("n.json", kNikon), " --set /output/white=D65"), 0.3);
+}
+
+TEST(White, InfoSaysWhichAndWhy) {
+  const auto white = [](const std::string& path) { return abbe("info --json " + path).json()["white"]; };
+  const auto chosen = white(scene("i.json", kNikon));
+  EXPECT_EQ(chosen["name"], "dome");
+  EXPECT_EQ(chosen["because"], "gives the film 100 % of its light");
+  EXPECT_NEAR(chosen["xy"][0].get<double>(), 0.4476, 1e-3);
+  EXPECT_EQ(white(scene("i.json", kNikon, "\"FL11\""))["because"], "asked for");
+  EXPECT_TRUE(white(scene("i.json", R"("channels": {"L": {"band": [400, 700]}})")).is_null());
+  EXPECT_NE(abbe("info " + scene("i.json", kNikon)).out.find("white        dome (x 0.44"), std::string::npos);
+}
+
+TEST(White, PartsOfOtherWhitesMerge) {
+  const std::string path = scene("p.json", kObserver);
+  ASSERT_EQ(render(path, file("a.abbepart"), "--sample-range 0:32").code, 0);
+  ASSERT_EQ(render(path, file("b.abbepart"), "--sample-range 32:64").code, 0);
+  ASSERT_EQ(render(path, file("whole.exr")).code, 0);
+  // As another machine's pilot may have it.
+  RenderPart b = read_part(file("b.abbepart"));
+  b.identity["white"] = "faint";
+  b.identity["white_xy"] = "0.3 0.3";
+  b.identity["to_xyz_d65"] = "1 0 0 0 1 0 0 0 1";
+  write_part(file("b.abbepart"), b.identity, b.result);
+  ASSERT_EQ(abbe("merge " + file("a.abbepart") + " " + file("b.abbepart") + " -o " + file("ab.exr")).code, 0);
+  const Image merged = read_exr(file("ab.exr"));
+  const Image whole = read_exr(file("whole.exr"));
+  EXPECT_EQ(merged.find("Y")->values, whole.find("Y")->values);
+  EXPECT_EQ(merged.metadata.at("white_xy"), whole.metadata.at("white_xy"));
+}
+
+TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {
+  const auto refused = [](const std::string& white, const std::string& words, const std::string& sensor) {
+    const Outcome run = render(scene("bad.json", sensor, white), file("bad.exr"));
+    EXPECT_EQ(run.code, 3) << white;
+    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+  };
+  refused(R"("dom")", "unknown light or illuminant \"dom\"", kObserver);
+  refused(R"("dom")", "dome", kObserver);
+  refused("[0.5, 0.6]", "x + y is above 1", kObserver);
+  refused("[0.5, 1]", "allowed (0, 1)", kObserver);
+  refused("[0.7, 0.29]", "no white that an eye adapts to", kNikon);
+  ASSERT_EQ(render(scene("ok.json", kObserver), file("ok.exr")).code, 0);
+  const Outcome run =
+      abbe("develop " + file("ok.exr") + " --set /output/white=dom --display " + file("x.png"));
+  EXPECT_NE(run.code, 0);
+  EXPECT_NE(run.err.find("dome"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace abbe::test

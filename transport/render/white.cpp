@@ -1,0 +1,112 @@
+#include "transport/render/white.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "transport/path/exposure.h"
+#include "transport/render/pilot.h"
+#include "transport/render/plan.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uint64_t kPilotSeed = 0;  // of what the plan learns, whatever the render's
+
+// Lights whose spectra are proportional: the strongest of them, and its spectrum.
+struct Group {
+  std::uint32_t light;
+  double strength;
+  ScaledCurve spectrum;
+};
+
+// Most share their curve; those of environment images do not.
+bool is_proportional(const ScaledCurve& a, const ScaledCurve& b) {
+  constexpr double kRounding = 1e-9;
+  if (&a.base() == &b.base()) return true;
+  const auto x = a.base().knots();
+  const auto y = b.base().knots();
+  const double unit_a = a.base().max();
+  const double unit_b = b.base().max();
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [&](const Knot& p, const Knot& q) {
+    return p.wavelength_nm == q.wavelength_nm && std::abs(p.value / unit_a - q.value / unit_b) <= kRounding;
+  });
+}
+
+// By strength, then by what does not depend on the order of the lights.
+bool is_stronger(const Scene& scene, const Group& a, const Group& b) {
+  return std::tie(b.strength, scene.lights[a.light].name) < std::tie(a.strength, scene.lights[b.light].name);
+}
+
+// Lights that emit nothing belong to the first group, where they change nothing.
+std::vector<Group> groups_of(const Scene& scene, std::vector<std::uint32_t>& group_of_light) {
+  std::vector<Group> groups;
+  const double radius = std::max(scene.bounds.isEmpty() ? 1.0 : scene.bounds.size().length() / 2, 1e-12);
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    ScaledCurve spectrum = mean_emission(scene.lights[i]);
+    group_of_light.push_back(0);
+    if (!(spectrum.max() > 0)) continue;
+    const double strength = spectrum.factor() * spectrum.base().integral() * etendue(scene.lights[i], radius);
+    const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+      return is_proportional(group.spectrum, spectrum);
+    });
+    group_of_light.back() = static_cast<std::uint32_t>(found - groups.begin());
+    Group here{i, strength, std::move(spectrum)};
+    if (found == groups.end())
+      groups.push_back(std::move(here));
+    else if (is_stronger(scene, here, *found))
+      *found = std::move(here);
+  }
+  return groups;
+}
+
+// What a film value of each channel counts.
+std::vector<double> worth_of_channels(const Scene& scene) {
+  if (scene.mosaic) return {1};
+  if (is_observer(scene.channels)) return {0, 1, 0};
+  if (!scene.spectral) return std::vector<double>(scene.channels.size(), 1.0);
+  std::vector<double> worth;
+  for (const Channel& bin : scene.channels) worth.push_back(photometric(bin.weight) / bin.weight.integral());
+  return worth;
+}
+
+}  // namespace
+
+bool has_colors(const Scene& scene) {
+  return scene.spectral || scene.channels.size() == 3;
+}
+
+White main_light(const Scene& scene, int threads) {
+  ExposureByLight sums{{}, worth_of_channels(scene), {}};
+  const std::vector<Group> groups = groups_of(scene, sums.group);
+  if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0)), Curve(1.0)};
+  const auto white = [&](const Group& group, std::string reason) {
+    return white_of(scene.lights[group.light], std::move(reason));
+  };
+  if (groups.size() == 1)
+    return white(groups.front(), scene.lights.size() == 1 ? "the only light" : "the only spectrum of light");
+  sums.exposure.assign(groups.size(), 0.0);
+  pilot_exposures(make_plan(scene, threads, kPilotSeed), threads, sums);
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < groups.size(); ++i)
+    if (sums.exposure[i] > sums.exposure[most] ||
+        (sums.exposure[i] == sums.exposure[most] && is_stronger(scene, groups[i], groups[most])))
+      most = i;
+  const double total = std::accumulate(sums.exposure.begin(), sums.exposure.end(), 0.0);
+  return white(groups[most], total > 0 ? fmt::format("gives the film {:.3g} % of its light",
+                                                     100 * sums.exposure[most] / total)
+                                       : "is the strongest; none reached the film in a pilot");
+}
+
+White white_of(const Scene& scene, int threads) {
+  const std::optional<White>& asked = scene.output.white;
+  if (asked && asked->spectrum) return *asked;
+  White white = main_light(scene, threads);
+  if (asked) white = {asked->name, asked->reason, asked->xy, std::move(white.spectrum)};
+  return white;
+}
+
+}  // namespace abbe

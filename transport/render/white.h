@@ -1,0 +1,21 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace abbe {
+
+/// Whether a film of the scene has colours, and so a white: three channels, or a spectrum.
+[[nodiscard]] bool has_colors(const Scene& scene);
+
+/// The light that exposes the film most, lamps whose spectra differ by a factor counting as one: by
+/// luminance for the observer and for a spectral sensor, else by the sum of the film values of all channels.
+/// Where there are several spectra a pilot tells, a render of few paths whose random numbers depend on the
+/// scene alone: neither the order of the lights nor the render's seed matters. Equal energy for a scene
+/// without a light.
+[[nodiscard]] White main_light(const Scene& scene, int threads = 1);
+
+/// The white the scene asks for, else the main light; with the spectrum that cameras are characterised in:
+/// that of the white if it is a light of the scene, else of the main light.
+[[nodiscard]] White white_of(const Scene& scene, int threads = 1);
+
+}  // namespace abbe
