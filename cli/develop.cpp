@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "calibration/output/color_spaces.h"
+#include "calibration/output/white_clip.h"
 #include "cli/answer.h"
 #include "cli/film_output.h"
 #include "cli/film_sensor.h"
@@ -200,6 +201,22 @@ Developed read_film_out(const Exposed& exposed, std::uint64_t seed) {
   return developed;
 }
 
+// What a display is given: every channel in every pixel, and what saturated as white.
+Image shown_planes(const FilmSensor& sensor, const Image& calibrated) {
+  Image planes = sensor.mosaic ? demosaic(calibrated, sensor.planes.front(), *sensor.mosaic, sensor.channels)
+                               : calibrated;
+  if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return planes;
+  const Readout& readout = *sensor.readout;
+  const double full_e = std::min(readout.full_well_e, electrons_of(readout, readout.highest_code()));
+  std::vector<double> saturation;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double seconds = sensor.exposure_s[std::min(k, sensor.planes.size() - 1)];
+    saturation.push_back((full_e - readout.dark_e_per_s * seconds) / sensor.gathering_area_m2);
+  }
+  clip_to_white(planes, sensor.channels, sensor.display->to_xyz_d65(), saturation);
+  return planes;
+}
+
 // Linear Rec.709 of the picture.
 Image preview(const Image& planes, const DisplayTransform& display, double scale) {
   constexpr std::array kNames{"R", "G", "B"};
@@ -299,9 +316,7 @@ int develop(const DevelopOptions& options) {
   inputs.take_memory("developing", 3 * exposed.film.memory_bytes());
   const Developed developed =
       read_film_out(exposed, options.seed.value_or(static_cast<std::uint64_t>(render_seed)));
-  const Image planes =
-      sensor.mosaic ? demosaic(developed.calibrated, sensor.planes.front(), *sensor.mosaic, sensor.channels)
-                    : developed.calibrated;
+  const Image planes = shown_planes(sensor, developed.calibrated);
   const std::optional<double> scale =
       sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
   for (const fs::path& output : options.outputs)

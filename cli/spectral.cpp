@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -20,6 +21,14 @@ namespace {
 
 constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
 constexpr const char* kDistanceKey = "image_distance_px";
+
+// What a film says of the unit of a bin, beside the `emissiveUnits` of the layout.
+constexpr const char* kRadiance = "radiance, W per m^2 and sr of the band";
+
+// Drops what is said of the channels of the sensor that a film was exposed on.
+void forget_channels(std::map<std::string, std::string>& metadata) {
+  std::erase_if(metadata, [](const auto& entry) { return entry.first.starts_with("channel."); });
+}
 
 double axis_weight(const Camera& camera) {
   const Imath::V2f center(static_cast<float>(camera.width) / 2, static_cast<float>(camera.height) / 2);
@@ -107,6 +116,9 @@ Image spectral_film_image(const Image& film) {
   SpectralImage image =
       spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_s));
   for (ImageChannel& channel : observed(image).channels) image.others.push_back(std::move(channel));
+  forget_channels(image.metadata);
+  for (const SpectralBand& band : image.bands)
+    image.metadata["channel." + spectral_channel(band.center_nm)] = kRadiance;
   return spectral_layout(image);
 }
 
@@ -146,6 +158,7 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
   Image film = expose(image, scene.channels, exposure_per_radiance(camera, scene.exposure_s));
   if (scene.mosaic) film = mosaicked(film, *scene.mosaic, scene.channel_names());
   film.metadata = image.metadata;
+  forget_channels(film.metadata);
   for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime",
                           kSpectralBinsKey, kAxisKey, kDistanceKey})
     film.metadata.erase(key);

@@ -150,5 +150,31 @@ TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {
   EXPECT_NE(run.err.find("dome"), std::string::npos) << run.err;
 }
 
+// An overexposed sensor in warm light: its channels all hold as much, which is no neutral.
+TEST(White, WhatSaturatesIsNotCyan) {
+  const std::string film = file("hot.exr");
+  const std::string sensor =
+      R"("response": "quantum", "pixel_pitch_um": 10, "exposure_s": 1, "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}},
+         "readout": {"gain_e_per_dn": 1, "bits": 10, "full_well_e": 900})";
+  ASSERT_EQ(render(scene("hot.json", sensor), film).code, 0);
+  ASSERT_EQ(abbe("develop " + film + " --display " + file("hot.png")).code, 0);
+  const auto [r, g, b] = means(read_picture(file("hot.png")));
+  EXPECT_NEAR(r, 1, 0.02);
+  EXPECT_NEAR(g, 1, 0.02);
+  EXPECT_NEAR(b, 1, 0.02);
+}
+
+TEST(White, SpectralFilmsSayTheUnitOfTheirBins) {
+  const std::string film = file("units.exr");
+  ASSERT_EQ(render(scene("u.json", kSpectral), film).code, 0);
+  const auto& metadata = read_exr(film).metadata;
+  EXPECT_EQ(metadata.at("emissiveUnits"), "W.m^-2.sr^-1");
+  EXPECT_EQ(metadata.at("channel.S0.552,500000nm"), "radiance, W per m^2 and sr of the band");
+  EXPECT_EQ(
+      std::count_if(metadata.begin(), metadata.end(),
+                    [](const auto& entry) { return entry.second.find("J per m^2") != std::string::npos; }),
+      0);
+}
+
 }  // namespace
 }  // namespace abbe::test
