@@ -35,13 +35,18 @@ std::optional<double> f_number(const Camera& camera) {
   return focal_length / (2 * lens->aperture_radius);
 }
 
-// How long every channel was exposed; nothing where they differ, as those of a filter wheel may.
-std::optional<double> common_exposure(const Scene& scene) {
+// The sensor's exposure where a channel has it, else that of all channels; nothing where each has its own, as
+// behind a filter wheel.
+std::optional<double> standard_exposure(const Scene& scene) {
+  const auto count = [&scene](double ratio) {
+    return static_cast<std::size_t>(
+        std::count_if(scene.channels.begin(), scene.channels.end(),
+                      [ratio](const Channel& c) { return c.exposure_ratio == ratio; }));
+  };
+  if (count(1) > 0) return scene.exposure_s;
   const double ratio = scene.channels.front().exposure_ratio;
-  if (std::any_of(scene.channels.begin(), scene.channels.end(),
-                  [ratio](const Channel& c) { return c.exposure_ratio != ratio; }))
-    return std::nullopt;
-  return scene.exposure_s * ratio;
+  if (count(ratio) == scene.channels.size()) return scene.exposure_s * ratio;
+  return std::nullopt;
 }
 
 void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
@@ -155,7 +160,7 @@ FilmIdentity sensor_identity(const Scene& scene) {
   FilmIdentity identity{{"sensor", scene.sensor_text},
                         {"exposure_s", fmt::format("{}", scene.exposure_s)},
                         {"gathering_area_m2", fmt::format("{}", area_m2)}};
-  if (const auto seconds = common_exposure(scene)) identity["expTime"] = single(*seconds);
+  if (const auto seconds = standard_exposure(scene)) identity["expTime"] = single(*seconds);
   if (const auto n = f_number(scene.camera)) identity["aperture"] = single(*n);
   const std::vector<std::string> names = scene.channel_names();
   for (const Channel& channel : scene.channels) {
