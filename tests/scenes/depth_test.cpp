@@ -78,7 +78,7 @@ TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
   EXPECT_EQ(survival(0.7F, 4), 0.7F);
   EXPECT_EQ(survival(0.01F, 4), 0.1F);
   EXPECT_EQ(survival(3, 64), 1);
-  EXPECT_EQ(survival(3, 100), 0.98F);
+  EXPECT_FLOAT_EQ(survival(3, 100), 0.98F);
   EXPECT_FLOAT_EQ(survival(3, 1000), 0.998F);
   EXPECT_EQ(survival(0.7F, 65), 0.7F);
   EXPECT_EQ(most_events(settings), 100000);

@@ -24,10 +24,10 @@ inline constexpr int kMostEvents = 100000;
 }
 
 /// Probability that a path goes on after so many events when it carries `throughput`: that, within [0.1, 1]
-/// [Marschner2021, sec. 14.4], and beyond 64 events no more than 1 - 2/events, so that paths end where nothing
-/// is absorbed. What goes on is divided by it, so the mean stays what it is. The weight of a path of n events
-/// then grows as n^2, which any loss that goes on, however small, outdoes; one that grew exponentially, as of
-/// a constant probability, would leave the variance of a dense white cloud infinite.
+/// [Marschner2021, sec. 14.4], and beyond 64 events no more than 1 - 2/events, so that paths end where
+/// nothing is absorbed. What goes on is divided by it, so the mean stays what it is. The weight of a path of
+/// n events then grows as n^2, which any loss that goes on, however small, outdoes; one that grew
+/// exponentially, as of a constant probability, would leave the variance of a dense white cloud infinite.
 [[nodiscard]] inline float survival(float throughput, int events) {
   const float most = events > kLongPath ? 1 - 2 / static_cast<float>(events) : 1;
   return std::min(most, std::max(0.1F, throughput));
