@@ -16,7 +16,7 @@ struct CompareOptions {
   std::filesystem::path chart{};     ///< Scene whose chart is read out; empty: none.
   std::filesystem::path maps{};      ///< Folder for pictures of the differences; empty: none.
   std::size_t max_memory_bytes = default_memory_limit();
-  std::string white{};               ///< Of both images, as `asked_white` takes it; empty: what they tell.
+  std::string white{};  ///< Of both images, as `asked_white` takes it; empty: what they tell.
   bool json = false;
 };
 

@@ -187,7 +187,8 @@ TEST(Develop, TheElectronicsMayBeVariedAndNothingElse) {
             read_picture(file("own.png")).channels[1].values);
   const Outcome used = abbe("develop " + bare + " --set /exposure_s=2");
   EXPECT_EQ(used.code, 2);
-  EXPECT_NE(used.err.find("(got /exposure_s, allowed /readout and below, /output/white)"), std::string::npos) << used.err;
+  EXPECT_NE(used.err.find("(got /exposure_s, allowed /readout and below, /output/white)"), std::string::npos)
+      << used.err;
   const Outcome wrong = abbe("develop " + rgb_film() + " --set /readout/bits=99");
   EXPECT_EQ(wrong.code, 3);
   EXPECT_NE(wrong.err.find("/readout/bits: error: expected an integer (got 99, allowed [1, 16])"),

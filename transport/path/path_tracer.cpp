@@ -116,9 +116,9 @@ class CameraPath {
                             : plan_.path_lights.probability(index) *
                                   light_pdf(light, scene_.shapes, end_.ray.origin, end_.ray.direction,
                                             Imath::V3f(0), Imath::V3f(0));
-      exposure_.deposit(end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) *
-                        (1 / balance(pdf)),
-                        index);
+      exposure_.deposit(
+          end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) * (1 / balance(pdf)),
+          index);
     }
   }
 
