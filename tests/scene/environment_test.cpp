@@ -176,7 +176,7 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
       R"({"lights": [{"environment": {"image": "sky.exr", "up": [0, 1, 0], "rotate_deg": 180}, "emission": {"illuminant": "D65", "radiance": 5}}]})";
   const Loaded loaded = load(text);
   ASSERT_TRUE(loaded.scene) << loaded.text();
-  ASSERT_EQ(loaded->environment(), 0);
+  ASSERT_EQ(loaded->background().size(), 1U);
   const Light& sky = loaded->lights[0];
   // The image's left edge lies behind its middle, which looks along -x: towards +x, above.
   EXPECT_NEAR(emission_from(sky, {0.7F, 0.7F, 0.1F}, SampledSpectrum(650))[0] /

@@ -56,7 +56,7 @@ TEST(MainLight, LampsOfProportionalSpectraCountAsOne) {
   lights.push_back(lamp("weak but first", blue(), 0.9));
   const White white = main_light(card(lights));  // 10 against 20.2
   EXPECT_EQ(white.name, "weak but first") << "the strongest of its kind names it";
-  lights.resize(12);
+  lights.erase(lights.begin() + 12, lights.end());
   EXPECT_EQ(main_light(card(lights)).name, "strong") << "10 against 6.1";
 }
 
