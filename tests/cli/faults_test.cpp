@@ -183,7 +183,7 @@ TEST(Threads, AnyNumberGivesTheSameFile) {
 // scene holds.
 TEST(Samples, ThoseTheFilmCannotHoldAreCountedAndTheirPixelsKept) {
   const auto scene = scratch().write("near.json", R"({"abbe": 1,
-    "camera": {"pinhole": {"fov_deg": 1e-4}, "from": [0, 1e-3, 2e-3], "to": [0, 0, 0], "up": [0, 0, 1]},
+    "camera": {"pinhole": {"fov_deg": 2e-4}, "from": [0, 1e-3, 2e-3], "to": [0, 0, 0], "up": [0, 0, 1]},
     "sensor": {"resolution": [8, 6], "observer": "1931"},
     "materials": {"white": {"diffuse": {"reflectance": 0.8}}},
     "lights": [{"point": {"at": [0, 1e-12, 0]}, "emission": {"illuminant": "D65", "intensity": 1}}],
