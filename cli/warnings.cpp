@@ -7,7 +7,7 @@
 #include "cli/answer.h"
 #include "cli/film_output.h"
 #include "io/error.h"
-#include "transport/path/dark_enclosure.h"
+#include "scene/needs/dark_enclosure.h"
 #include "transport/render/plan.h"
 
 namespace abbe::cli {

@@ -17,6 +17,13 @@ struct BasicRay {
 };
 using Ray = BasicRay<float>;
 
+/// A direction that no face of a scene is likely to lie along: where a ray is to tell how often it leaves a
+/// shape.
+template <typename T>
+[[nodiscard]] Imath::Vec3<T> askew_direction() {
+  return Imath::Vec3<T>(T(0.3618), T(0.5119), T(0.7791)).normalized();
+}
+
 /// A ray as it was asked of a scene: for its nearest hit, or whether anything blocks it.
 struct LoggedRay {
   Ray ray;

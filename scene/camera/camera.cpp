@@ -87,6 +87,11 @@ Imath::V3d& position(Camera& camera) {
   return std::get<IrradianceProbe>(camera.kind).corner;
 }
 
+Imath::V3d middle(const Camera& camera) {
+  const auto* probe = std::get_if<IrradianceProbe>(&camera.kind);
+  return probe == nullptr ? position(camera) : probe->corner + (probe->edge_u + probe->edge_v) * 0.5;
+}
+
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens) {
   if (const auto* probe = std::get_if<IrradianceProbe>(&camera.kind))
     return probe_ray(camera, *probe, film, lens);

@@ -53,6 +53,8 @@ struct Camera {
 /// Where a lens has its centre, or a meter its corner.
 [[nodiscard]] const Imath::V3d& position(const Camera& camera);
 [[nodiscard]] Imath::V3d& position(Camera& camera);
+/// Where a lens or a meter has its centre.
+[[nodiscard]] Imath::V3d middle(const Camera& camera);
 
 /// A ray into the scene. Radiance L along it adds `weight` L to the spectral irradiance at its film position.
 struct CameraRay {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <numbers>
@@ -142,6 +143,9 @@ struct EmissionPoint {
 };
 [[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
                                                   const std::vector<ShapeInstance>& shapes, Imath::V2f u);
+/// Numbers for it that are spread over a light, its middle first: where all of a light is to be looked at.
+inline constexpr std::array<std::array<float, 2>, 5> kSpreadOverLight{
+    {{0.5F, 0.5F}, {0.05F, 0.05F}, {0.95F, 0.05F}, {0.05F, 0.95F}, {0.95F, 0.95F}}};
 
 /// What its mean emission is multiplied by to give its power: [m^2 sr], [sr] for point and spot lights, [m^2]
 /// for directional ones; of lights at infinity, through the sphere of radius `scene_radius_m`.

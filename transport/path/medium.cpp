@@ -82,9 +82,8 @@ Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
   bool any = false;
   for (std::uint32_t i = 0; i < scene.shapes.size() && !any; ++i) any = filled(scene, i);
   if (!any) return inside;
-  const Imath::V3f askew = Imath::V3f(0.3618F, 0.5119F, 0.7791F).normalized();
-  const auto ahead = crossings(scene, point, askew);
-  const auto behind = crossings(scene, point, -askew);
+  const auto ahead = crossings(scene, point, askew_direction<float>());
+  const auto behind = crossings(scene, point, -askew_direction<float>());
   std::vector<std::pair<float, std::uint32_t>> around;
   for (const auto& [shape, of] : ahead) {
     const auto other = behind.find(shape);
@@ -97,24 +96,22 @@ Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
 }
 
 Enclosures around_camera(const Scene& scene) {
-  if (const auto* lens = std::get_if<LensCamera>(&scene.camera.kind))
-    return enclosing(scene, Imath::V3f(lens->frame.position));
-  const auto& probe = std::get<IrradianceProbe>(scene.camera.kind);
-  const Imath::V3f middle(probe.corner + (probe.edge_u + probe.edge_v) * 0.5);
-  const Imath::V3f normal(probe.normal);
-  return enclosing(scene, offset_point(middle, normal, normal));
+  const Imath::V3f at(middle(scene.camera));
+  const auto* probe = std::get_if<IrradianceProbe>(&scene.camera.kind);
+  if (probe == nullptr) return enclosing(scene, at);
+  const Imath::V3f normal(probe->normal);
+  return enclosing(scene, offset_point(at, normal, normal));
 }
 
 Enclosures around_light(const Scene& scene, const Light& light) {
   if (light.at_infinity() || scene.is_far(light)) return {};
-  const auto around = [&](const Imath::V2f& u) {
-    const EmissionPoint at = sample_emission_point(light, scene.shapes, u);
+  const auto around = [&](const std::array<float, 2>& u) {
+    const EmissionPoint at = sample_emission_point(light, scene.shapes, {u[0], u[1]});
     return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
   };
-  Enclosures middle = around({0.5F, 0.5F});
+  Enclosures middle = around(kSpreadOverLight.front());
   if (light.is_delta()) return middle;
-  for (const Imath::V2f& u : {Imath::V2f(0.05F, 0.05F), Imath::V2f(0.95F, 0.05F), Imath::V2f(0.05F, 0.95F),
-                              Imath::V2f(0.95F, 0.95F)}) {
+  for (const std::array<float, 2>& u : kSpreadOverLight) {
     const Enclosures there = around(u);
     if (!std::ranges::equal(there.shapes(), middle.shapes()))
       throw Error(ErrorCode::scene, light.name,

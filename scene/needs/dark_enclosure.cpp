@@ -1,6 +1,8 @@
-#include "transport/path/dark_enclosure.h"
+#include "scene/needs/dark_enclosure.h"
 
 #include <algorithm>
+
+#include "scene/shapes/solid.h"
 
 namespace abbe {
 namespace {
@@ -22,19 +24,21 @@ int exits(const Shape& shape, const Imath::V3d& from, const Imath::V3d& directio
   return count;
 }
 
+// Of a copy, since what is open is found where a mesh is made solid.
+bool has_openings(const Shape& shape) {
+  const auto* mesh = plain<Mesh>(shape);
+  if (mesh == nullptr) return false;
+  Mesh copy = *mesh;
+  return make_solid(copy).open_edges > 0;
+}
+
 bool encloses(const Shape& shape, const Imath::V3d& point) {
   constexpr double kApart = 1e-9;  // of two surfaces, relative to the shape
-  const Imath::V3d askew = Imath::V3d(0.3618, 0.5119, 0.7791).normalized();
+  const auto askew = askew_direction<double>();
   const Imath::Box3d box = bounds(shape);
   const double apart = kApart * box.size().length();
   return apart > 0 && box.intersects(point) && exits(shape, point, askew, apart) > 0 &&
          exits(shape, point, -askew, apart) > 0;
-}
-
-Imath::V3d camera_position(const Camera& camera) {
-  if (const auto* lens = std::get_if<LensCamera>(&camera.kind)) return lens->frame.position;
-  const auto& probe = std::get<IrradianceProbe>(camera.kind);
-  return probe.corner + (probe.edge_u + probe.edge_v) * 0.5;
 }
 
 // Whether a light stands in the shape or emits into it.
@@ -45,18 +49,21 @@ bool lit(const Scene& scene, std::uint32_t enclosure) {
     if (area == nullptr && !std::holds_alternative<PointLight>(light.kind) &&
         !std::holds_alternative<SpotLight>(light.kind))
       return false;  // infinitely far
-    const EmissionPoint from = sample_emission_point(light, scene.shapes, {0.5F, 0.5F});
-    return encloses(scene.shapes[enclosure].shape, Imath::V3d(from.point));
+    return std::ranges::any_of(kSpreadOverLight, [&](const std::array<float, 2>& u) {
+      const EmissionPoint from = sample_emission_point(light, scene.shapes, {u[0], u[1]});
+      return encloses(scene.shapes[enclosure].shape, Imath::V3d(from.point));
+    });
   });
 }
 
 }  // namespace
 
 std::optional<std::uint32_t> dark_enclosure(const Scene& scene) {
-  const Imath::V3d camera = camera_position(scene.camera);
+  const Imath::V3d camera = middle(scene.camera);
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];
-    if (opaque(scene.materials[instance.material]) && encloses(instance.shape, camera) && !lit(scene, i))
+    if (opaque(scene.materials[instance.material]) && encloses(instance.shape, camera) && !lit(scene, i) &&
+        !has_openings(instance.shape))
       return i;
   }
   return std::nullopt;

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "scene/needs/dark_enclosure.h"
+#include "tests/scene/meshes.h"
 #include "tests/scene/scenes.h"
-#include "transport/path/dark_enclosure.h"
 
 namespace abbe {
 namespace {
@@ -21,15 +22,9 @@ Scene shell(const Shape& shape, Material material, const V3d& lamp) {
   return scene;
 }
 
-// Of half a side, its faces seen from outside, or from inside.
-Mesh box(double h, bool outward) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.vertices.push_back({i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h});
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  if (!outward)
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
+const Mesh& box() {
+  static const Mesh kBox = testing::box({-1, -1, -1}, {1, 1, 1});
+  return kBox;
 }
 
 const V3d kInside(0.2, 0.3, 0.1);
@@ -39,15 +34,29 @@ TEST(DarkEnclosure, IsOpaqueClosedAndWithoutALight) {
   const Sphere ball{{0, 0, 0}, 2};
   EXPECT_EQ(dark_enclosure(shell(ball, testing::diffuse(), kOutside)), 0U);
   EXPECT_EQ(dark_enclosure(shell(ball, testing::mirror(), kOutside)), 0U);
-  EXPECT_EQ(dark_enclosure(shell(box(1, true), testing::diffuse(), kOutside)), 0U);
+  EXPECT_EQ(dark_enclosure(shell(box(), testing::diffuse(), kOutside)), 0U);
   EXPECT_FALSE(dark_enclosure(shell(ball, testing::diffuse(), kInside))) << "an integrating sphere";
-  EXPECT_FALSE(dark_enclosure(shell(box(1, true), testing::diffuse(), kInside))) << "a lit room";
+  EXPECT_FALSE(dark_enclosure(shell(box(), testing::diffuse(), kInside))) << "a lit room";
   EXPECT_FALSE(dark_enclosure(shell(ball, testing::glass(), kOutside)));
-  EXPECT_FALSE(dark_enclosure(shell(box(1, false), testing::diffuse(), kOutside)))
+  EXPECT_FALSE(dark_enclosure(shell(testing::inside_out(box()), testing::diffuse(), kOutside)))
       << "made to be seen from within";
   EXPECT_FALSE(dark_enclosure(shell(Sphere{{0, 0, 3}, 2}, testing::diffuse(), kOutside)))
       << "beside the camera";
   EXPECT_FALSE(dark_enclosure(shell(Disc{{0, 0, 1}, {0, 0, 1}, 2}, testing::diffuse(), kOutside)));
+}
+
+TEST(DarkEnclosure, HasNoOpening) {
+  Mesh open = box();
+  open.triangles.erase(open.triangles.begin(), open.triangles.begin() + 2);  // the wall at -x
+  EXPECT_FALSE(dark_enclosure(shell(open, testing::diffuse(), kOutside)));
+}
+
+TEST(DarkEnclosure, IsLitByALampThatReachesIntoIt) {
+  Scene scene = shell(box(), testing::diffuse(), kOutside);
+  scene.shapes.push_back({"tube", Quad{{0.5, 0, 0}, {8, 0, 0}, {0, 0.1, 0}}, 1});
+  scene.lights.push_back({"tube", AreaLight{2, false}, Curve(1.0)});
+  scene.commit();
+  EXPECT_FALSE(dark_enclosure(scene));
 }
 
 TEST(DarkEnclosure, IsLitByWhatItEmitsInward) {
