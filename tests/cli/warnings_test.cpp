@@ -52,8 +52,9 @@ TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
   const Outcome run = rendered(scene, " --strict");
   EXPECT_EQ(run.code, 0);
   EXPECT_NE(run.err.find("warning: light that any technique does not reach"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("E S+ L: a point, spot or directional light seen in mirrors or through glass (\"bulb\")"),
-            std::string::npos)
+  EXPECT_NE(
+      run.err.find("E S+ L: a point, spot or directional light seen in mirrors or through glass (\"bulb\")"),
+      std::string::npos)
       << run.err;
 }
 
