@@ -34,15 +34,19 @@ Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes) {
   std::sort(by_reach.begin(), by_reach.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   Extent extent;
   double reach = 0;
+  double nearest = 0;
   for (const auto& [furthest_point, box] : by_reach) {
     const double scale = !extent.near.isEmpty() ? reach
                          : camera.is_probe()    ? box.size().length()
                                                 : furthest_point;
     if (furthest_point > Extent::kGap * scale) continue;
+    if (extent.near.isEmpty()) nearest = furthest_point;
     extent.near.extendBy(box);
     reach = furthest_point;
   }
   extent.far_from = Extent::kGap * reach;
+  const bool around_camera = extent.near.isEmpty() || reach > Extent::kGap * nearest;
+  extent.origin = around_camera ? from : extent.near.center();
   return extent;
 }
 

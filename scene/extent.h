@@ -23,7 +23,10 @@ struct ShapeInstance;
 struct Extent {
   static constexpr double kGap = 1000;
 
-  Imath::Box3d near;    ///< Around what is near; empty where nothing is, as around a meter of a far lamp.
+  Imath::Box3d near;  ///< Around what is near; empty where nothing is, as around a meter of a far lamp.
+  /// Where floats are to be finest: the middle of what is near, or the camera where there is none or where it
+  /// reaches from the nearest, step by step, more than `kGap` times further.
+  Imath::V3d origin{0, 0, 0};
   double far_from = 0;  ///< What lies wholly beyond this distance from the camera [m] is far.
 };
 /// For a camera of a lens the shapes it comes to first are near, however far it stands; for a meter, which is

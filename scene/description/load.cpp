@@ -88,12 +88,11 @@ OutputSettings read_output(const JsonValue& json, Reading& reading, const Scene&
   return output;
 }
 
-// Moves the scene so that the middle of what is near is at (0, 0, 0), where floats are finest; everything up
-// to here is in double.
+// Moves the scene so that (0, 0, 0), where floats are finest, is where they are to be; everything up to here
+// is in double.
 void recentre(Scene& scene, Reading& reading) {
   const std::vector<Imath::V3d>& light_positions = reading.light_positions;
-  const Imath::Box3d near = extent_of(scene.camera, scene.shapes).near;
-  scene.origin_m = near.isEmpty() ? position(scene.camera) : near.center();
+  scene.origin_m = extent_of(scene.camera, scene.shapes).origin;
   for (ShapeInstance& instance : scene.shapes)
     std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
   for (const auto& at : reading.placements)

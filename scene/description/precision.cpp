@@ -10,6 +10,8 @@ namespace {
 
 // A ray leaves a surface four float steps off it, so that a body of fewer steps than these is hardly one.
 constexpr double kLeastSteps = 64;
+// An opaque one of fewer steps than these is elsewhere than it is described by a part of itself.
+constexpr double kLeastOpaqueSteps = 8;
 // A pixel of fewer steps than these is one of the few directions that floats tell apart.
 constexpr double kLeastPixelSteps = 8;
 constexpr double kDirectionStep = 0x1p-24;  // of a component near 1, and so [rad] of a direction
@@ -24,20 +26,27 @@ void check_shapes(const Reading& reading, const Scene& scene) {
   for (const Light& light : scene.lights)
     if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
       emitting_mesh[emitter->shape] = plain<Mesh>(scene.shapes[emitter->shape].shape) != nullptr;
+  const double far_from = extent_of(scene.camera, scene.shapes).far_from;
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];
-    if (!emitting_mesh[i] && !needs_a_body(scene, instance)) continue;
     const Imath::Box3d box = bounds(instance.shape);
+    const bool body = needs_a_body(scene, instance);
+    const bool opaque = !emitting_mesh[i] && !body;
+    if (opaque && distance_to(box, position(scene.camera)) > far_from) continue;
     const double size = box.size().length();
     const double step = float_step(largest_coordinate(box));
-    if (size >= kLeastSteps * step) continue;
+    const double least = opaque ? kLeastOpaqueSteps : kLeastSteps;
+    if (size >= least * step) continue;
     reading.diagnostics.error(
         reading.shape_places[i],
         fmt::format(
             "shape \"{}\" is {:.3g} m large and {:.3g} m from the middle of the scene, where floats are "
             "{:.3g} m apart: too few for {} (got {:.3g} of them, allowed [{}, inf))",
             instance.name, size, box.center().length(), step,
-            emitting_mesh[i] ? "a mesh that emits" : "matter that light enters", size / step, kLeastSteps));
+            emitting_mesh[i] ? "a mesh that emits"
+            : body           ? "matter that light enters"
+                             : "a shape that is near",
+            size / step, least));
   }
 }
 

@@ -102,6 +102,16 @@ TEST(Far, ACardUnderAFarLampIsAsBrightAsInAParallelBeam) {
       EXPECT_NEAR(mean(card(lamp)) / beam, 1, 1e-5) << lamp;
 }
 
+// Things that lead step by step from near to far, none of them a thousand times further than the last, and
+// none of them in the way.
+TEST(Far, AChainOfThingsIntoTheDistanceChangesNothingNear) {
+  std::string chain;
+  for (const double distance : {900.0, 8e5, 7e8})
+    chain += fmt::format(R"(, {{"sphere": {{"center": {}, "radius": {}}}, "material": "white"}})",
+                         numbers(V3d(distance, 0, -0.2 * distance)), 0.1 * distance);
+  EXPECT_NEAR(mean(card(kBeam, chain)) / mean(card(kBeam)), 1, 2e-4);
+}
+
 TEST(Far, ASunIsADiscOfItsRadiance) {
   const auto seen = [](const std::string& light, const char* to) {
     return mean(test::load_text(fmt::format(
