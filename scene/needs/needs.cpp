@@ -17,6 +17,8 @@ namespace {
 // Solid angle [sr] below which a light is left to the light tracer: path tracing then finds it by chance in
 // less than one in 250 directions.
 constexpr double kSmallLight_sr = 0.05;
+// Below this one it does so in less than one in 12,000 directions: hardly ever.
+constexpr double kTinyLight_sr = 0.001;
 
 const Material& material_of(const Scene& scene, const ShapeInstance& instance) {
   return scene.materials[instance.material];
@@ -71,15 +73,17 @@ std::vector<SpecularCenter> specular_centers(const Scene& scene) {
   return centers;
 }
 
-// Whether the light looks small from every specular shape; delta lights do from anywhere. A ball of radius r
-// looks larger than the limit from nearer than r/sin, the sine being that of half the limit's cone.
-bool looks_small(const Scene& scene, const Light& light, std::span<const SpecularCenter> centers) {
+// Whether the light looks smaller than that from every specular shape; delta lights do from anywhere. A ball
+// of radius r looks larger than the limit from nearer than r/sin, the sine being that of half the limit's
+// cone.
+bool looks_smaller(const Scene& scene, const Light& light, std::span<const SpecularCenter> centers,
+                   double limit_sr) {
   if (const auto* sun = std::get_if<SunLight>(&light.kind))
-    return 2 * std::numbers::pi * static_cast<double>(sun->cap) < kSmallLight_sr;
+    return 2 * std::numbers::pi * static_cast<double>(sun->cap) < limit_sr;
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr) return light.is_delta();
   const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
-  const double cosine = 1 - kSmallLight_sr / (2 * std::numbers::pi);
+  const double cosine = 1 - limit_sr / (2 * std::numbers::pi);
   const double reach = box.size().length() / 2 / std::sqrt((1 - cosine) * (1 + cosine));
   auto near = std::lower_bound(centers.begin(), centers.end(), box.center().x - reach,
                                [](const SpecularCenter& c, double x) { return c.at.x < x; });
@@ -221,7 +225,7 @@ void analyse_lights(const Scene& scene, Needs& needs) {
     if (emits(light) && examined.insert(&emission).second)
       require(needs, &Needs::narrow_bands, has_narrow_feature(emission), "light", light.name);
     needs.light_is_traced.push_back(needs.caustics && connectable && !light.is_environment() &&
-                                    emits(light) && looks_small(scene, light, centers));
+                                    emits(light) && looks_smaller(scene, light, centers, kSmallLight_sr));
     require(needs, &Needs::light_tracing, needs.light_is_traced.back(), "light", light.name);
   }
 }
@@ -321,6 +325,15 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
       "caustics of a point, spot or directional light, seen in mirrors or through glass");
   add(names_of(scene, [&](std::size_t i) { return delta(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
       "caustics of a point, spot or directional light");
+  const std::vector<SpecularCenter> centers = specular_centers(scene);
+  const auto tiny = [&](std::size_t i) {
+    return !lights[i].is_delta() && !lights[i].is_environment() && emits(lights[i]) &&
+           looks_smaller(scene, lights[i], centers, kTinyLight_sr);
+  };
+  add(names_of(scene, [&](std::size_t i) { return tiny(i) && traced(i); }), "E S (S|D)* D (S|D)* S L",
+      "caustics of a tiny light, seen in mirrors or through glass, but for rare bright dots");
+  add(names_of(scene, [&](std::size_t i) { return tiny(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
+      "caustics of a tiny light, but for rare bright dots");
   return classes;
 }
 

@@ -283,7 +283,14 @@ TEST(Needs, SunsAndBeamsAreTracedUnlessTheyLookLarge) {
   EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>{true, true, false}));
   EXPECT_TRUE(scene.needs.delta_lights && scene.needs.light_tracing && !scene.needs.environment);
   EXPECT_EQ(scene.background().size(), 2U) << "no ray meets a beam";
-  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", "E S (S|D)* D (S|D)* S L"}));
+  const std::string seen = "E S (S|D)* D (S|D)* S L";
+  const std::string caustic = "E (S|D)* D (S|D)* S L";
+  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", seen, seen}));
+  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", caustic, caustic}));
+  EXPECT_EQ(
+      unreached(scene, scene.needs, true).back(),
+      seen +
+          ": caustics of a tiny light, seen in mirrors or through glass, but for rare bright dots (\"sun\")");
   scene.render.integrator = Integrator::light;
   EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E L", "E S (S|D)* L"}));
 }
