@@ -57,7 +57,7 @@ enum class ColorMethod { one_nm, astm_e308 };
 struct ColorOptions {
   std::string illuminant;
   Observer observer = Observer::cie1931;
-  std::string reflectance;
+  std::string reflectance = {};
   bool json = false;
   ColorMethod method = ColorMethod::one_nm;
 };

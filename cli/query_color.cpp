@@ -26,6 +26,8 @@ LitSurface load(const std::string& illuminant, const std::string& reflectance, D
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   std::optional<NamedCurve> surface;
   if (!reflectance.empty()) surface = load_curve("reflectance", reflectance, {}, diagnostics);
+  if (const auto fault = surface ? value_fault(surface->curve, Range::unit()) : std::nullopt)
+    diagnostics.error({}, fmt::format("\"{}\": {}", reflectance, *fault), ErrorCode::input);
   check(diagnostics);
   return {light->curve, surface ? surface->curve : Curve(1.0)};
 }

@@ -100,6 +100,17 @@ std::optional<KeyLine> key_line(const Table& table, const std::string& key) {
   return KeyLine{found->second, {table.where.source, offset, ""}};
 }
 
+// A key that is nearly one that says how the table is read would be taken for a remark.
+bool check_keys(const Table& table, Diagnostics& diagnostics) {
+  const std::vector<std::string> known{"unit", "outside", "interpolation", "value_range"};
+  for (const auto& [key, value] : table.keys) {
+    if (std::find(known.begin(), known.end(), key) != known.end() || !nearest_name(key, known)) continue;
+    diagnostics.error(key_line(table, key)->where, unknown_name("key", key, known), ErrorCode::input);
+    return false;
+  }
+  return true;
+}
+
 std::optional<Interpolation> interpolation_of(const Table& table, std::span<const double> wavelengths_nm,
                                               Diagnostics& diagnostics) {
   const auto line = key_line(table, "interpolation");
@@ -220,10 +231,19 @@ std::optional<TableSamples> load_samples(std::string_view folder, const std::str
   return TableSamples{std::move(read->table), *std::move(samples)};
 }
 
+std::optional<std::string> value_fault(const Curve& curve, const Range& allowed) {
+  for (const Knot& knot : curve.knots())
+    if (!allowed.contains(knot.value))
+      return fmt::format("curve out of range at {} nm (got {}, allowed {})", knot.wavelength_nm, knot.value,
+                         allowed.text());
+  return std::nullopt;
+}
+
 std::optional<NamedCurve> curve_of(const Table& table, const std::string& column, const std::string& name,
                                    Diagnostics& diagnostics, NeededRange needed) {
   const auto samples = samples_of(table, column, diagnostics);
   if (!samples) return std::nullopt;
+  if (!check_keys(table, diagnostics)) return std::nullopt;
   const auto rule = interpolation_of(table, samples->wavelengths_nm, diagnostics);
   const auto range = value_range(table, samples->values, diagnostics);
   if (!rule || !range) return std::nullopt;

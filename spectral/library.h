@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/diagnostics.h"
+#include "io/object_reader.h"
 #include "io/table.h"
 #include "spectral/curve.h"
 #include "spectral/interpolation.h"
@@ -57,6 +58,10 @@ struct TableSamples {
 /// Why a table or formula that holds on [low_nm, high_nm] is of no use: all of it lies outside [300, 1100]
 /// nm. Nothing when some does not.
 [[nodiscard]] std::optional<std::string> range_fault(double low_nm, double high_nm);
+
+/// Why a curve is of no use for a quantity within that range: its first knot outside. Nothing when it has
+/// none.
+[[nodiscard]] std::optional<std::string> value_fault(const Curve& curve, const Range& allowed);
 
 /// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminant A beyond
 /// its table follows its definition.

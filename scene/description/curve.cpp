@@ -172,13 +172,10 @@ std::optional<Curve> read_source(std::string_view key, const JsonValue& json, Re
 std::optional<Curve> read_curve(const JsonValue& json, const CurveUse& use, Reading& reading) {
   std::optional<Curve> curve = read_any(json, use.folder, reading);
   if (!curve) return std::nullopt;
-  for (const Knot& knot : curve->knots()) {
-    if (use.allowed.contains(knot.value)) continue;
-    reading.diagnostics.error(json.where, fmt::format("curve out of range at {} nm (got {}, allowed {})",
-                                                      knot.wavelength_nm, knot.value, use.allowed.text()));
-    return std::nullopt;
-  }
-  return curve;
+  const auto fault = value_fault(*curve, use.allowed);
+  if (!fault) return curve;
+  reading.diagnostics.error(json.where, *fault);
+  return std::nullopt;
 }
 
 }  // namespace abbe::description

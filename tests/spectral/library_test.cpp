@@ -188,6 +188,8 @@ TEST(Library, refuses_what_a_rule_of_interpolation_cannot_take) {
                  "(got 2 samples (allowed 4 or more))");
   expect_refused(table_of("# interpolation: spraque\n", kEvenRows),
                  ".csv:3:1: error: unknown interpolation \"spraque\"; did you mean \"sprague\"?");
+  expect_refused(table_of("# Interpolation: sprague\n", kEvenRows),
+                 ".csv:3:1: error: unknown key \"Interpolation\"; did you mean \"interpolation\"?");
   expect_refused(table_of(sprague, "400,0\n410,0\n410,0\n430,1\n"), "wavelengths must ascend");
   expect_refused(table_of("# value_range: 0, 0.5\n", kEvenRows),
                  ".csv:8:1: error: value outside the declared range (got 1, allowed [0, 0.5])");
