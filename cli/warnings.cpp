@@ -25,9 +25,9 @@ void warn_of_lost_light(const Scene& scene, bool strict) {
   if (lost.empty()) return;
   const bool chosen = scene.render.integrator != Integrator::automatic;
   const std::string by =
-      chosen ? fmt::format("integrator \"{}\"", integrator_name(scene.render.integrator)) : "any technique";
-  warn(fmt::format("light that {} does not reach is missing: {}", by, fmt::join(lost, "; ")),
-       strict && chosen);
+      chosen ? fmt::format("integrator \"{}\" does not reach", integrator_name(scene.render.integrator))
+             : "no technique reaches";
+  warn(fmt::format("light that {} is missing: {}", by, fmt::join(lost, "; ")), strict && chosen);
 }
 
 void warn_of_dark_camera(const Scene& scene, bool strict) {
