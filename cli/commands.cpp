@@ -83,7 +83,9 @@ void add_render(CLI::App& app, Command& command) {
   render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
   render.add_flag(
       "--strict", sub->strict,
-      "Refuse a scene with warnings of a wrong image (exit 3); exit with 70 if any sample was not finite");
+      "Refuse a scene of which a warning means a wrong image (exit 3): no light, a lamp that emits nothing, "
+      "matter in an open mesh or with vertex normals, a camera in opaque matter, light that the chosen "
+      "integrator loses; exit with 70 if any sample was not finite");
   render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }
 

@@ -152,7 +152,8 @@ Scene read_scene(const JsonValue& root, Reading& reading) {
   if (reading.diagnostics.has_errors()) return scene;
   if (materials) check_validity(*materials, reading, scene);
   check_lamps(reading, scene);
-  if (scene.lights.empty()) reading.diagnostics.warning(root.where, "no light: the image will be black");
+  if (scene.lights.empty())
+    reading.diagnostics.error_if_strict(root.where, "no light: the image will be black");
   return scene;
 }
 

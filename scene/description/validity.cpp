@@ -61,8 +61,9 @@ void check_lamps(const Reading& reading, const Scene& scene) {
             return exposed.max() > 0 || exposed.min() < 0;
           });
     if (!dark && seen[&spectrum]) continue;
-    reading.diagnostics.warning(reading.emissions.at(i), fmt::format("\"{}\" emits nothing{}", light.name,
-                                                                     dark ? "" : " that the sensor sees"));
+    reading.diagnostics.error_if_strict(
+        reading.emissions.at(i),
+        fmt::format("\"{}\" emits nothing{}", light.name, dark ? "" : " that the sensor sees"));
   }
 }
 

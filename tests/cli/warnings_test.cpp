@@ -58,6 +58,23 @@ TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
       << run.err;
 }
 
+TEST(Warnings, StrictRefusesASceneThatIsDark) {
+  const std::string unlit = room(ball("white"), "");
+  EXPECT_EQ(rendered(unlit).code, 0);
+  const Outcome strict = rendered(unlit, " --strict");
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_NE(strict.err.find("error: no light: the image will be black"), std::string::npos) << strict.err;
+  for (const char* power : {"0", "100"}) {
+    const std::string lamp =
+        fmt::format(R"({{"name": "bulb", "point": {{"at": [0, -1, 2]}}, "emission": {{"illuminant": "A", )"
+                    R"("luminous_flux_lm": {}}}}})",
+                    power);
+    const Outcome run = rendered(room(ball("white"), kLamp + ", " + lamp), " --strict");
+    EXPECT_EQ(run.code, *power == '0' ? 3 : 0) << run.err;
+    EXPECT_EQ(run.err.find("error: \"bulb\" emits nothing") != std::string::npos, *power == '0') << run.err;
+  }
+}
+
 TEST(Warnings, PolarisationTakesALineUnlessQuiet) {
   const std::string scene = room(ball("glass"), kLamp);
   EXPECT_EQ(rendered(scene).err.find("polarisation"), std::string::npos);

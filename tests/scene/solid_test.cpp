@@ -138,7 +138,9 @@ class SolidTest : public testing::MeshFileTest {
  protected:
   Loaded made_of(const std::string& matter, const std::string& mesh) {
     return load(fmt::format(
-        R"({{"materials": {{"m": {{{}}}}}, "shapes": [{{"mesh": {}, "material": "m"}}]}})", matter, mesh));
+        R"({{"materials": {{"m": {{{}}}}}, "shapes": [{{"mesh": {}, "material": "m"}}],
+            "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}]}})",
+        matter, mesh));
   }
   // The scene loaded last, as --strict takes it.
   Diagnostics strictly() {
