@@ -1,5 +1,8 @@
 #include "cli/info.h"
 
+#include <array>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/answer.h"
@@ -19,8 +22,20 @@ std::string pattern(const Scene& scene) {
   return to_text(*scene.mosaic, names);
 }
 
-Json answer_for(const Scene& scene) {
+/// What a render would do, of which only its techniques are told where no plan can be made.
+struct Course {
+  bool path_active;
+  bool light_active;
+  std::optional<std::array<double, 2>> wavelengths_nm;  // from and to
+};
+Course course_of(const Scene& scene) {
+  if (refusal(scene)) return {scene.render.integrator != Integrator::light, traces_light(scene), {}};
   const Plan plan = make_plan(scene);
+  return {plan.path_active, plan.light_active, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
+}
+
+Json answer_for(const Scene& scene) {
+  const Course course = course_of(scene);
   Json answer;
   answer["shapes"] = scene.shapes.size();
   answer["triangles"] = scene.triangle_count();
@@ -29,15 +44,15 @@ Json answer_for(const Scene& scene) {
   for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
   answer["because"] = scene.needs.because;
   answer["techniques"] = Json::array();
-  if (plan.path_active) answer["techniques"].push_back("path");
-  if (plan.light_active) answer["techniques"].push_back("light");
-  answer["unreached"] = unreached(scene, scene.needs, plan.light_active);
+  if (course.path_active) answer["techniques"].push_back("path");
+  if (course.light_active) answer["techniques"].push_back("light");
+  answer["unreached"] = unreached(scene, scene.needs, course.light_active);
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
   if (scene.output.white)
     answer["white"] = {{"name", scene.output.white->name},
                        {"xy", scene.output.white->xy},
                        {"because", scene.output.white->reason}};
-  answer["wavelength_range_nm"] = {plan.wavelengths.low_nm(), plan.wavelengths.high_nm()};
+  if (course.wavelengths_nm) answer["wavelength_range_nm"] = *course.wavelengths_nm;
   answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene);
   return answer;
 }
@@ -65,8 +80,9 @@ std::string describe(const Scene& scene) {
     if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
   lines += fmt::format("techniques   {}\n", joined(answer["techniques"]));
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
-  lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),
-                       answer["wavelength_range_nm"][1].get<double>());
+  if (answer.contains("wavelength_range_nm"))
+    lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),
+                         answer["wavelength_range_nm"][1].get<double>());
   if (const auto& white = scene.output.white)
     lines += fmt::format("white        {} (x {:.4f}, y {:.4f}: {})\n", white->name, white->xy[0],
                          white->xy[1], white->reason);
@@ -82,6 +98,7 @@ int info(const InfoOptions& options) {
     print(answer_for(scene), true);
   else
     fmt::print("{}", describe(scene));
+  if (const auto refused = refusal(scene)) say(fmt::format("warning: {}", refused->what()));
   warn_of_dark_camera(scene, false);
   note_polarisation(scene.needs);
   return 0;

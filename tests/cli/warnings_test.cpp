@@ -75,6 +75,26 @@ TEST(Warnings, StrictRefusesASceneThatIsDark) {
   }
 }
 
+// What explains a scene answers where no render can be.
+TEST(Warnings, InfoAnswersWherePhotonsCannotBeTraced) {
+  std::string text = read_file(
+      room(R"({"name": "ground", "sphere": {"center": [0, 0, -7e6], "radius": 6e6}, "material": "glass"}, )" +
+               ball("white"),
+           R"({"name": "sun", "sun": {"towards": [0, 0, 1], "irradiance": 1}}, )" + kLamp));
+  const std::string samples = R"("samples": 1)";
+  text.replace(text.find(samples), samples.size(), R"("integrator": "light")");
+  const std::string scene = scratch().write("afar.json", text).string();
+  EXPECT_EQ(rendered(scene).code, 3);
+  for (const char* as : {"", " --json"}) {
+    const Outcome run = abbe("info " + scene + as);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("warning: ground: photons of a light from afar cannot light"), std::string::npos)
+        << run.err;
+    EXPECT_NE(run.out.find("light"), std::string::npos);
+    EXPECT_EQ(run.out.find("wavelength"), std::string::npos) << "nobody drew any";
+  }
+}
+
 TEST(Warnings, PolarisationTakesALineUnlessQuiet) {
   const std::string scene = room(ball("glass"), kLamp);
   EXPECT_EQ(rendered(scene).err.find("polarisation"), std::string::npos);

@@ -68,12 +68,12 @@ std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const I
 
 // Photons from afar are sent through what is near, so that they meet nothing that is far; and they start
 // outside of all that may bend them, so that they are no finer than floats there.
-void refuse_for_photons(const Scene& scene, const std::vector<bool>& traced, bool light_only) {
+std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced, bool light_only) {
   constexpr double kSmallest = 1e-5;  // of a radian: less of the view than this may go without caustics
   bool from_afar = false;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     from_afar = from_afar || (traced[i] && (scene.lights[i].at_infinity() || scene.is_far(scene.lights[i])));
-  if (!from_afar) return;
+  if (!from_afar) return std::nullopt;
   for (const ShapeInstance& shape : scene.shapes) {
     const Imath::Box3d box = bounds(shape.shape);
     const double size = box.size().length();
@@ -82,12 +82,23 @@ void refuse_for_photons(const Scene& scene, const std::vector<bool>& traced, boo
     const bool far = shape.far && met && size > kSmallest * box.center().length();
     const bool large = !shape.far && (met || is_filled(material)) && size > 2 * scene.far_from_m;
     if (far || large)
-      throw Error(ErrorCode::scene, shape.name,
-                  fmt::format("photons of a light from afar cannot light a shape {:g} m across, {:g} m from "
-                              "the middle of the scene, beside what is {:g} m from the camera: --integrator "
-                              "path renders it",
-                              size, box.center().length(), scene.far_from_m / Extent::kGap));
+      return Error(ErrorCode::scene, shape.name,
+                   fmt::format("photons of a light from afar cannot light a shape {:g} m across, {:g} m from "
+                               "the middle of the scene, beside what is {:g} m from the camera: --integrator "
+                               "path renders it",
+                               size, box.center().length(), scene.far_from_m / Extent::kGap));
   }
+  return std::nullopt;
+}
+
+// Per light, whether photons start there at all.
+std::vector<bool> traced_lights(const Scene& scene) {
+  std::vector<bool> traced(scene.lights.size(), false);
+  if (!traces_light(scene)) return traced;
+  const bool light_only = scene.render.integrator == Integrator::light;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    traced[i] = !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
+  return traced;
 }
 
 // Aims cost half a megabyte each, so that of very many traced lights only the strongest have one; the others
@@ -238,6 +249,10 @@ bool traces_light(const Scene& scene) {
          (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
 }
 
+std::optional<Error> refusal(const Scene& scene) {
+  return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
+}
+
 Plan make_plan(const Scene& scene, int threads) {
   return make_plan(scene, threads, scene.render.seed);
 }
@@ -247,14 +262,11 @@ Plan make_plan(const Scene& scene, int threads, std::uint64_t seed) {
   const bool light_active = traces_light(scene);
   const Emissions emissions = emissions_of(scene);
   const std::vector<double> powers = sensor_weighted_powers(scene, emissions);
-  std::vector<bool> traced(scene.lights.size(), false);
+  const std::vector<bool> traced = traced_lights(scene);
   std::vector<double> traced_powers(scene.lights.size(), 0.0);
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    traced[i] =
-        light_active && !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) traced_powers[i] = powers[i];
-  }
-  refuse_for_photons(scene, traced, light_only);
+  if (const std::optional<Error> refused = refusal(scene, traced, light_only)) throw Error(*refused);
   Plan plan{scene,
             make_wavelengths(scene, emissions),
             LightPicker(powers),

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "io/error.h"
 #include "scene/scene.h"
 #include "spectral/wavelength_distribution.h"
 #include "transport/light/aim.h"
@@ -58,8 +60,12 @@ struct Plan {
 /// Whether photons are traced: the integrator allows it, and the scene asks for it or there is no other way.
 [[nodiscard]] bool traces_light(const Scene& scene);
 
+/// Why photons cannot light a scene that would have them: a shape that light from afar meets is too large or
+/// too far for them, Error{scene} with its name. Nothing where a plan can be made.
+[[nodiscard]] std::optional<Error> refusal(const Scene& scene);
+
 /// On that many threads, which change nothing but the time it takes. What it learns from pilots depends on
-/// `seed`, by default the render's.
+/// `seed`, by default the render's. Throws what `refusal` tells.
 [[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
 [[nodiscard]] Plan make_plan(const Scene& scene, int threads, std::uint64_t seed);
 

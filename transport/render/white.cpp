@@ -89,16 +89,19 @@ White main_light(const Scene& scene, int threads) {
   if (groups.size() == 1)
     return white(groups.front(), scene.lights.size() == 1 ? "the only light" : "the only spectrum of light");
   sums.exposure.assign(groups.size(), 0.0);
-  pilot_exposures(make_plan(scene, threads, kPilotSeed), threads, sums);
+  const bool refused = refusal(scene).has_value();
+  if (!refused) pilot_exposures(make_plan(scene, threads, kPilotSeed), threads, sums);
   std::size_t most = 0;
   for (std::size_t i = 1; i < groups.size(); ++i)
     if (sums.exposure[i] > sums.exposure[most] ||
         (sums.exposure[i] == sums.exposure[most] && is_stronger(scene, groups[i], groups[most])))
       most = i;
   const double total = std::accumulate(sums.exposure.begin(), sums.exposure.end(), 0.0);
-  return white(groups[most], total > 0 ? fmt::format("gives the film {:.3g} % of its light",
-                                                     100 * sums.exposure[most] / total)
-                                       : "is the strongest; none reached the film in a pilot");
+  if (total > 0)
+    return white(groups[most],
+                 fmt::format("gives the film {:.3g} % of its light", 100 * sums.exposure[most] / total));
+  return white(groups[most], refused ? "is the strongest; no pilot can tell"
+                                     : "is the strongest; none reached the film in a pilot");
 }
 
 White white_of(const Scene& scene, int threads) {

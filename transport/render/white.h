@@ -10,8 +10,8 @@ namespace abbe {
 /// The light that exposes the film most, lamps whose spectra differ by a factor counting as one: by
 /// luminance for the observer and for a spectral sensor, else by the sum of the film values of all channels.
 /// Where there are several spectra a pilot tells, a render of few paths whose random numbers depend on the
-/// scene alone: neither the order of the lights nor the render's seed matters. Equal energy for a scene
-/// without a light.
+/// scene alone: neither the order of the lights nor the render's seed matters; the strongest
+/// where no photons can light the scene (`refusal`). Equal energy for a scene without a light.
 [[nodiscard]] White main_light(const Scene& scene, int threads = 1);
 
 /// The white the scene asks for, else the main light; with the spectrum that cameras are characterised in:
