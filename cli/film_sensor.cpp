@@ -11,6 +11,7 @@
 #include "cli/white.h"
 #include "io/error.h"
 #include "io/text.h"
+#include "scene/colors.h"
 #include "scene/description/readout.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"

@@ -7,6 +7,8 @@
 
 #include "calibration/output/color_spaces.h"
 #include "cli/answer.h"
+#include "io/standard_stream.h"
+#include "scene/colors.h"
 #include "scene/description/white.h"
 #include "transport/render/white.h"
 #include "validation/statistics/film_colors.h"

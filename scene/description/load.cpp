@@ -13,6 +13,7 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "scene/description/pieces.h"
+#include "scene/colors.h"
 #include "scene/description/white.h"
 #include "scene/extent.h"
 #include "scene/shapes/placed.h"
@@ -83,7 +84,14 @@ OutputSettings read_output(const JsonValue& json, Reading& reading, const Scene&
   if (const auto path = reader.string("image")) output.image = *path;
   if (const auto path = reader.string("display")) output.display = *path;
   output.display_exposure = reader.number("exposure", {0, 1e30, true, false});
-  if (const JsonValue* white = reader.find("white")) output.white = read_white(*white, reading, scene);
+  if (const JsonValue* white = reader.find("white")) {
+    output.white = read_white(*white, reading, scene);
+    if (!has_colors(scene)) {
+      reading.diagnostics.warning(
+          white->where, "a white without effect: the sensor has neither three channels nor a spectrum");
+      output.white.reset();
+    }
+  }
   reader.finish();
   return output;
 }

@@ -75,10 +75,6 @@ std::vector<double> worth_of_channels(const Scene& scene) {
 
 }  // namespace
 
-bool has_colors(const Scene& scene) {
-  return scene.spectral || scene.channels.size() == 3;
-}
-
 White main_light(const Scene& scene, int threads) {
   ExposureByLight sums{{}, worth_of_channels(scene), {}};
   const std::vector<Group> groups = groups_of(scene, sums.group);

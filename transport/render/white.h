@@ -4,9 +4,6 @@
 
 namespace abbe {
 
-/// Whether a film of the scene has colours, and so a white: three channels, or a spectrum.
-[[nodiscard]] bool has_colors(const Scene& scene);
-
 /// The light that exposes the film most, lamps whose spectra differ by a factor counting as one: by
 /// luminance for the observer and for a spectral sensor, else by the sum of the film values of all channels.
 /// Where there are several spectra a pilot tells, a render of few paths whose random numbers depend on the

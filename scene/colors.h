@@ -1,0 +1,10 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace abbe {
+
+/// Whether a film of the scene has colours, and so a white: three channels, or a spectrum.
+[[nodiscard]] bool has_colors(const Scene& scene);
+
+}  // namespace abbe
