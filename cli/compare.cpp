@@ -13,9 +13,9 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "scene/description/load.h"
+#include "sensor/film/recorded_white.h"
 #include "validation/picture/difference_maps.h"
 #include "validation/statistics/chart_difference.h"
-#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {

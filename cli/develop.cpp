@@ -20,9 +20,10 @@
 #include "io/file_lock.h"
 #include "io/picture.h"
 #include "io/text.h"
+#include "scene/description/white.h"
+#include "sensor/film/recorded_white.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
-#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {
@@ -100,8 +101,6 @@ struct Exposed {
   Image film;
   FilmSensor sensor;
 };
-
-constexpr const char* kWhitePointer = "/output/white";
 
 // The white asked for, the last of them, and what is left to ask for.
 struct Asked {

@@ -13,11 +13,12 @@
 #include "io/text.h"
 #include "scene/colors.h"
 #include "scene/description/readout.h"
+#include "scene/description/white.h"
+#include "sensor/film/recorded_white.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
 #include "spectral/library.h"
 #include "transport/render/white.h"
-#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {
@@ -123,10 +124,9 @@ std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& s
   check(diagnostics);
   for (const Override& o : overrides) {
     if (o.pointer != "/readout" && !o.pointer.starts_with("/readout/"))
-      throw Error(
-          ErrorCode::usage, "--set",
-          fmt::format("the film was rendered with it (got {}, allowed /readout and below, /output/white)",
-                      o.pointer));
+      throw Error(ErrorCode::usage, "--set",
+                  fmt::format("the film was rendered with it (got {}, allowed /readout and below, {})",
+                              o.pointer, kWhitePointer));
     set_json(*json, o.pointer, o.value, diagnostics);
   }
   check(diagnostics);
@@ -144,12 +144,15 @@ std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSen
   const auto text = data.find("to_xyz_d65");
   if (!text) return std::nullopt;
   std::optional<Matrix3> matrix = parse_matrix3(*text);
-  if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3)) data.refuse("to_xyz_d65");
+  if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3) ||
+      (sensor.channels.size() == 3 && !is_invertible(*matrix)))
+    data.refuse("to_xyz_d65");
   if (white) {
     const auto own = recorded_white(data.film);
-    if (!own)
-      throw Error(ErrorCode::usage, "/output/white", "the film tells no white that this could replace");
-    matrix = white_adaptation(*white) * white_adaptation(*own).inverse(true) * *matrix;
+    if (!own) throw Error(ErrorCode::usage, kWhitePointer, "the film tells no white that this could replace");
+    const Matrix3 adapted = white_adaptation(*own);
+    if (!is_invertible(adapted)) data.refuse(kWhiteXyKey);
+    matrix = white_adaptation(*white) * adapted.inverse(true) * *matrix;
   }
   return DisplayTransform(sensor.channels, *matrix, {}, view);
 }

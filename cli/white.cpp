@@ -10,15 +10,13 @@
 #include "io/standard_stream.h"
 #include "scene/colors.h"
 #include "scene/description/white.h"
+#include "sensor/film/recorded_white.h"
 #include "transport/render/white.h"
-#include "validation/statistics/film_colors.h"
 
 namespace abbe::cli {
 namespace {
 
-constexpr const char* kLightsKey = "lights_xy";
 constexpr std::size_t kMostLights = 256;
-constexpr const char* kPointer = "/output/white";
 
 void require_adaptable(const White& white, ErrorCode code, const std::string& where) {
   if (adaptation(unit_xyz(white.xy), unit_xyz(kD65))) return;
@@ -34,7 +32,7 @@ std::string on_one_line(std::string text) {
 
 White read_asked(const std::string& text, const WhiteNames& names, Diagnostics& diagnostics) {
   JsonValue root{JsonValue::Object{}, {}, 0};
-  set_json(root, kPointer, text, diagnostics);
+  set_json(root, kWhitePointer, text, diagnostics);
   const JsonValue* output = root.find("output");
   const JsonValue* json = output != nullptr ? output->find("white") : nullptr;
   std::optional<White> white = json != nullptr ? read_white(*json, names, diagnostics) : std::nullopt;
@@ -60,7 +58,8 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
 void settle_white(Scene& scene, const std::filesystem::path& path, int threads) {
   if (!has_colors(scene)) return;
   if (scene.output.white)
-    require_adaptable(*scene.output.white, ErrorCode::scene, fmt::format("{}: {}", path.string(), kPointer));
+    require_adaptable(*scene.output.white, ErrorCode::scene,
+                      fmt::format("{}: {}", input_name(path), kWhitePointer));
   scene.output.white = white_of(scene, threads);
 }
 
@@ -81,25 +80,31 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (scene.lights.size() > kMostLights) return;
   Json lights = Json::object();
   for (const Light& light : scene.lights)
-    if (const Chromaticity xy = white_of(light, "").xy; std::isfinite(xy[0])) lights[light.name] = xy;
-  if (!lights.empty()) identity[kLightsKey] = lights.dump();
+    if (std::count_if(scene.lights.begin(), scene.lights.end(),
+                      [&light](const Light& other) { return other.name == light.name; }) > 1)
+      lights[light.name] = nullptr;
+    else if (const Chromaticity xy = white_of(light, "").xy; std::isfinite(xy[0]))
+      lights[light.name] = xy;
+  if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
 }
 
 Chromaticity asked_white(const std::string& text, const Image& film) {
   Diagnostics diagnostics;
-  const auto recorded = film.metadata.find(kLightsKey);
+  const auto recorded = film.metadata.find(kLightsXyKey);
   Json lights = Json::object();
   if (recorded != film.metadata.end()) lights = Json::parse(recorded->second, nullptr, false);
   const std::vector<Light> none;
   WhiteNames names = white_names(none, diagnostics);
   for (const auto& [name, xy] : lights.items())
-    if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
+    if (xy.is_null())
+      names.lights.insert(names.lights.end(), 2, name);
+    else if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
       names.lights.push_back(name);
   names.white_of_light = [&](std::size_t i) {
     return White{names.lights[i], "", lights[names.lights[i]].get<Chromaticity>()};
   };
   const White white = read_asked(text, names, diagnostics);
-  require_adaptable(white, ErrorCode::usage, kPointer);
+  require_adaptable(white, ErrorCode::usage, kWhitePointer);
   return white.xy;
 }
 

@@ -1,5 +1,6 @@
 #include "calibration/chart/matrix3.h"
 
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,6 +24,15 @@ std::optional<Matrix3> parse_matrix3(std::string_view text) {
     m[i / 3][i % 3] = *number;
   }
   return m;
+}
+
+bool is_invertible(const Matrix3& m) {
+  try {
+    (void)m.inverse(true);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
 }
 
 }  // namespace abbe

@@ -25,6 +25,9 @@ using Matrix3 = Imath::M33d;
 /// Reads that; nothing unless `text` is nine numbers with a blank between them.
 [[nodiscard]] std::optional<Matrix3> parse_matrix3(std::string_view text);
 
+/// Whether the matrix has an inverse whose elements are finite.
+[[nodiscard]] bool is_invertible(const Matrix3& m);
+
 /// The matrix with `d` on its diagonal.
 [[nodiscard]] inline Matrix3 diagonal(const std::array<double, 3>& d) {
   return {d[0], 0, 0, 0, d[1], 0, 0, 0, d[2]};

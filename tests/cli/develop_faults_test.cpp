@@ -80,6 +80,15 @@ TEST(DevelopFaults, FilmsThatLackSomethingAreNamed) {
            with("display_exposure", "bright"),
            with("exposure_s.V", "x"),
            {[](Image& image) {
+              image.metadata["sensor_channels"] = "V,R,G";
+              for (const char* name : {"R", "G"}) {
+                image.metadata["channel." + std::string(name)] = "quantum, electrons per m^2";
+                image.channels.push_back({name, image.channels[0].values});
+                image.channels.push_back({"Variance." + std::string(name), image.channels[1].values});
+              }
+            },
+            "fault.exr: attribute \"to_xyz_d65\" makes no sense"},
+           {[](Image& image) {
               image.metadata["mosaic"] = "V,W";
               image.metadata["mosaic_channels"] = "V";
             },

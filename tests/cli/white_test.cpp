@@ -123,6 +123,7 @@ TEST(White, PartsOfOtherWhitesMerge) {
   RenderPart b = read_part(file("b.abbepart"));
   b.identity["white"] = "faint";
   b.identity["white_xy"] = "0.3 0.3";
+  b.identity["lights_xy"] = "{}";
   b.identity["to_xyz_d65"] = "1 0 0 0 1 0 0 0 1";
   write_part(file("b.abbepart"), b.identity, b.result);
   ASSERT_EQ(abbe("merge " + file("a.abbepart") + " " + file("b.abbepart") + " -o " + file("ab.exr")).code, 0);
@@ -130,6 +131,41 @@ TEST(White, PartsOfOtherWhitesMerge) {
   const Image whole = read_exr(file("whole.exr"));
   EXPECT_EQ(merged.find("Y")->values, whole.find("Y")->values);
   EXPECT_EQ(merged.metadata.at("white_xy"), whole.metadata.at("white_xy"));
+}
+
+// What cannot be written, or is locked, is refused before a pilot looks for the white.
+TEST(White, IsSettledAfterTheOutputs) {
+  const std::string path = scene("first.json", kObserver, "[0.7, 0.29]");  // itself an error
+  EXPECT_EQ(render(path, "/nonexistent/a.exr").code, 5);
+  EXPECT_EQ(render(path, file("a.exr")).code, 3);
+  const Outcome piped = shell("cat " + path + " | " ABBE_BINARY " render - --quiet -o " + file("a.exr"));
+  EXPECT_NE(piped.err.find("<stdin>: /output/white: is no white"), std::string::npos) << piped.err;
+}
+
+TEST(White, ALightOfAnAmbiguousNameIsNone) {
+  std::string text = read_file(scene("twins.json", kObserver));
+  for (const char* name : {"faint", "dome"})
+    text.replace(text.find(fmt::format("\"name\": \"{}\"", name)), 8 + std::string(name).size() + 2,
+                 R"("name": "lamp")");
+  const std::string path = scratch().write("twins.json", text).string();
+  const std::string words = "several lights are called \"lamp\"";
+  const Outcome rendered = render(path, file("twins.exr"), R"(--set '/output/white="lamp"')");
+  EXPECT_EQ(rendered.code, 3);
+  EXPECT_NE(rendered.err.find(words), std::string::npos) << rendered.err;
+  ASSERT_EQ(render(path, file("twins.exr")).code, 0);
+  const Outcome developed =
+      abbe("develop " + file("twins.exr") + " --set /output/white=lamp --display " + file("x.png"));
+  EXPECT_EQ(developed.code, 2);
+  EXPECT_NE(developed.err.find(words), std::string::npos) << developed.err;
+}
+
+TEST(White, OfASensorWithoutColoursIsWarnedOf) {
+  const std::string path = scene("one.json", R"("channels": {"L": {"band": [400, 700]}})", "\"A\"");
+  const Outcome info = abbe("info --json " + path);
+  EXPECT_EQ(info.code, 0);
+  EXPECT_TRUE(info.json()["white"].is_null());
+  EXPECT_NE(info.err.find("/output/white: warning: a white without effect"), std::string::npos) << info.err;
+  EXPECT_EQ(render(path, file("one.exr"), "--strict").code, 0);
 }
 
 TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {

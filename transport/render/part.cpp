@@ -12,6 +12,7 @@
 
 #include "io/part_file.h"
 #include "io/text.h"
+#include "sensor/film/recorded_white.h"
 
 namespace abbe {
 namespace {
@@ -23,7 +24,8 @@ constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutThroughput = "cut_throughput";
-constexpr std::array<std::string_view, 4> kTellNothing{"scene", "to_xyz_d65", "white", "white_xy"};
+constexpr std::array<std::string_view, 5> kTellNothing{"scene", "to_xyz_d65", kWhiteKey, kWhiteXyKey,
+                                                       kLightsXyKey};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>

@@ -2,24 +2,11 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "calibration/output/color_spaces.h"
-#include "io/error.h"
 #include "io/text.h"
+#include "sensor/film/recorded_white.h"
 
 namespace abbe {
-
-std::optional<Chromaticity> recorded_white(const Image& film) {
-  const auto found = film.metadata.find(kWhiteXyKey);
-  if (found == film.metadata.end() || !film.metadata.contains(kWhiteKey)) return std::nullopt;
-  const std::vector<std::string> words = split(found->second, ' ');
-  const auto x = parse_number(words.front());
-  const auto y = parse_number(words.back());
-  if (words.size() == 2 && x && y && *x > 0 && *y > 0) return Chromaticity{*x, *y};
-  throw Error(ErrorCode::input, "film",
-              fmt::format("attribute \"{}\" makes no sense (got \"{}\")", kWhiteXyKey, found->second));
-}
 
 FilmColors film_colors(const Image& image) {
   const auto white = recorded_white(image);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calibration/chart/matrix3.h"
-#include "calibration/output/color_spaces.h"
 #include "io/image.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe {
 
@@ -17,13 +17,6 @@ struct FilmColors {
   bool adapted = false;               ///< XYZ relative to D65 for the film's white.
   std::optional<Chromaticity> white;  ///< What the film tells to be white.
 };
-
-/// Attributes of a film that name its white and tell its chromaticity, x and y with a blank between them.
-inline constexpr const char* kWhiteKey = "white";
-inline constexpr const char* kWhiteXyKey = "white_xy";
-
-/// The latter; nothing for a film that does not tell both. Throws Error{input} when it makes no sense.
-[[nodiscard]] std::optional<Chromaticity> recorded_white(const Image& film);
 
 /// X, Y, Z are the observer. R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own
 /// matrix `to_xyz_d65`, in the order of `sensor_channels`; without one that can be read, nothing is known of

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "io/image.h"
+#include "spectral/colorimetry.h"
+
+namespace abbe {
+
+/// Attributes of a film that name its white and tell its chromaticity, x and y with a blank between them.
+inline constexpr const char* kWhiteKey = "white";
+inline constexpr const char* kWhiteXyKey = "white_xy";
+/// The attribute with the chromaticities of the scene's lights: a JSON object of [x, y] by name, null for a
+/// name that several lights have.
+inline constexpr const char* kLightsXyKey = "lights_xy";
+
+/// The chromaticity of the white that a film tells; nothing for a film that does not tell its name too.
+/// Throws Error{input} when it makes no sense.
+[[nodiscard]] std::optional<Chromaticity> recorded_white(const Image& film);
+
+}  // namespace abbe
