@@ -22,6 +22,7 @@
 #include "io/data_directory.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
+#include "io/standard_stream.h"
 #include "transport/path/roulette.h"
 #include "transport/render/threads.h"
 
@@ -32,15 +33,12 @@ namespace fs = std::filesystem;
 
 constexpr int kSignalExit = 128;
 
-constexpr const char* kStandardOutput = "-";
-
 Scene load(const RenderOptions& options, Inputs& inputs) {
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   scene.render.samples = options.samples.value_or(scene.render.samples);
   scene.render.integrator = options.integrator.value_or(scene.render.integrator);
   scene.render.seed = options.seed.value_or(scene.render.seed);
-  settle_white(scene, options.scene, thread_count(options.threads));
   return scene;
 }
 
@@ -57,13 +55,13 @@ std::array<fs::path, 5> files_of(const Outputs& outputs, const RenderOptions& op
 
 // What the film is called after.
 fs::path name_of(const fs::path& scene) {
-  return scene == kStandardInput ? "stdin" : scene;
+  return scene == kStandardStream ? "stdin" : scene;
 }
 
-// Where to write, checked before any time is spent on rendering.
+// Where to write, checked before any time is spent on the pilot that finds the white, and on rendering.
 Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const Inputs& inputs) {
   Outputs outputs{options.output, options.display, options.gamut, {}};
-  if (options.stats != kStandardOutput) outputs.stats = options.stats;
+  if (options.stats != kStandardStream) outputs.stats = options.stats;
   if (outputs.film.empty()) outputs.film = scene.output.image;
   if (outputs.film.empty()) outputs.film = name_of(options.scene).stem().concat(".exr");
   if (outputs.display.empty()) outputs.display = scene.output.display;
@@ -169,7 +167,7 @@ void write_all(const std::vector<std::function<void()>>& writers) {
 /// Of the command, and of what comes before and after the render itself.
 struct Costs {
   CostMeter command;
-  Cost load;     ///< Reading the scene and building what it describes.
+  Cost load;     ///< Reading the scene, building what it describes and finding its white.
   Cost display;  ///< Making pictures of the film, and writing them.
   Cost write;    ///< Writing the film and the last checkpoint.
 };
@@ -241,14 +239,15 @@ void write_pictures(const Outputs& outputs, const DisplayTransform& display, con
 int render(const RenderOptions& options) {
   Costs costs;
   Inputs inputs(options.max_memory_bytes);
-  const Scene scene = load(options, inputs);
-  costs.load = costs.command.spent();
+  Scene scene = load(options, inputs);
   const Outputs outputs = choose_outputs(options, scene, inputs);
   check_ranges(options, scene);
   const InterruptWatch watch;
   std::deque<FileLock> locks;
   for (const fs::path& output : files_of(outputs, options))
     if (!output.empty()) locks.emplace_back(output);
+  settle_white(scene, options.scene, thread_count(options.threads));
+  costs.load = costs.command.spent();
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty() || !outputs.gamut.empty())
     metered(costs.display, [&] { display = chosen_display(scene, options); })();

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "io/standard_stream.h"
+
 namespace abbe {
 namespace {
 
@@ -110,8 +112,8 @@ std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, D
 }
 
 std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code) {
-  return read_text(STDIN_FILENO, std::make_shared<SourceText>(SourceText{"<stdin>", {}}), diagnostics, code,
-                   kMaxTextBytes);
+  return read_text(STDIN_FILENO, std::make_shared<SourceText>(SourceText{kStandardInputName, {}}),
+                   diagnostics, code, kMaxTextBytes);
 }
 
 bool is_file(const std::filesystem::path& path, const SourcePosition& where, Diagnostics& diagnostics) {

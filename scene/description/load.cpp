@@ -10,10 +10,11 @@
 
 #include <fmt/format.h>
 
+#include "io/standard_stream.h"
 #include "io/text.h"
 #include "materials/index/library.h"
-#include "scene/description/pieces.h"
 #include "scene/colors.h"
+#include "scene/description/pieces.h"
 #include "scene/description/white.h"
 #include "scene/extent.h"
 #include "scene/shapes/placed.h"
@@ -215,11 +216,11 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
   // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
   std::error_code error;
   const bool there = std::filesystem::is_regular_file(path, error);
-  const auto source = path == kStandardInput
+  const auto source = path == kStandardStream
                           ? read_standard_input(diagnostics, ErrorCode::scene)
                           : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
   if (!source) return std::nullopt;
-  if (inputs && path != kStandardInput) inputs->add_file(path);
+  if (inputs && path != kStandardStream) inputs->add_file(path);
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);

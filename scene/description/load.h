@@ -17,13 +17,10 @@ struct Override {
   std::string value;
 };
 
-/// The path that stands for a scene read from standard input; the files it names are looked for in the
-/// current folder.
-inline constexpr const char* kStandardInput = "-";
-
-/// Reads, checks and builds a scene. Everything wrong with it is reported; nothing is returned if there is an
-/// error. `inputs` learns of every file that scene and meshes name, and counts the memory of images, grids
-/// and meshes: throws Error{resource} for one that is too large.
+/// Reads, checks and builds a scene, from standard input where the path is `kStandardStream`; the files it
+/// names are then looked for in the current folder. Everything wrong with it is reported; nothing is returned
+/// if there is an error. `inputs` learns of every file that scene and meshes name, and counts the memory of
+/// images, grids and meshes: throws Error{resource} for one that is too large.
 [[nodiscard]] std::optional<Scene> load_scene(const std::filesystem::path& path,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
                                               Inputs* inputs = nullptr);
