@@ -48,6 +48,42 @@ void collect_properties(const JsonValue& schema, std::set<std::string>& names) {
     }
 }
 
+const JsonValue& member(const JsonValue& json, const std::string& key) {
+  static const JsonValue kNone{};
+  const JsonValue* found = json.find(key);
+  return found ? *found : kNone;
+}
+const JsonValue::Array& list(const JsonValue& json) {
+  static const JsonValue::Array kNone;
+  const auto* array = std::get_if<JsonValue::Array>(&json.value);
+  return array ? *array : kNone;
+}
+bool has_all(const JsonValue& json, const JsonValue& keys) {
+  return std::ranges::all_of(list(keys), [&](const JsonValue& key) {
+    return json.find(std::get<std::string>(key.value)) != nullptr;
+  });
+}
+
+// Whether the schema `root` allows which keys stand beside each other in `json`, its part `schema` being
+// about that; of the values nothing is asked.
+bool allows(const JsonValue& root, const JsonValue& schema, const JsonValue& json) {
+  const auto here = [&](const JsonValue& part) { return allows(root, part, json); };
+  if (const JsonValue* reference = schema.find("$ref")) {
+    const std::string name = std::get<std::string>(reference->value).substr(std::string("#/$defs/").size());
+    if (!here(member(member(root, "$defs"), name))) return false;
+  }
+  if (!has_all(json, member(schema, "required"))) return false;
+  if (const auto* needed = std::get_if<JsonValue::Object>(&member(schema, "dependentRequired").value))
+    for (const auto& [key, keys] : *needed)
+      if (json.find(key) && !has_all(json, keys)) return false;
+  if (const auto* parts = std::get_if<JsonValue::Object>(&member(schema, "properties").value))
+    for (const auto& [key, part] : *parts)
+      if (const JsonValue* value = json.find(key); value && !allows(root, part, *value)) return false;
+  const JsonValue::Array& choices = list(member(schema, "oneOf"));
+  return std::ranges::all_of(list(member(schema, "allOf")), here) &&
+         (choices.empty() || std::ranges::count_if(choices, here) == 1);
+}
+
 // What only one of two sets holds.
 std::string different(const std::set<std::string>& a, const std::set<std::string>& b) {
   std::vector<std::string> names;
@@ -95,6 +131,30 @@ TEST_F(SchemaTest, CornellBoxIsSeenAsMeasured) {
   EXPECT_NEAR(2 * std::atan(half / lens.image_distance) * 180 / std::numbers::pi, 39.3077, 1e-4);
   EXPECT_NEAR(photometric(scene->lights.at(0).emission.curve()), kLuminousEfficacy * 20, 1e-6);
   EXPECT_EQ(scene->triangle_count(), 32U);
+}
+
+TEST_F(SchemaTest, LightsSayTheirStrengthOnceAsTheLoaderHasIt) {
+  const JsonValue schema = parsed(file_text(data_directory().parent_path() / "docs" / "scene.schema.json"));
+  const JsonValue& lights = member(member(member(schema, "properties"), "lights"), "items");
+  const std::string sun = R"("sun": {"towards": [0, 0, 1])";
+  const std::string beam = R"("directional": {"towards": [0, 0, 1])";
+  const std::string quad = R"("quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]})";
+  const std::string emission = R"(, "emission": {"illuminant": "A", "irradiance": 1)";
+  for (const auto& [light, allowed] :
+       std::vector<std::pair<std::string, bool>>{{sun + "}", false},
+                                                 {sun + R"(, "illuminance": 1})", true},
+                                                 {sun + R"(, "irradiance": 1, "illuminance": 1})", false},
+                                                 {sun + "}" + emission + "}", true},
+                                                 {sun + R"(, "illuminance": 1})" + emission + "}", false},
+                                                 {beam + "}", false},
+                                                 {beam + R"(, "irradiance": 1})", true},
+                                                 {beam + R"(, "irradiance": 1})" + emission + "}", false},
+                                                 {quad + emission + "}", false},
+                                                 {quad + emission + R"(, "distance": 1})", true},
+                                                 {quad, false}}) {
+    EXPECT_EQ(allows(schema, lights, parsed("{" + light + "}")), allowed) << light;
+    EXPECT_EQ(load(R"({"lights": [{)" + light + "}]}").scene.has_value(), allowed) << light;
+  }
 }
 
 // The schema, the guide, the shipped scenes and the loader know the same keys.
