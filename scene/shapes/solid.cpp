@@ -196,10 +196,45 @@ int passes(const Imath::V3d& from, const Imath::V3d& to, const Imath::V3d& p) {
   return !beyond ? 0 : up ? 1 : -1;
 }
 
+// A point of each component; of one that is slivers alone, none that counts.
+std::vector<Imath::V3d> points_of(const Mesh& mesh, const std::vector<Component>& components) {
+  std::vector<Imath::V3d> points;
+  for (const Component& component : components) {
+    Imath::V3d& point = points.emplace_back(0);
+    if (component.triangles.empty()) continue;
+    for (const std::uint32_t corner : mesh.triangles[component.triangles[0]])
+      point += mesh.vertices[corner] / 3;
+  }
+  return points;
+}
+
+// For each component those before it whose boxes its point lies in, in order. Points and boxes are met from
+// low x to high.
+std::vector<std::vector<std::uint32_t>> boxes_around(const std::vector<Imath::V3d>& points,
+                                                     const std::vector<Component>& components) {
+  std::vector<std::uint32_t> by_point(components.size());
+  std::iota(by_point.begin(), by_point.end(), 0U);
+  std::vector<std::uint32_t> by_box = by_point;
+  const auto low = [&](std::uint32_t i) { return components[i].box.min.x; };
+  std::sort(by_box.begin(), by_box.end(), [&](auto a, auto b) { return low(a) < low(b); });
+  std::sort(by_point.begin(), by_point.end(), [&](auto a, auto b) { return points[a].x < points[b].x; });
+  std::vector<std::vector<std::uint32_t>> around(components.size());
+  std::vector<std::uint32_t> met;
+  auto next = by_box.begin();
+  for (const std::uint32_t i : by_point) {
+    const Imath::V3d& point = points[i];
+    for (; next != by_box.end() && low(*next) <= point.x; ++next) met.push_back(*next);
+    std::erase_if(met, [&](std::uint32_t box) { return components[box].box.max.x < point.x; });
+    for (const std::uint32_t box : met)
+      if (box < i && components[box].box.intersects(point)) around[i].push_back(box);
+    std::sort(around[i].begin(), around[i].end());
+  }
+  return around;
+}
+
 // How often the component goes round a point: 1 for one within it where it faces outward, -1 where it faces
 // inward, 0 outside. That is how often the line from the point towards +z leaves it less how often it enters.
 int turns_around(const Imath::V3d& point, const Mesh& mesh, const Component& component) {
-  if (!component.box.intersects(point)) return 0;
   int turns = 0;
   for (const std::uint32_t triangle : component.triangles) {
     const auto& [first, second, third] = mesh.triangles[triangle];
@@ -219,23 +254,24 @@ void turn_outward(std::vector<Component>& components, Turning& turning, SolidRep
   const Mesh& mesh = turning.mesh;
   std::sort(components.begin(), components.end(),
             [](const Component& a, const Component& b) { return std::abs(a.volume) > std::abs(b.volume); });
-  for (auto component = components.begin(); component != components.end(); ++component) {
-    if (component->triangles.empty()) continue;
-    const auto& [a, b, c] = mesh.triangles[component->triangles[0]];
-    const Imath::V3d point = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
+  const std::vector<Imath::V3d> points = points_of(mesh, components);
+  const auto around = boxes_around(points, components);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    Component& component = components[i];
+    if (component.triangles.empty()) continue;
     int matter = 0;
     bool within_turned = false;
-    for (auto other = components.begin(); other != component; ++other)
-      if (const int turns = turns_around(point, mesh, *other); turns != 0) {
+    for (const std::uint32_t other : around[i])
+      if (const int turns = turns_around(points[i], mesh, components[other]); turns != 0) {
         matter += turns;
-        within_turned = other->turned;
+        within_turned = components[other].turned;
       }
-    const bool inward = component->volume < 0;
-    component->turned = inward ? matter <= 0 : within_turned && matter > 0;
-    if (component->turned) ++report.inverted;
-    if (!inward && !component->turned && matter > 0) ++report.buried;
-    if (component->turned)
-      for (const std::uint32_t triangle : component->triangles) turning.turn(triangle);
+    const bool inward = component.volume < 0;
+    component.turned = inward ? matter <= 0 : within_turned && matter > 0;
+    if (component.turned) ++report.inverted;
+    if (!inward && !component.turned && matter > 0) ++report.buried;
+    if (component.turned)
+      for (const std::uint32_t triangle : component.triangles) turning.turn(triangle);
   }
 }
 

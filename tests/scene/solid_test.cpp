@@ -1,6 +1,8 @@
 #include "scene/shapes/solid.h"
 
 #include <cmath>
+#include <cstdint>
+#include <ctime>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +134,25 @@ TEST(Solid, CornersAreTurnedWithTheirTriangle) {
       EXPECT_EQ(mesh.coordinates[i].at(corner).x, static_cast<float>(mesh.triangles[i].at(corner)));
       EXPECT_EQ(mesh.normals[i].at(corner).x, static_cast<float>(mesh.triangles[i].at(corner)));
     }
+}
+
+// Four times as many droplets take about four times as long, not sixteen.
+TEST(Solid, ManyComponentsTakeNoLongerThanTheirNumber) {
+  const Mesh drop = box({0, 0, 0}, {0.5, 0.5, 0.5});
+  const auto seconds = [&](std::size_t count) {
+    Mesh drops;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto first = static_cast<std::uint32_t>(drops.vertices.size());
+      for (const Imath::V3d& v : drop.vertices)
+        drops.vertices.push_back(v + Imath::V3d(static_cast<double>(i), 0, 0));
+      for (const auto& [a, b, c] : drop.triangles)
+        drops.triangles.push_back({first + a, first + (i % 2 ? c : b), first + (i % 2 ? b : c)});
+    }
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(make_solid(drops).inverted, count / 2);
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  EXPECT_LT(seconds(40000), 8 * seconds(10000));
 }
 
 class SolidTest : public testing::MeshFileTest {
