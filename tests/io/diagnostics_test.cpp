@@ -35,6 +35,12 @@ TEST(Diagnostics, LongLinesAreCutAroundTheColumn) {
 
 TEST(Diagnostics, ControlCharactersDoNotReachTheTerminal) {
   EXPECT_EQ(error_at("\x1b[2J", 0), "a.json:1:1: error: no\n?[2J\n^");
+  // Of 8 bits too, alone or in UTF-8; what no text has; but not letters.
+  EXPECT_EQ(error_at("\x9b"
+                     "2J \xc2\x9b"
+                     "2J \xff \xc3\xa9",
+                     0),
+            "a.json:1:1: error: no\n?2J ?2J ? \xc3\xa9\n^");
 }
 
 TEST(Diagnostics, WholeFileAndNoFile) {
