@@ -24,11 +24,9 @@ std::string counted(const Counts& counts) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-}  // namespace
-
-void prepare_for_matter(Mesh& mesh, const std::string& name, const Material& material,
-                        const SourcePosition& where, const Reading& reading) {
-  if (!encloses_matter(material)) return;
+// Puts right what can be of a mesh around matter, and reports the rest.
+void enclose_matter(Mesh& mesh, const std::string& name, const Material& material,
+                    const SourcePosition& where, const Reading& reading) {
   Diagnostics& diagnostics = reading.diagnostics;
   const std::string within = fmt::format("{} around matter \"{}\"", name, material.name);
   const SolidReport solid = make_solid(mesh);
@@ -50,6 +48,14 @@ void prepare_for_matter(Mesh& mesh, const std::string& name, const Material& mat
   diagnostics.error_if_strict(
       where, fmt::format("{}: its vertex normals are ignored: light is refracted by flat triangles", within));
   mesh.normals = {};
+}
+
+}  // namespace
+
+void prepare_for_matter(Mesh& mesh, const std::string& name, const Material& material,
+                        const SourcePosition& where, const Reading& reading) {
+  if (encloses_matter(material)) enclose_matter(mesh, name, material, where, reading);
+  mesh.slivers = {};  // nothing asks for them any more
 }
 
 }  // namespace abbe::description

@@ -95,8 +95,9 @@ void call_normals_positions(std::string& bytes) {
     }
     if (past && (key == "element" || key == "property")) bytes.replace(bytes.find(key, begin), 8, "comment ");
     const std::size_t last = bytes.find_last_not_of(" \t\r", end - 1);
-    if (vertices && (name == "x" || name == "y" || name == "z")) bytes[last] = '_';
-    if (vertices && (name == "nx" || name == "ny" || name == "nz")) bytes[last - 1] = ' ';
+    const bool named = vertices && key == "property";
+    if (named && (name == "x" || name == "y" || name == "z")) bytes[last] = '_';
+    if (named && (name == "nx" || name == "ny" || name == "nz")) bytes[last - 1] = ' ';
     begin = end + 1;
   }
 }

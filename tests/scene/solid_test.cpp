@@ -227,6 +227,9 @@ TEST_F(SolidTest, TrianglesWithoutAreaJoinEdges) {
   const Loaded joint = made_of(kGlass, testing::inline_mesh(split));
   EXPECT_EQ(joint.text().find("open edges"), std::string::npos) << joint.text();
   EXPECT_EQ(std::get<Mesh>(joint->shapes[0].shape).triangles.size(), 13U);
+  for (const char* matter : {kGlass, R"("diffuse": {"reflectance": 0.5})"})
+    EXPECT_TRUE(std::get<Mesh>(made_of(matter, testing::inline_mesh(split))->shapes[0].shape).slivers.empty())
+        << matter;
 }
 
 }  // namespace
