@@ -13,7 +13,8 @@ namespace abbe {
 [[nodiscard]] std::size_t default_memory_limit();
 
 /// What one command reads: its files, and the memory that these and its films take, which is counted before
-/// it is asked for.
+/// it is asked for. Not counted are what the readers of other libraries hold while they read, the table of a
+/// mesh's edges while it is checked, what rays are traced through (Embree's), and the films of pilots.
 class Inputs {
  public:
   explicit Inputs(std::size_t memory_limit_bytes = default_memory_limit()) : limit_(memory_limit_bytes) {}
@@ -45,6 +46,12 @@ class HeldMemory {
   HeldMemory(const HeldMemory&) = delete;
   HeldMemory& operator=(const HeldMemory&) = delete;
   HeldMemory& operator=(HeldMemory&&) = delete;
+  /// Counts more for `what`, to be given back with the rest. Throws as `Inputs::take_memory` does.
+  void take_more(const std::string& what, std::size_t bytes) {
+    if (inputs_ == nullptr) return;
+    inputs_->take_memory(what, bytes);
+    bytes_ += bytes;
+  }
   ~HeldMemory() {
     if (inputs_ != nullptr) inputs_->give_back_memory(bytes_);
   }

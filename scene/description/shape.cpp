@@ -1,6 +1,5 @@
 #include <cstdint>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -121,15 +120,10 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
   std::vector<Part> parts;
   const auto path = reading.file(file, json.where);
   if (!path) return parts;
-  std::error_code missing;
-  const std::uintmax_t size = std::filesystem::file_size(*path, missing);
-  const std::size_t bytes = missing ? 0 : size;
-  reading.take_memory(path->string(), bytes);
-  const HeldMemory held(reading.inputs, bytes);
   const bool mapped = material && needs_coordinates(scene.materials[*material]);
-  auto found =
-      load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, json.where,
-                     reading.diagnostics, mapped ? FileCoordinates::wanted : FileCoordinates::ignored);
+  auto found = load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, json.where,
+                              reading.diagnostics,
+                              mapped ? FileCoordinates::wanted : FileCoordinates::ignored, reading.inputs);
   if (!found) return parts;
   for (const std::filesystem::path& other : found->others) reading.remember(other);
   for (MeshFile::Part& part : found->parts) {

@@ -107,6 +107,8 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
                                    reinterpret_cast<const unsigned char*>(bytes.data()), size);
     else
       library.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+  } catch (const Error&) {  // of memory
+    throw;
   } catch (const std::exception& fault) {  // of JSON, or an empty buffer
     if (dynamic_cast<const std::bad_alloc*>(&fault)) throw;
     error += fault.what();
@@ -215,6 +217,8 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   if (static_cast<double>(mesh.triangles.size() + triangles.size()) > kMaxTriangles ||
       static_cast<double>(base + positions->count) > kMaxTriangles)
     return reading.refuse(fmt::format("too many triangles (allowed {})", kMaxTriangles));
+  reading.make_room(mesh.vertices, positions->count);
+  reading.make_room(mesh.triangles, triangles.size());
   for (std::size_t i = 0; i < positions->count; ++i) mesh.vertices.push_back(vector_at(*positions, i) * map);
   std::vector<Imath::V2f> coordinates;
   if (!read_coordinates(model, primitive, coordinates, reading)) return false;
@@ -225,6 +229,9 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   if (!normals.empty() && normals.size() != positions->count)
     return reading.refuse(fmt::format("as many normals as positions are needed (got {}, allowed {})",
                                       normals.size(), positions->count));
+  if (!coordinates.empty()) reading.make_room(mesh.coordinates, triangles.size());
+  if (!normals.empty())
+    reading.make_room(mesh.normals, mesh.triangles.size() - mesh.normals.size() + triangles.size());
   const bool mirror = map.determinant() < 0;
   for (std::array<std::size_t, 3> triangle : triangles) {
     for (std::size_t& corner : triangle) {

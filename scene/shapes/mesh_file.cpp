@@ -71,11 +71,13 @@ bool brings_materials(const std::filesystem::path& path) {
   return extension == ".obj" || extension == ".gltf" || extension == ".glb";
 }
 
-std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes) {
+std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
+                                           HeldMemory& held) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return error ? "no such file" : "not a regular file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size > kMaxFileBytes) return "file too large";
+  held.take_more(path.string(), static_cast<std::size_t>(size));
   std::ifstream stream(path, std::ios::binary);
   bytes.resize(static_cast<std::size_t>(size));
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
@@ -91,7 +93,7 @@ bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& 
   if (name.empty() || leaves)
     return reading.refuse(fmt::format("it may name files beside it only (got \"{}\")", name));
   const std::filesystem::path path = reading.path.parent_path() / relative;
-  if (const auto fault = read_mesh_bytes(path, bytes))
+  if (const auto fault = read_mesh_bytes(path, bytes, reading.held))
     return reading.refuse(fmt::format("\"{}\", which it names: {}", name, *fault));
   reading.file.others.push_back(path);
   return true;
@@ -99,17 +101,17 @@ bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& 
 
 std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMaterials materials,
                                        const SourcePosition& where, Diagnostics& diagnostics,
-                                       FileCoordinates coordinates) {
+                                       FileCoordinates coordinates, Inputs* inputs) {
   const auto refuse = [&](const std::string& message) {
     diagnostics.error(where, fmt::format("mesh \"{}\": {}", path.string(), message), ErrorCode::input);
     return std::nullopt;
   };
+  MeshReading reading{path, materials, coordinates, {}, {}, {}, {inputs, 0}};
   std::string bytes;
-  if (const auto fault = read_mesh_bytes(path, bytes)) return refuse(*fault);
+  if (const auto fault = read_mesh_bytes(path, bytes, reading.held)) return refuse(*fault);
   if (!known_format(path))
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .obj, .gltf, .glb)",
                               path.extension().string()));
-  MeshReading reading{path, materials, coordinates, {}, {}, {}};
   if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
   if (reading.file.parts.empty()) return refuse("no faces");
   for (MeshFile::Part& part : reading.file.parts)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/diagnostics.h"
+#include "io/inputs.h"
 #include "scene/shapes/shape.h"
 #include "spectral/rgb.h"
 
@@ -43,11 +44,13 @@ enum class FileCoordinates { ignored, wanted };
 /// normals, the others get their own normal at each corner. Warns of lights and cameras, which are not read.
 /// Reports, as input errors at `where`, a file that is missing, not regular or too large, anything malformed,
 /// a count that promises more than the file holds (before anything is allocated for it), a name of another
-/// file that leaves the folder, and whatever `check_mesh` reports.
+/// file that leaves the folder, and whatever `check_mesh` reports. While it reads, `inputs` counts the bytes
+/// of the files and what is stored of the meshes: throws Error{resource} for what is too large.
 [[nodiscard]] std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path,
                                                      FileMaterials materials, const SourcePosition& where,
                                                      Diagnostics& diagnostics,
-                                                     FileCoordinates coordinates = FileCoordinates::ignored);
+                                                     FileCoordinates coordinates = FileCoordinates::ignored,
+                                                     Inputs* inputs = nullptr);
 
 /// Reports a vertex that is not finite and a triangle naming a vertex that does not exist, each by index;
 /// takes triangles of zero area for slivers, with a warning that counts them. False when the mesh cannot be

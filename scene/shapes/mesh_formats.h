@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -22,11 +23,21 @@ struct MeshReading {
   MeshFile file;
   std::string fault;
   std::vector<std::string> lost;  ///< What of the file is not read, in words.
+  HeldMemory held;                ///< By what is read, until it has been.
 
   /// Remembers the fault; false, so that a reader can end with it.
   bool refuse(std::string what) {
     fault = std::move(what);
     return false;
+  }
+  /// Makes room in a list for `more` elements, counted before it is asked for. Throws Error{resource} when
+  /// there is none left.
+  template <typename T>
+  void make_room(std::vector<T>& list, std::size_t more) {
+    if (list.capacity() - list.size() >= more) return;
+    const std::size_t room = std::max(2 * list.capacity(), list.size() + more);
+    held.take_more(path.string(), (room - list.capacity()) * sizeof(T));
+    list.reserve(room);
   }
 };
 [[nodiscard]] bool read_ply(std::string&& bytes, MeshReading& reading);
@@ -34,9 +45,9 @@ struct MeshReading {
 /// glTF 2.0, as JSON or GLB. Node transforms are applied, a mirror turning the triangles round.
 [[nodiscard]] bool read_gltf(std::string&& bytes, MeshReading& reading);
 
-/// Bytes of a regular file, or why there are none.
+/// Bytes of a regular file, which `held` counts before they are read; or why there are none.
 [[nodiscard]] std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path,
-                                                         std::string& bytes);
+                                                         std::string& bytes, HeldMemory& held);
 /// Bytes of a file that `reading`'s file names, which must lie beside it or below.
 [[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 

@@ -112,12 +112,14 @@ void require_numbers(const Obj& obj, const Imath::V3d& v, const char* what, std:
 void take_vertex(void* user, double x, double y, double z, double /*w*/) {
   Obj& obj = *static_cast<Obj*>(user);
   require_numbers(obj, {x, y, z}, "vertex", obj.vertices.size() + 1);
+  obj.reading.make_room(obj.vertices, 1);
   obj.vertices.emplace_back(x, y, z);
 }
 
 void take_normal(void* user, double x, double y, double z) {
   Obj& obj = *static_cast<Obj*>(user);
   require_numbers(obj, {x, y, z}, "vn", obj.normals.size() + 1);
+  obj.reading.make_room(obj.normals, 1);
   obj.normals.push_back(unit_normal({x, y, z}));
 }
 
@@ -127,6 +129,7 @@ void take_coordinates(void* user, double /*u*/, double /*v*/, double /*w*/) {
   const Imath::V2f uv = at ? Imath::V2f(Imath::V2d((*at)[0], (*at)[1])) : Imath::V2f(INFINITY);
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
     obj.refuse(fmt::format("texture coordinates need two finite numbers (got {})", obj.rest()));
+  obj.reading.make_room(obj.coordinates, 1);
   obj.coordinates.push_back(uv);
 }
 
@@ -159,12 +162,17 @@ void take_face(void* user, tinyobj::index_t* indices, int count) {
     }
   }
   Faces& faces = obj.faces[obj.material];
+  const std::size_t more = polygon.size() - 2;
   if (normals.size() == polygon.size()) {
+    obj.reading.make_room(faces.normals, faces.triangles.size() - faces.normals.size() + more);
     faces.normals.resize(faces.triangles.size());
     add_fan(normals, faces.normals);
   }
+  obj.reading.make_room(faces.triangles, more);
   add_fan(polygon, faces.triangles);
-  if (coordinates.size() == polygon.size()) add_fan(coordinates, faces.coordinates);
+  if (coordinates.size() != polygon.size()) return;
+  obj.reading.make_room(faces.coordinates, more);
+  add_fan(coordinates, faces.coordinates);
 }
 
 // A name may have blanks and "#" in it, so that a comment begins where no material would be named otherwise.
@@ -263,13 +271,16 @@ class MaterialFiles : public tinyobj::MaterialReader {
 };
 
 // The faces with the vertices they name and no others.
-Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces) {
+Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces, MeshReading& reading) {
   Mesh mesh;
   std::unordered_map<std::uint32_t, std::uint32_t> renamed;
   for (Triangle& triangle : faces.triangles)
     for (std::uint32_t& corner : triangle) {
       const auto [at, added] = renamed.emplace(corner, static_cast<std::uint32_t>(mesh.vertices.size()));
-      if (added) mesh.vertices.push_back(vertices[corner]);
+      if (added) {
+        reading.make_room(mesh.vertices, 1);
+        mesh.vertices.push_back(vertices[corner]);
+      }
       corner = at->second;
     }
   mesh.triangles = std::move(faces.triangles);
@@ -308,7 +319,7 @@ bool read_obj(std::string&& bytes, MeshReading& reading) {
     return true;
   }
   for (auto& [material, faces] : obj.faces)
-    reading.file.parts.push_back({compact(obj.vertices, std::move(faces)), material});
+    reading.file.parts.push_back({compact(obj.vertices, std::move(faces), reading), material});
   return true;
 }
 

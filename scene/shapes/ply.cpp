@@ -30,14 +30,18 @@ namespace {
 using Points = std::vector<CGAL::Simple_cartesian<double>::Point_3>;
 using Polygons = std::vector<std::vector<std::uint32_t>>;
 
-/// What a header says of the vertices.
+/// What a header says of vertices and faces.
 struct Header {
   std::size_t vertices = 0;
+  std::size_t faces = 0;
   int normals = 0;  ///< How many of nx, ny and nz they have.
 };
 
 bool is_vertices(std::string_view element) {
   return element == "vertex" || element == "vertices";
+}
+bool is_faces(std::string_view element) {
+  return element == "face" || element == "faces";
 }
 
 // Nothing unless the header has what the library takes for granted: an element before any property, known
@@ -64,6 +68,7 @@ std::optional<Header> sound_header(std::istream& stream) {
       ++elements;
       vertices = is_vertices(type);
       if (vertices) words >> header.vertices;
+      if (is_faces(type)) words >> header.faces;
     } else if (key == "property") {
       std::string count = "char";
       std::string name;
@@ -102,6 +107,13 @@ void call_normals_positions(std::string& bytes) {
   }
 }
 
+// Counts what the library stores of so many vertices and faces, at most as many as the file has bytes.
+void take_memory(std::size_t vertices, std::size_t faces, std::size_t bytes, MeshReading& reading) {
+  constexpr std::size_t kFace = sizeof(Polygons::value_type) + sizeof(Triangle);
+  reading.held.take_more(reading.path.string(), std::min(vertices, bytes) * sizeof(Points::value_type) +
+                                                    std::min(faces, bytes) * kFace);
+}
+
 // Polygons stay empty where only vertices are asked for.
 bool read(std::istream& stream, const Header& header, Points& points, Polygons& polygons,
           MeshReading& reading) {
@@ -122,6 +134,8 @@ bool read(std::istream& stream, const Header& header, Points& points, Polygons& 
 // Gives the corners of the triangles the normals of their vertices.
 bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshReading& reading) {
   if (header.normals != 3) return reading.refuse("a normal needs nx, ny and nz");
+  take_memory(header.vertices, 0, bytes.size(), reading);
+  reading.make_room(mesh.normals, mesh.triangles.size());
   call_normals_positions(bytes);
   std::istringstream stream(std::move(bytes));
   Points given;
@@ -147,15 +161,18 @@ bool read_ply(std::string&& bytes, MeshReading& reading) {
   stream.imbue(std::locale::classic());
   const auto header = sound_header(stream);
   if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
+  take_memory(header->vertices, header->faces, stream.view().size(), reading);
   stream.seekg(0);
   Points points;
   Polygons polygons;
   if (!read(stream, *header, points, polygons, reading)) return false;
   if (points.size() > std::numeric_limits<std::uint32_t>::max()) return reading.refuse("too many vertices");
   Mesh mesh;
-  mesh.vertices.reserve(points.size());
+  reading.make_room(mesh.vertices, points.size());
   for (const auto& point : points) mesh.vertices.emplace_back(point.x(), point.y(), point.z());
-  mesh.triangles.reserve(polygons.size());
+  std::size_t triangles = 0;
+  for (const auto& polygon : polygons) triangles += std::max(polygon.size(), std::size_t{2}) - 2;
+  reading.make_room(mesh.triangles, triangles);
   for (const auto& polygon : polygons) add_fan(polygon, mesh.triangles);
   if (mesh.triangles.empty()) return reading.refuse("no faces");
   if (header->normals > 0 && !read_normals(std::move(stream).str(), *header, mesh, reading)) return false;

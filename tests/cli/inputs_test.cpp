@@ -1,3 +1,5 @@
+#include <cstring>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -46,6 +48,29 @@ class InputFiles : public ::testing::Test {
     EXPECT_NE(run.err.find("is the same file as"), std::string::npos) << command << '\n' << run.err;
     EXPECT_EQ(read_file(folder_ / input), before) << command;
     EXPECT_FALSE(before.empty()) << input;
+  }
+
+  // A hundred nodes of one mesh of 10,000 triangles: 360 KB of numbers that make 84 MB.
+  void write_repeated_gltf() const {
+    constexpr int kVertices = 30000;
+    std::string positions(std::size_t{kVertices} * 3 * sizeof(float), '\0');
+    for (std::size_t i = 0; i < std::size_t{kVertices} * 3; ++i) {
+      const auto x = static_cast<float>(i * i % 97);
+      std::memcpy(&positions[i * sizeof x], &x, sizeof x);
+    }
+    write("many.bin", positions);
+    std::string nodes = R"({"mesh": 0})";
+    std::string roots = "0";
+    for (int i = 1; i < 100; ++i) {
+      nodes += R"(, {"mesh": 0})";
+      roots += fmt::format(", {}", i);
+    }
+    write("many.gltf", fmt::format(R"({{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [{}]}}],
+      "nodes": [{}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+      "accessors": [{{"bufferView": 0, "componentType": 5126, "count": {}, "type": "VEC3"}}],
+      "bufferViews": [{{"buffer": 0, "byteLength": {}}}],
+      "buffers": [{{"byteLength": {}, "uri": "many.bin"}}]}})",
+                                   roots, nodes, kVertices, positions.size(), positions.size()));
   }
 
   fs::path folder_;
@@ -112,6 +137,27 @@ TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   refused("lab wall.json:wall --max-memory 3M", "wall.exr");
   refused("render wall.json --quiet -o a.exr --set /sensor/resolution=[1000,1000] --max-memory 20M", "film");
   refused("compare wall.exr wall.exr --max-memory 6M", "wall.exr");
+  // What a mesh holds is counted as it is read: a small file may hold much, and name large ones.
+  const auto with_mesh = [this](const char* name) {
+    write("mesh.json", fmt::format(R"({{"abbe": 1,
+      "camera": {{"pinhole": {{"fov_deg": 40}}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}},
+      "sensor": {{"resolution": [2, 2], "observer": "1931"}},
+      "materials": {{"wall": {{"diffuse": {{"reflectance": 0.5}}}}}},
+      "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
+      "shapes": [{{"mesh": "{}", "material": "wall"}}]}})",
+                                   name));
+  };
+  write_repeated_gltf();
+  with_mesh("many.gltf");
+  refused("info mesh.json --max-memory 20M", "many.gltf");
+  EXPECT_LT(fs::file_size(folder_ / "many.gltf"), 10000U);
+  fs::resize_file(folder_ / "many.bin", 30000000);
+  refused("info mesh.json --max-memory 20M", "many.bin");
+  std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+  for (int i = 0; i < 200000; ++i) corners += fmt::format(" {}", 1 + i % 3);
+  write("fan.obj", corners + "\n");
+  with_mesh("fan.obj");
+  refused("info mesh.json --max-memory 2M", "fan.obj");
   // The header alone tells: of the pixels there is not one.
   fs::resize_file(folder_ / "wall.exr", fs::file_size(folder_ / "wall.exr") / 2);
   refused("render wall.json --max-memory 3M", "wall.exr");
