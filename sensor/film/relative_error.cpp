@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sensor/readout/random.h"
+
 namespace abbe {
 namespace {
 
@@ -149,7 +151,14 @@ std::vector<std::size_t> lit_values(const Film& pilot) {
     for (int channel = 0; channel < pilot.channels(); ++channel, ++index)
       if (pilot.mean(pixel, channel) != 0) lit.push_back(index);
   if (lit.size() <= kMostValues) return lit;
-  for (std::size_t i = 0; i < kMostValues; ++i) lit[i] = lit[i * lit.size() / kMostValues];
+  // One of each of as many runs of equal length, anywhere in it: an even step would keep to one plane, or to
+  // one colour of a mosaic, wherever it is a multiple of their number.
+  SplitMix64 random(0);
+  for (std::size_t i = 0; i < kMostValues; ++i) {
+    const std::size_t first = i * lit.size() / kMostValues;
+    const std::size_t last = (i + 1) * lit.size() / kMostValues;
+    lit[i] = lit[first + random() % (last - first)];
+  }
   lit.resize(kMostValues);
   return lit;
 }

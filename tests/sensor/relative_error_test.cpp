@@ -100,6 +100,36 @@ TEST(RelativeError, IsThatOfLitValues) {
   EXPECT_EQ(relative_error(film, exact).p95, 0);
 }
 
+// How many of the values chosen on a film of constant values have each remainder.
+std::vector<std::size_t> chosen(int edge, int planes, const std::function<std::size_t(std::size_t)>& kind) {
+  Film film(edge, edge, planes, 1, 1.0);
+  const std::vector<double> values(static_cast<std::size_t>(planes), 1.0);
+  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge);
+       ++pixel)
+    film.add(pixel, 0, values);
+  film.set_samples({1});
+  std::vector<std::size_t> counts;
+  const std::vector<std::size_t> lit = lit_values(film);
+  EXPECT_TRUE(std::is_sorted(lit.begin(), lit.end()));
+  EXPECT_EQ(std::adjacent_find(lit.begin(), lit.end()), lit.end());
+  for (const std::size_t value : lit) {
+    counts.resize(std::max(counts.size(), kind(value) + 1));
+    ++counts[kind(value)];
+  }
+  return counts;
+}
+
+TEST(RelativeError, IsThatOfAllPlanesAndColorsAlike) {
+  const auto expect_even = [](const std::vector<std::size_t>& counts, std::size_t kinds) {
+    ASSERT_EQ(counts.size(), kinds);
+    const double share = 131072.0 / static_cast<double>(kinds);
+    for (const std::size_t count : counts)
+      EXPECT_NEAR(static_cast<double>(count), share, 5 * std::sqrt(share)) << kinds;
+  };
+  expect_even(chosen(512, 3, [](std::size_t value) { return value % 3; }), 3);
+  expect_even(chosen(1024, 1, [](std::size_t pixel) { return pixel / 1024 % 2 * 2 + pixel % 2; }), 4);
+}
+
 TEST(RelativeError, WhatIsLitAndNotFoundYetIsInfinitelyFarOff) {
   const Film film = half_dark(0.01);
   std::vector<std::size_t> lit = lit_values(film);
