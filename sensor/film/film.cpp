@@ -20,6 +20,20 @@ std::size_t sums_of(const FilmShape& shape) {
          static_cast<std::size_t>(shape.channels) * static_cast<std::size_t>(shape.replicates);
 }
 
+// As exact as a sum of doubles can be told, and of no bound, where the integers of many pixels have one.
+// [Kahan1965]
+struct CompensatedSum {
+  double value = 0;
+  double lost = 0;  // what was added too much
+
+  void add(double term) {
+    const double rest = term - lost;
+    const double next = value + rest;
+    lost = (next - value) - rest;
+    value = next;
+  }
+};
+
 }  // namespace
 
 Int128 to_fixed(double value, int unit_exponent) {
@@ -100,10 +114,10 @@ int Film::filled_replicates() const {
 
 template <typename SumOf>
 double Film::mean_of(SumOf sum_of) const {
-  Int128 total = 0;
+  double total = 0;
   for (int r = 0; r < shape_.replicates; ++r) total += sum_of(r);
   const std::uint64_t count = std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0});
-  return count == 0 ? 0 : from_fixed(total, shape_.unit_exponent) / static_cast<double>(count);
+  return count == 0 ? 0 : total / static_cast<double>(count);
 }
 
 template <typename SumOf>
@@ -116,18 +130,18 @@ double Film::variance_of(SumOf sum_of) const {
     const auto n = static_cast<double>(samples_[static_cast<std::size_t>(r)]);
     if (n == 0) continue;
     ++filled;
-    const double m = from_fixed(sum_of(r), shape_.unit_exponent) / n;
+    const double m = sum_of(r) / n;
     spread += n / count * (m - center) * (m - center);
   }
   return filled < 2 ? 0 : spread / (filled - 1);
 }
 
 double Film::mean(std::size_t pixel, int channel) const {
-  return mean_of([&](int r) { return sum(pixel, r, channel); });
+  return mean_of([&](int r) { return from_fixed(sum(pixel, r, channel), shape_.unit_exponent); });
 }
 
 double Film::variance(std::size_t pixel, int channel) const {
-  return variance_of([&](int r) { return sum(pixel, r, channel); });
+  return variance_of([&](int r) { return from_fixed(sum(pixel, r, channel), shape_.unit_exponent); });
 }
 
 Film::Average Film::average(int channel) const {
@@ -135,15 +149,16 @@ Film::Average Film::average(int channel) const {
 }
 
 Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
-  std::vector<Int128> sums(static_cast<std::size_t>(shape_.replicates), 0);
-  const auto sum_of = [&sums](int r) { return sums[static_cast<std::size_t>(r)]; };
+  std::vector<CompensatedSum> sums(static_cast<std::size_t>(shape_.replicates));
+  const auto sum_of = [&sums](int r) { return sums[static_cast<std::size_t>(r)].value; };
   double variances = 0;
   double squares = 0;
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
       const auto pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);
-      for (int r = 0; r < shape_.replicates; ++r) sums[static_cast<std::size_t>(r)] += sum(pixel, r, channel);
+      for (int r = 0; r < shape_.replicates; ++r)
+        sums[static_cast<std::size_t>(r)].add(from_fixed(sum(pixel, r, channel), shape_.unit_exponent));
       const double own = shape_.shares_photons ? 0 : variance(pixel, channel);
       variances += own;
       squares += own * own;

@@ -123,6 +123,18 @@ TEST(Film, HoldsRefusesWhatWouldOverflow) {
   EXPECT_FALSE(film.holds(-INFINITY));
 }
 
+TEST(Film, AveragesTheLargestValuesItHolds) {
+  Film film(8, 8, 1, 8, 1.0);
+  const double value = std::ldexp(0.75, 44);
+  ASSERT_TRUE(film.holds(value));
+  for (std::size_t pixel = 0; pixel < 64; ++pixel)
+    for (int r = 0; r < 8; ++r) film.add(pixel, r, {&value, 1});
+  film.set_samples(std::vector<std::uint64_t>(8, 1));
+  EXPECT_EQ(film.mean(5, 0), value);
+  EXPECT_EQ(film.average(0).mean, value);
+  EXPECT_EQ(film.average(0).standard_error, 0);
+}
+
 TEST(Film, ImageNamesValueAndVariancePlanes) {
   Film film(2, 1, 1, 2, 1.0);
   const double one = 1;
