@@ -63,7 +63,7 @@ const Matter* matter(const Material& material) {
 }
 
 bool encloses_matter(const Material& material) {
-  return interior(material) != nullptr || matter(material) != nullptr || is_boundary(material);
+  return interior(material) != nullptr || matter(material) != nullptr;
 }
 
 bool is_boundary(const Material& material) {

@@ -33,6 +33,11 @@ struct Extent {
 /// lit where it is, they are so only if it sees them larger than 1/`kGap`.
 [[nodiscard]] Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes);
 
+/// Radius [m] of a scene of these bounds: half their diagonal, 1 of an empty scene, and more than 0.
+[[nodiscard]] inline double scene_radius(const Imath::Box3d& bounds) {
+  return bounds.isEmpty() ? 1.0 : std::max(bounds.size().length() / 2, 1e-12);
+}
+
 /// From a point to the nearest point of a box, 0 within it.
 [[nodiscard]] double distance_to(const Imath::Box3d& box, const Imath::V3d& point);
 

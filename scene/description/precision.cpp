@@ -16,11 +16,6 @@ constexpr double kLeastOpaqueSteps = 8;
 constexpr double kLeastPixelSteps = 8;
 constexpr double kDirectionStep = 0x1p-24;  // of a component near 1, and so [rad] of a direction
 
-bool needs_a_body(const Scene& scene, const ShapeInstance& instance) {
-  const Material& material = scene.materials[instance.material];
-  return interior(material) != nullptr || matter(material) != nullptr;
-}
-
 void check_shapes(const Reading& reading, const Scene& scene) {
   std::vector<bool> emitting_mesh(scene.shapes.size(), false);
   for (const Light& light : scene.lights)
@@ -30,7 +25,7 @@ void check_shapes(const Reading& reading, const Scene& scene) {
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];
     const Imath::Box3d box = bounds(instance.shape);
-    const bool body = needs_a_body(scene, instance);
+    const bool body = encloses_matter(scene.materials[instance.material]);
     const bool opaque = !emitting_mesh[i] && !body;
     if (opaque && distance_to(box, position(scene.camera)) > far_from) continue;
     const double size = box.size().length();

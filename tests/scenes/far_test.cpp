@@ -7,6 +7,7 @@
 
 #include "materials/material.h"
 #include "tests/scenes/scene_fixture.h"
+#include "transport/render/plan.h"
 
 namespace abbe {
 namespace {
@@ -174,6 +175,45 @@ TEST(Far, CausticsOfASunAgree) {
     EXPECT_LT(c.largest_z, 5.6) << light;
     EXPECT_NEAR(c.ratio, 1, 0.003) << light;
   }
+}
+
+// What making a plan of the scene is refused with.
+std::string refusal(const Scene& scene) {
+  try {
+    (void)make_plan(scene);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::scene);
+    return error.what();
+  }
+  return "";
+}
+
+// Light sampling passes a cloud on the way to the sun, and takes off what it takes off; photons start below.
+TEST(Far, PhotonsThatWouldPassACloudAreRefused) {
+  const std::string ball_and_cloud =
+      R"(, {"sphere": {"center": [0, 0, 0.6], "radius": 0.4}, "material": "glass"}, {"sphere": {"center": [4800, 6000, 6400], "radius": 500}, "name": "cloud", "material": "air"})";
+  const Override thin{"/materials/air", R"({"medium": {"absorption_per_m": 0.003}})"};
+  const Override dense{"/materials/air", R"({"diffuse": {"reflectance": 0.8}})"};
+  EXPECT_NE(refusal(test::load_text(card(kSun, ball_and_cloud), {thin})).find("cloud"), std::string::npos);
+  EXPECT_EQ(refusal(test::load_text(card(kSun, ball_and_cloud), {dense})), "")
+      << "what hides the sun is no cloud";
+}
+
+// Lamps that look large from afar: photons must come from as far aside as light sampling does, or not at all.
+TEST(Far, PhotonsAloneBringAllOfALargeLamp) {
+  // The card is not in the middle, so that what comes from aside crosses the target far out.
+  const auto lit = [](double half_width, const char* integrator, const char* samples) {
+    const std::string lamp = fmt::format(
+        R"({{"quad": {{"corner": [-{0}, -{0}, 1e5], "edge_u": [0, {1}, 0], "edge_v": [{1}, 0, 0]}}, "emission": {{"spectrum": {{"band": [500, 600]}}, "radiance": 1}}}})",
+        half_width, 2 * half_width);
+    const std::string below = R"(, {"sphere": {"center": [0, 0, -6], "radius": 0.5}, "material": "white"})";
+    return test::load_text(card(lamp, below), {{"/render/integrator", integrator},
+                                               {"/render/samples", samples},
+                                               {"/camera/pinhole/fov_deg", "36"}});
+  };
+  EXPECT_NEAR(mean(lit(3e5, "light", "65536")) / mean(lit(3e5, "path", "256")), 1, 0.05);
+  EXPECT_NE(refusal(lit(2e6, "light", "1")).find("within 84 degrees of one direction"), std::string::npos);
+  EXPECT_EQ(refusal(lit(2e6, "path", "1")), "");
 }
 
 // Radius on the screen of `rainbow.json` [mm] where the bow of rays with one inner reflection ends: rays turn

@@ -17,14 +17,6 @@
 namespace abbe {
 namespace {
 
-double scene_radius(const Scene& scene) {
-  return scene.bounds.isEmpty() ? 1.0 : std::max(scene.bounds.size().length() / 2, 1e-12);
-}
-
-bool is_filled(const Material& material) {
-  return interior(material) != nullptr || matter(material) != nullptr;
-}
-
 // Around all shapes that are not far and whose material `holds`, as what photons are aimed at.
 template <typename Holds>
 Imath::Box3d bounds_where(const Scene& scene, Holds holds) {
@@ -51,6 +43,19 @@ std::optional<FarAway> far_away(const Light& light, const Scene& scene) {
   return FarAway{box.center(), box.center().length(), box.size().length() / 2};
 }
 
+// Of the angle that rays from a lamp to a sphere make with `axis` at most: that of the lamp's corners as seen
+// from the middle, and of the sphere as seen from the lamp.
+double least_cosine(const Imath::Box3d& lamp, const Imath::V3d& axis, const Imath::V3d& center,
+                    double radius) {
+  double cosine = 1;
+  for (const double x : {lamp.min.x, lamp.max.x})
+    for (const double y : {lamp.min.y, lamp.max.y})
+      for (const double z : {lamp.min.z, lamp.max.z})
+        cosine = std::min(cosine, (center - Imath::V3d(x, y, z)).normalized().dot(axis));
+  const double sine = std::min(1.0, radius / distance_to(lamp, center));
+  return cosine * std::sqrt(1 - sine * sine) - std::sqrt(1 - cosine * cosine) * sine;
+}
+
 // For a light that is far or at infinity; nothing for the others.
 std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const Imath::Box3d& box) {
   const Imath::V3f center(box.isEmpty() ? Imath::V3d(0) : box.center());
@@ -61,13 +66,21 @@ std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const I
     return Aim::from_afar(-sun->towards, 1 - static_cast<double>(sun->cap), center, radius);
   const auto lamp = far_away(light, scene);
   if (!lamp) return std::nullopt;
-  const double sine = (lamp->radius + radius) / lamp->distance;
-  return Aim::from_afar(Imath::V3f(-lamp->center.normalized()), std::sqrt(std::max(0.5, 1 - sine * sine)),
-                        center, radius);
+  constexpr double kLeastCosine = 0.1;  // the target is wider than what it stands for by 1/cosine
+  const Imath::V3d axis = -lamp->center.normalized();
+  const double cosine = least_cosine(bounds_of(light, scene), axis, Imath::V3d(center), radius);
+  if (cosine < kLeastCosine)
+    throw Error(
+        ErrorCode::scene, light.name,
+        fmt::format("photons of a lamp from afar come within 84 degrees of one direction: it is {:g} m "
+                    "across and {:g} m away; --integrator path renders it",
+                    2 * lamp->radius, lamp->distance));
+  return Aim::from_afar(Imath::V3f(axis), cosine, center, radius);
 }
 
-// Photons from afar are sent through what is near, so that they meet nothing that is far; and they start
-// outside of all that may bend them, so that they are no finer than floats there.
+// Photons from afar are sent through what is near, so that they meet nothing that is far, nor lose anything
+// in a cloud there; and they start outside of all that may bend them, so that they are no finer than floats
+// there.
 std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced, bool light_only) {
   constexpr double kSmallest = 1e-5;  // of a radian: less of the view than this may go without caustics
   bool from_afar = false;
@@ -79,8 +92,8 @@ std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced
     const double size = box.size().length();
     const Material& material = scene.materials[shape.material];
     const bool met = lobes(material).delta || (light_only && shape.light < 0);
-    const bool far = shape.far && met && size > kSmallest * box.center().length();
-    const bool large = !shape.far && (met || is_filled(material)) && size > 2 * scene.far_from_m;
+    const bool far = shape.far && (met || is_boundary(material)) && size > kSmallest * box.center().length();
+    const bool large = !shape.far && (met || encloses_matter(material)) && size > 2 * scene.far_from_m;
     if (far || large)
       return Error(ErrorCode::scene, shape.name,
                    fmt::format("photons of a light from afar cannot light a shape {:g} m across, {:g} m from "
@@ -107,9 +120,9 @@ constexpr std::ptrdiff_t kMostAims = 128;
 
 std::vector<Aim> make_aims(const Scene& scene, const std::vector<double>& traced_powers, bool light_only) {
   const Imath::Box3d box = bounds_where(scene, [](const Material& m) { return lobes(m).delta; });
-  const Imath::Box3d bends =
-      light_only ? scene.bounds
-                 : bounds_where(scene, [](const Material& m) { return lobes(m).delta || is_filled(m); });
+  const Imath::Box3d bends = light_only ? scene.bounds : bounds_where(scene, [](const Material& m) {
+    return lobes(m).delta || encloses_matter(m);
+  });
   std::vector<Aim> aims(scene.lights.size());
   for (std::size_t i = 0; i < aims.size(); ++i)
     if (traced_powers[i] > 0)
@@ -177,7 +190,7 @@ Emissions emissions_of(const Scene& scene) {
 // lights.
 double strength(const Scene& scene, const Light& light) {
   const auto lamp = far_away(light, scene);
-  if (place(light) != nullptr) return std::pow(lamp ? lamp->distance : scene_radius(scene), -2);
+  if (place(light) != nullptr) return std::pow(lamp ? lamp->distance : scene_radius(scene.bounds), -2);
   return lamp ? std::min(1.0, lamp->radius / lamp->distance) : 1;
 }
 
@@ -196,13 +209,13 @@ double nominal_value(const Scene& scene, const Emissions& emissions) {
 // The share of a light's power that comes to the scene.
 double arriving_share(const Scene& scene, const Light& light) {
   const auto lamp = far_away(light, scene);
-  return lamp ? std::min(1.0, std::pow(scene_radius(scene) / lamp->distance, 2)) : 1;
+  return lamp ? std::min(1.0, std::pow(scene_radius(scene.bounds) / lamp->distance, 2)) : 1;
 }
 
 std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& emissions) {
   std::vector<double> powers;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene)) *
+    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene.bounds)) *
                      arriving_share(scene, scene.lights[i]));
   return powers;
 }
