@@ -14,11 +14,11 @@ namespace abbe {
 /// What paths expose the film with in all, by the group that each light belongs to.
 struct ExposureByLight {
   std::vector<std::uint32_t> group;  ///< Of each light of the scene.
-  std::vector<double> worth;         ///< Of each channel's film value; of a mosaic, of its plane's.
-  std::vector<double> exposure;      ///< Of each group: the sum of |film value| times its worth.
+  std::vector<double> weight;        ///< Of each channel's film value; of a mosaic, of its plane's.
+  std::vector<double> exposure;      ///< Of each group: the sum of |film value| times its weight.
 
   void add(std::uint32_t light, std::size_t channel, double value) {
-    if (std::isfinite(value)) exposure[group[light]] += worth[channel] * std::abs(value);
+    if (std::isfinite(value)) exposure[group[light]] += weight[channel] * std::abs(value);
   }
 };
 

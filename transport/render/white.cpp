@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/extent.h"
 #include "transport/path/exposure.h"
 #include "transport/render/pilot.h"
 #include "transport/render/plan.h"
@@ -44,7 +45,7 @@ bool is_stronger(const Scene& scene, const Group& a, const Group& b) {
 // Lights that emit nothing belong to the first group, where they change nothing.
 std::vector<Group> groups_of(const Scene& scene, std::vector<std::uint32_t>& group_of_light) {
   std::vector<Group> groups;
-  const double radius = std::max(scene.bounds.isEmpty() ? 1.0 : scene.bounds.size().length() / 2, 1e-12);
+  const double radius = scene_radius(scene.bounds);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     ScaledCurve spectrum = mean_emission(scene.lights[i]);
     group_of_light.push_back(0);
@@ -63,20 +64,21 @@ std::vector<Group> groups_of(const Scene& scene, std::vector<std::uint32_t>& gro
   return groups;
 }
 
-// What a film value of each channel counts.
-std::vector<double> worth_of_channels(const Scene& scene) {
+// What a film value of each channel weighs.
+std::vector<double> channel_weights(const Scene& scene) {
   if (scene.mosaic) return {1};
   if (is_observer(scene.channels)) return {0, 1, 0};
   if (!scene.spectral) return std::vector<double>(scene.channels.size(), 1.0);
-  std::vector<double> worth;
-  for (const Channel& bin : scene.channels) worth.push_back(photometric(bin.weight) / bin.weight.integral());
-  return worth;
+  std::vector<double> weights;
+  for (const Channel& bin : scene.channels)
+    weights.push_back(photometric(bin.weight) / bin.weight.integral());
+  return weights;
 }
 
 }  // namespace
 
 White main_light(const Scene& scene, int threads) {
-  ExposureByLight sums{{}, worth_of_channels(scene), {}};
+  ExposureByLight sums{{}, channel_weights(scene), {}};
   const std::vector<Group> groups = groups_of(scene, sums.group);
   if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0)), Curve(1.0)};
   const auto white = [&](const Group& group, std::string reason) {

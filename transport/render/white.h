@@ -7,8 +7,9 @@ namespace abbe {
 /// The light that exposes the film most, lamps whose spectra differ by a factor counting as one: by
 /// luminance for the observer and for a spectral sensor, else by the sum of the film values of all channels.
 /// Where there are several spectra a pilot tells, a render of few paths whose random numbers depend on the
-/// scene alone: neither the order of the lights nor the render's seed matters; the strongest
-/// where no photons can light the scene (`refusal`). Equal energy for a scene without a light.
+/// scene alone. So the render's seed does not matter; nor does the order of the lights, but between lights
+/// that give the film the same within the pilot's noise, about a percent. Equal energy for a scene without a
+/// light; the strongest where no photons can light the scene (`refusal`).
 [[nodiscard]] White main_light(const Scene& scene, int threads = 1);
 
 /// The white the scene asks for, else the main light; with the spectrum that cameras are characterised in:
