@@ -193,8 +193,8 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["relative_error_p95"] = stats.error.p95;
   answer["frame_mean_error"] = stats.error.frame_mean;
   answer["nonfinite_samples"] = stats.nonfinite_samples;
-  answer["cut_paths"] = stats.cut_paths;
-  answer["cut_throughput"] = stats.cut_throughput;
+  answer["cut_paths"] = stats.cut.paths;
+  answer["cut_throughput"] = stats.cut.throughput();
   const std::vector<std::string> planes = scene.film_planes();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Film::Average average = result.film.average(static_cast<int>(i));
@@ -277,12 +277,12 @@ int render(const RenderOptions& options) {
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.error, ", ")));
   if (stats.nonfinite_samples > 0)
     say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));
-  if (stats.cut_paths > 0 && !scene.render.max_depth)
+  if (stats.cut.paths > 0 && !scene.render.max_depth)
     say(fmt::format(
         "warning: {} of {} paths were cut after {} events, with {:.3g} % of what all set out with: "
         "their light is missing",
-        stats.cut_paths, stats.paths, kMostEvents,
-        100 * stats.cut_throughput / static_cast<double>(stats.paths)));
+        stats.cut.paths, stats.paths, kMostEvents,
+        100 * stats.cut.throughput() / static_cast<double>(stats.paths)));
   if (stats.interrupted) return kSignalExit + watch.signal();
   return options.strict && stats.nonfinite_samples > 0 ? static_cast<int>(ErrorCode::internal) : 0;
 }

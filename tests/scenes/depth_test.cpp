@@ -20,7 +20,7 @@ TEST(Depth, AWhiteRoomIsAsBrightAsItsWallsMakeIt) {
   fmt::print("{:.0f} +- {:.0f} lx\n", lux.mean, lux.standard_error);
   EXPECT_NEAR(lux.mean, 10000.0 / 96 / 0.01, 0.05 * 10416.67);
   EXPECT_NEAR(lux.mean, 10000.0 / 96 / 0.01, 4.9 * lux.standard_error);
-  EXPECT_EQ(result.stats.cut_paths, 0U);
+  EXPECT_EQ(result.stats.cut.paths, 0U);
 }
 
 TEST(Depth, AnExplicitOneIsHonouredAndSaysWhatItCutsOff) {
@@ -30,8 +30,8 @@ TEST(Depth, AnExplicitOneIsHonouredAndSaysWhatItCutsOff) {
   EXPECT_NEAR(cut.film.average(1).mean, std::numbers::pi * (1 - std::pow(0.8, 4)), 0.01);
   const auto paths = static_cast<double>(cut.stats.paths);
   // Each path has three of the walls' events behind it and 0.8^3 of its throughput left.
-  EXPECT_EQ(cut.stats.cut_paths, cut.stats.paths);
-  EXPECT_NEAR(cut.stats.cut_throughput / paths, std::pow(0.8, 3), 1e-5);
+  EXPECT_EQ(cut.stats.cut.paths, cut.stats.paths);
+  EXPECT_NEAR(cut.stats.cut.throughput() / paths, std::pow(0.8, 3), 1e-5);
 }
 
 // Camera and lamp within a ball that loses nothing, and perhaps more.
@@ -50,7 +50,7 @@ TEST(Depth, PathsEndWhereNothingIsAbsorbed) {
   const char* card = R"(, {"sphere": {"center": [0.5, 0, 0], "radius": 0.1}, "material": "card"})";
   for (const char* integrator : {"path", "light"}) {
     const RenderResult result = render(test::load_text(lossless(integrator, card)), {});
-    EXPECT_EQ(result.stats.cut_paths, 0U) << integrator;
+    EXPECT_EQ(result.stats.cut.paths, 0U) << integrator;
     // Past the 64th event a path has about as many again on average.
     EXPECT_LT(result.stats.rays, 400 * result.stats.paths) << integrator;
     EXPECT_GT(result.stats.rays, 64 * result.stats.paths) << integrator;
@@ -64,11 +64,69 @@ TEST(Depth, ThereIsACapThatCounts) {
     scene.render.roulette_depth = -1;
     scene.render.samples = 1;
     const RenderResult one = render(scene, {.threads = 1});
-    EXPECT_EQ(one.stats.cut_paths, one.stats.paths) << integrator;
-    EXPECT_NEAR(one.stats.cut_throughput, static_cast<double>(one.stats.paths), 1e-3) << integrator;
+    EXPECT_EQ(one.stats.cut.paths, one.stats.paths) << integrator;
+    EXPECT_NEAR(one.stats.cut.throughput(), static_cast<double>(one.stats.paths), 1e-3) << integrator;
     EXPECT_GE(one.stats.rays, one.stats.paths * static_cast<std::uint64_t>(kMostEvents)) << integrator;
-    EXPECT_EQ(render(scene, {.threads = 2}).stats.cut_paths, one.stats.cut_paths);
+    EXPECT_EQ(render(scene, {.threads = 2}).stats.cut.paths, one.stats.cut.paths);
   }
+}
+
+// What is cut has another event before it: a path that leaves the scene after as many as it may have does
+// not, whichever end it sets out from.
+TEST(Depth, WhatLeavesTheSceneIsNotCut) {
+  for (const char* integrator : {"path", "light"})
+    for (const bool under_a_roof : {false, true}) {
+      const std::string roof =
+          R"(, {"quad": {"corner": [-1000, -1000, 9], "edge_u": [0, 2000, 0], "edge_v": [2000, 0, 0]}, "material": "card"})";
+      const Scene scene = test::load_text(fmt::format(
+          R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 20}}, "from": [0, 0, 3], "to": [0, 0, 0], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [8, 8], "response": "energy", "channels": {{"all": 1}}}},
+    "materials": {{"card": {{"diffuse": {{"reflectance": 0.5}}}}}},
+    "lights": [{{"point": {{"at": [0, 0, 2]}}, "emission": {{"spectrum": 1}}}}],
+    "shapes": [{{"quad": {{"corner": [-9, -9, 0], "edge_u": [18, 0, 0], "edge_v": [0, 18, 0]}}, "material": "card"}}{}],
+    "render": {{"integrator": "{}", "samples": 4, "max_depth": 1}}}})",
+          under_a_roof ? roof : "", integrator));
+      const RenderStats stats = render(scene, {}).stats;
+      EXPECT_EQ(stats.cut.paths > 0, under_a_roof) << integrator;
+      EXPECT_EQ(stats.cut.throughput(), static_cast<double>(stats.cut.paths) / 2) << integrator;
+    }
+}
+
+TEST(Depth, WhatIsCutDependsOnNoThreads) {
+  const Scene scene = test::load("validation/furnace.json",
+                                 {{"/sensor/resolution", "[64, 64]"},
+                                  {"/materials/wall/diffuse/reflectance", R"({"band": [400, 650]})"},
+                                  {"/render", R"({"samples": 16, "max_depth": 6, "integrator": "light"})"}});
+  const Cut one = render(scene, {.threads = 1}).stats.cut;
+  EXPECT_GT(one.throughput(), 0);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Cut four = render(scene, {.threads = 4}).stats.cut;
+    EXPECT_EQ(four.paths, one.paths);
+    EXPECT_EQ(four.throughput(), one.throughput());
+  }
+}
+
+// Photons that set out at none of the wavelengths of their lamp carry nothing that could be cut.
+TEST(Depth, PhotonsWithoutPowerAreNotCut) {
+  std::string lamps;
+  for (int nm = 400; nm < 700; nm += 10)
+    lamps += fmt::format(
+        R"({}{{"point": {{"at": [0, 0.1, 0]}}, "emission": {{"lines": [{{"nm": {}, "width_nm": 0.1, "power": 1}}], "intensity": 1}}}})",
+        lamps.empty() ? "" : ", ", nm);
+  const Scene scene = test::load_text(fmt::format(R"({{"abbe": 1,
+    "camera": {{"pinhole": {{"fov_deg": 40}}, "from": [0, 0, -0.5], "to": [0, 0, 0], "up": [0, 1, 0]}},
+    "sensor": {{"resolution": [8, 8], "response": "energy", "channels": {{"all": 1}}}},
+    "materials": {{"fog": {{"medium": {{"scattering_per_m": 1000}}}}}},
+    "lights": [{}],
+    "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "fog"}}],
+    "render": {{"integrator": "light", "samples": 16, "max_depth": 2}}}})",
+                                                  lamps));
+  const RenderStats stats = render(scene, {}).stats;
+  EXPECT_GT(stats.cut.paths, 0U);
+  EXPECT_LT(stats.cut.paths, stats.paths) << "every photon has its lamp's line";
+  EXPECT_GT(stats.cut.throughput(), 0);
+  EXPECT_LE(stats.cut.throughput(), 1.01 * static_cast<double>(stats.cut.paths));
 }
 
 TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {

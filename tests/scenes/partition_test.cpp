@@ -224,15 +224,13 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THROW((void)render(scene, {}, copy(misshapen.result)), Error);
   RenderPart more = part(renamed, {2, 3});
   more.result.stats.nonfinite_samples = 5;
-  sum.result.stats.cut_paths = 4;
-  sum.result.stats.cut_throughput = 2;
-  more.result.stats.cut_paths = 3;
-  more.result.stats.cut_throughput = 1.5;
+  sum.result.stats.cut = {4, Int128{2} << 40};
+  more.result.stats.cut = {3, Int128{3} << 39};
   EXPECT_EQ(refusal(sum, more), "");
   EXPECT_EQ(to_text(sum.result.samples), "0:3");
   EXPECT_EQ(sum.result.stats.nonfinite_samples, 5U);
-  EXPECT_EQ(sum.result.stats.cut_paths, 7U);
-  EXPECT_EQ(sum.result.stats.cut_throughput, 3.5);
+  EXPECT_EQ(sum.result.stats.cut.paths, 7U);
+  EXPECT_EQ(sum.result.stats.cut.throughput(), 3.5);
 }
 
 }  // namespace

@@ -48,12 +48,13 @@ class PhotonPath {
     end_.inside = inside;
     if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
     end_.packet.throughput = power;
-    for (int depth = 0; depth < most_events_; ++depth) {
+    power_ = power.max();
+    for (int depth = 0;; ++depth) {
       std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
       const bool owned = depth > 0 || plan_.light_owns_all;
       if (flies_) {
         if (scatters_before(hit, depth)) {
-          if (!owned || !scatter_within(depth)) return;
+          if (!owned || is_cut(depth) || !scatter_within(depth)) return;
           continue;
         }
       } else if (hit) {
@@ -63,15 +64,21 @@ class PhotonPath {
       if (scene_.needs.nesting) interface_ = interface_at(scene_, end_.ray, *hit, end_.inside);
       const Vertex vertex = interface_ ? Vertex(scene_, *interface_, end_.ray.direction, lambda())
                                        : Vertex(scene_, *hit, end_.ray.direction, lambda());
-      if (is_black(vertex.bsdf)) return;
+      if (is_black(vertex.bsdf) || is_cut(depth)) return;
       if (owned && scatters(vertex.bsdf)) connect(vertex, depth);
       if (!scatter(vertex, depth, owned)) return;
     }
-    caster_.count_cut(end_.packet.carried() / power.max());
   }
 
  private:
   [[nodiscard]] const SampledSpectrum& lambda() const { return end_.packet.wavelengths.lambda_nm; }
+
+  // Whether the path may not have the event number `depth`, counted from 0.
+  bool is_cut(int depth) {
+    if (depth < most_events_) return false;
+    caster_.count_cut(end_.packet.carried() / power_);
+    return true;
+  }
 
   [[nodiscard]] bool scatters_before(std::optional<SurfaceHit>& hit, int depth) {
     const std::array<float, 4> u = sampler_.group(flight_group(depth));
@@ -140,14 +147,15 @@ class PhotonPath {
     if (!event || !(owned || event->delta)) return false;
     end_.packet.throughput *= event->weight;
     end_.packet.lane_pdf *= event->lane_pdf;
-    if (end_.packet.throughput.is_zero()) return false;
     if (event->transmitted) end_.come_into(scene_, vertex.behind(scene_, end_.inside));
     end_.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi));
     return survives(event->weight.max() / event->lane_pdf.max(), depth, u[3]);
   }
 
-  // Roulette by what the event itself `kept`: the power a photon starts with says nothing about its worth.
+  // Roulette by what the event itself `kept`: the power a photon starts with says nothing about what it adds
+  // to the film.
   bool survives(float kept, int depth, float u) {
+    if (end_.packet.throughput.is_zero()) return false;
     if (!plays_roulette(scene_.render, depth + 1)) return true;
     const float q = survival(kept, depth + 1);
     if (u >= q) return false;
@@ -165,12 +173,13 @@ class PhotonPath {
   std::optional<Interface> interface_;  // met last, where matter may be nested
   bool flies_;
   int most_events_;
+  float power_ = 0;  // that it set out with, its largest lane's
 };
 
 // A photon that shows where to aim others, by what it adds to the film.
 struct Pilot {
   PhotonStart start;
-  double worth = 0;
+  double exposure = 0;  // the sum of |film value|
 };
 
 std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint32_t stage, int threads) {
@@ -183,9 +192,9 @@ std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint3
     PathExposure exposure = exposure_of(plan.scene);
     for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
       for (std::uint32_t i = first; i < first + kBatch; ++i) {
-        double& worth = pilots[i].worth;
-        const Splat add = [&worth](int, int, std::span<const double> values) {
-          for (const double v : values) worth += std::abs(v);
+        double& sum = pilots[i].exposure;
+        const Splat add = [&sum](int, int, std::span<const double> values) {
+          for (const double v : values) sum += std::abs(v);
         };
         const Sampler sampler(seed, Purpose::pilot, stage, 0, i);
         pilots[i].start = trace_photon(plan, caster, sampler, 1, exposure, add);
@@ -206,6 +215,7 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
   if (!(photon.factor > 0)) return start;
   const SampledWavelengths wavelengths = plan.wavelengths.sample(a[2]);
   const SampledSpectrum power = plan.scene.lights[pick.light].emission(wavelengths.lambda_nm) * photon.factor;
+  if (power.is_zero()) return start;  // at none of its wavelengths does the light shine
   PhotonPath(plan, caster, sampler, wavelengths, share, exposure, splat)
       .trace(photon.ray, power, plan.light_inside[pick.light]);
   return start;
@@ -220,9 +230,9 @@ void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
     for (std::size_t light = 0; light < plan.aims.size(); ++light)
       if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
     // Added up in the order of the photons, whichever threads traced them.
-    for (const auto& [start, worth] : trace_pilots(plan, seed, stage, threads))
-      if (start.cell >= 0 && std::isfinite(worth))
-        importance[start.light][static_cast<std::size_t>(start.cell)] += worth;
+    for (const auto& [start, exposure] : trace_pilots(plan, seed, stage, threads))
+      if (start.cell >= 0 && std::isfinite(exposure))
+        importance[start.light][static_cast<std::size_t>(start.cell)] += exposure;
     for (std::size_t light = 0; light < plan.aims.size(); ++light)
       plan.aims[light].learn(importance[light], kReaches[stage]);
   }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
-constexpr const char* kCutThroughput = "cut_throughput";
+constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
 constexpr std::array<std::string_view, 5> kTellNothing{"scene", "to_xyz_d65", kWhiteKey, kWhiteXyKey,
                                                        kLightsXyKey};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
@@ -84,8 +84,9 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
     header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);
   const RenderStats& stats = result.stats;
   header[kCounts] =
-      fmt::format("{} {} {} {}", stats.paths, stats.rays, stats.nonfinite_samples, stats.cut_paths);
-  header[kCutThroughput] = fmt::format("{}", stats.cut_throughput);
+      fmt::format("{} {} {} {}", stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths);
+  header[kCutSum] = fmt::format("{} {}", static_cast<std::uint64_t>(stats.cut.sum >> 64),
+                                static_cast<std::uint64_t>(stats.cut.sum));
   write_part_file(path, header, result.film.bytes());
 }
 
@@ -93,12 +94,12 @@ RenderPart read_checkpoint(const fs::path& path) {
   PartFile file = read_part_file(path);
   const auto shape = parse_shape(take(file.header, kShape));
   const auto counts = parse_numbers<std::uint64_t>(take(file.header, kCounts), 4);
-  const auto cut_throughput = parse_numbers<double>(take(file.header, kCutThroughput), 1);
+  const auto cut_sum = parse_numbers<std::uint64_t>(take(file.header, kCutSum), 2);
   auto film = shape ? Film::from_bytes(*shape, file.bytes) : std::nullopt;
   const bool named = split(file.header["sensor_channels"], ',').size() ==
                      static_cast<std::size_t>(shape ? shape->channels : 0);
   const auto refuse = [&path] { throw Error(ErrorCode::input, path.string(), "holds no part of a render"); };
-  if (!film || !counts || !cut_throughput || !named) refuse();
+  if (!film || !counts || !cut_sum || !named) refuse();
   RenderResult result{std::move(*film), {}, {}};
   if (!take_samples(file.header, result)) refuse();
   result.film.set_samples(count_per_replicate(result.samples, shape->replicates));
@@ -106,8 +107,7 @@ RenderPart read_checkpoint(const fs::path& path) {
   result.stats.paths = (*counts)[0];
   result.stats.rays = (*counts)[1];
   result.stats.nonfinite_samples = (*counts)[2];
-  result.stats.cut_paths = (*counts)[3];
-  result.stats.cut_throughput = cut_throughput->front();
+  result.stats.cut = {(*counts)[3], static_cast<Int128>((*cut_sum)[0]) << 64 | (*cut_sum)[1]};
   return {std::move(file.header), std::move(result)};
 }
 
@@ -149,8 +149,7 @@ void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   stats.paths += part.result.stats.paths;
   stats.rays += part.result.stats.rays;
   stats.nonfinite_samples += part.result.stats.nonfinite_samples;
-  stats.cut_paths += part.result.stats.cut_paths;
-  stats.cut_throughput += part.result.stats.cut_throughput;
+  stats.cut += part.result.stats.cut;
 }
 
 Image image_of(const RenderPart& part) {

@@ -18,7 +18,7 @@ struct PassCounts {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
   std::uint64_t nonfinite = 0;
-  RayCaster::Cut cut = {};
+  Cut cut = {};
 };
 
 /// Samples [first, last) of every pixel, and as many photons as that makes. Sample s belongs to replicate s

@@ -87,8 +87,7 @@ class Rendering {
       stats.paths += counts.paths;
       stats.rays += counts.rays;
       stats.nonfinite_samples += counts.nonfinite;
-      stats.cut_paths += counts.cut.paths;
-      stats.cut_throughput += counts.cut.throughput;
+      stats.cut += counts.cut;
       result_.unfinished = {range, pass.done()};
       if (!pass.finished()) save();
     }

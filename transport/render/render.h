@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
+#include "transport/render/cut.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
@@ -61,8 +62,7 @@ struct RenderStats {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
   std::uint64_t nonfinite_samples = 0;  ///< Dropped.
-  std::uint64_t cut_paths = 0;          ///< That had as many events as a path may have.
-  double cut_throughput = 0;            ///< Sum of what these still carried, each having set out with 1.
+  Cut cut = {};
   RelativeError error = {};
   double embree_replay_share =
       0;  ///< Time of the logged rays through Embree alone over the time to trace their paths.

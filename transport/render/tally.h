@@ -5,6 +5,7 @@
 
 #include "scene/ray.h"
 #include "scene/scene.h"
+#include "transport/render/cut.h"
 
 namespace abbe {
 
@@ -15,20 +16,9 @@ class RayCaster {
 
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
-  /// Paths that were cut while they still carried something, and the sum of that, each in units of what it
-  /// had set out with.
-  struct Cut {
-    std::uint64_t paths = 0;
-    double throughput = 0;
-
-    Cut& operator+=(const Cut& other) {
-      paths += other.paths;
-      throughput += other.throughput;
-      return *this;
-    }
-  };
   [[nodiscard]] const Cut& cut() const { return cut_; }
-  void count_cut(float throughput) { cut_ += {1, static_cast<double>(throughput)}; }
+  /// Of a path that is cut; see `Cut`.
+  void count_cut(float throughput) { cut_.count(throughput); }
 
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) {
     ++rays_;
