@@ -53,13 +53,16 @@ void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, Ex
 
 }  // namespace
 
-Film pilot_film(const Plan& plan, int threads, std::optional<Crop> crop) {
+std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop> crop,
+                               const std::function<bool()>& stop) {
   const Camera& camera = plan.scene.camera;
   Film film(camera.width, camera.height, static_cast<int>(plan.scene.film_planes().size()), 1,
             plan.nominal_value);
   const auto pixels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixels, 1, kMostSamples);
-  Pass(plan, film, crop, {0, samples}, 0, kSeed).run(threads, [] { return false; });
+  Pass pass(plan, film, crop, {0, samples}, 0, kSeed);
+  pass.run(threads, stop);
+  if (!pass.finished()) return std::nullopt;
   film.set_samples({samples});
   return film;
 }

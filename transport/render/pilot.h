@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "sensor/film/film.h"
@@ -11,8 +12,12 @@ namespace abbe {
 
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers
-/// are those of no render, so that what is chosen by it is independent of the samples it is chosen for.
-[[nodiscard]] Film pilot_film(const Plan& plan, int threads, std::optional<Crop> crop = {});
+/// are those of no render, so that what is chosen by it is independent of the samples it is chosen for; but
+/// where photons are aimed it is as the plan's seed has taught it. Nothing if `stop`, which any thread may
+/// ask, says so before it is done.
+[[nodiscard]] std::optional<Film> pilot_film(
+    const Plan& plan, int threads, std::optional<Crop> crop = {},
+    const std::function<bool()>& stop = [] { return false; });
 
 /// What each group of lights adds to such a film in all: to `sums.exposure`, from 16384 paths, and as many
 /// photons where these are traced, however many pixels there are.

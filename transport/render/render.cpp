@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -64,9 +65,9 @@ class Rendering {
       if (save_is_due()) save();
     }
     RenderStats& stats = result_.stats;
+    if (asks_for_error() || options_.measure_error) stats.error = error_now();
     stats.wall_s = elapsed();
     stats.cpu_s = process_cpu_seconds() - cpu_start_;
-    if (asks_for_error() || options_.measure_error) stats.error = error_now();
     if (options_.measure_replay) stats.embree_replay_share = measure_replay_share(plan_);
     return std::move(result_);
   }
@@ -113,9 +114,12 @@ class Rendering {
 
   [[nodiscard]] bool asks_for_error() const { return options_.progress || options_.target_error; }
 
+  // Without a pilot, which a stop ends, only the error of the whole film is known.
   RelativeError error_now() {
-    if (!lit_) lit_ = lit_values(pilot_film(plan_, threads_, options_.crop));
-    return relative_error(result_.film, *lit_);
+    if (!lit_)
+      if (const auto pilot = pilot_film(plan_, threads_, options_.crop, [this] { return stop_asked(); }))
+        lit_ = lit_values(*pilot);
+    return relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>());
   }
 
   [[nodiscard]] bool stop_asked() const { return options_.stop != nullptr && options_.stop->load(); }
