@@ -1,5 +1,6 @@
 // Whether the intervals of means over channels and regions hold what they should, as often as they say.
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,11 +15,11 @@ namespace {
 
 #ifdef ABBE_NIGHTLY
 constexpr int kSeeds = 200;
-constexpr double kMostCovered =
+constexpr std::optional<double> kMostCovered =
     0.975;  // more is too wide: pixels that share photons, taken as independent, give 98.5 %
 #else
 constexpr int kSeeds = 32;
-constexpr double kMostCovered = 1;  // so few do not tell
+constexpr std::optional<double> kMostCovered;  // so few do not tell
 #endif
 constexpr double kNominal = 0.95;
 constexpr double kSignificance = 1e-6;  // of a test: over about a hundred figures, by Sidak's correction
@@ -134,7 +135,9 @@ TEST_P(Coverage, IntervalsHoldAsOftenAsTheySay) {
   const double covered = 1 - static_cast<double>(missed) / static_cast<double>(by_figure.size() * kSeeds);
   fmt::print("{}: {:.1f} % of the intervals hold\n", GetParam().name, 100 * covered);
   EXPECT_GT(covered, 0.85);
-  EXPECT_LE(covered, kMostCovered);
+  if (kMostCovered) {
+    EXPECT_LE(covered, *kMostCovered);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::ValuesIn(kKinds),
