@@ -177,15 +177,9 @@ TEST(Far, CausticsOfASunAgree) {
   }
 }
 
-// What making a plan of the scene is refused with.
-std::string refusal(const Scene& scene) {
-  try {
-    (void)make_plan(scene);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ErrorCode::scene);
-    return error.what();
-  }
-  return "";
+std::string refused(const Scene& scene) {
+  const std::optional<Error> refused = refusal(scene);
+  return refused ? refused->what() : "";
 }
 
 // Light sampling passes a cloud on the way to the sun, and takes off what it takes off; photons start below.
@@ -194,8 +188,8 @@ TEST(Far, PhotonsThatWouldPassACloudAreRefused) {
       R"(, {"sphere": {"center": [0, 0, 0.6], "radius": 0.4}, "material": "glass"}, {"sphere": {"center": [4800, 6000, 6400], "radius": 500}, "name": "cloud", "material": "air"})";
   const Override thin{"/materials/air", R"({"medium": {"absorption_per_m": 0.003}})"};
   const Override dense{"/materials/air", R"({"diffuse": {"reflectance": 0.8}})"};
-  EXPECT_NE(refusal(test::load_text(card(kSun, ball_and_cloud), {thin})).find("cloud"), std::string::npos);
-  EXPECT_EQ(refusal(test::load_text(card(kSun, ball_and_cloud), {dense})), "")
+  EXPECT_NE(refused(test::load_text(card(kSun, ball_and_cloud), {thin})).find("cloud"), std::string::npos);
+  EXPECT_EQ(refused(test::load_text(card(kSun, ball_and_cloud), {dense})), "")
       << "what hides the sun is no cloud";
 }
 
@@ -212,8 +206,8 @@ TEST(Far, PhotonsAloneBringAllOfALargeLamp) {
                                                {"/camera/pinhole/fov_deg", "36"}});
   };
   EXPECT_NEAR(mean(lit(3e5, "light", "65536")) / mean(lit(3e5, "path", "256")), 1, 0.05);
-  EXPECT_NE(refusal(lit(2e6, "light", "1")).find("within 84 degrees of one direction"), std::string::npos);
-  EXPECT_EQ(refusal(lit(2e6, "path", "1")), "");
+  EXPECT_NE(refused(lit(2e6, "light", "1")).find("within 84 degrees of one direction"), std::string::npos);
+  EXPECT_EQ(refused(lit(2e6, "path", "1")), "");
 }
 
 // Radius on the screen of `rainbow.json` [mm] where the bow of rays with one inner reflection ends: rays turn

@@ -61,7 +61,7 @@ struct Plan {
 [[nodiscard]] bool traces_light(const Scene& scene);
 
 /// Why photons cannot light a scene that would have them: a shape that light from afar meets is too large or
-/// too far for them, Error{scene} with its name. Nothing where a plan can be made.
+/// too far for them, or a far lamp too large; Error{scene} with its name. Nothing where a plan can be made.
 [[nodiscard]] std::optional<Error> refusal(const Scene& scene);
 
 /// On that many threads, which change nothing but the time it takes. What it learns from pilots depends on
