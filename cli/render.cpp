@@ -1,6 +1,7 @@
 #include "cli/render.h"
 
 #include <array>
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <system_error>
@@ -275,6 +276,9 @@ int render(const RenderOptions& options) {
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.error, ", ")));
+  if (options.target_error && !options.time_limit_s && !stats.interrupted &&
+      !std::isfinite(stats.error.median))
+    say("warning: a pilot found no light on the film: --error had nothing to wait for");
   if (stats.nonfinite_samples > 0)
     say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));
   if (stats.cut.paths > 0 && !scene.render.max_depth)

@@ -44,9 +44,10 @@ void enclose_matter(Mesh& mesh, const std::string& name, const Material& materia
                              {solid.clashing_edges, "edge(s) with opposite windings"},
                              {solid.back_to_back, "triangle(s) back to back with another"},
                              {solid.buried, "component(s) facing outward within its matter"}})));
-  if (mesh.normals.empty()) return;
-  diagnostics.error_if_strict(
-      where, fmt::format("{}: its vertex normals are ignored: light is refracted by flat triangles", within));
+  if (!mesh.normals.empty() && !is_boundary(material))
+    diagnostics.error_if_strict(
+        where,
+        fmt::format("{}: its vertex normals are ignored: light is refracted by flat triangles", within));
   mesh.normals = {};
 }
 

@@ -173,6 +173,18 @@ TEST(Render, TimeAndErrorStopTheRender) {
   EXPECT_GT(std::stoi(read_exr(file("time.exr")).metadata.at("samples_per_pixel")), 8);
 }
 
+TEST(Render, AnErrorIsNotWaitedForWhereThereIsNoLight) {
+  const auto dark = scratch().write("dark.json", R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+    "sensor": {"resolution": [8, 8], "observer": "1931"},
+    "materials": {"white": {"diffuse": {"reflectance": 0.8}}},
+    "lights": [{"point": {"at": [0, 0, -9]}, "emission": {"illuminant": "D65", "intensity": 1}}],
+    "shapes": [{"quad": {"corner": [-20, -20, -1], "edge_u": [40, 0, 0], "edge_v": [0, 40, 0]}, "material": "white"}]})");
+  const Outcome run = abbe("render " + dark.string() + " --quiet --error 1% -o " + file("dark.exr"));
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.err.find("no light on the film"), std::string::npos) << run.err;
+}
+
 // `timeout` sends the signal; one that comes before the render watches for it just kills, so the render has a
 // second.
 TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {

@@ -149,7 +149,8 @@ class Rendering {
     result_.stats.interrupted = samples() > 0 && stop_asked();
     if (result_.stats.interrupted) return true;
     if (options_.time_limit_s && samples() > 0 && elapsed() >= *options_.time_limit_s) return true;
-    return options_.target_error && result_.stats.error.median <= *options_.target_error;
+    const bool unlit = lit_ && lit_->empty();  // there is no error to wait for
+    return options_.target_error && (unlit || result_.stats.error.median <= *options_.target_error);
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
