@@ -12,6 +12,7 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "scene/description/load.h"
+#include "sensor/film/recorded_white.h"
 #include "tests/cli/ask.h"
 #include "tests/cli/program.h"
 #include "validation/picture/color_map.h"
