@@ -1,10 +1,6 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -14,6 +10,7 @@
 
 #include "io/reference_table.h"
 #include "tests/cli/ask.h"
+#include "tests/cli/program.h"
 
 namespace abbe::test {
 namespace {
@@ -372,17 +369,16 @@ TEST(QueryFaults, UnknownNamesAreMissingInputsAndSuggestTheNearest) {
 }
 
 TEST(QueryFaults, AReflectanceIsAShare) {
-  const auto table = std::filesystem::temp_directory_path() / fmt::format("abbe_percent_{}.csv", getpid());
-  std::ofstream(table)
-      << "# title: card\n# unit: percent\n# source: here\n# status: made up\n# processing: none\n"
-         "# outside: clamp\nwavelength_nm,a\n400,10\n700,50\n";
+  const auto table = scratch().write(
+      "percent.csv",
+      "# title: card\n# unit: percent\n# source: here\n# status: made up\n# processing: none\n"
+      "# outside: clamp\nwavelength_nm,a\n400,10\n700,50\n");
   EXPECT_EQ(fault(
                 [&] {
                   cli::query_color({"D65", Observer::cie1931, table.string() + ":a"});
                 },
                 "curve out of range at 300 nm (got 10, allowed [0, 1])"),
             ErrorCode::input);
-  std::filesystem::remove(table);
 }
 
 TEST(QueryFaults, WavelengthsWithoutDataAreUsageErrorsThatSayTheRange) {
