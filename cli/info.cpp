@@ -10,7 +10,7 @@
 #include "cli/warnings.h"
 #include "cli/white.h"
 #include "scene/description/load.h"
-#include "transport/render/plan.h"
+#include "transport/plan/plan.h"
 
 namespace abbe::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/film_output.h"
 #include "io/error.h"
 #include "scene/needs/dark_enclosure.h"
-#include "transport/render/plan.h"
+#include "transport/plan/plan.h"
 
 namespace abbe::cli {
 namespace {

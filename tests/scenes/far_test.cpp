@@ -7,7 +7,7 @@
 
 #include "materials/material.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/render/plan.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/light/aim.h"
+#include "transport/plan/aim.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "transport/sampling/sampler.h"
+#include "sampling/sampler.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "spectral/sources.h"
-#include "transport/render/plan.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 namespace {

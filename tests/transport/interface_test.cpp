@@ -23,12 +23,12 @@ class BoundaryTest : public testing::Test {
     scene_.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, 2});
     scene_.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, 5});
   }
-  Enclosures in(const std::vector<std::uint32_t>& shapes) const {
-    Enclosures inside;
+  MediumStack in(const std::vector<std::uint32_t>& shapes) const {
+    MediumStack inside;
     for (const std::uint32_t shape : shapes) inside.cross(scene_, shape, true);
     return inside;
   }
-  static std::vector<std::uint32_t> listed(const Enclosures& inside) {
+  static std::vector<std::uint32_t> listed(const MediumStack& inside) {
     return {inside.shapes().begin(), inside.shapes().end()};
   }
   // The shape that acts, or -1.

@@ -42,12 +42,12 @@ TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {
 }
 
 std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {
-  const Enclosures inside = enclosing(scene, point);
+  const MediumStack inside = enclosing(scene, point);
   return {inside.shapes().begin(), inside.shapes().end()};
 }
 
 // A ball of glass within another, beside a cube, a card and a pane of glass that encloses nothing.
-TEST(Enclosures, AreFoundFromTheOutermost) {
+TEST(MediumStack, AreFoundFromTheOutermost) {
   Scene scene{};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
                      {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
@@ -69,7 +69,7 @@ TEST(Enclosures, AreFoundFromTheOutermost) {
   EXPECT_EQ(around(scene, {0, 0, 10}), Shapes{});
 }
 
-TEST(Enclosures, ReturnToWhatIsAround) {
+TEST(MediumStack, ReturnToWhatIsAround) {
   Scene scene{};
   scene.materials = {{"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}},
                      {"water", DielectricMaterial{"water", RefractiveIndex(1.33)}},
@@ -79,7 +79,7 @@ TEST(Enclosures, ReturnToWhatIsAround) {
     scene.shapes.push_back({"", Sphere{{0, 0, 0}, 1}, i == 3 ? 1U : 0U});
   scene.shapes[9].material = 2;
   scene.shapes[8].material = 3;
-  Enclosures inside;
+  MediumStack inside;
   inside.cross(scene, 7, false);  // from behind a surface that encloses nothing
   EXPECT_TRUE(inside.empty());
   inside.cross(scene, 3, true);
@@ -95,7 +95,7 @@ TEST(Enclosures, ReturnToWhatIsAround) {
   EXPECT_EQ(inside.innermost(), 9U) << "by its priority";
   inside.cross(scene, 9, false);
   EXPECT_EQ(inside.innermost(), 5U);
-  for (std::uint32_t shape = 100; inside.shapes().size() < Enclosures::kMost; ++shape)
+  for (std::uint32_t shape = 100; inside.shapes().size() < MediumStack::kMost; ++shape)
     inside.cross(scene, shape, true);
   EXPECT_THROW(inside.cross(scene, 99, true), Error);
 }

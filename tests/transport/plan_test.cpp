@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "transport/render/plan.h"
-#include "transport/sampling/sampler.h"
+#include "sampling/sampler.h"
+#include "transport/render/learn_aims.h"
 
 namespace abbe {
 namespace {
@@ -67,8 +67,8 @@ TEST(Plan, ProportionalEmissionsCountOnce) {
 
 TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = lamps_over_glass(2);
-  const Plan one = make_plan(scene, 1);
-  const Plan four = make_plan(scene, 4);
+  const Plan one = make_learnt_plan(scene, 1, 0);
+  const Plan four = make_learnt_plan(scene, 4, 0);
   const Plan unlearned = [&] {
     Plan plan = one;
     for (Aim& aim : plan.aims) aim = Aim({0, 0, 2}, {0, 0, 4}, 0.35F);

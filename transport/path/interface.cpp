@@ -12,22 +12,23 @@ const Material& material_of(const Scene& scene, std::uint32_t shape) {
   return scene.materials[scene.shapes[shape].material];
 }
 
-const RefractiveIndex* index_of(const Scene& scene, const Enclosures& inside) {
+const RefractiveIndex* index_of(const Scene& scene, const MediumStack& inside) {
   return inside.empty() ? nullptr : interior(material_of(scene, inside.innermost()));
 }
 
 // Whether the matter that is around within `inside` is that of `shape`.
-bool around(const Scene& scene, const Enclosures& inside, std::uint32_t shape) {
-  return !inside.empty() && inside.standing_for(scene, shape) == inside.innermost();
+bool around(const Scene& scene, const MediumStack& inside, std::uint32_t shape) {
+  return !inside.empty() && inside.entry_of(scene, shape) == inside.innermost();
 }
 
-bool same_around(const Enclosures& a, const Enclosures& b) {
+bool same_around(const MediumStack& a, const MediumStack& b) {
   return a.empty() || b.empty() ? a.empty() && b.empty() : a.innermost() == b.innermost();
 }
 
 }  // namespace
 
-Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces, const Enclosures& inside) {
+Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces,
+                     const MediumStack& inside) {
   const auto opaque = std::find_if(surfaces.begin(), surfaces.end(), [&](const CrossedSurface& s) {
     const Material& material = material_of(scene, s.shape);
     return interior(material) == nullptr && matter(material) == nullptr;
@@ -35,10 +36,10 @@ Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surface
   if (opaque != surfaces.end())
     return {static_cast<std::size_t>(opaque - surfaces.begin()), index_of(scene, inside), inside};
 
-  Enclosures before = inside;
+  MediumStack before = inside;
   for (const CrossedSurface& s : surfaces)
-    if (!s.entering && !before.standing_for(scene, s.shape)) before.cross(scene, s.shape, true);
-  Enclosures beyond = before;
+    if (!s.entering && !before.entry_of(scene, s.shape)) before.cross(scene, s.shape, true);
+  MediumStack beyond = before;
   for (const CrossedSurface& s : surfaces)
     if (!s.entering) beyond.cross(scene, s.shape, false);
   // In the order of the scene, so that what is behind does not depend on rounding.
@@ -66,7 +67,7 @@ Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surface
 }
 
 Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& first,
-                       const Enclosures& inside) {
+                       const MediumStack& inside) {
   const TouchingSurfaces met = scene.touching(ray, first);
   std::array<CrossedSurface, TouchingSurfaces::kMost> crossed;
   for (std::size_t i = 0; i < met.count; ++i)

@@ -23,23 +23,23 @@ struct CrossedSurface {
 struct Boundary {
   std::optional<std::size_t> acting;         ///< Which of them acts; none where nothing changes.
   const RefractiveIndex* outside = nullptr;  ///< Of the acting shape's own matter; nullptr is air.
-  Enclosures beyond = {};                    ///< What a ray that is let through is in.
+  MediumStack beyond = {};                   ///< What a ray that is let through is in.
 };
 
 /// Of the surfaces that a ray within `inside` meets together. The first opaque one acts, else that of the
 /// higher priority of the two that bound what was before and what is behind, of equals the later one of the
 /// scene. A shape left that was never entered counts as entered before.
 [[nodiscard]] Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces,
-                                   const Enclosures& inside);
+                                   const MediumStack& inside);
 
 /// The same for a path that meets the scene at `first`.
 struct Interface {
   SurfaceHit hit;  ///< With the acting surface.
   bool passes;     ///< Nothing changes.
   const RefractiveIndex* outside;
-  Enclosures beyond;
+  MediumStack beyond;
 };
 [[nodiscard]] Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& first,
-                                     const Enclosures& inside);
+                                     const MediumStack& inside);
 
 }  // namespace abbe

@@ -46,7 +46,7 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
 
 }  // namespace
 
-void Enclosures::enter(const Scene& scene, std::uint32_t shape) {
+void MediumStack::enter(const Scene& scene, std::uint32_t shape) {
   if (!filled(scene, shape)) return;  // a pane modelled as one surface
   const auto begin = shapes_.begin();
   const auto priority = [&](std::uint32_t of) { return scene.materials[scene.shapes[of].material].priority; };
@@ -61,14 +61,14 @@ void Enclosures::enter(const Scene& scene, std::uint32_t shape) {
   shapes_[at] = shape;
 }
 
-void Enclosures::leave(const Scene& scene, std::uint32_t shape) {
-  const std::optional<std::uint32_t> entered = standing_for(scene, shape);
+void MediumStack::leave(const Scene& scene, std::uint32_t shape) {
+  const std::optional<std::uint32_t> entered = entry_of(scene, shape);
   const auto end = shapes_.begin() + static_cast<std::ptrdiff_t>(count_);
   if (entered)
     count_ = static_cast<std::size_t>(std::remove(shapes_.begin(), end, *entered) - shapes_.begin());
 }
 
-std::optional<std::uint32_t> Enclosures::standing_for(const Scene& scene, std::uint32_t shape) const {
+std::optional<std::uint32_t> MediumStack::entry_of(const Scene& scene, std::uint32_t shape) const {
   std::optional<std::uint32_t> found;
   for (const std::uint32_t one : shapes()) {
     if (one == shape) return shape;
@@ -77,8 +77,8 @@ std::optional<std::uint32_t> Enclosures::standing_for(const Scene& scene, std::u
   return found;
 }
 
-Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
-  Enclosures inside;
+MediumStack enclosing(const Scene& scene, const Imath::V3f& point) {
+  MediumStack inside;
   bool any = false;
   for (std::uint32_t i = 0; i < scene.shapes.size() && !any; ++i) any = filled(scene, i);
   if (!any) return inside;
@@ -95,7 +95,7 @@ Enclosures enclosing(const Scene& scene, const Imath::V3f& point) {
   return inside;
 }
 
-Enclosures around_camera(const Scene& scene) {
+MediumStack around_camera(const Scene& scene) {
   const Imath::V3f at(middle(scene.camera));
   const auto* probe = std::get_if<IrradianceProbe>(&scene.camera.kind);
   if (probe == nullptr) return enclosing(scene, at);
@@ -103,16 +103,16 @@ Enclosures around_camera(const Scene& scene) {
   return enclosing(scene, offset_point(at, normal, normal));
 }
 
-Enclosures around_light(const Scene& scene, const Light& light) {
+MediumStack around_light(const Scene& scene, const Light& light) {
   if (light.at_infinity() || scene.is_far(light)) return {};
   const auto around = [&](const std::array<float, 2>& u) {
     const EmissionPoint at = sample_emission_point(light, scene.shapes, {u[0], u[1]});
     return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
   };
-  Enclosures middle = around(kSpreadOverLight.front());
+  MediumStack middle = around(kSpreadOverLight.front());
   if (light.is_delta()) return middle;
   for (const std::array<float, 2>& u : kSpreadOverLight) {
-    const Enclosures there = around(u);
+    const MediumStack there = around(u);
     if (!std::ranges::equal(there.shapes(), middle.shapes()))
       throw Error(ErrorCode::scene, light.name,
                   "photons cannot start from a lamp that stands in two kinds of matter at once: "
@@ -121,7 +121,7 @@ Enclosures around_light(const Scene& scene, const Light& light) {
   return middle;
 }
 
-Medium medium_within(const Scene& scene, const Enclosures& inside, const SampledSpectrum& wavelengths_nm) {
+Medium medium_within(const Scene& scene, const MediumStack& inside, const SampledSpectrum& wavelengths_nm) {
   if (inside.empty()) return {};
   const Material& material = scene.materials[scene.shapes[inside.innermost()].material];
   const RefractiveIndex* index = interior(material);

@@ -12,7 +12,7 @@ namespace abbe {
 
 /// The closed shapes filled with matter that a point of a path lies in, in order of priority and among equals
 /// from the outermost. What is around the point is the last one's matter, or air where there is none.
-class Enclosures {
+class MediumStack {
  public:
   /// Of more than this many the first are forgotten.
   static constexpr std::size_t kMost = 16;
@@ -33,7 +33,7 @@ class Enclosures {
 
   /// The shape by which the body of `shape` was entered: itself, else the innermost one of its material,
   /// since a body may be made of several shapes, such as its faces. Nothing where there is none.
-  [[nodiscard]] std::optional<std::uint32_t> standing_for(const Scene& scene, std::uint32_t shape) const;
+  [[nodiscard]] std::optional<std::uint32_t> entry_of(const Scene& scene, std::uint32_t shape) const;
 
  private:
   void enter(const Scene& scene, std::uint32_t shape);
@@ -45,12 +45,12 @@ class Enclosures {
 
 /// Those around a point in the scene, found along a ray from there and its opposite: a shape encloses the
 /// point if both leave it more often than they enter.
-[[nodiscard]] Enclosures enclosing(const Scene& scene, const Imath::V3f& point);
+[[nodiscard]] MediumStack enclosing(const Scene& scene, const Imath::V3f& point);
 /// Around where a scene's camera stands, its lens or the middle of its probe, and around where a light does:
 /// neither may stand in two matters at once. A light that is far, or at infinity, stands outside of them all.
 /// Throws Error{scene} for a lamp whose corners do.
-[[nodiscard]] Enclosures around_camera(const Scene& scene);
-[[nodiscard]] Enclosures around_light(const Scene& scene, const Light& light);
+[[nodiscard]] MediumStack around_camera(const Scene& scene);
+[[nodiscard]] MediumStack around_light(const Scene& scene, const Light& light);
 
 /// The matter a path segment runs through, at the path's wavelengths.
 struct Medium {
@@ -77,7 +77,7 @@ struct Medium {
 };
 
 /// What is inside them.
-[[nodiscard]] Medium medium_within(const Scene& scene, const Enclosures& inside,
+[[nodiscard]] Medium medium_within(const Scene& scene, const MediumStack& inside,
                                    const SampledSpectrum& wavelengths_nm);
 
 }  // namespace abbe

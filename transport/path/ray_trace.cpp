@@ -71,7 +71,7 @@ struct Meeting {
 };
 
 Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& first, double nearest,
-             const Enclosures& inside) {
+             const MediumStack& inside) {
   if (!scene.needs.nesting) return {first, {0}, 0};
   const Imath::V3d& normal = first.hit.normal;
   BasicRay<double> rest = ray;
@@ -105,7 +105,7 @@ RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavel
   RayTrace trace{{}, ray, true};
   BasicRay<double>& now = trace.last;
   const double size = scene.bounds.isEmpty() ? 0 : scene.bounds.size().length();
-  Enclosures inside = scene.needs.nesting ? enclosing(scene, Imath::V3f(ray.origin)) : Enclosures{};
+  MediumStack inside = scene.needs.nesting ? enclosing(scene, Imath::V3f(ray.origin)) : MediumStack{};
   double nearest = 0;
   while (static_cast<int>(trace.events.size()) < max_events) {
     const std::optional<ExactHit> hit = intersect_exact(scene, now, nearest);

@@ -19,10 +19,10 @@ namespace abbe {
 struct Vertex {
   SurfaceHit hit;
   Basis<float> frame;
-  Imath::V3f wo;                       ///< Local.
-  bool relief = false;                 ///< The frame's z differs from the normal of the shape.
-  float cos_outside = 1;               ///< Of wo with the normal of the shape, on a relief.
-  const Enclosures* beyond = nullptr;  ///< What a path let through is in, where matter may be nested.
+  Imath::V3f wo;                        ///< Local.
+  bool relief = false;                  ///< The frame's z differs from the normal of the shape.
+  float cos_outside = 1;                ///< Of wo with the normal of the shape, on a relief.
+  const MediumStack* beyond = nullptr;  ///< What a path let through is in, where matter may be nested.
   Bsdf bsdf;
 
   /// Where a meter stands: white, diffuse, and seen along its normal, so that the radiance leaving it is the
@@ -43,25 +43,26 @@ struct Vertex {
       : Vertex(scene, met.hit, &met, incoming, wavelengths_nm) {}
 
   /// What a path within `inside` is in when it has been let through.
-  [[nodiscard]] Enclosures behind(const Scene& scene, const Enclosures& inside) const {
+  [[nodiscard]] MediumStack behind(const Scene& scene, const MediumStack& inside) const {
     if (beyond != nullptr) return *beyond;
-    Enclosures crossed = inside;
+    MediumStack crossed = inside;
     crossed.cross(scene, hit.shape, wo.z > 0);
     return crossed;
   }
 
-  /// The model's event, worth what a relief leaves of it. In line, as a call would cost every path.
+  /// The model's event, corrected on a relief. In line, as a call would cost every path.
   [[nodiscard, gnu::always_inline]] std::optional<BsdfSample> scatter(const BsdfRandom& u,
                                                                       TransportMode mode) const {
     std::optional<BsdfSample> event = sample(bsdf, wo, u, kHero, mode);
-    if (relief && event) event->weight *= worth(frame.to_world(event->wi), event->wi, mode);
+    if (relief && event)
+      event->weight *= shading_normal_correction(frame.to_world(event->wi), event->wi, mode);
     return event;
   }
   /// Likewise of f towards a direction, in the world and local.
   [[nodiscard]] SampledSpectrum towards(const Imath::V3f& world, const Imath::V3f& local,
                                         TransportMode mode) const {
     SampledSpectrum f = eval(bsdf, wo, local, mode);
-    if (relief) f *= worth(world, local, mode);
+    if (relief) f *= shading_normal_correction(world, local, mode);
     return f;
   }
 
@@ -70,7 +71,8 @@ struct Vertex {
   // directions that the model and the shape see on different sides, so that no light leaks through. Power,
   // unlike radiance, takes |wo.z cos_i|/|cos_o wi.z|, the cosines being those with the normal of the shape
   // and z those with the model's: then both mean the same light. [Veach1997, sec. 5.3]
-  [[nodiscard]] float worth(const Imath::V3f& world, const Imath::V3f& local, TransportMode mode) const {
+  [[nodiscard]] float shading_normal_correction(const Imath::V3f& world, const Imath::V3f& local,
+                                                TransportMode mode) const {
     const float cos_world = world.dot(hit.normal);
     if (!(cos_world * local.z > 0)) return 0;
     return mode == TransportMode::radiance ? 1 : std::abs(wo.z * cos_world / (cos_outside * local.z));

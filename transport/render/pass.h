@@ -7,9 +7,9 @@
 #include <span>
 
 #include "sensor/film/film.h"
-#include "transport/light/light_tracer.h"
-#include "transport/path/path_tracer.h"
 #include "transport/render/render.h"
+#include "transport/technique/light.h"
+#include "transport/technique/path.h"
 
 namespace abbe {
 

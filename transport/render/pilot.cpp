@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/light/light_tracer.h"
-#include "transport/path/path_tracer.h"
 #include "transport/render/pass.h"
 #include "transport/render/threads.h"
+#include "transport/technique/light.h"
+#include "transport/technique/path.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "sensor/film/film.h"
 #include "transport/path/exposure.h"
-#include "transport/render/plan.h"
+#include "transport/plan/plan.h"
 #include "transport/render/render.h"
 
 namespace abbe {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "io/error.h"
+#include "transport/render/learn_aims.h"
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
-#include "transport/render/plan.h"
 #include "transport/render/replay.h"
 #include "transport/render/threads.h"
 
@@ -38,7 +38,7 @@ class Rendering {
       : scene_(scene),
         options_(options),
         threads_(thread_count(options.threads)),
-        plan_(make_plan(scene, threads_)),
+        plan_(make_learnt_plan(scene, threads_, scene.render.seed)),
         wanted_(options.samples.value_or(SampleRange{
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *

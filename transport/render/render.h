@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
-#include "transport/render/cut.h"
+#include "transport/path/cut.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "transport/light/light_tracer.h"
-#include "transport/path/path_tracer.h"
+#include "transport/technique/light.h"
+#include "transport/technique/path.h"
 
 namespace abbe {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "transport/render/plan.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 

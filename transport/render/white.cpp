@@ -9,8 +9,8 @@
 
 #include "scene/extent.h"
 #include "transport/path/exposure.h"
+#include "transport/render/learn_aims.h"
 #include "transport/render/pilot.h"
-#include "transport/render/plan.h"
 
 namespace abbe {
 namespace {
@@ -88,7 +88,7 @@ White main_light(const Scene& scene, int threads) {
     return white(groups.front(), scene.lights.size() == 1 ? "the only light" : "the only spectrum of light");
   sums.exposure.assign(groups.size(), 0.0);
   const bool refused = refusal(scene).has_value();
-  if (!refused) pilot_exposures(make_plan(scene, threads, kPilotSeed), threads, sums);
+  if (!refused) pilot_exposures(make_learnt_plan(scene, threads, kPilotSeed), threads, sums);
   std::size_t most = 0;
   for (std::size_t i = 1; i < groups.size(); ++i)
     if (sums.exposure[i] > sums.exposure[most] ||

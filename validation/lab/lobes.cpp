@@ -7,7 +7,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "transport/sampling/sampler.h"
+#include "sampling/sampler.h"
 
 namespace abbe {
 namespace {

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "transport/path/path_tracer.h"
+#include "transport/technique/path.h"
 #include "validation/bench/suite.h"
 
 namespace abbe {

@@ -5,7 +5,7 @@
 
 #include "scene/ray.h"
 #include "scene/scene.h"
-#include "transport/render/cut.h"
+#include "transport/path/cut.h"
 
 namespace abbe {
 

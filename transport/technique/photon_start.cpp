@@ -1,4 +1,4 @@
-#include "transport/light/photon_start.h"
+#include "transport/technique/photon_start.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "transport/path/flight.h"
+#include "transport/path/free_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,11 +42,11 @@ Passed pass(const Medium& medium, float distance) {
 // Through the boundaries that touch where one is met on the way of `ray`: the rest of the way.
 Ray pass_boundaries(const Scene& scene, PathEnd& end, const Ray& ray, SurfaceHit hit) {
   const TouchingSurfaces met = scene.touching(ray, hit);
-  Enclosures beyond = end.inside;
+  MediumStack beyond = end.inside;
   for (const bool entering : {false, true})
     for (const SurfaceHit& one : met.all())
       if ((one.normal.dot(ray.direction) < 0) == entering) beyond.cross(scene, one.shape, entering);
-  end.come_into(scene, beyond);
+  end.enter(scene, beyond);
   for (const SurfaceHit& one : met.all())
     hit.spread = std::max(hit.spread, std::abs((one.point - hit.point).dot(hit.normal)));
   return spawn(hit, ray.direction);
@@ -64,11 +64,11 @@ std::optional<SurfaceHit> surface_at(const Scene& scene, const Ray& ray, const S
 
 }  // namespace
 
-Flight fly(const Scene& scene, RayCaster& caster, const Imath::V2f& u, PathEnd& end,
-           std::optional<SurfaceHit>& hit) {
+FreePath propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, PathEnd& end,
+                   std::optional<SurfaceHit>& hit) {
   constexpr float kDigits = 0x1p-24F;  // of a random number
   float depth = -std::log1p(-std::min(u.x + (u.y + 0.5F * kDigits) * kDigits, 1 - kDigits));
-  Flight flight;
+  FreePath free_path;
   Ray ray = end.ray;
   float gone = 0;  // to its origin
   while (true) {
@@ -80,21 +80,21 @@ Flight fly(const Scene& scene, RayCaster& caster, const Imath::V2f& u, PathEnd& 
       const GridStretch way =
           end.medium.march(ray, distance, extinction > 0 ? depth / extinction : kInfinity);
       const Passed passed = pass(end.medium, way.column);
-      flight.scattered = way.reached;
+      free_path.scattered = way.reached;
       if (way.reached) {
         rescale(end.packet, passed.lanes * end.medium.scattering_per_m,
                 passed.lanes * end.medium.extinction_per_m);
         end.ray.origin = ray.origin + ray.direction * way.distance;
-        return flight;
+        return free_path;
       }
-      flight.unit *= passed.unit * rescale(end.packet, passed.lanes, passed.lanes);
+      free_path.density_scale *= passed.unit * rescale(end.packet, passed.lanes, passed.lanes);
       depth -= extinction > 0 ? extinction * way.column : 0;
     }
-    if (!hit) return flight;
+    if (!hit) return free_path;
     if (const std::optional<SurfaceHit> surface = surface_at(scene, ray, *hit)) {
       hit = surface;
       hit->t += gone;
-      return flight;
+      return free_path;
     }
     gone += hit->t;
     ray = pass_boundaries(scene, end, ray, *hit);

@@ -1,10 +1,10 @@
-#include "transport/path/path_tracer.h"
+#include "transport/technique/path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "transport/path/flight.h"
+#include "transport/path/free_path.h"
 #include "transport/path/packet.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
@@ -24,7 +24,7 @@ constexpr std::uint32_t light_group(int depth) {
   return 1 + scatter_group(depth);
 }
 
-constexpr std::uint32_t flight_group(int depth) {
+constexpr std::uint32_t free_path_group(int depth) {
   return 0x80000000 + static_cast<std::uint32_t>(depth);
 }
 
@@ -38,7 +38,7 @@ class CameraPath {
         sampler_(sampler),
         exposure_(exposure),
         end_{start.ray, {}, plan.camera_inside, {}},
-        flies_(needs_flights(scene_)),
+        has_free_paths_(has_free_paths(scene_)),
         most_events_(most_events(scene_.render)) {
     end_.packet.wavelengths = wavelengths;
     if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
@@ -55,7 +55,7 @@ class CameraPath {
   void trace() {
     for (int depth = 0;; ++depth) {
       std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
-      if (flies_) {
+      if (has_free_paths_) {
         if (scatters_before(hit, depth)) {
           if (is_cut(depth) || !scatter_within(depth)) return;
           continue;
@@ -155,7 +155,7 @@ class CameraPath {
     end_.packet.lane_pdf *= event.lane_pdf;
     const Imath::V3f direction = vertex.frame.to_world(event.wi);
     if (event.transmitted) {
-      end_.come_into(scene_, vertex.behind(scene_, end_.inside));
+      end_.enter(scene_, vertex.behind(scene_, end_.inside));
       const float n = index_inside(vertex.bsdf, kHero);
       eta_scale_ *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
     }
@@ -173,10 +173,10 @@ class CameraPath {
 
   // Flies to the next event: whether that is in matter, before the surface `hit`.
   [[gnu::noinline]] bool scatters_before(std::optional<SurfaceHit>& hit, int depth) {
-    const std::array<float, 4> u = sampler_.group(flight_group(depth));
-    const Flight flight = fly(scene_, caster_, {u[0], u[1]}, end_, hit);
-    light_sampling_lanes_ *= flight.unit;
-    return flight.scattered;
+    const std::array<float, 4> u = sampler_.group(free_path_group(depth));
+    const FreePath free_path = propagate(scene_, caster_, {u[0], u[1]}, end_, hit);
+    light_sampling_lanes_ *= free_path.density_scale;
+    return free_path.scattered;
   }
 
   [[gnu::noinline]] bool scatter_within(int depth) {
@@ -226,8 +226,8 @@ class CameraPath {
         lit->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
     const Ray ray = spawn(vertex.hit, lit->towards.wi);
     if (depth == kMeterDepth) exposure_.at_angle(wi.z);
-    if (flies_) {
-      add_flown(*lit, contribution, density, leaving(scene_, end_, vertex, wi, ray));
+    if (has_free_paths_) {
+      add_through_media(*lit, contribution, density, leaving(scene_, end_, vertex, wi, ray));
       return;
     }
     const float balance = (end_.packet.lane_pdf * (SampledSpectrum(lit->density) + density)).sum();
@@ -242,14 +242,14 @@ class CameraPath {
     const SampledSpectrum turned(pdf(phase, end_.ray.direction, lit->towards.wi));
     PathEnd start = end_;
     start.ray.direction = lit->towards.wi;
-    add_flown(*lit, turned_light(*lit, turned, 1), lit->light.is_delta() ? SampledSpectrum(0.0F) : turned,
-              start);
+    add_through_media(*lit, turned_light(*lit, turned, 1),
+                      lit->light.is_delta() ? SampledSpectrum(0.0F) : turned, start);
   }
 
   // Adds what is left of the light that comes along the ray of `start`, the direction of which scattering
   // would have drawn with `density`.
-  [[gnu::noinline]] void add_flown(const Lit& lit, const SampledSpectrum& contribution,
-                                   const SampledSpectrum& density, const PathEnd& start) {
+  [[gnu::noinline]] void add_through_media(const Lit& lit, const SampledSpectrum& contribution,
+                                           const SampledSpectrum& density, const PathEnd& start) {
     if (blocked(start.ray, lit.towards)) return;
     const Transmission way = transmission(scene_, caster_, start, lit.towards.distance);
     const float balance =
@@ -275,7 +275,7 @@ class CameraPath {
   PathExposure& exposure_;
   PathEnd end_;
   std::optional<Interface> interface_;  // met last, where matter may be nested
-  bool flies_;
+  bool has_free_paths_;
   int most_events_;
   float eta_scale_ = 1;
   // Sum of lane densities before the last scattering over the hero's density of it: what a unit of

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "transport/render/plan.h"
-#include "transport/render/tally.h"
+#include "transport/path/ray_caster.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 

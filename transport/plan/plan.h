@@ -7,30 +7,11 @@
 #include "io/error.h"
 #include "scene/scene.h"
 #include "spectral/wavelength_distribution.h"
-#include "transport/light/aim.h"
 #include "transport/path/medium.h"
+#include "transport/plan/aim.h"
+#include "transport/plan/light_picker.h"
 
 namespace abbe {
-
-/// A discrete distribution over the lights of a scene.
-class LightPicker {
- public:
-  /// Proportional to `weights`, nine parts in ten, and uniform over the lights of positive weight for the
-  /// rest.
-  explicit LightPicker(const std::vector<double>& weights);
-
-  struct Pick {
-    std::uint32_t light;
-    float probability;
-  };
-  [[nodiscard]] Pick pick(float u) const;
-  [[nodiscard]] float probability(std::uint32_t light) const { return probability_[light]; }
-  [[nodiscard]] bool empty() const { return cdf_.empty(); }
-
- private:
-  std::vector<float> cdf_;  // empty when no light has weight
-  std::vector<float> probability_;
-};
 
 /// What a render works out once from the scene: which technique owns which light's caustics, where
 /// wavelengths and lights are drawn from, and where photons are aimed.
@@ -46,8 +27,8 @@ struct Plan {
   bool light_owns_all;                                  ///< The light tracer alone renders the scene.
   double nominal_value;                                 ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
-  Enclosures camera_inside;                             ///< Where camera paths start,
-  std::vector<Enclosures> light_inside;                 ///< and photons, likewise.
+  MediumStack camera_inside;                            ///< Where camera paths start,
+  std::vector<MediumStack> light_inside;                ///< and photons, likewise.
 
   /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
   /// `wavelengths`.
@@ -64,9 +45,8 @@ struct Plan {
 /// too far for them, or a far lamp too large; Error{scene} with its name. Nothing where a plan can be made.
 [[nodiscard]] std::optional<Error> refusal(const Scene& scene);
 
-/// On that many threads, which change nothing but the time it takes. What it learns from pilots depends on
-/// `seed`, by default the render's. Throws what `refusal` tells.
-[[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
-[[nodiscard]] Plan make_plan(const Scene& scene, int threads, std::uint64_t seed);
+/// What can be told without tracing a path: photons are aimed at all of their targets alike. Throws what
+/// `refusal` tells.
+[[nodiscard]] Plan make_plan(const Scene& scene);
 
 }  // namespace abbe

@@ -3,10 +3,10 @@
 #include <functional>
 #include <span>
 
+#include "sampling/sampler.h"
 #include "transport/path/exposure.h"
-#include "transport/render/plan.h"
-#include "transport/render/tally.h"
-#include "transport/sampling/sampler.h"
+#include "transport/path/ray_caster.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 
@@ -25,8 +25,5 @@ struct PhotonStart {
 /// many photons as pixels).
 PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sampler, double share,
                          PathExposure& exposure, const Splat& splat);
-
-/// Learns, from a few photons that depend on scene and seed alone, which parts of the targets reach the film.
-void learn_aims(Plan& plan, std::uint64_t seed, int threads);
 
 }  // namespace abbe

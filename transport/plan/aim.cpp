@@ -1,4 +1,4 @@
-#include "transport/light/aim.h"
+#include "transport/plan/aim.h"
 
 #include <algorithm>
 #include <cmath>

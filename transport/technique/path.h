@@ -1,9 +1,9 @@
 #pragma once
 
+#include "sampling/sampler.h"
 #include "transport/path/exposure.h"
-#include "transport/render/plan.h"
-#include "transport/render/tally.h"
-#include "transport/sampling/sampler.h"
+#include "transport/path/ray_caster.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 

@@ -1,4 +1,4 @@
-#include "transport/sampling/sampler.h"
+#include "sampling/sampler.h"
 
 #include <cstddef>
 

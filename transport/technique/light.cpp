@@ -1,16 +1,13 @@
-#include "transport/light/light_tracer.h"
+#include "transport/technique/light.h"
 
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <vector>
 
-#include "transport/light/photon_start.h"
-#include "transport/path/flight.h"
+#include "transport/path/free_path.h"
 #include "transport/path/packet.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
-#include "transport/render/threads.h"
+#include "transport/technique/photon_start.h"
 
 namespace abbe {
 namespace {
@@ -23,7 +20,7 @@ constexpr std::uint32_t scatter_group(int depth) {
 constexpr std::uint32_t lens_group(int depth) {
   return 3 + 2 * static_cast<std::uint32_t>(depth);
 }
-constexpr std::uint32_t flight_group(int depth) {
+constexpr std::uint32_t free_path_group(int depth) {
   return 0x80000000 + static_cast<std::uint32_t>(depth);
 }
 
@@ -37,13 +34,13 @@ class PhotonPath {
         sampler_(sampler),
         exposure_(exposure),
         splat_(splat),
-        flies_(needs_flights(scene_)),
+        has_free_paths_(has_free_paths(scene_)),
         most_events_(most_events(scene_.render)) {
     exposure_.begin(wavelengths, static_cast<float>(share * scene_.exposure_s));
     end_.packet.wavelengths = wavelengths;
   }
 
-  void trace(const Ray& start, const SampledSpectrum& power, const Enclosures& inside) {
+  void trace(const Ray& start, const SampledSpectrum& power, const MediumStack& inside) {
     end_.ray = start;
     end_.inside = inside;
     if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
@@ -52,7 +49,7 @@ class PhotonPath {
     for (int depth = 0;; ++depth) {
       std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
       const bool owned = depth > 0 || plan_.light_owns_all;
-      if (flies_) {
+      if (has_free_paths_) {
         if (scatters_before(hit, depth)) {
           if (!owned || is_cut(depth) || !scatter_within(depth)) return;
           continue;
@@ -81,8 +78,8 @@ class PhotonPath {
   }
 
   [[nodiscard]] bool scatters_before(std::optional<SurfaceHit>& hit, int depth) {
-    const std::array<float, 4> u = sampler_.group(flight_group(depth));
-    return fly(scene_, caster_, {u[0], u[1]}, end_, hit).scattered;
+    const std::array<float, 4> u = sampler_.group(free_path_group(depth));
+    return propagate(scene_, caster_, {u[0], u[1]}, end_, hit).scattered;
   }
 
   bool scatter_within(int depth) {
@@ -127,7 +124,7 @@ class PhotonPath {
     SampledSpectrum contribution =
         turned * (end_.packet.throughput * (cosine * lens.weight / end_.packet.lane_pdf.sum()));
     const float distance = (lens.lens_point - start.ray.origin).length();
-    if (flies_)
+    if (has_free_paths_)
       contribution *= transmission(scene_, caster_, start, distance).transmittance;
     else
       start.medium.attenuate(contribution, distance);
@@ -147,7 +144,7 @@ class PhotonPath {
     if (!event || !(owned || event->delta)) return false;
     end_.packet.throughput *= event->weight;
     end_.packet.lane_pdf *= event->lane_pdf;
-    if (event->transmitted) end_.come_into(scene_, vertex.behind(scene_, end_.inside));
+    if (event->transmitted) end_.enter(scene_, vertex.behind(scene_, end_.inside));
     end_.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi));
     return survives(event->weight.max() / event->lane_pdf.max(), depth, u[3]);
   }
@@ -171,37 +168,10 @@ class PhotonPath {
   const Splat& splat_;
   PathEnd end_;
   std::optional<Interface> interface_;  // met last, where matter may be nested
-  bool flies_;
+  bool has_free_paths_;
   int most_events_;
   float power_ = 0;  // that it set out with, its largest lane's
 };
-
-// A photon that shows where to aim others, by what it adds to the film.
-struct Pilot {
-  PhotonStart start;
-  double exposure = 0;  // the sum of |film value|
-};
-
-std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint32_t stage, int threads) {
-  constexpr std::uint32_t kPhotons = 1U << 17;
-  constexpr std::uint32_t kBatch = 1U << 11;
-  std::vector<Pilot> pilots(kPhotons);
-  std::atomic<std::uint32_t> next = 0;
-  run_on_threads(threads, [&] {
-    RayCaster caster(plan.scene);
-    PathExposure exposure = exposure_of(plan.scene);
-    for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
-      for (std::uint32_t i = first; i < first + kBatch; ++i) {
-        double& sum = pilots[i].exposure;
-        const Splat add = [&sum](int, int, std::span<const double> values) {
-          for (const double v : values) sum += std::abs(v);
-        };
-        const Sampler sampler(seed, Purpose::pilot, stage, 0, i);
-        pilots[i].start = trace_photon(plan, caster, sampler, 1, exposure, add);
-      }
-  });
-  return pilots;
-}
 
 }  // namespace
 
@@ -219,23 +189,6 @@ PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sam
   PhotonPath(plan, caster, sampler, wavelengths, share, exposure, splat)
       .trace(photon.ray, power, plan.light_inside[pick.light]);
   return start;
-}
-
-void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
-  // First where light passes at all, then, from photons aimed there, how much of it.
-  constexpr std::array<int, 2> kReaches{4, 1};
-  if (plan.traced_lights.empty()) return;
-  for (std::uint32_t stage = 0; stage < kReaches.size(); ++stage) {
-    std::vector<std::vector<double>> importance(plan.aims.size());
-    for (std::size_t light = 0; light < plan.aims.size(); ++light)
-      if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
-    // Added up in the order of the photons, whichever threads traced them.
-    for (const auto& [start, exposure] : trace_pilots(plan, seed, stage, threads))
-      if (start.cell >= 0 && std::isfinite(exposure))
-        importance[start.light][static_cast<std::size_t>(start.cell)] += exposure;
-    for (std::size_t light = 0; light < plan.aims.size(); ++light)
-      plan.aims[light].learn(importance[light], kReaches[stage]);
-  }
 }
 
 }  // namespace abbe

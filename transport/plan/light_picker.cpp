@@ -1,0 +1,29 @@
+#include "transport/plan/light_picker.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace abbe {
+
+LightPicker::LightPicker(const std::vector<double>& weights) : probability_(weights.size(), 0.0F) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!(total > 0)) return;
+  const auto positive =
+      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double p = weights[i] > 0 ? 0.9 * weights[i] / total + 0.1 / positive : 0;
+    probability_[i] = static_cast<float>(p);
+    sum += p;
+    cdf_.push_back(static_cast<float>(sum));
+  }
+}
+
+LightPicker::Pick LightPicker::pick(float u) const {
+  auto i = static_cast<std::uint32_t>(std::upper_bound(cdf_.begin(), cdf_.end(), u) - cdf_.begin());
+  i = std::min(i, static_cast<std::uint32_t>(cdf_.size()) - 1);
+  while (probability_[i] == 0.0F) --i;  // u beyond a sum rounded below 1
+  return {i, probability_[i]};
+}
+
+}  // namespace abbe

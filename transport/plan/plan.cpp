@@ -1,0 +1,113 @@
+#include "transport/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/extent.h"
+#include "transport/plan/aiming.h"
+#include "transport/plan/emissions.h"
+
+namespace abbe {
+namespace {
+
+// Per light, whether photons start there at all.
+std::vector<bool> traced_lights(const Scene& scene) {
+  std::vector<bool> traced(scene.lights.size(), false);
+  if (!traces_light(scene)) return traced;
+  const bool light_only = scene.render.integrator == Integrator::light;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    traced[i] = !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
+  return traced;
+}
+
+// What a pixel sees of a light, over its emission, to within a few orders of magnitude: the light fills the
+// view, or shines from a scene's size away. Of a far lamp that is half way between its radiance and what it
+// lights.
+double strength(const Scene& scene, const Light& light) {
+  const auto lamp = far_away(light, scene);
+  if (place(light) != nullptr) return std::pow(lamp ? lamp->distance : scene_radius(scene.bounds), -2);
+  return lamp ? std::min(1.0, lamp->radius / lamp->distance) : 1;
+}
+
+// A bright pixel's value to within a few orders of magnitude, of the strongest light.
+double nominal_value(const Scene& scene, const Emissions& emissions) {
+  const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
+                          static_cast<float>(scene.camera.height) / 2);
+  const double weight =
+      static_cast<double>(sample_ray(scene.camera, center, {0.5F, 0.5F}).weight) * scene.exposure_s;
+  double nominal = 0;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    nominal = std::max(nominal, emissions.seen[i] * strength(scene, scene.lights[i]));
+  return nominal * weight;
+}
+
+// The share of a light's power that comes to the scene.
+double arriving_share(const Scene& scene, const Light& light) {
+  const auto lamp = far_away(light, scene);
+  return lamp ? std::min(1.0, std::pow(scene_radius(scene.bounds) / lamp->distance, 2)) : 1;
+}
+
+std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& emissions) {
+  std::vector<double> powers;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene.bounds)) *
+                     arriving_share(scene, scene.lights[i]));
+  return powers;
+}
+
+WavelengthDistribution make_wavelengths(const Scene& scene, const Emissions& emissions) {
+  std::vector<Curve> responses;
+  for (const Channel& channel : scene.channels) responses.push_back(reach(channel));
+  return {emissions.distinct, responses};
+}
+
+std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, const Emissions& emissions) {
+  std::vector<WavelengthDistribution> own;
+  if (scene.mosaic)
+    for (const Channel& channel : scene.channels)
+      own.emplace_back(emissions.distinct, std::span(&reach(channel), 1));
+  return own;
+}
+
+}  // namespace
+
+bool traces_light(const Scene& scene) {
+  return scene.render.integrator == Integrator::light ||
+         (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
+}
+
+std::optional<Error> refusal(const Scene& scene) {
+  return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
+}
+
+Plan make_plan(const Scene& scene) {
+  const bool light_only = scene.render.integrator == Integrator::light;
+  const bool light_active = traces_light(scene);
+  const Emissions emissions = emissions_of(scene);
+  const std::vector<double> powers = sensor_weighted_powers(scene, emissions);
+  const std::vector<bool> traced = traced_lights(scene);
+  std::vector<double> traced_powers(scene.lights.size(), 0.0);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (traced[i]) traced_powers[i] = powers[i];
+  if (const std::optional<Error> refused = refusal(scene, traced, light_only)) throw Error(*refused);
+  Plan plan{scene,
+            make_wavelengths(scene, emissions),
+            LightPicker(powers),
+            LightPicker(traced_powers),
+            traced,
+            light_active ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
+            !light_only,
+            light_active,
+            light_only,
+            nominal_value(scene, emissions),
+            make_own_wavelengths(scene, emissions),
+            around_camera(scene),
+            std::vector<MediumStack>(light_active ? scene.lights.size() : 0)};
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
+  plan.light_active = light_active && !plan.traced_lights.empty();
+  if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
+  return plan;
+}
+
+}  // namespace abbe

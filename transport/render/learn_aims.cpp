@@ -1,0 +1,68 @@
+#include "transport/render/learn_aims.h"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "sampling/sampler.h"
+#include "transport/render/threads.h"
+#include "transport/technique/light.h"
+
+namespace abbe {
+namespace {
+
+// A photon that shows where to aim others, by what it adds to the film.
+struct Pilot {
+  PhotonStart start;
+  double exposure = 0;  // the sum of |film value|
+};
+
+std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint32_t stage, int threads) {
+  constexpr std::uint32_t kPhotons = 1U << 17;
+  constexpr std::uint32_t kBatch = 1U << 11;
+  std::vector<Pilot> pilots(kPhotons);
+  std::atomic<std::uint32_t> next = 0;
+  run_on_threads(threads, [&] {
+    RayCaster caster(plan.scene);
+    PathExposure exposure = exposure_of(plan.scene);
+    for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
+      for (std::uint32_t i = first; i < first + kBatch; ++i) {
+        double& sum = pilots[i].exposure;
+        const Splat add = [&sum](int, int, std::span<const double> values) {
+          for (const double v : values) sum += std::abs(v);
+        };
+        const Sampler sampler(seed, Purpose::pilot, stage, 0, i);
+        pilots[i].start = trace_photon(plan, caster, sampler, 1, exposure, add);
+      }
+  });
+  return pilots;
+}
+
+void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
+  // First where light passes at all, then, from photons aimed there, how much of it.
+  constexpr std::array<int, 2> kReaches{4, 1};
+  if (plan.traced_lights.empty()) return;
+  for (std::uint32_t stage = 0; stage < kReaches.size(); ++stage) {
+    std::vector<std::vector<double>> importance(plan.aims.size());
+    for (std::size_t light = 0; light < plan.aims.size(); ++light)
+      if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
+    // Added up in the order of the photons, whichever threads traced them.
+    for (const auto& [start, exposure] : trace_pilots(plan, seed, stage, threads))
+      if (start.cell >= 0 && std::isfinite(exposure))
+        importance[start.light][static_cast<std::size_t>(start.cell)] += exposure;
+    for (std::size_t light = 0; light < plan.aims.size(); ++light)
+      plan.aims[light].learn(importance[light], kReaches[stage]);
+  }
+}
+
+}  // namespace
+
+Plan make_learnt_plan(const Scene& scene, int threads, std::uint64_t seed) {
+  Plan plan = make_plan(scene);
+  if (plan.light_active && !plan.light_owns_all) learn_aims(plan, seed, threads);
+  return plan;
+}
+
+}  // namespace abbe
