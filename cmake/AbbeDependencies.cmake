@@ -8,7 +8,8 @@ endforeach()
 # Ceres is a static library of templates of Eigen compiled for any x86-64, where memory is aligned to 16 bytes. With
 # AVX Eigen would align to 32, and functions of one compilation would be linked into the other and crash.
 set_property(TARGET Ceres::ceres APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)
-foreach(module ${Abbe_PKGCONFIG})
+# OpenImageIO's CMake config demands its tools package and OpenCV headers.
+foreach(module ${Abbe_PKGCONFIG} OpenImageIO)
   pkg_check_modules(${module} REQUIRED IMPORTED_TARGET ${module})
 endforeach()
 find_package(RapidJSON REQUIRED)

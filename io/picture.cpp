@@ -1,8 +1,5 @@
 #include "io/picture.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/exr.h"
+#include "io/picture_codec.h"
 
 namespace abbe {
 namespace {
@@ -34,65 +32,41 @@ std::vector<Code> interleaved(const Image& image, std::size_t channels, Code (*c
   return values;
 }
 
-/// The bytes of the file, checked to be one. Encoded in memory, since on a full disk some of the library's
-/// writers say nothing and one exits.
-std::string encoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const void* pixels) {
-  const auto output = OIIO::ImageOutput::create(path.string());
-  if (!output) throw Error(ErrorCode::output, path.string(), OIIO::geterror());
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec) ||
-      !output->write_image(spec.format, pixels) || !output->close())
-    throw Error(ErrorCode::output, path.string(), output->geterror());
-
-  OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-  const auto input = OIIO::ImageInput::open(path.string(), nullptr, &reader);
-  if (!input || input->spec().width != spec.width || input->spec().height != spec.height ||
-      input->spec().nchannels != spec.nchannels)
-    throw Error(ErrorCode::output, path.string(),
-                "the encoded picture does not read back " + OIIO::geterror());
-  return {bytes.begin(), bytes.end()};
-}
-
 bool is_tiff(const std::filesystem::path& path) {
   return path.extension() == ".tif" || path.extension() == ".tiff";
 }
 
-OIIO::ImageSpec described(const std::filesystem::path& path, const Image& image, std::size_t channels,
-                          const OIIO::TypeDesc& format) {
+PictureHeader described(const std::filesystem::path& path, const Image& image, std::size_t channels) {
   if (image.channels.empty() || image.pixels() == 0)
     throw Error(ErrorCode::internal, path.string(), "a picture without pixels");
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels), format);
+  PictureHeader header{image.width, image.height, {}, image.metadata};
+  for (std::size_t c = 0; c < channels; ++c) header.channels.push_back(image.channels[c].name);
   std::string lines;
-  for (const auto& [key, value] : image.metadata) {
-    spec.attribute(key, value);
-    lines += key + ": " + value + "\n";
-  }
+  for (const auto& [key, value] : image.metadata) lines += key + ": " + value + "\n";
   if (is_tiff(path))
-    spec.attribute("ImageDescription", lines);  // which has no names for what it does not know
-  return spec;
-}
-
-std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorCode::input, path.string(), "no such regular file");
-  auto input = OIIO::ImageInput::open(path.string());
-  if (!input) throw Error(ErrorCode::input, path.string(), OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
-    throw Error(ErrorCode::input, path.string(), "not a flat image");
-  require_image_size(path.string(), spec.width, spec.height, static_cast<std::size_t>(spec.nchannels));
-  return input;
+    header.metadata["ImageDescription"] = lines;  // which has no names for what it does not know
+  return header;
 }
 
 std::string display_bytes(const std::filesystem::path& path, const Image& image) {
   const std::size_t channels = image.channels.size() < 3 ? 1 : 3;
-  OIIO::ImageSpec spec = described(path, image, channels, OIIO::TypeDesc::UINT8);
+  PictureHeader header = described(path, image, channels);
   // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
   // memory.
-  if (!is_tiff(path)) spec.attribute("oiio:ColorSpace", "sRGB");
-  return encoded(path, spec, interleaved(image, channels, code_value).data());
+  if (!is_tiff(path)) header.metadata["oiio:ColorSpace"] = "sRGB";
+  return picture_codec().encode(path.string(), header, interleaved(image, channels, code_value));
+}
+
+/// Channel by channel what is pixel by pixel in `values`.
+Image planes(const PictureHeader& header, const std::vector<float>& values) {
+  Image image{static_cast<int>(header.width), static_cast<int>(header.height), {}, header.metadata};
+  const std::size_t channels = header.channels.size();
+  for (std::size_t c = 0; c < channels; ++c) {
+    ImageChannel& channel = image.channels.emplace_back(ImageChannel{header.channels[c], {}});
+    channel.values.reserve(image.pixels());
+    for (std::size_t i = c; i < values.size(); i += channels) channel.values.push_back(values[i]);
+  }
+  return image;
 }
 
 }  // namespace
@@ -111,31 +85,30 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
     throw Error(ErrorCode::output, path.string(),
                 "a file of this kind holds one plane or three (got " + std::to_string(channels) +
                     ", allowed any number in a .tif)");
-  OIIO::ImageSpec spec = described(path, image, channels, OIIO::TypeDesc::UINT16);
-  if (!is_tiff(path)) spec.attribute("oiio:ColorSpace", "Linear");  // without which PNG means sRGB
-  write_atomically(path, encoded(path, spec, interleaved(image, channels, whole_number).data()));
+  PictureHeader header = described(path, image, channels);
+  if (!is_tiff(path)) header.metadata["oiio:ColorSpace"] = "Linear";  // without which PNG means sRGB
+  const std::vector<std::uint16_t> codes = interleaved(image, channels, whole_number);
+  write_atomically(path, picture_codec().encode(path.string(), header, codes));
 }
 
 Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
-  const auto input = open(path);
-  const OIIO::ImageSpec spec = input->spec();
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  Image image{spec.width, spec.height, {}, {}};
-  const std::size_t bytes = image.pixels() * channels * sizeof(float);
-  if (inputs) inputs->take_memory(path.string(), 2 * bytes);  // pixel by pixel, then channel by channel
-  std::vector<float> pixels(image.pixels() * channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-    throw Error(ErrorCode::input, path.string(), "truncated or corrupt");
-  for (std::size_t c = 0; c < channels; ++c) {
-    ImageChannel& channel = image.channels.emplace_back(ImageChannel{spec.channelnames[c], {}});
-    channel.values.reserve(image.pixels());
-    for (std::size_t i = c; i < pixels.size(); i += channels) channel.values.push_back(pixels[i]);
-  }
-  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-    if (attribute.type() == OIIO::TypeDesc::STRING)
-      image.metadata[attribute.name().string()] = attribute.get_string();
-  if (inputs) inputs->give_back_memory(bytes);
-  return image;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(ErrorCode::input, path.string(), "no such regular file");
+  PictureHeader header;
+  std::vector<float> values;
+  HeldMemory held(inputs, 0);
+  picture_codec().read(path.string(), [&](const PictureHeader& found) {
+    header = found;
+    const std::size_t channels = header.channels.size();
+    require_image_size(path.string(), header.width, header.height, channels);
+    const std::size_t floats = static_cast<std::size_t>(header.width * header.height) * channels;
+    held.take_more(path.string(), floats * sizeof(float));
+    if (inputs) inputs->take_memory(path.string(), floats * sizeof(float));  // the image's, which stays taken
+    values.resize(floats);
+    return values.data();
+  });
+  return planes(header, values);
 }
 
 Image read_image(const std::filesystem::path& path, Inputs* inputs) {

@@ -16,6 +16,18 @@ for file in share/man/man1/abbe.1.gz share/bash-completion/completions/abbe shar
 done
 zcat "$scratch/second place/share/man/man1/abbe.1.gz" | grep -q '^\.TH ABBE 1 ' || fail "the manual page is none"
 
+# Pictures need the module that lies beside the program; the film does not, nor does anything else.
+with_picture() { "$program" render "$data/scenes/furnace.json" --spp 2 --quiet -o "$scratch/film.exr" --display "$scratch/film.png"; }
+with_picture
+[ -s "$scratch/film.png" ] || fail "no picture"
+rm "$scratch/film.exr"
+mv "$scratch/second place/lib/abbe" "$scratch/modules"
+code=0
+message=$(with_picture 2>&1) || code=$?
+equal "exit code without the module of pictures" "$code" 4
+contains "message without the module" "$message" "the module that reads and writes pictures does not load: abbe_pictures-"
+[ -s "$scratch/film.exr" ] || fail "no film without the module"
+
 # What the tables here say is what it says, and without them it says so; it cannot know the source tree's.
 sed -i 's/SCHOTT Zemax catalog/moved tables/' "$data/glass/dielectrics.csv"
 contains "changed table" "$("$program" query ior N-BK7 --at 550 --json)" "moved tables"

@@ -1,0 +1,67 @@
+// The module of pictures: all of Abbe's use of OpenImageIO, behind the functions of io/picture_codec.h.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "io/error.h"
+#include "io/picture_codec.h"
+
+namespace abbe {
+namespace {
+
+OIIO::ImageSpec spec_of(const PictureHeader& header, const OIIO::TypeDesc& format) {
+  OIIO::ImageSpec spec(static_cast<int>(header.width), static_cast<int>(header.height),
+                       static_cast<int>(header.channels.size()), format);
+  for (const auto& [key, value] : header.metadata) spec.attribute(key, value);
+  return spec;
+}
+
+PictureHeader header_of(const OIIO::ImageSpec& spec) {
+  PictureHeader header{spec.width, spec.height, spec.channelnames, {}};
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+    if (attribute.type() == OIIO::TypeDesc::STRING)
+      header.metadata[attribute.name().string()] = attribute.get_string();
+  return header;
+}
+
+// Encoded in memory, since on a full disk some of the library's writers say nothing and one exits.
+std::string encode_spec(const std::string& path, const OIIO::ImageSpec& spec, const void* pixels) {
+  const auto output = OIIO::ImageOutput::create(path);
+  if (!output) throw Error(ErrorCode::output, path, OIIO::geterror());
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  if (!output->set_ioproxy(&memory) || !output->open(path, spec) ||
+      !output->write_image(spec.format, pixels) || !output->close())
+    throw Error(ErrorCode::output, path, output->geterror());
+
+  OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+  const auto input = OIIO::ImageInput::open(path, nullptr, &reader);
+  if (!input || input->spec().width != spec.width || input->spec().height != spec.height ||
+      input->spec().nchannels != spec.nchannels)
+    throw Error(ErrorCode::output, path, "the encoded picture does not read back " + OIIO::geterror());
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string encode(const std::string& path, const PictureHeader& header, const PictureCodes& codes) {
+  const OIIO::TypeDesc format = codes.index() == 0 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+  const OIIO::ImageSpec spec = spec_of(header, format);
+  return std::visit([&](const auto& values) { return encode_spec(path, spec, values.data()); }, codes);
+}
+
+void read(const std::string& path, const std::function<float*(const PictureHeader&)>& room) {
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) throw Error(ErrorCode::input, path, OIIO::geterror());
+  const OIIO::ImageSpec spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
+    throw Error(ErrorCode::input, path, "not a flat image");
+  float* pixels = room(header_of(spec));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels))
+    throw Error(ErrorCode::input, path, "truncated or corrupt");
+}
+
+}  // namespace
+}  // namespace abbe
+
+extern "C" __attribute__((visibility("default"))) const abbe::PictureCodec* abbe_picture_codec() {
+  static constexpr abbe::PictureCodec kCodec{abbe::encode, abbe::read};
+  return &kCodec;
+}
