@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/film_sensor.h"
+#include "cli/film_identity.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"

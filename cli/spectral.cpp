@@ -1,34 +1,23 @@
 #include "cli/spectral.h"
 
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "calibration/output/color_spaces.h"
 #include "cli/answer.h"
-#include "cli/film_sensor.h"
+#include "cli/film_identity.h"
+#include "develop/radiance.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "sensor/film/spectral_film.h"
-#include "sensor/readout/demosaic.h"
 
 namespace abbe::cli {
 namespace {
 
-constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
-constexpr const char* kDistanceKey = "image_distance_px";
-
 // What a film says of the unit of a bin, beside the `emissiveUnits` of the layout.
 constexpr const char* kRadiance = "radiance, W per m^2 and sr of the band";
-
-// Drops what is said of the channels of the sensor that a film was exposed on.
-void forget_channels(std::map<std::string, std::string>& metadata) {
-  std::erase_if(metadata, [](const auto& entry) { return entry.first.starts_with("channel."); });
-}
 
 double axis_weight(const Camera& camera) {
   const Imath::V2f center(static_cast<float>(camera.width) / 2, static_cast<float>(camera.height) / 2);
@@ -87,19 +76,6 @@ void require_same_view(const SpectralImage& image, const Camera& camera, const s
                     found->second, *ours));
 }
 
-// Light that the image does not have cannot be counted.
-void check_coverage(const SpectralImage& image, const Channel& channel, const std::filesystem::path& path) {
-  constexpr double kNegligible = 1e-3;
-  const std::vector<double> edges = band_edges(image.bands);
-  const double missing = 1 - channel.weight.integral(edges.front(), edges.back()) / channel.weight.integral();
-  if (!(missing > kNegligible)) return;
-  const std::string text =
-      fmt::format("covers {} to {} nm only, where {:.3g} % of the response of channel \"{}\" is not",
-                  edges.front(), edges.back(), 100 * missing, channel.name);
-  if (missing > 1 - kNegligible) throw Error(ErrorCode::input, path.string(), text);
-  say(fmt::format("warning: {}: {}", path.string(), text));
-}
-
 }  // namespace
 
 void add_spectral_identity(const Scene& scene, FilmIdentity& identity) {
@@ -122,29 +98,6 @@ Image spectral_film_image(const Image& film) {
   return spectral_layout(image);
 }
 
-Image observed(const SpectralImage& image) {
-  constexpr std::array kNames{"R", "G", "B"};
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  const SpectralImage bands{image.width, image.height, image.bands, {}, {}};
-  const Image xyz = expose(bands, observer_channels(Observer::cie1931), std::vector<double>(pixels, 1.0));
-  const Matrix3 to_rgb = rgb_to_xyz(kRec709).inverse(true);
-  Image rgb{image.width, image.height, {}, image.metadata};
-  for (int k = 0; k < 3; ++k) {
-    ImageChannel& channel =
-        rgb.channels.emplace_back(ImageChannel{kNames.at(static_cast<std::size_t>(k)), {}});
-    for (std::size_t i = 0; i < pixels; ++i)
-      channel.values.push_back(static_cast<float>(to_rgb[k][0] * xyz.channels[0].values[i] +
-                                                  to_rgb[k][1] * xyz.channels[1].values[i] +
-                                                  to_rgb[k][2] * xyz.channels[2].values[i]));
-  }
-  return rgb;
-}
-
-DisplayTransform display_of_radiance(const ViewOptions& view, std::optional<Chromaticity> white) {
-  const Matrix3 adapted = white ? white_adaptation(*white) : Matrix3();
-  return {{"R", "G", "B"}, adapted * rgb_to_xyz_d65(kRec709), {}, view};
-}
-
 Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path) {
   const Camera& camera = scene.camera;
   if (scene.spectral)
@@ -154,15 +107,12 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
                 fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
                             image.height, camera.width, camera.height));
   require_same_view(image, camera, path);
-  for (const Channel& channel : scene.channels) check_coverage(image, channel, path);
-  Image film = expose(image, scene.channels, exposure_per_radiance(camera, scene.exposure_s));
-  if (scene.mosaic) film = mosaicked(film, *scene.mosaic, scene.channel_names());
-  film.metadata = image.metadata;
-  forget_channels(film.metadata);
-  for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime",
-                          kSpectralBinsKey, kAxisKey, kDistanceKey})
-    film.metadata.erase(key);
-  for (const auto& [key, value] : sensor_identity(scene)) film.metadata[key] = value;
+  Diagnostics diagnostics;
+  Image film = exposed_film(
+      image,
+      {scene.channels, scene.mosaic, exposure_per_radiance(camera, scene.exposure_s), sensor_identity(scene)},
+      path, diagnostics);
+  check(diagnostics);
   return film;
 }
 

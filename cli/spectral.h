@@ -3,28 +3,17 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/output/display.h"
 #include "io/spectral_exr.h"
 #include "scene/scene.h"
 #include "transport/render/part.h"
 
 namespace abbe::cli {
 
-/// Metadata that a film of spectral bins has and others have not.
-inline constexpr const char* kSpectralBinsKey = "spectral_bins";
-
 /// What it takes to make radiances of the films of a scene whose sensor is spectral.
 void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
 
 /// The film of a spectral sensor as radiances in the layout of spectral files, with their preview.
 [[nodiscard]] Image spectral_film_image(const Image& film);
-
-/// Linear Rec.709 [cd/m^2] of radiances, channels R, G, B, as the CIE 1931 observer sees them.
-[[nodiscard]] Image observed(const SpectralImage& image);
-
-/// Takes that to pictures; without a white, colours are shown as they look beside daylight.
-[[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view,
-                                                   std::optional<Chromaticity> white);
 
 /// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
 /// the metadata of both; with a mosaic, its one plane. Says which channels respond beyond the image's bands.

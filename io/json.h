@@ -52,4 +52,10 @@ struct JsonValue::Member {
 /// text that opens like a JSON array, object or string but is none.
 void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics);
 
+/// One `--set /pointer=value` of the command line: what `set_json` takes.
+struct Override {
+  std::string pointer;
+  std::string value;
+};
+
 }  // namespace abbe

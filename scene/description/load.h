@@ -7,15 +7,10 @@
 
 #include "io/diagnostics.h"
 #include "io/inputs.h"
+#include "io/json.h"
 #include "scene/scene.h"
 
 namespace abbe {
-
-/// One `--set /pointer=value` of the command line.
-struct Override {
-  std::string pointer;
-  std::string value;
-};
 
 /// Reads, checks and builds a scene, from standard input where the path is `kStandardStream`; the files it
 /// names are then looked for in the current folder. Everything wrong with it is reported; nothing is returned

@@ -194,10 +194,6 @@ struct Sensor {
 /// Bins of wavelength instead of channels.
 [[nodiscard]] std::optional<SpectralBins> read_spectral(const JsonValue& json, const Reading& reading);
 
-/// The electronics behind channels, which must count electrons.
-[[nodiscard]] std::optional<Readout> read_readout(const JsonValue& json, std::span<const Channel> channels,
-                                                  Reading& reading);
-
 /// What the pixels of a sensor count, with its filters; the sensor's exposure is that of channels without
 /// their own.
 void read_channels(ObjectReader& reader, Sensor& sensor, Reading& reading);

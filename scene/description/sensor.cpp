@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,7 @@
 
 #include "io/image.h"
 #include "scene/description/pieces.h"
+#include "sensor/readout/readout_json.h"
 
 namespace abbe::description {
 namespace {
@@ -70,6 +72,19 @@ std::optional<Mosaic> read_mosaic(const JsonValue& json, const std::vector<Chann
     if (std::ranges::count(mosaic.channel, static_cast<int>(i)) == 0)
       reading.diagnostics.error(json.where, fmt::format("has no place for channel \"{}\"", names[i]));
   return mosaic;
+}
+
+// The electronics behind channels, which must count electrons.
+std::optional<Readout> read_readout(const JsonValue& json, std::span<const Channel> channels,
+                                    const Reading& reading) {
+  for (const Channel& channel : channels)
+    if (channel.kind != ResponseKind::quantum)
+      reading.diagnostics.error(
+          json.where,
+          fmt::format("a read-out needs channels that count electrons (got \"{}\", whose response is "
+                      "energy, allowed quantum)",
+                      channel.name));
+  return abbe::read_readout(json, reading.diagnostics);
 }
 
 }  // namespace

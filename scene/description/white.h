@@ -10,9 +10,6 @@
 
 namespace abbe {
 
-/// Where a scene asks for a white.
-inline constexpr const char* kWhitePointer = "/output/white";
-
 /// What a white may be named by.
 struct WhiteNames {
   std::vector<std::string> lights;

@@ -7,6 +7,8 @@
 
 namespace abbe {
 
+/// Where a scene asks for a white, as does who develops its film.
+inline constexpr const char* kWhitePointer = "/output/white";
 /// Attributes of a film that name its white and tell its chromaticity, x and y with a blank between them.
 inline constexpr const char* kWhiteKey = "white";
 inline constexpr const char* kWhiteXyKey = "white_xy";

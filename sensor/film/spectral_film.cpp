@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "sensor/film/variance_name.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -13,10 +14,6 @@ namespace {
 
 std::string bin_name(const SpectralBins& bins, int bin) {
   return fmt::format("{:.9g}nm", bins.center_nm(bin));
-}
-
-std::string variance_of(const std::string& channel) {
-  return "Variance." + channel;
 }
 
 std::vector<float> divided(const std::vector<float>& values, std::span<const double> by, int power) {

@@ -1,5 +1,3 @@
-#include "scene/description/readout.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "calibration/chart/patches.h"
 #include "calibration/output/color_spaces.h"
 #include "cli/compare.h"
-#include "cli/film_sensor.h"
+#include "cli/film_identity.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"

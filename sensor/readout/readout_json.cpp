@@ -1,11 +1,8 @@
-#include "scene/description/readout.h"
-
-#include <fmt/format.h>
+#include "sensor/readout/readout_json.h"
 
 #include <algorithm>
 
 #include "io/object_reader.h"
-#include "scene/description/pieces.h"
 
 namespace abbe {
 namespace {
@@ -52,18 +49,6 @@ std::optional<Readout> read_readout(const JsonValue& json, Diagnostics& diagnost
     readout.response_curve = read_response_curve(*curve, diagnostics);
   reader.finish();
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(readout));
-}
-
-std::optional<Readout> description::read_readout(const JsonValue& json, std::span<const Channel> channels,
-                                                 Reading& reading) {
-  for (const Channel& channel : channels)
-    if (channel.kind != ResponseKind::quantum)
-      reading.diagnostics.error(
-          json.where,
-          fmt::format("a read-out needs channels that count electrons (got \"{}\", whose response is "
-                      "energy, allowed quantum)",
-                      channel.name));
-  return abbe::read_readout(json, reading.diagnostics);
 }
 
 }  // namespace abbe

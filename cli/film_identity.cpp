@@ -1,0 +1,120 @@
+#include "cli/film_identity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "cli/spectral.h"
+#include "cli/white.h"
+#include "develop/radiance.h"
+#include "io/error.h"
+#include "io/text.h"
+#include "scene/colors.h"
+#include "sensor/film/recorded_white.h"
+#include "sensor/readout/demosaic.h"
+#include "sensor/readout/speed.h"
+#include "spectral/library.h"
+#include "transport/render/white.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr const char* kDaylight = "D55";
+
+// Standard attributes of EXR files are single precision.
+std::string single(double x) {
+  return fmt::format("{}", static_cast<float>(x));
+}
+
+std::optional<double> f_number(const Camera& camera) {
+  const auto* lens = std::get_if<LensCamera>(&camera.kind);
+  if (lens == nullptr) return std::nullopt;
+  const double focal_length = 1 / (1 / lens->image_distance + 1 / lens->focus_distance);
+  return focal_length / (2 * lens->aperture_radius);
+}
+
+// The sensor's exposure where a channel has it, else that of all channels; nothing where each has its own, as
+// behind a filter wheel.
+std::optional<double> standard_exposure(const Scene& scene) {
+  const auto count = [&scene](double ratio) {
+    return static_cast<std::size_t>(
+        std::count_if(scene.channels.begin(), scene.channels.end(),
+                      [ratio](const Channel& c) { return c.exposure_ratio == ratio; }));
+  };
+  if (count(1) > 0) return scene.exposure_s;
+  const double ratio = scene.channels.front().exposure_ratio;
+  if (count(ratio) == scene.channels.size()) return scene.exposure_s * ratio;
+  return std::nullopt;
+}
+
+void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
+  if (std::any_of(scene.channels.begin(), scene.channels.end(),
+                  [](const Channel& c) { return c.kind != ResponseKind::quantum; }))
+    return;
+  Diagnostics diagnostics;
+  const auto daylight = load_curve("illuminant", kDaylight, {}, diagnostics);
+  check(diagnostics);
+  const double sensitivity = sensitivity_e_per_lx_s(scene.channels, area_m2, daylight->curve);
+  identity["electrons_per_lx_s"] = fmt::format("{}", sensitivity);
+  if (scene.readout) identity["isoSpeed"] = single(saturation_speed(*scene.readout, sensitivity));
+}
+
+// Nothing for a sensor that no display can show.
+void add_display(const Scene& scene, FilmIdentity& identity) {
+  try {
+    identity["to_xyz_d65"] = to_text(display_of(scene).to_xyz_d65());
+  } catch (const Error& error) {
+    if (error.code == ErrorCode::internal) throw;
+  }
+}
+
+}  // namespace
+
+FilmIdentity sensor_identity(const Scene& scene) {
+  const double area_m2 = gathering_area(scene.camera.pixel_pitch, scene.fill_factor);
+  FilmIdentity identity{{"sensor", scene.sensor_text},
+                        {"exposure_s", fmt::format("{}", scene.exposure_s)},
+                        {"gathering_area_m2", fmt::format("{}", area_m2)}};
+  if (const auto seconds = standard_exposure(scene)) identity["expTime"] = single(*seconds);
+  if (const auto n = f_number(scene.camera)) identity["aperture"] = single(*n);
+  const std::vector<std::string> names = scene.channel_names();
+  for (const Channel& channel : scene.channels) {
+    if (channel.exposure_ratio != 1)
+      identity["exposure_s." + channel.name] = fmt::format("{}", scene.exposure_s * channel.exposure_ratio);
+    identity["channel." + channel.name] = channel.kind == ResponseKind::quantum
+                                              ? "quantum, electrons per m^2"
+                                              : "energy, response-weighted J per m^2";
+  }
+  identity["sensor_channels"] = fmt::format("{}", fmt::join(scene.film_planes(), ","));
+  if (scene.mosaic) {
+    identity["mosaic"] = to_text(*scene.mosaic, names);
+    identity["mosaic_channels"] = fmt::format("{}", fmt::join(names, ","));
+  }
+  add_speed(scene, area_m2, identity);
+  add_display(scene, identity);
+  add_white(scene, identity);
+  if (const auto exposure = scene.output.display_exposure)
+    identity["display_exposure"] = fmt::format("{}", *exposure);
+  if (scene.spectral) add_spectral_identity(scene, identity);
+  return identity;
+}
+
+DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
+  if (scene.spectral) return display_of_radiance(view, white_of(scene).xy);
+  const White white = has_colors(scene) ? white_of(scene) : White{"", "", {}, Curve(1.0)};
+  return make_display(scene.channels, *white.spectrum, view, white.xy);
+}
+
+Image film_image(const RenderPart& part) {
+  Image film = image_of(part);
+  return film.metadata.contains(kSpectralBinsKey) ? spectral_film_image(film) : film;
+}
+
+Image shown_film(const Scene& scene, const RenderPart& part) {
+  Image film = film_image(part);
+  return scene.mosaic ? demosaic(film, kRawPlane, *scene.mosaic, scene.channel_names()) : film;
+}
+
+}  // namespace abbe::cli

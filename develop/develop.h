@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "develop/film_sensor.h"
+
+namespace abbe {
+
+/// The planes of a film, one image for each step from light to numbers.
+struct DevelopedFilm {
+  Image exposure;
+  Image variance;
+  Image electrons;   ///< Expected, from light; empty without a read-out, as the next.
+  Image codes;       ///< Digital numbers, and `Saturated.` planes of 0 and 1.
+  Image calibrated;  ///< What the codes say of the exposure; the exposure itself without a read-out.
+};
+
+/// Reads the film out once, its noise a function of `seed`, plane and pixel. Throws Error{input} for a pixel
+/// that expects more electrons than can be counted.
+[[nodiscard]] DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed);
+
+/// The seed of the render that made the film; 0 for one that does not tell.
+[[nodiscard]] std::uint64_t render_seed(const Image& film);
+
+/// What a display is given: every channel in every pixel, and what saturated as white.
+[[nodiscard]] Image display_planes(const FilmSensor& sensor, const Image& calibrated);
+
+/// A plane's mean over the pixels, and errors as the roots of their mean squares: in electrons with a
+/// read-out, else in film values.
+struct PlaneFigures {
+  double mean = 0;
+  std::optional<double> render_error;  ///< Nothing for planes without variance.
+  TemporalNoise noise{};               ///< That of the sensor at the mean; none without a read-out.
+  double saturated_share = 0;
+};
+/// Those of each plane.
+[[nodiscard]] std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor,
+                                                      const DevelopedFilm& developed);
+
+}  // namespace abbe

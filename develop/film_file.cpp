@@ -1,0 +1,79 @@
+#include "develop/film_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "develop/radiance.h"
+#include "io/error.h"
+#include "io/exr.h"
+#include "io/picture.h"
+#include "sensor/film/variance_name.h"
+
+namespace abbe {
+namespace {
+
+constexpr const char* kExposurePart = "exposure";
+constexpr const char* kVariancePart = "variance";
+
+void require_finite(const Image& film, const std::filesystem::path& path) {
+  for (const ImageChannel& channel : film.channels)
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      if (const float value = channel.values[i];
+          !std::isfinite(value) || (value < 0 && channel.name.starts_with(variance_of(""))))
+        throw Error(ErrorCode::input, path.string(),
+                    fmt::format("channel \"{}\" holds no {} at pixel {},{} (got {})", channel.name,
+                                std::isfinite(value) ? "variance" : "number",
+                                i % static_cast<std::size_t>(film.width),
+                                i / static_cast<std::size_t>(film.width), value));
+}
+
+Image joined(std::vector<ImagePart> parts, const std::filesystem::path& path) {
+  if (parts.size() == 1) return std::move(parts.front().image);
+  Image film;
+  for (ImagePart& part : parts) {
+    if (part.name != kExposurePart && part.name != kVariancePart) continue;
+    if (part.name == kExposurePart) {
+      film.width = part.image.width;
+      film.height = part.image.height;
+      film.metadata = std::move(part.image.metadata);
+    }
+    std::move(part.image.channels.begin(), part.image.channels.end(), std::back_inserter(film.channels));
+  }
+  if (film.pixels() == 0)
+    throw Error(ErrorCode::input, path.string(), fmt::format("has no part \"{}\"", kExposurePart));
+  return film;
+}
+
+}  // namespace
+
+Image read_film(const std::filesystem::path& path, Inputs* inputs) {
+  Image film = joined(read_exr_parts(path, inputs), path);
+  require_finite(film, path);
+  return film;
+}
+
+void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
+                 const FilmSensor& sensor, std::optional<double> scale) {
+  std::vector<ImagePart> parts{{kExposurePart, developed.exposure}, {kVariancePart, developed.variance}};
+  if (sensor.readout) {
+    parts.push_back({"electrons", developed.electrons});
+    parts.push_back({"dn", developed.codes});
+  }
+  if (sensor.display) {
+    const double factor = scale ? *scale : sensor.display->automatic_scale(planes);
+    parts.push_back({"preview", rec709_image(planes, sensor.display->to_xyz_d65() * factor)});
+  }
+  write_exr(path, parts);
+}
+
+void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed) {
+  Image raw{developed.codes.width, developed.codes.height, {}, developed.codes.metadata};
+  for (const ImageChannel& channel : developed.codes.channels)
+    if (!channel.name.starts_with("Saturated.")) raw.channels.push_back(channel);
+  write_raw_picture(path, raw);
+}
+
+}  // namespace abbe

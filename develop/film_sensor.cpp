@@ -1,0 +1,123 @@
+#include "develop/film_sensor.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "io/text.h"
+#include "sensor/film/recorded_white.h"
+#include "sensor/film/variance_name.h"
+#include "sensor/readout/readout_json.h"
+
+namespace abbe {
+namespace {
+
+// Metadata of one film, with words for what is missing or wrong.
+struct Metadata {
+  const Image& film;
+  const std::filesystem::path& path;
+
+  [[nodiscard]] std::optional<std::string> find(const std::string& key) const {
+    const auto found = film.metadata.find(key);
+    return found == film.metadata.end() ? std::nullopt : std::optional(found->second);
+  }
+  [[nodiscard]] std::string text(const std::string& key) const {
+    if (auto found = find(key)) return *std::move(found);
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("no attribute \"{}\": no film of a render, or one of an older version", key));
+  }
+  [[nodiscard]] std::optional<double> find_number(const std::string& key) const {
+    const auto found = find(key);
+    if (!found) return std::nullopt;
+    const auto number = parse_number(*found);
+    if (!number || *number <= 0) refuse(key);
+    return number;
+  }
+  [[nodiscard]] double number(const std::string& key) const {
+    (void)text(key);
+    return *find_number(key);
+  }
+  [[noreturn]] void refuse(const std::string& key) const {
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("attribute \"{}\" makes no sense (got \"{}\")", key, text(key)));
+  }
+};
+
+void read_planes(const Metadata& data, FilmSensor& sensor) {
+  sensor.planes = split(data.text("sensor_channels"), ',');
+  sensor.channels = sensor.planes;
+  const double exposure_s = data.number("exposure_s");
+  for (const std::string& plane : sensor.planes)
+    sensor.exposure_s.push_back(data.find_number("exposure_s." + plane).value_or(exposure_s));
+  if (!data.find("mosaic")) return;
+  sensor.channels = split(data.text("mosaic_channels"), ',');
+  sensor.mosaic = parse_mosaic(data.text("mosaic"), sensor.channels);
+  if (!sensor.mosaic || sensor.planes.size() != 1) data.refuse("mosaic");
+}
+
+std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& sensor,
+                                       std::span<const Override> overrides, Diagnostics& diagnostics) {
+  const auto source =
+      std::make_shared<const SourceText>(SourceText{data.path.string() + ": sensor", data.text("sensor")});
+  std::optional<JsonValue> json = parse_json(source, diagnostics);
+  if (!json) return std::nullopt;
+  for (const Override& o : overrides) {
+    if (o.pointer != "/readout" && !o.pointer.starts_with("/readout/"))
+      throw Error(ErrorCode::usage, "--set",
+                  fmt::format("the film was rendered with it (got {}, allowed /readout and below, {})",
+                              o.pointer, kWhitePointer));
+    set_json(*json, o.pointer, o.value, diagnostics);
+  }
+  const JsonValue* readout = json->find("readout");
+  if (readout == nullptr || diagnostics.has_errors()) return std::nullopt;
+  for (const std::string& channel : sensor.channels)
+    if (!data.text("channel." + channel).starts_with("quantum"))
+      throw Error(ErrorCode::input, data.path.string(),
+                  fmt::format("channel \"{}\" counts no electrons to read out", channel));
+  return read_readout(*readout, diagnostics);
+}
+
+std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor,
+                                             const ViewOptions& view, std::optional<Chromaticity> white) {
+  const auto text = data.find("to_xyz_d65");
+  if (!text) return std::nullopt;
+  std::optional<Matrix3> matrix = parse_matrix3(*text);
+  if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3) ||
+      (sensor.channels.size() == 3 && !is_invertible(*matrix)))
+    data.refuse("to_xyz_d65");
+  if (white) {
+    const auto own = recorded_white(data.film);
+    if (!own) throw Error(ErrorCode::usage, kWhitePointer, "the film tells no white that this could replace");
+    const Matrix3 adapted = white_adaptation(*own);
+    if (!is_invertible(adapted)) data.refuse(kWhiteXyKey);
+    matrix = white_adaptation(*white) * adapted.inverse(true) * *matrix;
+  }
+  return DisplayTransform(sensor.channels, *matrix, {}, view);
+}
+
+}  // namespace
+
+std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::path& path,
+                                      std::span<const Override> overrides, const ViewOptions& view,
+                                      std::optional<Chromaticity> white, Diagnostics& diagnostics) {
+  const Metadata data{film, path};
+  FilmSensor sensor;
+  read_planes(data, sensor);
+  sensor.gathering_area_m2 = data.number("gathering_area_m2");
+  sensor.readout = read_readout_of(data, sensor, overrides, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
+  sensor.display = read_display(data, sensor, view, white);
+  sensor.display_exposure = data.find_number("display_exposure");
+  return sensor;
+}
+
+void require_planes(const Image& film, const FilmSensor& sensor, const std::filesystem::path& path) {
+  for (const std::string& plane : sensor.planes)
+    for (const std::string& name : {plane, variance_of(plane)})
+      if (film.find(name) == nullptr)
+        throw Error(ErrorCode::input, path.string(), fmt::format("has no channel \"{}\"", name));
+}
+
+}  // namespace abbe

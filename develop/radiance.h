@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/output/display.h"
+#include "develop/film_sensor.h"
+#include "io/diagnostics.h"
+#include "io/spectral_exr.h"
+#include "sensor/response/channel.h"
+#include "sensor/response/mosaic.h"
+
+namespace abbe {
+
+/// Metadata that a film of spectral bins has and others have not.
+inline constexpr const char* kSpectralBinsKey = "spectral_bins";
+/// How the radiances of a spectral film were seen: the irradiance on the axis that a unit of radiance gives
+/// [sr], and the distance from lens to film in pixels, which a meter has not.
+inline constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
+inline constexpr const char* kDistanceKey = "image_distance_px";
+
+/// Linear Rec.709, channels R, G, B, of the first three planes, which `to_xyz` takes to XYZ of one scale, or
+/// of the only one, whose colour is its first column.
+[[nodiscard]] Image rec709_image(const Image& planes, const Matrix3& to_xyz);
+
+/// Linear Rec.709 [cd/m^2] of radiances, channels R, G, B, as the CIE 1931 observer sees them.
+[[nodiscard]] Image observed(const SpectralImage& image);
+
+/// Takes that to pictures; without a white, colours are shown as they look beside daylight.
+[[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view,
+                                                   std::optional<Chromaticity> white);
+
+/// Radiances as the eye sees them: `observed`, with the display that shows it.
+[[nodiscard]] ExposedFilm observed_film(const SpectralImage& image, const ViewOptions& view,
+                                        std::optional<Chromaticity> white);
+
+/// A sensor that looks at radiances, pixel for pixel.
+struct RadianceSensor {
+  std::vector<Channel> channels;
+  std::optional<Mosaic> mosaic;
+  std::vector<double> exposure_per_radiance;    ///< Of each pixel [s sr].
+  std::map<std::string, std::string> metadata;  ///< What its films tell of it.
+};
+
+/// Drops what is said of the channels of the sensor that a film was exposed on.
+void forget_channels(std::map<std::string, std::string>& metadata);
+
+/// The film of a sensor that looks at the radiances read from `path`, with the metadata of both; with a
+/// mosaic, its one plane. Warns of channels that respond beyond the image's bands. Throws Error{input} for
+/// one that sees nothing of them.
+[[nodiscard]] Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
+                                 const std::filesystem::path& path, Diagnostics& diagnostics);
+
+}  // namespace abbe

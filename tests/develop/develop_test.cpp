@@ -1,0 +1,63 @@
+#include "develop/develop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "films.h"
+
+namespace abbe {
+namespace {
+
+using testing::counting_film;
+
+ExposedFilm exposed(const std::vector<Override>& overrides = {}) {
+  Diagnostics diagnostics;
+  const Image film = counting_film();
+  return {film, film_sensor(film, "a.exr", overrides, {}, {}, diagnostics).value()};
+}
+
+TEST(Develop, StepsFollowOneAnother) {
+  const ExposedFilm film = exposed();
+  const DevelopedFilm developed = develop(film, 7);
+  EXPECT_EQ(developed.exposure.channels.front().values, film.film.channels.front().values);
+  EXPECT_FLOAT_EQ(developed.electrons.channels.front().values[0], 400);
+  EXPECT_FLOAT_EQ(developed.electrons.channels.front().values[1], 900);
+  const ImageChannel& codes = *developed.codes.find("V");
+  for (std::size_t i = 0; i < 2; ++i)  // gain 1, 0.02 electrons of dark
+    EXPECT_FLOAT_EQ(developed.calibrated.find("V")->values[i], (codes.values[i] - 0.02F) / 1e-10F);
+  EXPECT_NEAR(codes.values[1], 900, 6 * std::sqrt(900.0));
+}
+
+TEST(Develop, NoiseIsAFunctionOfTheSeed) {
+  const ExposedFilm film = exposed();
+  EXPECT_EQ(render_seed(film.film), 7U);
+  EXPECT_EQ(render_seed({}), 0U);
+  EXPECT_EQ(develop(film, 7).codes.channels[0].values, develop(film, 7).codes.channels[0].values);
+  EXPECT_NE(develop(film, 7).codes.channels[0].values, develop(film, 8).codes.channels[0].values);
+}
+
+TEST(Develop, FiguresAreMeansAndRootsOfMeanSquares) {
+  const ExposedFilm film = exposed({{"/readout/full_well_e", "600"}});
+  const std::vector<PlaneFigures> figures = plane_figures(film.sensor, develop(film, 7));
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_NEAR(figures[0].mean, 650, 1e-3);
+  EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22) * 1e-10, 1e-5);
+  EXPECT_NEAR(figures[0].noise.photon_e, std::sqrt(650.0), 1e-3);
+  EXPECT_EQ(figures[0].saturated_share, 0.5);
+}
+
+TEST(Develop, WithoutAReadOutTheExposureIsAll) {
+  ExposedFilm film = exposed();
+  film.sensor.readout.reset();
+  const DevelopedFilm developed = develop(film, 7);
+  EXPECT_TRUE(developed.codes.channels.empty());
+  ASSERT_EQ(developed.calibrated.channels.size(), 1U);
+  EXPECT_EQ(developed.calibrated.channels[0].values, film.film.channels[0].values);
+  const std::vector<PlaneFigures> figures = plane_figures(film.sensor, developed);
+  EXPECT_NEAR(figures[0].mean, 6.5e12, 1e6);
+  EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22), 1e5);
+}
+
+}  // namespace
+}  // namespace abbe

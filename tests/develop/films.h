@@ -1,0 +1,22 @@
+#pragma once
+
+#include "io/image.h"
+
+namespace abbe::testing {
+
+/// A film of two electron-counting pixels, 400 and 900 electrons of area 1e-10 m^2, as a render writes it.
+inline Image counting_film() {
+  Image film{2, 1, {}, {}};
+  film.channels = {{"V", {4e12F, 9e12F}}, {"Variance.V", {1e22F, 3e22F}}};
+  film.metadata = {{"sensor_channels", "V"},
+                   {"channel.V", "quantum, electrons per m^2"},
+                   {"exposure_s", "0.01"},
+                   {"gathering_area_m2", "1e-10"},
+                   {"seed", "7"},
+                   {"to_xyz_d65", "0.95 0 0 1 0 0 1.09 0 0"},
+                   {"display_exposure", "8e12"},
+                   {"sensor", R"({"readout": {"gain_e_per_dn": 1, "bits": 12, "dark_e_per_s": 2}})"}};
+  return film;
+}
+
+}  // namespace abbe::testing

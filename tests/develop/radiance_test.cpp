@@ -1,0 +1,54 @@
+#include "develop/radiance.h"
+
+#include <gtest/gtest.h>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+// One pixel of 1 W m^-2 sr^-1 in each of two bands, from 500 to 600 nm.
+SpectralImage green() {
+  return {1, 1, {{525, {1}}, {575, {1}}}, {}, {{"seed", "7"}, {"channel.old", "gone"}, {kAxisKey, "3"}}};
+}
+
+Channel band(const std::string& name, double from_nm, double to_nm) {
+  Channel channel;
+  channel.name = name;
+  channel.weight = Curve({{from_nm, 0}, {from_nm, 1}, {to_nm, 1}, {to_nm, 0}});
+  return channel;
+}
+
+TEST(Radiance, ASensorLooksThroughItsExposure) {
+  Diagnostics diagnostics;
+  const Image film =
+      exposed_film(green(), {{band("V", 510, 590)}, {}, {0.5}, {{"exposure_s", "1"}}}, "a.exr", diagnostics);
+  EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
+  EXPECT_NEAR(film.find("V")->values[0], 80.0 / 50 * 0.5, 1e-6);
+  EXPECT_EQ(film.metadata, (std::map<std::string, std::string>{{"exposure_s", "1"}, {"seed", "7"}}));
+}
+
+TEST(Radiance, LightThatTheImageLacksIsToldOrRefused) {
+  Diagnostics diagnostics;
+  (void)exposed_film(green(), {{band("V", 550, 650)}, {}, {1}, {}}, "a.exr", diagnostics);
+  EXPECT_EQ(
+      diagnostics.text(),
+      "a.exr: warning: covers 500 to 600 nm only, where 50 % of the response of channel \"V\" is not\n");
+  try {
+    (void)exposed_film(green(), {{band("V", 650, 700)}, {}, {1}, {}}, "a.exr", diagnostics);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::input);
+  }
+}
+
+TEST(Radiance, TheEyeSeesGreen) {
+  const ExposedFilm film = observed_film(green(), {}, {});
+  EXPECT_EQ(film.sensor.planes, (std::vector<std::string>{"R", "G", "B"}));
+  const auto value = [&](const char* name) { return film.film.find(name)->values[0]; };
+  EXPECT_GT(value("G"), value("R"));
+  EXPECT_LT(value("B"), 0);  // outside the gamut
+}
+
+}  // namespace
+}  // namespace abbe
