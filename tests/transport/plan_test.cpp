@@ -59,7 +59,7 @@ TEST(Plan, ProportionalEmissionsCountOnce) {
       scene.lights[i].emission = shared ? emission : ScaledCurve(emission.curve());
     }
     scene.commit();
-    return std::pair(make_plan(scene).path_lights.probability(2), make_plan(scene).wavelengths.pdf(430));
+    return std::pair(make_plan(scene).traced_lights.probability(2), make_plan(scene).wavelengths.pdf(430));
   };
   EXPECT_EQ(plan_of(true), plan_of(false));
   EXPECT_NEAR(plan_of(true).first, 0.9F * 4 / 7 + 0.1F / 3, 1e-6F);

@@ -50,6 +50,14 @@ struct Vertex {
     return crossed;
   }
 
+  /// The normal on the side that light may come from to be scattered; nothing where that is both sides, or
+  /// may be: which parts a mixture has is not asked.
+  [[nodiscard]] std::optional<Imath::V3f> lit_side() const {
+    if (std::holds_alternative<RoughDielectricBsdf>(bsdf) || std::holds_alternative<MixtureBsdf>(bsdf))
+      return std::nullopt;
+    return wo.z > 0 ? hit.normal : -hit.normal;
+  }
+
   /// The model's event, corrected on a relief. In line, as a call would cost every path.
   [[nodiscard, gnu::always_inline]] std::optional<BsdfSample> scatter(const BsdfRandom& u,
                                                                       TransportMode mode) const {

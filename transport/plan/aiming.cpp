@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/extent.h"
+#include "transport/plan/light_reach.h"
 
 namespace abbe {
 namespace {
@@ -19,11 +20,6 @@ Imath::Box3d bounds_where(const Scene& scene, Holds holds) {
   for (const ShapeInstance& shape : scene.shapes)
     if (!shape.far && holds(scene.materials[shape.material])) box.extendBy(bounds(shape.shape));
   return box;
-}
-
-Imath::Box3d bounds_of(const Light& light, const Scene& scene) {
-  if (const Imath::V3f* at = place(light)) return Imath::Box3d(Imath::V3d(*at));
-  return bounds(scene.shapes[std::get<AreaLight>(light.kind).shape].shape);
 }
 
 // What photons from afar are sent through: a sphere around what may bend them, or around all that is near.

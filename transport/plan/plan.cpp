@@ -92,7 +92,7 @@ Plan make_plan(const Scene& scene) {
   if (const std::optional<Error> refused = refusal(scene, traced, light_only)) throw Error(*refused);
   Plan plan{scene,
             make_wavelengths(scene, emissions),
-            LightPicker(powers),
+            LightSampler(scene, emissions.seen),
             LightPicker(traced_powers),
             traced,
             light_active ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),

@@ -10,6 +10,7 @@
 #include "transport/path/medium.h"
 #include "transport/plan/aim.h"
 #include "transport/plan/light_picker.h"
+#include "transport/plan/light_sampler.h"
 
 namespace abbe {
 
@@ -18,7 +19,7 @@ namespace abbe {
 struct Plan {
   const Scene& scene;
   WavelengthDistribution wavelengths;
-  LightPicker path_lights;    ///< For light sampling at path vertices.
+  LightSampler path_lights;   ///< For light sampling at path vertices.
   LightPicker traced_lights;  ///< For starting photons.
   std::vector<bool> traced;   ///< Per light: the light tracer owns its caustics.
   std::vector<Aim> aims;      ///< Per light where photons start at all.

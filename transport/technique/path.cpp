@@ -104,6 +104,11 @@ class CameraPath {
     return depth > 0 && !light_sampled_before_ && !first_specular_ && plan_.traced[light];
   }
 
+  // With which light sampling chose the light where the path scattered last.
+  [[nodiscard]] float light_probability(std::uint32_t light) const {
+    return plan_.path_lights.probability(light, place_.point, place_.normal());
+  }
+
   void add_background(int depth) {
     if (scene_.background().empty()) return;
     end_.medium.attenuate(end_.packet.throughput, std::numeric_limits<float>::infinity());
@@ -111,11 +116,11 @@ class CameraPath {
       const Light& light = scene_.lights[index];
       const auto* sun = std::get_if<SunLight>(&light.kind);
       if ((sun != nullptr && !sun->shows(end_.ray.direction)) || owned_by_photons(index, depth)) continue;
-      const float pdf = !light_sampled_before_
-                            ? 0.0F
-                            : plan_.path_lights.probability(index) *
-                                  light_pdf(light, scene_.shapes, end_.ray.origin, end_.ray.direction,
-                                            Imath::V3f(0), Imath::V3f(0));
+      const float pdf =
+          !light_sampled_before_
+              ? 0.0F
+              : light_probability(index) * light_pdf(light, scene_.shapes, end_.ray.origin,
+                                                     end_.ray.direction, Imath::V3f(0), Imath::V3f(0));
       exposure_.deposit(
           end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) * (1 / balance(pdf)),
           index);
@@ -130,7 +135,7 @@ class CameraPath {
     if (!emits_towards(light, hit.normal, -end_.ray.direction)) return;
     if (owned_by_photons(light_index, depth)) return;
     const float pdf = !light_sampled_before_ ? 0.0F
-                                             : plan_.path_lights.probability(light_index) *
+                                             : light_probability(light_index) *
                                                    light_pdf(light, scene_.shapes, end_.ray.origin,
                                                              end_.ray.direction, hit.point, hit.normal);
     exposure_.deposit(end_.packet.throughput * light.emission(lambda()) * (1 / balance(pdf)), light_index);
@@ -139,6 +144,8 @@ class CameraPath {
   // In line in the loop of `trace`: left to itself the compiler makes it a call, for the meter's sake, which
   // costs every path more than all else it does not need.
   [[gnu::always_inline]] bool scatter(const Vertex& vertex, int depth) {
+    place_.point = vertex.hit.point;
+    if (plan_.path_lights.asks_for_places()) place_.side = vertex.lit_side();
     if (scatters(vertex.bsdf)) add_direct(vertex, depth);
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
     const std::optional<BsdfSample> sampled = vertex.scatter({u[2], {u[0], u[1]}}, TransportMode::radiance);
@@ -181,6 +188,7 @@ class CameraPath {
 
   [[gnu::noinline]] bool scatter_within(int depth) {
     const PhaseFunction& phase = end_.medium.scattering->phase;
+    place_ = {end_.ray.origin, {}};
     add_direct_within(phase, depth);
     const std::array<float, 4> u = sampler_.group(scatter_group(depth));
     const PhaseSample turned = sample(phase, {u[0], u[1]});
@@ -197,12 +205,12 @@ class CameraPath {
     LightSample towards;
     float density;
   };
-  [[nodiscard]] std::optional<Lit> pick_light(const Imath::V3f& point, int depth) const {
+  [[nodiscard]] std::optional<Lit> pick_light(int depth) const {
     if (plan_.path_lights.empty()) return std::nullopt;
     const std::array<float, 4> u = sampler_.group(light_group(depth));
-    const LightPicker::Pick pick = plan_.path_lights.pick(u[0]);
+    const LightPicker::Pick pick = plan_.path_lights.pick(place_.point, place_.normal(), u[0]);
     const Light& light = scene_.lights[pick.light];
-    const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {u[1], u[2]});
+    const std::optional<LightSample> towards = sample_light(light, scene_.shapes, place_.point, {u[1], u[2]});
     if (!towards) return std::nullopt;
     return Lit{pick.light, light, *towards, pick.probability * towards->pdf};
   }
@@ -216,7 +224,7 @@ class CameraPath {
   }
 
   void add_direct(const Vertex& vertex, int depth) {
-    const std::optional<Lit> lit = pick_light(vertex.hit.point, depth);
+    const std::optional<Lit> lit = pick_light(depth);
     if (!lit) return;
     const Imath::V3f wi = vertex.frame.to_local(lit->towards.wi);
     const SampledSpectrum scattered = vertex.towards(lit->towards.wi, wi, TransportMode::radiance);
@@ -237,7 +245,7 @@ class CameraPath {
   }
 
   void add_direct_within(const PhaseFunction& phase, int depth) {
-    const std::optional<Lit> lit = pick_light(end_.ray.origin, depth);
+    const std::optional<Lit> lit = pick_light(depth);
     if (!lit) return;
     const SampledSpectrum turned(pdf(phase, end_.ray.direction, lit->towards.wi));
     PathEnd start = end_;
@@ -268,12 +276,20 @@ class CameraPath {
                                            : caster_.occluded(ray);
   }
 
+  // Where light arrives to be scattered: at a point, on one side of a surface or from everywhere.
+  struct Place {
+    Imath::V3f point{0, 0, 0};
+    std::optional<Imath::V3f> side = {};
+    [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
+  };
+
   const Plan& plan_;
   const Scene& scene_;
   RayCaster& caster_;
   const Sampler& sampler_;
   PathExposure& exposure_;
   PathEnd end_;
+  Place place_;                         // the vertex last met
   std::optional<Interface> interface_;  // met last, where matter may be nested
   bool has_free_paths_;
   int most_events_;

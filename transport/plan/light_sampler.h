@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+#include "transport/plan/light_picker.h"
+#include "transport/plan/light_tree.h"
+
+namespace abbe {
+
+/// Chooses a light for a place: by what each sends there, nothing standing in between, nine parts in ten, and
+/// uniformly over all lights for the rest, so that none starves where it alone is not hidden. Up to 16 lights
+/// are weighed one by one. Of more, trees are descended by what each half sends [Conty2018], one over the
+/// lamps and one over the lights at infinity.
+class LightSampler {
+ public:
+  using Pick = LightPicker::Pick;
+
+  /// `seen` stands for each light's emission, as in `Emissions`; lights of 0 are never chosen.
+  LightSampler(const Scene& scene, const std::vector<double>& seen);
+
+  /// Whether no light can be chosen.
+  [[nodiscard]] bool empty() const { return roots_.empty(); }
+
+  /// Whether the choice depends on the place: there is more than one light.
+  [[nodiscard]] bool asks_for_places() const { return lights_ > 1; }
+
+  /// A light for what is at `point`. `normal`, of unit length, says which side of a surface can be lit;
+  /// without one light may come from everywhere. `u` is in [0, 1); the lights follow each other along it,
+  /// neighbours in space mostly near.
+  [[nodiscard]] Pick pick(const Imath::V3f& point, const Imath::V3f* normal, float u) const;
+  /// With which `pick` chooses that light for that place: the same number to the bit.
+  [[nodiscard]] float probability(std::uint32_t light, const Imath::V3f& point,
+                                  const Imath::V3f* normal) const;
+
+ private:
+  // From a root to a light: bit k says whether turn k goes to the second child.
+  struct Way {
+    std::uint64_t turns = 0;
+    std::uint32_t root = 0;
+    bool exists = false;
+  };
+
+  void open_roots();
+  void note_ways();
+
+  std::vector<LightNode> nodes_;
+  std::vector<std::uint32_t> roots_;  // nodes that stand for all lights together; empty when no light is seen
+  std::vector<Way> ways_;             // of each light of the scene
+  std::uint32_t lights_ = 0;          // that can be chosen
+};
+
+}  // namespace abbe

@@ -1,0 +1,115 @@
+#include "transport/plan/light_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+
+namespace abbe {
+namespace {
+
+constexpr std::size_t kBuckets = 12;
+constexpr int kMostUneven = 32;  // turns; after them halves are equal, of fewer than 2^32 lights
+
+Imath::Box3d box_of_middles(std::span<const LightLeaf> leaves) {
+  Imath::Box3d box;
+  for (const LightLeaf& leaf : leaves) box.extendBy(leaf.reach.box.center());
+  return box;
+}
+
+// The buckets along an axis, from `from` on, `width` wide together.
+struct Buckets {
+  unsigned axis;
+  double from;
+  double width;
+
+  [[nodiscard]] std::size_t of(const LightLeaf& leaf) const {
+    const double share = (leaf.reach.box.center()[axis] - from) / width;
+    return std::min(kBuckets - 1, static_cast<std::size_t>(share * kBuckets));
+  }
+};
+
+void include(std::optional<LightReach>& sum, const LightReach& more) {
+  sum = sum ? union_of(*sum, more) : more;
+}
+
+// How much the choice within a half is likely to be off: the measure of [Conty2018] with the sphere around
+// the lamps for their box, as the irradiance of a node is bounded by that.
+double cost(const std::optional<LightReach>& half) {
+  return half ? half->facing * half->radius * half->radius * measure(half->cone) : 0;
+}
+
+// The number of buckets in the first half of the best split.
+std::size_t best_split(const std::array<std::optional<LightReach>, kBuckets>& in) {
+  std::array<double, kBuckets> costs{};
+  std::optional<LightReach> sum;
+  for (std::size_t i = 1; i < kBuckets; ++i) {
+    if (in[i - 1]) include(sum, *in[i - 1]);
+    costs[i] = cost(sum);
+  }
+  sum.reset();
+  for (std::size_t i = kBuckets - 1; i > 0; --i) {
+    if (in[i]) include(sum, *in[i]);
+    costs[i] += cost(sum);
+  }
+  return static_cast<std::size_t>(std::min_element(costs.begin() + 1, costs.end()) - costs.begin());
+}
+
+// Puts the leaves of the first half first; how many these are.
+std::size_t split(std::span<LightLeaf> leaves, int turns) {
+  const Imath::Box3d middles = box_of_middles(leaves);
+  const unsigned axis = middles.majorAxis();
+  const Buckets buckets{axis, middles.min[axis], middles.size()[axis]};
+  const std::size_t half = leaves.size() / 2;
+  if (!(buckets.width > 0)) return half;
+  if (turns >= kMostUneven) {
+    std::nth_element(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(half), leaves.end(),
+                     [axis](const LightLeaf& a, const LightLeaf& b) {
+                       return a.reach.box.center()[axis] < b.reach.box.center()[axis];
+                     });
+    return half;
+  }
+  std::array<std::optional<LightReach>, kBuckets> in;
+  for (const LightLeaf& leaf : leaves) include(in[buckets.of(leaf)], leaf.reach);
+  const std::size_t first = best_split(in);
+  const auto middle = std::partition(leaves.begin(), leaves.end(),
+                                     [&](const LightLeaf& leaf) { return buckets.of(leaf) < first; });
+  return static_cast<std::size_t>(middle - leaves.begin());
+}
+
+class Builder {
+ public:
+  Builder(const LightScale& scale, std::vector<LightNode>& nodes) : scale_(scale), nodes_(nodes) {}
+
+  LightReach append(std::span<LightLeaf> leaves, int turns) {
+    const std::size_t at = nodes_.size();
+    if (leaves.size() == 1) {
+      nodes_.push_back({bounds(leaves[0].reach), 1, leaves[0].light});
+      return leaves[0].reach;
+    }
+    const std::size_t first = split(leaves, turns);
+    // A place is kept: what both halves reach together is known when they are.
+    nodes_.push_back({bounds(leaves[0].reach), static_cast<std::uint32_t>(leaves.size()), 0});
+    const LightReach one = append(leaves.first(first), turns + 1);
+    nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
+    LightReach all = union_of(one, append(leaves.subspan(first), turns + 1));
+    nodes_[at].bounds = bounds(all);
+    return all;
+  }
+
+ private:
+  [[nodiscard]] LightBounds bounds(const LightReach& reach) const {
+    return {reach, scale_.strength, scale_.least_distance};
+  }
+
+  const LightScale& scale_;
+  std::vector<LightNode>& nodes_;
+};
+
+}  // namespace
+
+void append_tree(std::vector<LightLeaf> leaves, const LightScale& scale, std::vector<LightNode>& nodes) {
+  Builder(scale, nodes).append(leaves, 0);
+}
+
+}  // namespace abbe
