@@ -129,5 +129,25 @@ TEST(Furnace, MatterMayTouchAndLieInMatter) {
   }
 }
 
+// Lamps as bright as the sky they hide change nothing, whichever of them is chosen: light sampling and
+// scattering balance at the place where the path scattered, on one side of a surface and from everywhere.
+TEST(Furnace, LampsLikeTheSkyCannotBeTold) {
+  constexpr const char* kBlack = R"("diffuse": {"reflectance": 0})";
+  constexpr const char* kLamps = R"(,
+    {"disc": {"center": [0, 1.5, 0], "normal": [0, -1, 0], "radius": 4}, "material": "other", "emission": {"spectrum": 1}},
+    {"disc": {"center": [2, 0, 0.5], "normal": [-1, 0, 0], "radius": 0.8}, "material": "other", "emission": {"spectrum": 1}},
+    {"sphere": {"center": [-2, -2, -1], "radius": 0.7}, "material": "other", "emission": {"spectrum": 1}})";
+  const double one = test::region(ball(R"("dielectric": {"ior": 1})"), 0, 0, 0, 8, 8).mean;
+  for (const char* matter :
+       {R"("diffuse": {"reflectance": 1})", R"("conductor": {"ior": 0, "roughness": 0.5})",
+        R"("dielectric": {"ior": 1.5, "roughness": 0.4})", R"("medium": {"scattering_per_m": 2})"}) {
+    const test::Region seen = test::region(ball(matter, kBlack, kLamps), 0, 0, 0, 8, 8);
+    const double noise = 4.9 * std::sqrt(seen.variance) / one;
+    SCOPED_TRACE(fmt::format("{}: {} +- {}", matter, seen.mean / one, noise));
+    EXPECT_NEAR(seen.mean / one, 1, noise + 2e-3);
+    EXPECT_LT(noise, 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace abbe

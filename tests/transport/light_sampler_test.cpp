@@ -163,16 +163,18 @@ TEST(LightSampler, LeavesWhatCannotShineItsFloor) {
       hall.add({"lamp", PointLight{{10 * u[0], 10 * u[1], 1 + u[2]}}, Curve(1.0)}, 1);
     }
     hall.add({"below", PointLight{{1, 1, -1}}, Curve(1.0)}, 1000);
+    hall.add({"beside", SpotLight{{5, 5, 30}, V3f(1, 0, 0), 0.1F}, Curve(1.0)}, 1000);
     hall.add_shape("averted", Quad{{0, 0, 3}, {1, 0, 0}, {0, 1, 0}}, false, 1000);
     const LightSampler sampler = hall.sampler();
     const V3f up(0, 0, 1);
-    const float floor = 0.1F / static_cast<float>(lamps + 2);
+    const float floor = 0.1F / static_cast<float>(lamps + 3);
     for (std::uint32_t i = 0; i < 100; ++i) {
       const auto u = numbers(i, 4);
       const V3f point(10 * u[0], 10 * u[1], 0.5F * u[2]);
       EXPECT_NEAR(sampler.probability(lamps, point, &up), floor, 1e-8F);
       EXPECT_NEAR(sampler.probability(lamps + 1, point, &up), floor, 1e-8F);
-      EXPECT_NEAR(sampler.probability(lamps + 1, point, nullptr), floor, 1e-8F);
+      EXPECT_NEAR(sampler.probability(lamps + 2, point, &up), floor, 1e-8F);
+      EXPECT_NEAR(sampler.probability(lamps + 2, point, nullptr), floor, 1e-8F);
     }
   }
 }

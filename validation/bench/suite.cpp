@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/text.h"
+#include "validation/bench/lamps.h"
 #include "validation/bench/meshes.h"
 
 namespace abbe {
@@ -45,6 +46,8 @@ const std::vector<Suite>& bench_suites() {
       {"prism-spot", "a spectrum on a screen, from a spot aimed at the slit", "scenes/prism_spot.json"},
       {"prism-area", "the same from a panel that shines into a half space", "scenes/prism_area.json"},
       {"glass-sphere", "the caustic of a ball of glass under a small lamp", "scenes/glass_sphere.json"},
+      {"metals", "balls of polished and rough metal under a lamp and a sky", "bench/metals.json"},
+      {"many-lights", "a hall with ten thousand lamps", "bench/hall.json", {{"/lights", make_lamps(100)}}},
       {"mesh",
        "a terrain and a bumpy ball of 1.05 million triangles each; the ball is diffuse, where the rivals' is "
        "of "
