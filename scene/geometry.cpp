@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "io/error.h"
+#include "scene/embree_query.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/placed.h"
@@ -55,27 +56,6 @@ struct Exact {
     return at == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *at, ray, 0.0);
   }
 };
-
-RTCRay embree_ray(const BasicRay<double>& ray) {
-  RTCRay r{};
-  r.org_x = static_cast<float>(ray.origin.x);
-  r.org_y = static_cast<float>(ray.origin.y);
-  r.org_z = static_cast<float>(ray.origin.z);
-  r.dir_x = static_cast<float>(ray.direction.x);
-  r.dir_y = static_cast<float>(ray.direction.y);
-  r.dir_z = static_cast<float>(ray.direction.z);
-  r.tfar = static_cast<float>(ray.t_max);
-  r.mask = ~0U;
-  return r;
-}
-
-// That has met nothing yet.
-RTCRayHit embree_query(const BasicRay<double>& ray) {
-  RTCRayHit query{embree_ray(ray), {}};
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
 
 // Rays come one by one, so N is 1 in all callbacks and the N-ray structures are plain ones.
 void reject_behind(const RTCFilterFunctionNArguments* args) {
@@ -189,6 +169,21 @@ SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape, std::ui
   return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape, primitive};
 }
 
+// Of barycentric coordinates: well beyond what points keep off edges, in all but the smallest triangles.
+constexpr float kNearEdge = 0.01F;
+
+// How the point at t is to be moved to be as far from the edges of its triangle as rays start from the
+// surface.
+Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const PlacedPart* instance,
+                          const BasicRay<double>& local, double t, const Imath::V3f& point) {
+  const Imath::V3f axis(1, 0, 0);
+  const double distance = 0.5 * static_cast<double>((offset_point(point, axis, axis) - point).x);
+  Imath::V3d shift = shift_off_edges(set, hit.primID, local.origin + local.direction * t,
+                                     distance * local.direction.length());
+  if (instance != nullptr) instance->at->to_world.multDirMatrix(shift, shift);
+  return shift;
+}
+
 // What Embree found, in double; nothing for the plane of a triangle that the ray does not cross.
 std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context) {
   const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -199,10 +194,12 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context)
       instance == nullptr ? std::get_if<TriangleSet>(&part) : std::get_if<TriangleSet>(&instance->of->part);
   if (set == nullptr) return surface_hit(context.nearest, shape, 0);
   const BasicRay<double>& ray = context.ray;
-  const double t =
-      plane_crossing(*set, hit.primID, instance == nullptr ? ray : to_prototype(*instance->at, ray));
+  const BasicRay<double> local = instance == nullptr ? ray : to_prototype(*instance->at, ray);
+  const double t = plane_crossing(*set, hit.primID, local);
   if (!(t > 0 && t < ray.t_max)) return std::nullopt;
-  const Imath::V3d point = ray.origin + ray.direction * t;
+  Imath::V3d point = ray.origin + ray.direction * t;
+  if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
+    point += shift_in_world(*set, hit, instance, local, t, Imath::V3f(point));
   if (instance == nullptr)
     return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
   const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);

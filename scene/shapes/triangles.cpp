@@ -53,4 +53,25 @@ std::size_t memory_bytes_of(const TriangleSet& set) {
          set.triangles.size() * sizeof(set.triangles[0]);
 }
 
+Imath::V3d shift_off_edges(const TriangleSet& set, std::uint32_t triangle, const Imath::V3d& point,
+                           double clear) {
+  constexpr double kMostShare = 0.25;  // of three that make 1: small triangles have no place further off
+  std::array<Imath::V3d, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i) corner.at(i) = Imath::V3d(set.vertices[set.triangles[triangle].at(i)]);
+  const Imath::V3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  const double twice_area = normal.length();
+  std::array<double, 3> share{};
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Imath::V3d& next = corner.at((i + 1) % 3);
+    const Imath::V3d edge = corner.at((i + 2) % 3) - next;
+    const double there = edge.cross(point - next).dot(normal) / (twice_area * twice_area);
+    share.at(i) = std::max(std::min(clear * edge.length() / twice_area, kMostShare), there);
+    sum += share.at(i);
+  }
+  constexpr double kRounding = 1e-12;
+  if (!(sum - 1 > kRounding)) return Imath::V3d(0);  // nor where a triangle has no area
+  return (corner[0] * share[0] + corner[1] * share[1] + corner[2] * share[2]) / sum - point;
+}
+
 }  // namespace abbe

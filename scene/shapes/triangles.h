@@ -36,4 +36,10 @@ struct TriangleSet {
 
 [[nodiscard]] std::size_t memory_bytes_of(const TriangleSet& set);
 
+/// How a point of a triangle is to be moved within it to be `clear` of its edges, as far as that goes:
+/// nowhere, unless it is nearer. Beside an edge rounding may put a point beyond the other face that ends
+/// there, and a path that goes on from it would have left a closed mesh.
+[[nodiscard]] Imath::V3d shift_off_edges(const TriangleSet& set, std::uint32_t triangle,
+                                         const Imath::V3d& point, double clear);
+
 }  // namespace abbe

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "scene/ray.h"
+
+namespace abbe {
+
+/// A ray as Embree takes it, which may meet everything.
+[[nodiscard]] inline RTCRay embree_ray(const BasicRay<double>& ray) {
+  RTCRay r{};
+  r.org_x = static_cast<float>(ray.origin.x);
+  r.org_y = static_cast<float>(ray.origin.y);
+  r.org_z = static_cast<float>(ray.origin.z);
+  r.dir_x = static_cast<float>(ray.direction.x);
+  r.dir_y = static_cast<float>(ray.direction.y);
+  r.dir_z = static_cast<float>(ray.direction.z);
+  r.tfar = static_cast<float>(ray.t_max);
+  r.mask = ~0U;
+  return r;
+}
+
+/// One that has met nothing yet.
+[[nodiscard]] inline RTCRayHit embree_query(const BasicRay<double>& ray) {
+  RTCRayHit query{embree_ray(ray), {}};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+}  // namespace abbe
