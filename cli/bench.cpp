@@ -12,6 +12,7 @@
 #include "io/text.h"
 #include "validation/bench/report.h"
 #include "validation/bench/scale.h"
+#include "validation/bench/soak/soak.h"
 
 namespace abbe::cli {
 namespace {
@@ -64,6 +65,19 @@ int scale(const BenchOptions& options) {
   return 0;
 }
 
+int soak(const BenchOptions& options) {
+  const fs::path folder = options.output.empty() ? settings_of(options).cache / "soak" : options.output;
+  require_report_folder(folder);
+  const SoakResult result = run_soak({options.soak_paths, options.soak_seed, folder, say});
+  const Json answer{{"scenes", result.scenes},
+                    {"paths", result.paths},
+                    {"rays", result.rays},
+                    {"failures", result.failures},
+                    {"seed", options.soak_seed}};
+  print(answer, options.json);
+  return result.failures > 0 ? 1 : 0;
+}
+
 std::vector<BaselineRow> read_baseline(const fs::path& path) {
   if (path.empty()) return {};
   Diagnostics diagnostics;
@@ -90,6 +104,7 @@ std::vector<int> parse_sample_counts(const std::string& option, const std::strin
 int bench(const BenchOptions& options) {
   if (options.list) return list_suites(options.json);
   if (options.scale) return scale(options);
+  if (options.soak_paths > 0) return soak(options);
   const std::vector<Suite> suites = choose_suites(options.suites);
   if (!options.output.empty()) {
     require_report_folder(options.output);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@ struct BenchOptions {
   bool quick = false;           ///< Small films, compared with no rival.
   bool strict = false;          ///< Exit with 1 when something got worse than the baseline.
   bool list = false;
-  bool scale = false;  ///< Measure instead what scenes of growing size cost.
+  bool scale = false;            ///< Measure instead what scenes of growing size cost.
+  std::uint64_t soak_paths = 0;  ///< Not 0: look instead whether anything goes wrong in drawn scenes.
+  std::uint64_t soak_seed = 0;
   bool json = false;
 };
 

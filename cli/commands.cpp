@@ -248,6 +248,10 @@ void add_bench(CLI::App& app, Command& command) {
   options.add_flag("--quick", sub->quick, "Small films, compared with no rival");
   options.add_flag("--strict", sub->strict, "Exit with 1 when something got worse than the baseline");
   options.add_flag("--scale", sub->scale, "Measure instead what scenes of growing size cost");
+  add_parsed(options, "--soak", sub->soak_paths, integer_in<std::uint64_t>(1, kMaxSeed),
+             "Look instead, over so many paths, whether anything goes wrong in scenes drawn at random", "N");
+  add_parsed(options, "--seed", sub->soak_seed, integer_in<std::uint64_t>(0, kMaxSeed),
+             "Of the first scene of a soak, the next ones count on (default 0)", "N");
   options.add_flag("--list", sub->list, "Say what suites there are");
   add_json(options, sub->json);
 }

@@ -132,7 +132,7 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
   double cdf = 0;
   for (std::size_t i = first; i < last; ++i) {
     const double density = (1 - share) * mixture[i] + share * support[i];
-    cells_.push_back({cells.edges[i], cdf, density, 1 / density});
+    cells_.push_back({cells.edges[i], cdf, density, density > 0 ? 1 / density : 0});
     cdf += density * cells.width(i);
   }
   cells_.push_back({cells.edges[last], 1, 0, 0});

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "validation/bench/soak/random.h"
+
+namespace abbe::soak {
+
+using Json = nlohmann::ordered_json;
+
+/// A closed box keeps the light beyond it out: what is inside emits and is seen below this wavelength [nm]
+/// only, what is outside shines above it, where one channel of this name looks.
+inline constexpr double kInsideBelow = 1000;
+inline constexpr const char* kOutsideChannel = "outside";
+
+/// A material by name, and which shapes may be made of it.
+struct Matter {
+  std::string name;
+  bool mixes = false;             ///< It may be part of a mixture.
+  bool entered = false;           ///< Light enters it, so its shapes must be closed.
+  bool needs_surface_uv = false;  ///< It varies over the surface: not for meshes without coordinates.
+};
+
+/// A scene that is being drawn, all lengths in its own unit.
+struct Drawing {
+  Random random;
+  std::filesystem::path folder;  ///< Of the files beside it.
+  bool closed = false;           ///< The camera is in a closed opaque box.
+  bool signed_response = false;  ///< A channel may count negatively.
+  double unit_m = 1;
+  double size = 1;  ///< The box reaches from -size to size on each axis, around `middle`.
+  std::array<double, 3> middle{0, 0, 0};
+  double brightness = 1;  ///< Order of magnitude of radiances.
+  std::vector<Matter> matter;
+  std::vector<Json> targets;  ///< Where shapes stand, for the camera to look at.
+  Json scene;
+};
+
+/// A curve of the scene language with values in [0, most].
+[[nodiscard]] Json draw_curve(Drawing& drawing, double most);
+/// A reflectance in [0, 1], as a curve or an image. Sets `varies` for an image.
+[[nodiscard]] Json draw_reflectance(Drawing& drawing, bool& varies);
+/// A direction of any length.
+[[nodiscard]] Json draw_direction(Drawing& drawing);
+/// A place at most `share` of the box's half width from its middle, on each axis.
+[[nodiscard]] Json draw_place(Drawing& drawing, double share);
+
+/// A path to a file of random content within the folder, made for the call: a film of linear R, G, B in
+/// [low, high], heights, densities, and closed meshes, whose own radius is 1.
+[[nodiscard]] std::string draw_image(Drawing& drawing, const std::vector<std::string>& channels, double low,
+                                     double high);
+[[nodiscard]] std::string draw_densities(Drawing& drawing);
+[[nodiscard]] std::string draw_mesh_file(Drawing& drawing);
+
+/// Fill the parts of the scene, in this order.
+void draw_matter(Drawing& drawing);
+void draw_shapes(Drawing& drawing);
+void draw_sensor(Drawing& drawing);
+void draw_camera(Drawing& drawing);
+void draw_lights(Drawing& drawing);
+void draw_render(Drawing& drawing);
+
+/// One shape of a material without emission, between 1e-4 and once the size of the box large.
+[[nodiscard]] Json draw_shape(Drawing& drawing, const Matter& matter);
+/// An emission for something of that kind: "area", "place" (point and spot), "sun", "directional" or
+/// "environment".
+[[nodiscard]] Json draw_emission(Drawing& drawing, const std::string& kind);
+
+}  // namespace abbe::soak

@@ -1,0 +1,143 @@
+#include <algorithm>
+
+#include "validation/bench/soak/drawing.h"
+
+namespace abbe::soak {
+namespace {
+
+// A spectrum that a sensor and an eye see something of.
+Json spectrum(Drawing& drawing, double most) {
+  Random& random = drawing.random;
+  Json curve{{"sum", {draw_curve(drawing, most), {{"band", {520, 580}}, {"value", 0.01 * most}}}}};
+  if (chance(random, 0.2)) curve = most;
+  if (chance(random, 0.2))
+    curve = {
+        {"lines",
+         {{{"nm", 546.1}, {"width_nm", decades(random, 1e-3, 1)}, {"power", most}},
+          {{"nm", uniform(random, 400, 700)}, {"width_nm", decades(random, 1e-3, 10)}, {"power", most}}}}};
+  if (drawing.closed) curve = {{"product", {curve, {{"band", {300, kInsideBelow}}}}}};
+  return curve;
+}
+
+Json relative(Drawing& drawing) {
+  Random& random = drawing.random;
+  if (drawing.closed) return {{"spectrum", spectrum(drawing, 1)}};
+  switch (integer(random, 0, 3)) {
+    case 0:
+      return {{"blackbody_K", decades(random, 1500, 1e6)}};
+    case 1:
+      return {{"daylight_K", uniform(random, 4000, 25000)}};
+    case 2:
+      return {{"spectrum", spectrum(drawing, 1)}};
+    default:
+      return {{"illuminant", one_of(random, {"A", "D65", "E", "FL11", "LED-B3"})}};
+  }
+}
+
+}  // namespace
+
+Json draw_emission(Drawing& drawing, const std::string& kind) {
+  Random& random = drawing.random;
+  const double much = drawing.brightness * decades(random, 1e-3, 1e3);
+  if (chance(random, 0.4)) return {{"spectrum", chance(random, 0.05) ? Json(0) : spectrum(drawing, much)}};
+  Json emission = relative(drawing);
+  const bool seen = chance(random, 0.5);
+  if (kind == "area" || kind == "environment")
+    emission[seen ? "luminance" : "radiance"] = much;
+  else if (kind == "place")
+    emission[seen ? "luminous_intensity" : "intensity"] = much;
+  else
+    emission[seen ? "illuminance" : "irradiance"] = much;
+  return emission;
+}
+
+namespace {
+
+Json area_light(Drawing& drawing) {
+  Random& random = drawing.random;
+  const double r = drawing.size * decades(random, 1e-5, 0.2);
+  Json light;
+  switch (integer(random, 0, 2)) {
+    case 0:
+      light["sphere"] = {{"center", draw_place(drawing, 0.7)}, {"radius", r}};
+      break;
+    case 1:
+      light["disc"] = {
+          {"center", draw_place(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
+      break;
+    default:
+      light["quad"] = {{"corner", draw_place(drawing, 0.7)},
+                       {"edge_u", {0, r, 0}},
+                       {"edge_v", {r * decades(random, 1e-3, 1), r * uniform(random, -1, 1), 0}}};
+  }
+  light["emission"] = draw_emission(drawing, "area");
+  if (!light.contains("sphere") && chance(random, 0.5)) light["two_sided"] = true;
+  const Matter& matter = one_of(random, drawing.matter);
+  if (!matter.entered && chance(random, 0.4)) light["material"] = matter.name;
+  return light;
+}
+
+Json small_light(Drawing& drawing) {
+  Random& random = drawing.random;
+  Json light;
+  if (chance(random, 0.5))
+    light["point"] = {{"at", draw_place(drawing, 0.7)}};
+  else
+    light["spot"] = {{"at", draw_place(drawing, 0.7)},
+                     {"direction", draw_direction(drawing)},
+                     {"half_angle_deg", decades(random, 0.1, 180)}};
+  light["emission"] = draw_emission(drawing, "place");
+  return light;
+}
+
+Json far_light(Drawing& drawing) {
+  Random& random = drawing.random;
+  Json light;
+  if (chance(random, 0.5)) {
+    light["directional"] = {{"towards", draw_direction(drawing)}};
+    light["emission"] = draw_emission(drawing, "directional");
+  } else {
+    light["sun"] = {{"towards", draw_direction(drawing)},
+                    {"angular_diameter_deg", decades(random, 0.01, 60)}};
+    light["emission"] = draw_emission(drawing, "sun");
+  }
+  return light;
+}
+
+Json environment(Drawing& drawing) {
+  Json light{{"environment", Json::object()}, {"emission", draw_emission(drawing, "environment")}};
+  if (chance(drawing.random, 0.4))
+    light["environment"] = {{"image", draw_image(drawing, {"R", "G", "B"}, 0, 1)},
+                            {"up", draw_direction(drawing)},
+                            {"rotate_deg", uniform(drawing.random, -360, 360)}};
+  return light;
+}
+
+// What would be seen if a ray came out of the box.
+Json outside_light(Drawing& drawing) {
+  const Json emission{
+      {"spectrum", {{"band", {kInsideBelow + 50, 1100}}, {"value", 1e3 * drawing.brightness}}}};
+  if (chance(drawing.random, 0.7)) return {{"environment", Json::object()}, {"emission", emission}};
+  return {{"sun", {{"towards", draw_direction(drawing)}, {"angular_diameter_deg", 60}}},
+          {"emission", emission}};
+}
+
+}  // namespace
+
+void draw_lights(Drawing& drawing) {
+  Random& random = drawing.random;
+  Json& lights = drawing.scene["lights"];
+  lights = Json::array();
+  for (int i = integer(random, 1, 3); i > 0; --i) {
+    const double kind = uniform(random, 0, 1);
+    lights.push_back(kind < 0.5                      ? area_light(drawing)
+                     : drawing.closed || kind < 0.75 ? small_light(drawing)
+                                                     : far_light(drawing));
+  }
+  if (drawing.closed)
+    lights.push_back(outside_light(drawing));
+  else if (chance(random, 0.5))
+    lights.push_back(environment(drawing));
+}
+
+}  // namespace abbe::soak

@@ -1,0 +1,203 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "validation/bench/soak/drawing.h"
+
+namespace abbe::soak {
+namespace {
+
+Json dielectric_index(Random& random) {
+  switch (integer(random, 0, 7)) {
+    case 0:
+      return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
+    case 1:
+      return decades(random, 0.05, 20);
+    case 2:
+      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, 10)}};
+    default:
+      return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
+  }
+}
+
+Json metal_index(Random& random) {
+  if (chance(random, 0.3))
+    return {{"n", chance(random, 0.2) ? 0 : decades(random, 1e-3, 100)},
+            {"k", chance(random, 0.2) ? 0 : decades(random, 1e-3, 100)}};
+  return one_of(random, {"Ag_Johnson", "Au_Johnson", "Al_Rakic", "Cu_Babar", "Cr_Johnson", "Si_Green-2008"});
+}
+
+Json layers(Random& random) {
+  Json all = Json::array();
+  for (int i = integer(random, 1, 3); i > 0; --i) {
+    Json layer{{"ior", chance(random, 0.8) ? dielectric_index(random) : Json("Ti_Palm")},
+               {"thickness_nm", decades(random, 1e-2, 1e5)}};
+    if (chance(random, 0.3))
+      all.push_back(
+          {{"repeat", integer(random, 1, 12)}, {"layers", {layer, {{"ior", 1.38}, {"thickness_nm", 99.6}}}}});
+    else
+      all.push_back(layer);
+  }
+  return all;
+}
+
+double alpha(Random& random) {
+  return chance(random, 0.1) ? one_of(random, {0.0, 1e-3, 1.0}) : decades(random, 1e-4, 1);
+}
+
+// A width of slopes, for both directions or each.
+Json roughness(Random& random, bool& varies) {
+  if (chance(random, 0.6))
+    return {{"alpha", alpha(random)}, {"distribution", one_of(random, {"ggx", "beckmann"})}};
+  varies = true;
+  const double along = decades(random, 2e-3, 1);
+  return {along, std::clamp(along * decades(random, 0.06, 16), 2e-3, 1.0)};
+}
+
+// Per metre: optical depths across the box from next to nothing to opaque, grey or coloured.
+Json coefficient(Drawing& drawing, double most_depth) {
+  Random& random = drawing.random;
+  const double one = decades(random, 1e-8, most_depth) / (2 * drawing.size * drawing.unit_m);
+  if (chance(random, 0.2)) return 0;
+  return chance(random, 0.5) ? Json(one) : draw_curve(drawing, one);
+}
+
+Json phase(Random& random) {
+  if (chance(random, 0.4)) return one_of(random, {"isotropic", "rayleigh"});
+  return {{"henyey_greenstein", chance(random, 0.3) ? one_of(random, {-0.9999, 0.0, 0.999, 0.9999})
+                                                    : uniform(random, -0.95, 0.95)}};
+}
+
+constexpr double kMostScattering = 30;  // optical depths: paths within deeper matter take for ever
+constexpr double kMostAbsorption = 1e6;
+
+Json dielectric(Drawing& drawing, Matter& matter) {
+  Random& random = drawing.random;
+  Json glass{{"ior", dielectric_index(random)}};
+  if (glass["ior"].is_number() && chance(random, 0.4))
+    glass["absorption_per_m"] = coefficient(drawing, kMostAbsorption);
+  if (chance(random, 0.3)) {
+    glass["scattering_per_m"] = coefficient(drawing, kMostScattering);
+    glass["phase"] = phase(random);
+  }
+  if (chance(random, 0.2))
+    glass["coating"] = layers(random);
+  else if (chance(random, 0.4))
+    glass["roughness"] = roughness(random, matter.needs_surface_uv);
+  return glass;
+}
+
+Json medium(Drawing& drawing) {
+  Random& random = drawing.random;
+  Json fog{{"absorption_per_m", coefficient(drawing, kMostAbsorption)},
+           {"scattering_per_m", coefficient(drawing, kMostScattering)},
+           {"phase", phase(random)}};
+  if (chance(random, 0.3)) {
+    Json to = draw_place(drawing, 0.2);
+    Json from = to;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      from[axis] = from[axis].get<double>() - drawing.size * decades(random, 0.01, 1);
+      to[axis] = to[axis].get<double>() + drawing.size * decades(random, 0.01, 1);
+    }
+    fog["grid"] = {{"densities", draw_densities(drawing)}, {"from", from}, {"to", to}};
+  }
+  return fog;
+}
+
+Json conductor(Random& random, Matter& matter) {
+  Json metal{{"ior", metal_index(random)}};
+  if (chance(random, 0.2))
+    metal["coating"] = layers(random);
+  else if (chance(random, 0.6))
+    metal["roughness"] = roughness(random, matter.needs_surface_uv);
+  return metal;
+}
+
+Json thin_glass(Drawing& drawing) {
+  Random& random = drawing.random;
+  Json pane{{"ior", decades(random, 1, 4)}, {"thickness", drawing.size * decades(random, 1e-6, 1e-1)}};
+  if (chance(random, 0.5)) pane["absorption_per_m"] = coefficient(drawing, kMostAbsorption);
+  return pane;
+}
+
+Json principled(Drawing& drawing, Matter& matter) {
+  Json paint{{"base_color", draw_reflectance(drawing, matter.needs_surface_uv)}};
+  for (const char* key : {"metallic", "roughness", "specular", "sheen", "clearcoat", "clearcoat_gloss"})
+    if (chance(drawing.random, 0.6))
+      paint[key] =
+          chance(drawing.random, 0.2) ? one_of(drawing.random, {0.0, 1.0}) : uniform(drawing.random, 0, 1);
+  return paint;
+}
+
+// Models that are a reflectance and perhaps one number more.
+Json reflecting(Drawing& drawing, Matter& matter, const std::string& model) {
+  Random& random = drawing.random;
+  Json surface{{"reflectance", draw_reflectance(drawing, matter.needs_surface_uv)}};
+  if (model == "oren_nayar") surface["sigma_deg"] = uniform(random, 0, 90);
+  if (model == "coated_diffuse") surface["ior"] = decades(random, 1, 3);
+  if (model == "cosine_power" || model == "phong" || model == "retroreflector")
+    surface["exponent"] = chance(random, 0.2) ? 0 : decades(random, 0.1, 1e4);
+  if (model == "cosine_power" && chance(random, 0.5)) surface["reciprocal"] = true;
+  return surface;
+}
+
+// Parts side by side, of what there is and light does not enter.
+Json mixture(Drawing& drawing, Matter& matter) {
+  Json parts = Json::array();
+  for (const Matter& other : drawing.matter) {
+    if (!other.mixes || parts.size() >= 3) continue;
+    parts.push_back({{"material", other.name}, {"weight", draw_curve(drawing, 1.0 / 3)}});
+    matter.needs_surface_uv |= other.needs_surface_uv;
+  }
+  return parts;
+}
+
+Json model(Drawing& drawing, Matter& matter, const std::string& name) {
+  if (name == "dielectric") return dielectric(drawing, matter);
+  if (name == "medium") return medium(drawing);
+  if (name == "conductor") return conductor(drawing.random, matter);
+  if (name == "film") return {{"layers", layers(drawing.random)}};
+  if (name == "thin_glass") return thin_glass(drawing);
+  if (name == "principled") return principled(drawing, matter);
+  if (name == "mixture") return mixture(drawing, matter);
+  if (name == "schlick" && chance(drawing.random, 0.5)) return {{"ior", metal_index(drawing.random)}};
+  return reflecting(drawing, matter, name);
+}
+
+void add_relief(Drawing& drawing, Json& material, Matter& matter) {
+  matter.needs_surface_uv = true;
+  if (chance(drawing.random, 0.5))
+    material["normal_map"] = {{"image", draw_image(drawing, {"R", "G", "B"}, 0.51, 1)}};
+  else
+    material["bump_map"] = {{"image", draw_image(drawing, {"Y"}, -1, 1)},
+                            {"height", drawing.size * decades(drawing.random, 1e-6, 1e-1)}};
+}
+
+void add(Drawing& drawing, const std::string& name) {
+  Matter matter{fmt::format("{}{}", name, drawing.matter.size())};
+  matter.entered = name == "dielectric" || name == "medium";
+  matter.mixes = !matter.entered && name != "film" && name != "mixture";
+  Json material;
+  material[name] = model(drawing, matter, name);
+  if (name == "dielectric" && chance(drawing.random, 0.5))
+    material["priority"] = integer(drawing.random, -2, 2);
+  if (name != "medium" && drawing.matter.size() > 0 && chance(drawing.random, 0.15)) {
+    add_relief(drawing, material, matter);
+    matter.mixes = false;
+  }
+  drawing.scene["materials"][matter.name] = material;
+  drawing.matter.push_back(matter);
+}
+
+}  // namespace
+
+void draw_matter(Drawing& drawing) {
+  add(drawing, "diffuse");  // which a mixture may be made of
+  for (int i = integer(drawing.random, 1, 6); i > 0; --i)
+    add(drawing, one_of(drawing.random,
+                        {"diffuse", "dielectric", "dielectric", "dielectric", "conductor", "conductor",
+                         "medium", "film", "mirror", "oren_nayar", "coated_diffuse", "thin_glass",
+                         "principled", "mixture", "schlick", "cosine_power", "phong", "retroreflector"}));
+}
+
+}  // namespace abbe::soak

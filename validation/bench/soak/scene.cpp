@@ -1,0 +1,48 @@
+#include "validation/bench/soak/scene.h"
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+#include "validation/bench/soak/drawing.h"
+
+namespace abbe::soak {
+namespace {
+
+// How large the scene is and where it stands.
+void draw_place_of_all(Drawing& drawing) {
+  Random& random = drawing.random;
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  const Unit unit = one_of(random, {Unit{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}});
+  drawing.scene["units"] = unit.name;
+  drawing.unit_m = unit.metres;
+  drawing.size = decades(random, 1e-2, 1e5);
+  if (chance(random, 0.5))
+    for (double& x : drawing.middle) x = drawing.size * decades(random, 1e-3, 1e3) * one_of(random, {-1, 1});
+}
+
+}  // namespace
+
+DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder) {
+  Drawing drawing;
+  drawing.random.seed(seed);
+  drawing.folder = folder;
+  drawing.closed = chance(drawing.random, 0.3);
+  drawing.signed_response = chance(drawing.random, 0.1);
+  drawing.brightness = decades(drawing.random, 1e-15, 1e15);
+  drawing.scene["abbe"] = 1;
+  draw_place_of_all(drawing);
+  draw_matter(drawing);
+  draw_shapes(drawing);
+  draw_sensor(drawing);
+  draw_camera(drawing);
+  draw_lights(drawing);
+  draw_render(drawing);
+  const std::filesystem::path path = folder / fmt::format("soak_{}.json", seed);
+  write_atomically(path, drawing.scene.dump(1) + "\n");
+  return {path, drawing.closed, drawing.signed_response};
+}
+
+}  // namespace abbe::soak

@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "validation/bench/soak/drawing.h"
+
+namespace abbe::soak {
+namespace {
+
+using Point = std::array<double, 3>;
+
+// The corners of [-x, x] x [-y, y] x [-z, z], and the triangles of its faces, counter-clockwise from outside.
+Json box_mesh(const Point& half) {
+  Json vertices = Json::array();
+  for (const double x : {-half[0], half[0]})
+    for (const double y : {-half[1], half[1]})
+      for (const double z : {-half[2], half[2]}) vertices.push_back({x, y, z});
+  const Json triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  return {{"vertices", vertices}, {"triangles", triangles}};
+}
+
+// Corners on the three axes.
+Json octahedron(const Point& half) {
+  Json vertices = Json::array();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double sign : {1, -1}) {
+      Point corner{0, 0, 0};
+      corner[axis] = sign * half[axis];
+      vertices.push_back(corner);
+    }
+  Json triangles = Json::array();
+  for (int x : {0, 1})
+    for (int y : {2, 3})
+      for (int z : {4, 5}) {
+        const bool outward = (x + y + z) % 2 == 0;
+        triangles.push_back({x, outward ? y : z, outward ? z : y});
+      }
+  return {{"vertices", vertices}, {"triangles", triangles}};
+}
+
+// Triangles anywhere, thin ones and ones that share an edge or all of their places.
+Json rubble(Random& random, double half) {
+  Json vertices = Json::array();
+  const int count = integer(random, 3, 30);
+  for (int i = 0; i < count; ++i)
+    vertices.push_back({half * uniform(random, -1, 1), half * uniform(random, -1, 1),
+                        half * uniform(random, -1, 1) * decades(random, 1e-6, 1)});
+  Json triangles = Json::array();
+  for (int i = 0; i + 2 < count; ++i) triangles.push_back({i, i + 1, i + 2});
+  if (chance(random, 0.5)) triangles.push_back(triangles.front());
+  return {{"vertices", vertices}, {"triangles", triangles}};
+}
+
+Json rotation(Drawing& drawing) {
+  const double angle = chance(drawing.random, 0.3) ? one_of(drawing.random, {0.0, 90.0, 45.0, 180.0})
+                                                   : uniform(drawing.random, -360, 360);
+  return {{"axis", draw_direction(drawing)}, {"deg", angle}};
+}
+
+Json draw_target(Drawing& drawing) {
+  drawing.targets.push_back(draw_place(drawing, 0.8));
+  return drawing.targets.back();
+}
+
+// A shape around its own origin, about `half` large, put at its place.
+Json placed(Drawing& drawing, Json shape) {
+  Json transform;
+  if (chance(drawing.random, 0.6)) transform["rotate"] = rotation(drawing);
+  transform["translate"] = draw_target(drawing);
+  shape["transform"] = transform;
+  return shape;
+}
+
+Json solid_mesh(Drawing& drawing, double half) {
+  Random& random = drawing.random;
+  const Point sides{half, half * decades(random, 0.05, 1), half * decades(random, 0.05, 1)};
+  return {{"mesh", chance(random, 0.5) ? box_mesh(sides) : octahedron(sides)}};
+}
+
+Json mesh_file(Drawing& drawing, double half) {
+  Json shape{{"mesh", draw_mesh_file(drawing)}};
+  shape["transform"] = {{"scale", half}, {"rotate", rotation(drawing)}, {"translate", draw_target(drawing)}};
+  return shape;
+}
+
+Json curved(Drawing& drawing, double half) {
+  return {{"sphere", {{"center", draw_target(drawing)}, {"radius", half}}}};
+}
+
+Json flat(Drawing& drawing, double half) {
+  Random& random = drawing.random;
+  if (chance(random, 0.5))
+    return {
+        {"disc", {{"center", draw_target(drawing)}, {"normal", draw_direction(drawing)}, {"radius", half}}}};
+  return placed(drawing,
+                {{"quad",
+                  {{"corner", {0, 0, 0}},
+                   {"edge_u", {half, 0, 0}},
+                   {"edge_v", {half * uniform(random, -1, 1), half * decades(random, 1e-3, 1), 0}}}}});
+}
+
+Json prism(Drawing& drawing, double half) {
+  return placed(drawing, {{"prism",
+                           {{"apex_deg", uniform(drawing.random, 5, 170)},
+                            {"side", half},
+                            {"length", half * decades(drawing.random, 0.05, 5)}}}});
+}
+
+}  // namespace
+
+Json draw_shape(Drawing& drawing, const Matter& matter) {
+  Random& random = drawing.random;
+  const bool large = chance(random, 0.7);
+  const double half = drawing.size * decades(random, large ? 0.05 : matter.entered ? 1e-3 : 1e-4, 1);
+  Json shape;
+  switch (integer(random, 0, 6)) {
+    case 0:
+      shape = prism(drawing, half);
+      break;
+    case 1:
+      shape = matter.needs_surface_uv ? curved(drawing, half) : placed(drawing, solid_mesh(drawing, half));
+      break;
+    case 2:
+      shape = matter.needs_surface_uv ? prism(drawing, half) : mesh_file(drawing, half);
+      break;
+    case 3:
+      shape = matter.entered ? curved(drawing, half) : flat(drawing, half);
+      break;
+    case 4:
+      shape = matter.entered || matter.needs_surface_uv ? curved(drawing, half)
+                                                        : placed(drawing, {{"mesh", rubble(random, half)}});
+      break;
+    default:
+      shape = curved(drawing, half);
+  }
+  shape["material"] = matter.name;
+  return shape;
+}
+
+namespace {
+
+Json wall_material(Drawing& drawing) {
+  Random& random = drawing.random;
+  if (chance(random, 0.15)) return {{"mirror", {{"reflectance", uniform(random, 0, 0.99)}}}};
+  if (chance(random, 0.15)) return {{"conductor", {{"ior", "Al_Rakic"}, {"roughness", 0.2}}}};
+  return {{"diffuse", {{"reflectance", one_of(random, {0.0, 0.5, 0.95, 1.0})}}}};
+}
+
+// Six quads that reach beyond their common edges, one mesh, or a ball.
+void add_walls(Drawing& drawing) {
+  Random& random = drawing.random;
+  drawing.scene["materials"]["wall"] = wall_material(drawing);
+  Json& shapes = drawing.scene["shapes"];
+  const double s = drawing.size;
+  const Point& m = drawing.middle;
+  const int kind = integer(random, 0, 2);
+  if (kind == 0) {
+    shapes.push_back({{"sphere", {{"center", m}, {"radius", s * std::sqrt(3)}}}, {"material", "wall"}});
+  } else if (kind == 1) {
+    shapes.push_back(
+        {{"mesh", box_mesh({s, s, s})}, {"material", "wall"}, {"transform", {{"translate", m}}}});
+  } else {
+    const double beyond = s * (1 + decades(random, 1e-4, 1));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1, 1}) {
+        Point corner{m[0] - beyond, m[1] - beyond, m[2] - beyond};
+        corner[axis] = m[axis] + sign * s;
+        Point u{0, 0, 0};
+        Point v{0, 0, 0};
+        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 2 * beyond;
+        shapes.push_back(
+            {{"quad", {{"corner", corner}, {"edge_u", u}, {"edge_v", v}}}, {"material", "wall"}});
+      }
+  }
+}
+
+void add_ground(Drawing& drawing) {
+  const double s = drawing.size * decades(drawing.random, 1, 100);
+  const Point& m = drawing.middle;
+  drawing.scene["shapes"].push_back({{"quad",
+                                      {{"corner", {m[0] - s, m[1] - s, m[2] - drawing.size}},
+                                       {"edge_u", {2 * s, 0, 0}},
+                                       {"edge_v", {0, 2 * s, 0}}}},
+                                     {"material", drawing.matter.front().name}});
+}
+
+// Matter in matter: balls within each other, or boxes that touch, some of them at the very same places.
+void add_nest(Drawing& drawing) {
+  Random& random = drawing.random;
+  std::vector<Matter> entered;
+  for (const Matter& matter : drawing.matter)
+    if (matter.entered && !matter.needs_surface_uv) entered.push_back(matter);
+  if (entered.empty()) return;
+  Json& shapes = drawing.scene["shapes"];
+  const Json center = draw_place(drawing, 0.5);
+  double half = drawing.size * decades(random, 1e-2, 0.7);
+  const bool boxes = chance(random, 0.5);
+  Point shift{0, 0, 0};
+  for (int i = integer(random, 2, 6); i > 0; --i) {
+    Point at{};
+    for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = center[axis].get<double>() + shift[axis];
+    Json shape = boxes ? Json{{"mesh", box_mesh({half, half, half})}, {"transform", {{"translate", at}}}}
+                       : Json{{"sphere", {{"center", at}, {"radius", half}}}};
+    shape["material"] = one_of(random, entered).name;
+    shapes.push_back(shape);
+    if (boxes && chance(random, 0.4))
+      shift[static_cast<std::size_t>(integer(random, 0, 2))] += 2 * half * one_of(random, {-1, 1});
+    else if (chance(random, 0.7))
+      half *= chance(random, 0.3) ? 1 - decades(random, 1e-9, 1e-1) : uniform(random, 0.2, 1);
+  }
+}
+
+Json affine(Drawing& drawing) {
+  Random& random = drawing.random;
+  Json step;
+  if (chance(random, 0.5))
+    step["scale"] = {decades(random, 0.1, 3), -decades(random, 0.1, 3), decades(random, 0.1, 3)};
+  else
+    step["scale"] = decades(random, 0.1, 3);
+  step["rotate"] = rotation(drawing);
+  Json away = Json::array();
+  for (int axis = 0; axis < 3; ++axis) away.push_back(0.3 * drawing.size * uniform(random, -1, 1));
+  step["translate"] = away;
+  // About the middle of the scene, from which nothing is far.
+  Json to_origin = Json::array();
+  for (const double x : drawing.middle) to_origin.push_back(-x);
+  return {{{"translate", to_origin}}, step, {{"translate", drawing.middle}}};
+}
+
+void add_instances(Drawing& drawing) {
+  Json& object = drawing.scene["objects"]["thing"]["shapes"];
+  for (int i = integer(drawing.random, 1, 2); i > 0; --i)
+    object.push_back(draw_shape(drawing, one_of(drawing.random, drawing.matter)));
+  for (int i = integer(drawing.random, 1, 4); i > 0; --i)
+    drawing.scene["shapes"].push_back({{"instance", {{"of", "thing"}, {"transform", affine(drawing)}}}});
+}
+
+void add_chart(Drawing& drawing) {
+  const double s = drawing.size;
+  drawing.scene["shapes"].push_back({{"name", "chart"},
+                                     {"chart",
+                                      {{"reflectances", "colorchecker24_ohta1997"},
+                                       {"corner", draw_place(drawing, 0.3)},
+                                       {"edge_u", {0.3 * s, 0.1 * s, 0}},
+                                       {"edge_v", {-0.05 * s, 0.15 * s, 0.2 * s}}}}});
+}
+
+// A ball of matter around camera and all, as fog is; within the walls of a closed box.
+void add_fog(Drawing& drawing) {
+  for (const Matter& matter : drawing.matter) {
+    if (!matter.name.starts_with("medium")) continue;
+    drawing.scene["shapes"].push_back(
+        {{"sphere", {{"center", drawing.middle}, {"radius", (drawing.closed ? 1.7 : 4) * drawing.size}}},
+         {"material", matter.name}});
+    return;
+  }
+}
+
+}  // namespace
+
+void draw_shapes(Drawing& drawing) {
+  Random& random = drawing.random;
+  drawing.scene["shapes"] = Json::array();
+  if (drawing.closed)
+    add_walls(drawing);
+  else if (chance(random, 0.6))
+    add_ground(drawing);
+  for (int i = integer(random, 1, 7); i > 0; --i) {
+    const Matter& matter = one_of(random, drawing.matter);
+    Json shape = draw_shape(drawing, matter);
+    if (!matter.entered && chance(random, 0.15)) {
+      shape["emission"] = draw_emission(drawing, "area");
+      if (!shape.contains("sphere") && !shape.contains("prism") && chance(random, 0.5))
+        shape["two_sided"] = true;
+    }
+    drawing.scene["shapes"].push_back(shape);
+  }
+  if (chance(random, 0.4)) add_nest(drawing);
+  if (chance(random, 0.3)) add_instances(drawing);
+  if (chance(random, 0.1)) add_chart(drawing);
+  if (chance(random, 0.3)) add_fog(drawing);
+}
+
+}  // namespace abbe::soak
