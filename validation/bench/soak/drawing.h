@@ -46,19 +46,21 @@ struct Drawing {
 [[nodiscard]] Json draw_curve(Drawing& drawing, double most);
 /// A reflectance in [0, 1], as a curve or an image. Sets `varies` for an image.
 [[nodiscard]] Json draw_reflectance(Drawing& drawing, bool& varies);
-/// A direction of any length.
+/// A direction of any length, often along an axis or in a plane of axes.
 [[nodiscard]] Json draw_direction(Drawing& drawing);
 /// A place at most `share` of the box's half width from its middle, on each axis.
 [[nodiscard]] Json draw_place(Drawing& drawing, double share);
 
-/// A path to a file of random content within the folder, made for the call: a film of linear R, G, B in
-/// [low, high], heights, densities, and closed meshes, whose own radius is 1.
+/// Each writes a file of drawn content to the folder and returns its name. Throws Error{output}.
+/// An image of a few pixels, whose channels have values in [low, high).
 [[nodiscard]] std::string draw_image(Drawing& drawing, const std::vector<std::string>& channels, double low,
                                      double high);
+/// A grid of densities in [0, 1), many of them 0.
 [[nodiscard]] std::string draw_densities(Drawing& drawing);
+/// A closed mesh of radius 1 around the origin, as PLY or OBJ.
 [[nodiscard]] std::string draw_mesh_file(Drawing& drawing);
 
-/// Fill the parts of the scene, in this order.
+/// Draw one part of the scene each; they build on each other in this order.
 void draw_matter(Drawing& drawing);
 void draw_shapes(Drawing& drawing);
 void draw_sensor(Drawing& drawing);
