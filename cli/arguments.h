@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/description/load.h"
+#include "description/load.h"
 #include "transport/render/render.h"
 
 namespace abbe::cli {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "description/load.h"
 #include "io/inputs.h"
-#include "scene/description/load.h"
 
 namespace abbe::cli {
 

@@ -9,7 +9,7 @@
 #include "cli/film_output.h"
 #include "cli/warnings.h"
 #include "cli/white.h"
-#include "scene/description/load.h"
+#include "description/load.h"
 #include "transport/plan/plan.h"
 
 namespace abbe::cli {

@@ -9,7 +9,7 @@
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/picture.h"
-#include "scene/description/load_material.h"
+#include "description/load_material.h"
 #include "spectral/library.h"
 #include "validation/lab/map.h"
 #include "validation/lab/measure.h"

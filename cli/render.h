@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "calibration/output/display.h"
+#include "description/load.h"
 #include "io/inputs.h"
-#include "scene/description/load.h"
 #include "transport/render/render.h"
 
 namespace abbe::cli {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "scene/description/load.h"
+#include "description/load.h"
 #include "transport/path/ray_trace.h"
 
 namespace abbe::cli {

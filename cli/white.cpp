@@ -7,9 +7,9 @@
 
 #include "calibration/output/color_spaces.h"
 #include "cli/answer.h"
+#include "description/white.h"
 #include "io/standard_stream.h"
 #include "scene/colors.h"
-#include "scene/description/white.h"
 #include "sensor/film/recorded_white.h"
 #include "transport/render/white.h"
 

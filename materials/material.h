@@ -10,7 +10,7 @@
 #include "materials/model/principled.h"
 #include "materials/model/rough.h"
 #include "materials/model/smooth.h"
-#include "materials/model/teaching.h"
+#include "materials/model/classic.h"
 #include "materials/texture/relief.h"
 
 namespace abbe {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "description.h"
 #include "scene/chart/readout.h"
 #include "scene/shapes/quad.h"
+#include "tests/description/description.h"
 
 namespace abbe {
 namespace {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "description.h"
 #include "io/exr.h"
 #include "scene/lights/environment_image.h"
 #include "scenes.h"
+#include "tests/description/description.h"
 
 namespace abbe {
 namespace {

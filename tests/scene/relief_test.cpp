@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh_files.h"
 #include "scene/shapes/placed.h"
 #include "scene/surface.h"
 #include "scenes.h"
+#include "tests/description/mesh_files.h"
 
 namespace abbe {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh_files.h"
 #include "meshes.h"
+#include "tests/description/mesh_files.h"
 
 namespace abbe {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "gltf_asset.h"
-#include "mesh_files.h"
 #include "meshes.h"
 #include "scene/shapes/placed.h"
 #include "scene/surface.h"
 #include "scenes.h"
+#include "tests/description/gltf_asset.h"
+#include "tests/description/mesh_files.h"
 
 namespace abbe {
 namespace {

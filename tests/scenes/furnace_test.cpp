@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/description/load_material.h"
+#include "description/load_material.h"
 #include "tests/scenes/scene_fixture.h"
 
 namespace abbe {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/data_directory.h"
-#include "scene/description/load.h"
+#include "description/load.h"
 #include "transport/render/render.h"
 
 namespace abbe::test {

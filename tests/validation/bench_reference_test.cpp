@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "description/meshes/mesh_file.h"
 #include "scene/shapes/mesh.h"
-#include "scene/shapes/mesh_file.h"
 #include "spectral/colorimetry.h"
 #include "tests/validation/bench_runs.h"
 #include "validation/bench/meshes.h"

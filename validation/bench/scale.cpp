@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "description/load.h"
 #include "io/atomic_file.h"
-#include "scene/description/load.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/render.h"
 #include "transport/render/replay.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/description/load.h"
+#include "description/load.h"
 
 namespace abbe {
 

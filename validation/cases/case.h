@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "description/load.h"
 #include "io/image.h"
-#include "scene/description/load.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {

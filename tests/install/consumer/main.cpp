@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "calibration/output/display.h"
+#include "description/load.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
 #include "materials/index/library.h"
-#include "scene/description/load.h"
 #include "sensor/response/channel.h"
 #include "transport/render/render.h"
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "description/load.h"
 #include "io/error.h"
-#include "scene/description/load.h"
 #include "transport/render/render.h"
 #include "validation/bench/soak/drawing.h"
 #include "validation/bench/soak/traps.h"

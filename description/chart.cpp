@@ -1,0 +1,124 @@
+// A colour chart as a scene object: a grid of patches with measured reflectances on a dark surround.
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/curve.h"
+#include "description/shape.h"
+#include "description/values.h"
+#include "spectral/chart.h"
+
+namespace abbe::description {
+namespace {
+
+constexpr std::size_t kColumns = 6;
+constexpr double kPatchShare = 0.86;  // of a cell's edge, as on a ColorChecker Classic
+constexpr double kSurround = 0.035;   // reflectance of its black plastic
+
+// The rectangle that all cells fill, upright as the reader sees it: `corner` at its lower left.
+struct Grid {
+  Quad quad;
+  std::size_t rows;
+
+  // Where line number `i` of 2 per cell lies along an edge of `cells` cells, as a share of it.
+  [[nodiscard]] static double line(std::size_t i, std::size_t cells) {
+    const auto n = static_cast<double>(cells);
+    if (i == 0) return 0;
+    if (i == 2 * cells + 1) return 1;
+    const double margin = (1 - kPatchShare) / 2;
+    const std::size_t cell = (i - 1) / 2;
+    return (static_cast<double>(cell) + (i % 2 == 1 ? margin : 1 - margin)) / n;
+  }
+  [[nodiscard]] Imath::V3d at(std::size_t i, std::size_t j) const {
+    return quad.corner + quad.edge_u * line(i, kColumns) + quad.edge_v * line(j, rows);
+  }
+};
+
+// The lines of the first edge of a patch, which counts row by row from the top left.
+std::pair<std::size_t, std::size_t> lines_of(std::size_t patch, std::size_t rows) {
+  return {2 * (patch % kColumns) + 1, 2 * (rows - 1 - patch / kColumns) + 1};
+}
+
+Quad patch_quad(const Grid& grid, std::size_t patch) {
+  const auto [i, j] = lines_of(patch, grid.rows);
+  const Imath::V3d corner = grid.at(i, j);
+  return {corner, grid.at(i + 1, j) - corner, grid.at(i, j + 1) - corner};
+}
+
+// All between the patches, and the cells of a last row that has no patch.
+Mesh surround_mesh(const Grid& grid, std::size_t patches) {
+  const std::size_t columns = 2 * kColumns + 2;
+  const std::size_t rows = 2 * grid.rows + 2;
+  std::vector<bool> taken(columns * rows, false);
+  for (std::size_t patch = 0; patch < patches; ++patch) {
+    const auto [i, j] = lines_of(patch, grid.rows);
+    taken[j * columns + i] = true;
+  }
+  Mesh mesh;
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i < columns; ++i) mesh.vertices.push_back(grid.at(i, j));
+  for (std::size_t j = 0; j + 1 < rows; ++j)
+    for (std::size_t i = 0; i + 1 < columns; ++i) {
+      if (taken[j * columns + i]) continue;
+      const auto a = static_cast<std::uint32_t>(j * columns + i);
+      const auto above = static_cast<std::uint32_t>(a + columns);
+      mesh.triangles.push_back({a, a + 1, above});
+      mesh.triangles.push_back({above + 1, above, a + 1});
+    }
+  return mesh;
+}
+
+// Index of a diffuse material, made when its name is new.
+std::uint32_t diffuse_material(const std::string& name, Curve reflectance, LoadContext& context,
+                               Scene& scene) {
+  const auto [known, added] =
+      context.materials.emplace(name, static_cast<std::uint32_t>(scene.materials.size()));
+  if (added) scene.materials.push_back({name, DiffuseMaterial{std::move(reflectance)}});
+  return known->second;
+}
+
+bool check_reflectances(const Chart& chart, const JsonValue& at, const LoadContext& context) {
+  for (const Patch& patch : chart.patches) {
+    if (patch.reflectance.min() >= 0 && patch.reflectance.max() <= 1) continue;
+    context.diagnostics.error(
+        at.where, fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed [0, 1])",
+                              patch.name, patch.reflectance.min(), patch.reflectance.max()));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Part> read_chart(const JsonValue& json, const std::string& name, LoadContext& context,
+                             Scene& scene) {
+  ObjectReader reader(json, context.diagnostics);
+  const JsonValue* table = reader.require("reflectances");
+  const auto corner = read_point(reader, "corner", context);
+  const auto edge_u = read_point(reader, "edge_u", context);
+  const auto edge_v = read_point(reader, "edge_v", context);
+  const JsonValue* dark = reader.find("surround");
+  reader.finish();
+  const auto surround = dark ? read_curve(*dark, {"reflectance", Range::unit()}, context) : Curve(kSurround);
+  const auto file = table ? context.table(*table) : std::nullopt;
+  const auto chart = file ? load_chart(*file, table->where, context.diagnostics) : std::nullopt;
+  if (!chart || !corner || !edge_u || !edge_v || !surround || !check_reflectances(*chart, *table, context))
+    return {};
+  if (edge_u->cross(*edge_v).length() == 0) {
+    context.diagnostics.error(json.where, "edge_u and edge_v are parallel: a chart of zero area");
+    return {};
+  }
+  const std::size_t patches = chart->patches.size();
+  const Grid grid{{*corner, *edge_u, *edge_v}, (patches + kColumns - 1) / kColumns};
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < patches; ++i) {
+    const Patch& patch = chart->patches[i];
+    parts.push_back({name + "/" + patch.name, patch_quad(grid, i),
+                     diffuse_material(*file + ":" + patch.name, patch.reflectance, context, scene)});
+  }
+  parts.push_back({name + "/surround", surround_mesh(grid, patches),
+                   diffuse_material(name + "/surround", *surround, context, scene)});
+  return parts;
+}
+
+}  // namespace abbe::description

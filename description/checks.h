@@ -1,0 +1,17 @@
+#pragma once
+
+#include "description/load_context.h"
+#include "scene/scene.h"
+
+namespace abbe::description {
+
+/// Warns of every lamp that emits nothing the sensor sees.
+void check_lamps(const LoadContext& context, const Scene& scene);
+
+/// Reports what floats cannot tell apart, once the scene is recentred: a shape with matter inside, or a mesh
+/// that emits, only few float steps large where it stands, and a view of little more than one direction.
+void check_precision(const JsonValue& root, const LoadContext& context, const Scene& scene);
+/// Warns of every index used beyond the wavelengths it holds for.
+void check_validity(const JsonValue& json, const LoadContext& context, const Scene& scene);
+
+}  // namespace abbe::description

@@ -1,0 +1,74 @@
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/light.h"
+#include "description/values.h"
+#include "io/picture.h"
+
+namespace abbe::description {
+namespace {
+
+// The planes of red, green and blue; one plane of luminance serves for all three.
+std::optional<std::array<const ImageChannel*, 3>> find_planes(const Image& image) {
+  const auto plane = [&image](const char* name) { return image.find(name); };
+  if (plane("Y") && !plane("R")) return std::array{plane("Y"), plane("Y"), plane("Y")};
+  const std::array planes{plane("R"), plane("G"), plane("B")};
+  if (!planes[0] || !planes[1] || !planes[2]) return std::nullopt;
+  return planes;
+}
+
+}  // namespace
+
+std::optional<Sky> read_sky(const JsonValue& json, LoadContext& context) {
+  ObjectReader reader(json, context.diagnostics);
+  const JsonValue* name_value = reader.find("image");
+  const auto name = name_value ? read_string(*name_value, context.diagnostics) : std::nullopt;
+  const auto up = reader.find("up") ? read_direction(reader, "up", context) : Imath::V3d(0, 0, 1);
+  const double turn = reader.number_or("rotate_deg", 0, kValue);
+  reader.finish();
+  if (!name_value) {
+    for (const char* key : {"up", "rotate_deg"})
+      if (const JsonValue* given = json.find(key))
+        context.diagnostics.error(given->where, fmt::format("{} turns an image, and there is none", key));
+    return Sky{};
+  }
+  const auto path = name ? context.file(*name, name_value->where) : std::nullopt;
+  if (!path || !up) return std::nullopt;
+  const auto refuse = [&](const std::string& what) {
+    context.diagnostics.error(name_value->where, fmt::format("environment \"{}\": {}", *name, what),
+                              ErrorCode::input);
+    return std::nullopt;
+  };
+  const std::string extension = path->extension().string();
+  if (extension != ".exr" && extension != ".hdr")
+    return refuse(fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", extension));
+  const Image image = read_image(*path, context.inputs);
+  const HeldMemory held(context.inputs, image.memory_bytes());
+  const auto planes = find_planes(image);
+  if (!planes) return refuse("no channels R, G, B or Y");
+  // Texels, and the cumulative distribution by which they are drawn.
+  context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
+  Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
+          environment_frame(*up, turn)};
+  std::size_t negative = 0;
+  for (std::size_t i = 0; i < image.pixels(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = (*planes)[c]->values[i];
+      if (!kPower.contains(std::abs(static_cast<double>(value))))
+        return refuse(fmt::format("texel ({}, {}) (got {}, allowed {})",
+                                  i % static_cast<std::size_t>(image.width),
+                                  i / static_cast<std::size_t>(image.width), value, kPower.text()));
+      negative += value < 0;
+      sky.texels[i][c] = std::max(value, 0.0F);
+    }
+  if (negative > 0)
+    context.diagnostics.warning(
+        name_value->where,
+        fmt::format("environment \"{}\": negative values taken as 0: {}", *name, negative));
+  return sky;
+}
+
+}  // namespace abbe::description

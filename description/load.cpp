@@ -1,0 +1,245 @@
+#include "description/load.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/camera.h"
+#include "description/checks.h"
+#include "description/light.h"
+#include "description/material.h"
+#include "description/object.h"
+#include "description/sensor.h"
+#include "description/shape.h"
+#include "description/values.h"
+#include "description/white.h"
+#include "io/standard_stream.h"
+#include "io/text.h"
+#include "materials/index/library.h"
+#include "scene/colors.h"
+#include "scene/extent.h"
+#include "scene/shapes/placed.h"
+
+namespace abbe {
+namespace description {
+namespace {
+
+constexpr double kFormatVersion = 1;
+constexpr Range kCount{1, 16777216};  // samples: as many as a float counts exactly
+
+// False for a scene of another version, whose other errors are not ours to tell.
+bool check_version(ObjectReader& reader, LoadContext& context) {
+  const JsonValue* json = reader.require("abbe");
+  if (!json) return true;
+  const auto version = read_number(*json, Range::any(), context.diagnostics);
+  if (!version || *version == kFormatVersion) return true;
+  const std::string_view what =
+      *version > kFormatVersion ? "future version of the scene format" : "no version of the scene format";
+  context.diagnostics.error(json->where,
+                            fmt::format("{} (got {}, allowed {})", what, *version, kFormatVersion));
+  return false;
+}
+
+void read_units(ObjectReader& reader, LoadContext& context) {
+  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
+  const JsonValue* json = reader.find("units");
+  if (!json) return;
+  if (const auto unit =
+          read_choice(*json, "unit of length", {"m", "cm", "mm", "um", "in"}, context.diagnostics))
+    context.unit_m = kMetres.at(*unit);
+}
+
+Integrator read_integrator(ObjectReader& reader, LoadContext& context) {
+  constexpr std::array kIntegrators{Integrator::automatic, Integrator::path, Integrator::light};
+  const JsonValue* json = reader.find("integrator");
+  const auto choice =
+      json ? read_choice(*json, "integrator", {"auto", "path", "light"}, context.diagnostics) : std::nullopt;
+  return kIntegrators.at(choice.value_or(0));
+}
+
+RenderSettings read_render(const JsonValue& json, LoadContext& context) {
+  RenderSettings render;
+  ObjectReader reader(json, context.diagnostics);
+  render.integrator = read_integrator(reader, context);
+  if (const auto n = reader.integer("samples", kCount)) render.samples = static_cast<int>(*n);
+  if (const auto n = reader.integer("max_depth", {1, 100000})) render.max_depth = static_cast<int>(*n);
+  if (const auto n = reader.integer("roulette_depth", {-1, 10000}))
+    render.roulette_depth = static_cast<int>(*n);
+  if (render.roulette_depth < 0 && !reader.find("max_depth"))
+    context.diagnostics.error(json.find("roulette_depth")->where,
+                              "ends no path, so that max_depth must (got -1 without a max_depth)");
+  if (const auto n = reader.integer("seed", {0, 9007199254740992.0}))
+    render.seed = static_cast<std::uint64_t>(*n);
+  reader.finish();
+  return render;
+}
+
+std::optional<White> read_white(const JsonValue& json, LoadContext& context, const Scene& scene) {
+  WhiteNames names = white_names(scene.lights, context.diagnostics);
+  names.illuminant = [&context](const JsonValue& name) { return context.table(name); };
+  return read_white(json, names, context.diagnostics);
+}
+
+OutputSettings read_output(const JsonValue& json, LoadContext& context, const Scene& scene) {
+  OutputSettings output;
+  ObjectReader reader(json, context.diagnostics);
+  if (const auto path = reader.string("image")) output.image = *path;
+  if (const auto path = reader.string("display")) output.display = *path;
+  output.display_exposure = reader.number("exposure", {0, 1e30, true, false});
+  if (const JsonValue* white = reader.find("white")) {
+    output.white = read_white(*white, context, scene);
+    if (!has_colors(scene)) {
+      context.diagnostics.warning(
+          white->where, "a white without effect: the sensor has neither three channels nor a spectrum");
+      output.white.reset();
+    }
+  }
+  reader.finish();
+  return output;
+}
+
+// Moves the scene so that (0, 0, 0), where floats are finest, is where they are to be; everything up to here
+// is in double.
+void recentre(Scene& scene, LoadContext& context) {
+  const std::vector<Imath::V3d>& light_positions = context.light_positions;
+  scene.origin_m = extent_of(scene.camera, scene.shapes).origin;
+  for (ShapeInstance& instance : scene.shapes)
+    std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
+  for (const auto& at : context.placements)
+    *at = placement(at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+  for (Material& material : scene.materials)
+    if (auto* medium = std::get_if<MediumMaterial>(&material.model); medium && medium->filling.grid) {
+      medium->filling.grid->from -= scene.origin_m;
+      medium->filling.grid->to -= scene.origin_m;
+    }
+  position(scene.camera) -= scene.origin_m;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Imath::V3f at(light_positions[i] - scene.origin_m);
+    if (auto* point = std::get_if<PointLight>(&scene.lights[i].kind)) point->position = at;
+    if (auto* spot = std::get_if<SpotLight>(&scene.lights[i].kind)) spot->position = at;
+  }
+}
+
+std::string hash(const SourceText& source, std::span<const Override> overrides, const LoadContext& context) {
+  std::string all = sha256(source.text);
+  for (const Override& o : overrides) all += sha256(o.pointer) + sha256(o.value);
+  for (const std::filesystem::path& path : context.files) {
+    std::ifstream stream(path, std::ios::binary);
+    all += sha256(std::string(std::istreambuf_iterator<char>(stream), {}));
+  }
+  return sha256(all);
+}
+
+Scene read_scene(const JsonValue& root, LoadContext& context) {
+  Scene scene{};
+  ObjectReader reader(root, context.diagnostics);
+  if (!check_version(reader, context)) return scene;
+  read_units(reader, context);
+  scene.unit_m = context.unit_m;
+  const JsonValue* camera = reader.require("camera");
+  const JsonValue* materials = reader.find("materials");
+  Sensor sensor;
+  if (const JsonValue* json = reader.require("sensor")) {
+    sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), context);
+    scene.sensor_text = to_text(*json);
+  }
+  if (camera)
+    if (const auto found = read_camera(*camera, sensor, context)) scene.camera = *found;
+  scene.exposure_s = sensor.exposure_s;
+  scene.readout = sensor.readout;
+  scene.fill_factor = sensor.fill_factor;
+  scene.mosaic = std::move(sensor.mosaic);
+  scene.spectral = sensor.spectral;
+  scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
+  for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
+  if (materials) read_materials(*materials, context, scene);
+  if (const JsonValue* json = reader.find("objects")) read_objects(*json, context, scene);
+  if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, context, scene);
+  if (const JsonValue* json = reader.find("lights")) read_lights(*json, context, scene);
+  if (const JsonValue* json = reader.find("render")) scene.render = read_render(*json, context);
+  if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, context, scene);
+  reader.finish();
+  if (context.diagnostics.has_errors()) return scene;
+  if (materials) check_validity(*materials, context, scene);
+  check_lamps(context, scene);
+  if (scene.lights.empty())
+    context.diagnostics.error_if_strict(root.where, "no light: the image will be black");
+  return scene;
+}
+
+}  // namespace
+
+const JsonValue::Array* read_array(const JsonValue& json, std::string_view what, std::size_t least,
+                                   const LoadContext& context) {
+  const auto* array = std::get_if<JsonValue::Array>(&json.value);
+  if (array && array->size() >= least) return array;
+  context.diagnostics.error(
+      json.where, fmt::format("expected an array of {} (got {})", what,
+                              array ? fmt::format("{} of them, allowed [{}, inf)", array->size(), least)
+                                    : std::string(json.kind())));
+  return nullptr;
+}
+
+std::optional<std::filesystem::path> LoadContext::file(const std::string& name, const SourcePosition& where) {
+  if (name.find("://") != std::string::npos) {
+    diagnostics.error(where, fmt::format("expected a file (got the URL \"{}\")", name), ErrorCode::input);
+    return std::nullopt;
+  }
+  remember(folder / name);
+  return files.back();
+}
+
+void LoadContext::remember(const std::filesystem::path& file) {
+  files.push_back(file);
+  if (inputs != nullptr) inputs->add_file(file);
+}
+
+void LoadContext::take_memory(const std::string& what, std::size_t bytes) const {
+  if (inputs != nullptr) inputs->take_memory(what, bytes);
+}
+
+std::optional<std::string> LoadContext::table(const JsonValue& json) {
+  constexpr std::string_view kExtension = ".csv";  // which a column may follow
+  std::optional<std::string> name = read_string(json, diagnostics);
+  if (!name) return std::nullopt;
+  const std::size_t dot = name->find(kExtension);
+  if (dot == std::string::npos && !name->ends_with(".json") && !is_refractiveindex_info(*name)) return name;
+  const std::size_t end = dot == std::string::npos ? name->size() : dot + kExtension.size();
+  const auto path = file(name->substr(0, end), json.where);
+  if (!path) return std::nullopt;
+  return path->string() + name->substr(end);
+}
+
+}  // namespace description
+
+std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
+                                Diagnostics& diagnostics, Inputs* inputs) {
+  // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
+  std::error_code error;
+  const bool there = std::filesystem::is_regular_file(path, error);
+  const auto source = path == kStandardStream
+                          ? read_standard_input(diagnostics, ErrorCode::scene)
+                          : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  if (!source) return std::nullopt;
+  if (inputs && path != kStandardStream) inputs->add_file(path);
+  std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (!root) return std::nullopt;
+  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
+  description::LoadContext context{diagnostics, path.parent_path(), inputs};
+  Scene scene = description::read_scene(*root, context);
+  if (diagnostics.has_errors()) return std::nullopt;
+  description::recentre(scene, context);
+  description::check_precision(*root, context, scene);
+  if (diagnostics.has_errors()) return std::nullopt;
+  scene.sha256 = description::hash(*source, overrides, context);
+  scene.commit();
+  return scene;
+}
+
+}  // namespace abbe

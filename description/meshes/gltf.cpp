@@ -1,0 +1,339 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <ImathMatrix.h>
+#include <ImathQuat.h>
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include "description/meshes/gltf_material.h"
+#include "description/meshes/gltf_numbers.h"
+#include "description/meshes/mesh_formats.h"
+#include "io/json.h"
+#include "io/text.h"
+#include "scene/shapes/placed.h"
+
+namespace abbe {
+namespace {
+
+std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+// The JSON of a .gltf or .glb. The library does not count the 8 bytes that head a GLB's second chunk, and
+// would read as many beyond its end.
+std::optional<std::string_view> json_of(std::string_view bytes) {
+  constexpr std::size_t kHeaders = 20;  // of the file and its first chunk
+  constexpr std::size_t kHeader = 8;
+  if (!bytes.starts_with("glTF")) return bytes;
+  if (bytes.size() < kHeaders || word_at(bytes, kHeader) < kHeaders || word_at(bytes, kHeader) > bytes.size())
+    return std::nullopt;
+  const std::string_view rest = bytes.substr(kHeaders, word_at(bytes, kHeader) - kHeaders);
+  const std::size_t json = word_at(bytes, 12);
+  if (json > rest.size()) return std::nullopt;
+  if (rest.size() >= json + kHeader && word_at(rest, json) > rest.size() - json - kHeader)
+    return std::nullopt;
+  return rest.substr(0, json);
+}
+
+// What the library takes for granted: JSON nested so little that its recursion ends, of a length that an int
+// holds, and, because each gets a copy, one buffer without a name at most.
+bool sound(std::string_view bytes, MeshReading& reading) {
+  const auto json = json_of(bytes);
+  if (!json) return reading.refuse("malformed or truncated GLB");
+  if (bytes.size() > std::numeric_limits<std::uint32_t>::max() ||
+      json->size() > std::numeric_limits<std::int32_t>::max())
+    return reading.refuse("file too large");
+  if (valid_prefix(*json) != json->size()) return reading.refuse("its JSON is no UTF-8 text");
+  Diagnostics diagnostics;
+  const auto root = parse_json(
+      std::make_shared<const SourceText>(SourceText{reading.path.string(), std::string(*json)}), diagnostics);
+  if (!root) return reading.refuse("malformed JSON: " + diagnostics.all()[0].message);
+  const JsonValue* list = root->find("buffers");
+  const auto* buffers = list ? std::get_if<JsonValue::Array>(&list->value) : nullptr;
+  if (buffers && std::count_if(buffers->begin(), buffers->end(),
+                               [](const JsonValue& buffer) { return !buffer.find("uri"); }) > 1)
+    return reading.refuse("more than one buffer has no uri");
+  return true;
+}
+
+/// What the library's callbacks know. It tries names as they are, for it has been given no folder.
+struct Files {
+  MeshReading& reading;
+  const tinygltf::Model& model;
+};
+// Buffers are read before anything else, images after views; images are not needed.
+bool file_wanted(const std::string& /*name*/, void* user) {
+  return static_cast<Files*>(user)->model.bufferViews.empty();
+}
+std::string same_name(const std::string& name, void* /*user*/) {
+  return name;
+}
+bool read_file(std::vector<unsigned char>* to, std::string* /*error*/, const std::string& name, void* user) {
+  std::string bytes;
+  if (!read_named_bytes(name, bytes, static_cast<Files*>(user)->reading)) return false;
+  to->assign(bytes.begin(), bytes.end());
+  return true;
+}
+bool ignore_image(tinygltf::Image* /*image*/, int /*number*/, std::string* /*error*/,
+                  std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* /*bytes*/,
+                  int /*size*/, void* /*user*/) {
+  return true;
+}
+
+bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading) {
+  if (!sound(bytes, reading)) return false;
+  Files files{reading, model};
+  tinygltf::TinyGLTF library;
+  library.SetFsCallbacks({file_wanted, same_name, read_file, nullptr, &files});
+  library.SetImageLoader(ignore_image, nullptr);
+  const auto size = static_cast<unsigned>(bytes.size());
+  std::string error;
+  std::string warning;
+  try {
+    if (bytes.starts_with("glTF"))
+      library.LoadBinaryFromMemory(&model, &error, &warning,
+                                   reinterpret_cast<const unsigned char*>(bytes.data()), size);
+    else
+      library.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+  } catch (const Error&) {  // of memory
+    throw;
+  } catch (const std::exception& fault) {  // of JSON, or an empty buffer
+    if (dynamic_cast<const std::bad_alloc*>(&fault)) throw;
+    error += fault.what();
+  }
+  if (!reading.fault.empty()) return false;
+  // It reads on after some complaints, of what is lost by then and, alone of them, of what the format allows.
+  constexpr std::string_view kAllowed = "'inverseBindMatrices' property is missing in Skin.\n";
+  for (std::size_t at = 0; (at = error.find(kAllowed)) != std::string::npos;)
+    error.erase(at, kAllowed.size());
+  constexpr std::size_t kLine = 200;  // it may repeat all of a buffer
+  error = error.substr(0, std::min(error.find('\n'), kLine));
+  if (!error.empty()) return reading.refuse(error.substr(0, valid_prefix(error)));
+  if (!model.asset.version.starts_with("2.")) return reading.refuse("no glTF 2.0 asset");
+  for (const std::string& extension : model.extensionsRequired)
+    if (!extension.starts_with("KHR_materials_"))
+      return reading.refuse(fmt::format("it requires the extension {}, which is not read", extension));
+  return true;
+}
+
+/// What nodes have put together so far, by material.
+using Parts = std::map<std::optional<std::size_t>, Mesh>;
+
+/// Those of a primitive's vertices: none when it has none, or nobody wants them. False after a fault.
+bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                      std::vector<Imath::V2f>& coordinates, MeshReading& reading) {
+  const auto named = primitive.attributes.find("TEXCOORD_0");
+  if (reading.coordinates == FileCoordinates::ignored || named == primitive.attributes.end()) return true;
+  const auto numbers = numbers_of(model, named->second, TINYGLTF_TYPE_VEC2, reading);
+  if (!numbers) return false;
+  if (numbers->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+      numbers->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+      numbers->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    return reading.refuse("texture coordinates must be floats, bytes or shorts");
+  for (std::size_t i = 0; i < numbers->count; ++i) {
+    coordinates.push_back(coordinates_at(*numbers, i));
+    if (!std::isfinite(coordinates.back().x) || !std::isfinite(coordinates.back().y))
+      return reading.refuse(fmt::format("texture coordinates of vertex {} are not finite", i));
+  }
+  return true;
+}
+
+/// Those of a primitive's vertices, moved as these are: none when it has none. False after a fault.
+bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
+                  std::vector<Imath::V3f>& normals, MeshReading& reading) {
+  const auto named = primitive.attributes.find("NORMAL");
+  if (named == primitive.attributes.end()) return true;
+  const auto numbers = numbers_of(model, named->second, TINYGLTF_TYPE_VEC3, reading);
+  if (!numbers) return false;
+  if (numbers->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    return reading.refuse("normals must be floats");
+  const Placement at = placement(map);
+  for (std::size_t i = 0; i < numbers->count; ++i)
+    normals.push_back(unit_normal(normal_to_world(at, vector_at(*numbers, i))));
+  return true;
+}
+
+// How a primitive's vertices follow each other in triangles; nothing for points and lines.
+std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
+  std::vector<std::array<std::size_t, 3>> triangles;
+  if (mode == TINYGLTF_MODE_TRIANGLES)
+    for (std::size_t i = 0; i + 2 < count; i += 3) triangles.push_back({i, i + 1, i + 2});
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+    for (std::size_t i = 0; i + 2 < count; ++i) triangles.push_back({i, i + 1 + i % 2, i + 2 - i % 2});
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+    for (std::size_t i = 1; i + 1 < count; ++i) triangles.push_back({i, i + 1, 0});
+  return triangles;
+}
+
+// Those of a triangle's corners, the next of the mesh's; what came before without is zero. False after a
+// fault.
+bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
+                 const std::vector<Imath::V3f>& normals, Mesh& mesh, MeshReading& reading) {
+  mesh.normals.resize(mesh.triangles.size());
+  auto& corners = mesh.normals.emplace_back();
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners.at(i) = normals[triangle.at(i) - base];
+    if (corners.at(i) == Imath::V3f(0))
+      return reading.refuse(fmt::format("the normal of vertex {} has no direction", triangle.at(i) - base));
+  }
+  return true;
+}
+
+bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
+                   Parts& parts, MeshReading& reading) {
+  const auto named = primitive.attributes.find("POSITION");
+  const auto positions = numbers_of(model, named == primitive.attributes.end() ? -1 : named->second,
+                                    TINYGLTF_TYPE_VEC3, reading);
+  if (!positions) return false;
+  if (positions->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    return reading.refuse("positions must be floats");
+  std::optional<GltfNumbers> indices;
+  if (primitive.indices >= 0) {
+    indices = numbers_of(model, primitive.indices, TINYGLTF_TYPE_SCALAR, reading);
+    if (!indices) return false;
+    if (indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+      return reading.refuse("indices must be integers >= 0");
+  }
+  std::optional<std::size_t> material;
+  if (reading.materials == FileMaterials::wanted && primitive.material >= 0)
+    material = static_cast<std::size_t>(primitive.material);
+  Mesh& mesh = parts[material];
+  const std::size_t base = mesh.vertices.size();
+  const auto triangles = corners(primitive.mode, indices ? indices->count : positions->count);
+  if (static_cast<double>(mesh.triangles.size() + triangles.size()) > kMaxTriangles ||
+      static_cast<double>(base + positions->count) > kMaxTriangles)
+    return reading.refuse(fmt::format("too many triangles (allowed {})", kMaxTriangles));
+  reading.make_room(mesh.vertices, positions->count);
+  reading.make_room(mesh.triangles, triangles.size());
+  for (std::size_t i = 0; i < positions->count; ++i) mesh.vertices.push_back(vector_at(*positions, i) * map);
+  std::vector<Imath::V2f> coordinates;
+  if (!read_coordinates(model, primitive, coordinates, reading)) return false;
+  if (!coordinates.empty() && coordinates.size() != positions->count)
+    return reading.refuse("as many texture coordinates as positions are needed");
+  std::vector<Imath::V3f> normals;
+  if (!read_normals(model, primitive, map, normals, reading)) return false;
+  if (!normals.empty() && normals.size() != positions->count)
+    return reading.refuse(fmt::format("as many normals as positions are needed (got {}, allowed {})",
+                                      normals.size(), positions->count));
+  if (!coordinates.empty()) reading.make_room(mesh.coordinates, triangles.size());
+  if (!normals.empty())
+    reading.make_room(mesh.normals, mesh.triangles.size() - mesh.normals.size() + triangles.size());
+  const bool mirror = map.determinant() < 0;
+  for (std::array<std::size_t, 3> triangle : triangles) {
+    for (std::size_t& corner : triangle) {
+      if (indices) corner = index_at(*indices, corner);
+      if (corner >= positions->count)
+        return reading.refuse(
+            fmt::format("an index names a vertex that does not exist (got {}, allowed [0, {}])", corner,
+                        positions->count - 1));
+      corner += base;
+    }
+    if (mirror) std::swap(triangle[1], triangle[2]);
+    if (!coordinates.empty())
+      mesh.coordinates.push_back({coordinates[triangle[0] - base], coordinates[triangle[1] - base],
+                                  coordinates[triangle[2] - base]});
+    if (!normals.empty() && !add_normals(triangle, base, normals, mesh, reading)) return false;
+    mesh.triangles.push_back({static_cast<std::uint32_t>(triangle[0]),
+                              static_cast<std::uint32_t>(triangle[1]),
+                              static_cast<std::uint32_t>(triangle[2])});
+  }
+  return true;
+}
+
+// For row vectors: scale, then rotation, then translation, or the matrix, whose columns the format lists.
+Imath::M44d local_map(const tinygltf::Node& node) {
+  Imath::M44d map;
+  if (node.matrix.size() == 16) {
+    std::copy(node.matrix.begin(), node.matrix.end(), map.getValue());
+    return map;
+  }
+  const std::vector<double>& s = node.scale;
+  const std::vector<double>& q = node.rotation;
+  const std::vector<double>& t = node.translation;
+  if (s.size() == 3) map = Imath::M44d().setScale(Imath::V3d(s[0], s[1], s[2]));
+  if (q.size() == 4) map = map * Imath::Quatd(q[3], q[0], q[1], q[2]).normalized().toMatrix44();
+  if (t.size() == 3) map = map * Imath::M44d().setTranslation(Imath::V3d(t[0], t[1], t[2]));
+  return map;
+}
+
+// Every mesh the scene's nodes place. Nodes form a tree: one reached twice would let a small file grow
+// without bound.
+bool walk(const tinygltf::Model& model, Parts& parts, MeshReading& reading) {
+  const auto* scene = at(model.scenes, std::max(model.defaultScene, 0));
+  if (!scene) return reading.refuse("it has no scene");
+  struct Visit {
+    int node;
+    Imath::M44d parent;
+  };
+  std::vector<Visit> visits;
+  const auto push = [&](const std::vector<int>& nodes, const Imath::M44d& parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) visits.push_back({*node, parent});
+  };
+  std::vector<bool> seen(model.nodes.size(), false);
+  push(scene->nodes, Imath::M44d());
+  while (!visits.empty()) {
+    const Visit visit = visits.back();
+    visits.pop_back();
+    const auto* node = at(model.nodes, visit.node);
+    if (!node) return reading.refuse("a node does not exist");
+    if (seen[static_cast<std::size_t>(visit.node)])
+      return reading.refuse(fmt::format("node {} is reached twice", visit.node));
+    seen[static_cast<std::size_t>(visit.node)] = true;
+    const Imath::M44d map = local_map(*node) * visit.parent;
+    if (node->mesh != -1) {
+      const auto* mesh = at(model.meshes, node->mesh);
+      if (!mesh) return reading.refuse("a mesh does not exist");
+      for (const tinygltf::Primitive& primitive : mesh->primitives)
+        if (!add_primitive(model, primitive, map, parts, reading)) return false;
+    }
+    push(node->children, map);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool read_gltf(std::string&& bytes, MeshReading& reading) {
+  tinygltf::Model model;
+  if (!load(bytes, model, reading)) return false;
+  bytes = {};
+  for (const auto& [count, what] :
+       {std::pair(model.lights.size(), "lights"), {model.cameras.size(), "cameras"}})
+    if (count > 0) reading.lost.push_back(fmt::format("its {} are not read ({} of them)", what, count));
+  Parts parts;
+  if (!walk(model, parts, reading)) return false;
+  if (reading.materials == FileMaterials::wanted) {
+    for (std::size_t i = 0; i < model.materials.size(); ++i)
+      if (!read_gltf_material(model.materials[i], i, reading)) return false;
+    if (parts.contains(std::nullopt)) {  // what the format says then
+      reading.file.materials.push_back({"default", {1, 1, 1}, std::nullopt, {"metallic 1"}});
+    }
+  }
+  for (auto& [material, mesh] : parts) {
+    if (mesh.triangles.empty()) continue;  // points and lines
+    if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();
+    if (!mesh.normals.empty()) mesh.normals.resize(mesh.triangles.size());
+    const std::size_t last = reading.file.materials.size();
+    const bool wanted = reading.materials == FileMaterials::wanted;
+    if (wanted && material && *material >= last) return reading.refuse("a material does not exist");
+    reading.file.parts.push_back(
+        {std::move(mesh), wanted ? std::optional(material.value_or(last - 1)) : std::nullopt});
+  }
+  return true;
+}
+
+}  // namespace abbe

@@ -1,0 +1,149 @@
+#include "description/meshes/mesh_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/meshes/mesh_formats.h"
+#include "scene/shapes/mesh.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+bool read_format(std::string&& bytes, MeshReading& reading) {
+  const std::string extension = extension_of(reading.path);
+  if (extension == ".obj") return read_obj(std::move(bytes), reading);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(std::move(bytes), reading);
+  return read_ply(std::move(bytes), reading);
+}
+
+// Moves the triangles without area to the slivers, and says how many there are.
+std::size_t drop_slivers(Mesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!(area_vector(mesh, i).length() > 0)) {
+      mesh.slivers.push_back(mesh.triangles[i]);
+      continue;
+    }
+    if (!mesh.coordinates.empty()) mesh.coordinates[kept] = mesh.coordinates[i];
+    if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[i];
+    mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.coordinates.empty()) mesh.coordinates.resize(kept);
+  if (!mesh.normals.empty()) mesh.normals.resize(kept);
+  return mesh.slivers.size();
+}
+
+// Readers leave the corners zero to which the file gives no normal.
+void complete_normals(Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    std::array<Imath::V3f, 3>& corners = mesh.normals[i];
+    const auto missing = [](const Imath::V3f& normal) { return normal == Imath::V3f(0); };
+    if (std::any_of(corners.begin(), corners.end(), missing))
+      corners.fill(Imath::V3f(area_vector(mesh, i).normalized()));
+  }
+}
+
+bool known_format(const std::filesystem::path& path) {
+  return brings_materials(path) || extension_of(path) == ".ply";
+}
+
+}  // namespace
+
+bool brings_materials(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
+
+std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
+                                           HeldMemory& held) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return error ? "no such file" : "not a regular file";
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size > kMaxFileBytes) return "file too large";
+  held.take_more(path.string(), static_cast<std::size_t>(size));
+  std::ifstream stream(path, std::ios::binary);
+  bytes.resize(static_cast<std::size_t>(size));
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) return "cannot read the file";
+  return std::nullopt;
+}
+
+bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading) {
+  const std::filesystem::path relative(name);
+  const bool leaves = relative.is_absolute() || name.find("://") != std::string::npos ||
+                      name.find('\\') != std::string::npos || name.find('\0') != std::string::npos ||
+                      std::find(relative.begin(), relative.end(), "..") != relative.end();
+  if (name.empty() || leaves)
+    return reading.refuse(fmt::format("it may name files beside it only (got \"{}\")", name));
+  const std::filesystem::path path = reading.path.parent_path() / relative;
+  if (const auto fault = read_mesh_bytes(path, bytes, reading.held))
+    return reading.refuse(fmt::format("\"{}\", which it names: {}", name, *fault));
+  reading.file.others.push_back(path);
+  return true;
+}
+
+std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMaterials materials,
+                                       const SourcePosition& where, Diagnostics& diagnostics,
+                                       FileCoordinates coordinates, Inputs* inputs) {
+  const auto refuse = [&](const std::string& message) {
+    diagnostics.error(where, fmt::format("mesh \"{}\": {}", path.string(), message), ErrorCode::input);
+    return std::nullopt;
+  };
+  MeshReading reading{path, materials, coordinates, {}, {}, {}, {inputs, 0}};
+  std::string bytes;
+  if (const auto fault = read_mesh_bytes(path, bytes, reading.held)) return refuse(*fault);
+  if (!known_format(path))
+    return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .obj, .gltf, .glb)",
+                              path.extension().string()));
+  if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
+  if (reading.file.parts.empty()) return refuse("no faces");
+  for (MeshFile::Part& part : reading.file.parts)
+    if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;
+  for (MeshFile::Part& part : reading.file.parts) complete_normals(part.mesh);
+  for (const std::string& lost : reading.lost)
+    diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), lost));
+  return std::move(reading.file);
+}
+
+bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Imath::V3d& v = mesh.vertices[i];
+    if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
+    diagnostics.error(where, fmt::format("vertex {} is not finite (got [{}, {}, {}])", i, v.x, v.y, v.z),
+                      ErrorCode::input);
+    return false;
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::uint32_t index = *std::max_element(mesh.triangles[i].begin(), mesh.triangles[i].end());
+    if (index < mesh.vertices.size()) continue;
+    diagnostics.error(where,
+                      fmt::format("triangle {} names a vertex that does not exist (got {}, allowed [0, {}])",
+                                  i, index, mesh.vertices.size() - 1),
+                      ErrorCode::input);
+    return false;
+  }
+  const std::size_t dropped = drop_slivers(mesh);
+  if (dropped > 0) diagnostics.warning(where, fmt::format("triangles of zero area dropped: {}", dropped));
+  if (!mesh.triangles.empty()) return true;
+  diagnostics.error(where, "a mesh without a triangle of any area", ErrorCode::input);
+  return false;
+}
+
+}  // namespace abbe

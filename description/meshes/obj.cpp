@@ -1,0 +1,326 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tiny_obj_loader.h>
+
+#include "description/meshes/mesh_formats.h"
+#include "io/diagnostics.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+/// Thrown out of the library, which knows no other way to stop; the fault is in the reading.
+struct Refused {};
+
+/// The faces of a material.
+struct Faces {
+  std::vector<Triangle> triangles;
+  std::vector<std::array<Imath::V2f, 3>> coordinates;
+  std::vector<std::array<Imath::V3f, 3>> normals;  // zero where a face has none
+};
+
+/// A file being read by the library, which calls back with what each line says.
+struct Obj {
+  MeshReading& reading;
+  std::istringstream stream;
+  std::vector<Imath::V3d> vertices;
+  std::vector<Imath::V2f> coordinates;
+  std::vector<Imath::V3f> normals;
+  std::map<std::optional<std::size_t>, Faces> faces;  // by material
+  std::optional<std::size_t> material;
+
+  /// What has been read, up to the end of the line that is called about.
+  [[nodiscard]] std::string_view read() const {
+    const auto end = stream.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in);
+    const std::string_view text = stream.view().substr(0, static_cast<std::size_t>(end));
+    return text.substr(0, text.find_last_not_of("\r\n") + 1);
+  }
+  /// Its words behind the first.
+  [[nodiscard]] std::string rest() const {
+    std::string_view line = read();
+    line.remove_prefix(line.find_last_of("\r\n") + 1);
+    return split(line.substr(line.find_first_of(" \t", line.find_first_not_of(" \t"))), '\n')[0];
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    const std::string_view text = read();
+    reading.refuse(fmt::format("line {}: {}", std::count(text.begin(), text.end(), '\n') + 1, what));
+    throw Refused();
+  }
+};
+
+// What comes before a "#" that follows a blank, without blanks at its ends.
+std::string without_comment(std::string_view text) {
+  const std::size_t hash = std::min(text.find(" #"), text.find("\t#"));
+  return split(text.substr(0, hash), '\n')[0];
+}
+
+// The library takes a comment behind numbers for numbers. Names may have a "#" in them.
+void erase_comments(std::string& bytes) {
+  std::size_t kept = 0;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size() - 1) + 1;
+    const std::string_view line = std::string_view(bytes).substr(begin, end - begin);
+    const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
+    const bool named = line.substr(key).starts_with("usemtl") || line.substr(key).starts_with("mtllib");
+    std::size_t length = named ? line.size() : std::min(line.find('#'), line.size());
+    while (!named && length < line.size() && length > 0 &&
+           (line[length - 1] == ' ' || line[length - 1] == '\t'))
+      --length;
+    const bool cut = length < line.size() && line.back() == '\n';
+    std::memmove(&bytes[kept], &bytes[begin], length);
+    kept += length;
+    if (cut) bytes[kept++] = '\n';
+    begin = end;
+  }
+  bytes.resize(kept);
+}
+
+// Numbers at the start of a text. The library takes for 0 what is none.
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  std::array<double, N> v{};
+  for (double& x : v) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
+    const auto number = parse_number(text.substr(0, end));
+    if (!number) return std::nullopt;
+    x = *number;
+    text.remove_prefix(end);
+  }
+  return v;
+}
+
+// What the library has read as three numbers; `what` names number `count` of those.
+void require_numbers(const Obj& obj, const Imath::V3d& v, const char* what, std::size_t count) {
+  const auto suspect = [](double x) { return x == 0 || !std::isfinite(x); };
+  if ((suspect(v.x) || suspect(v.y) || suspect(v.z)) && !numbers<3>(obj.rest()))
+    obj.refuse(fmt::format("{} {} needs three finite numbers (got {})", what, count, obj.rest()));
+}
+
+void take_vertex(void* user, double x, double y, double z, double /*w*/) {
+  Obj& obj = *static_cast<Obj*>(user);
+  require_numbers(obj, {x, y, z}, "vertex", obj.vertices.size() + 1);
+  obj.reading.make_room(obj.vertices, 1);
+  obj.vertices.emplace_back(x, y, z);
+}
+
+void take_normal(void* user, double x, double y, double z) {
+  Obj& obj = *static_cast<Obj*>(user);
+  require_numbers(obj, {x, y, z}, "vn", obj.normals.size() + 1);
+  obj.reading.make_room(obj.normals, 1);
+  obj.normals.push_back(unit_normal({x, y, z}));
+}
+
+void take_coordinates(void* user, double /*u*/, double /*v*/, double /*w*/) {
+  Obj& obj = *static_cast<Obj*>(user);
+  const auto at = numbers<2>(obj.rest());
+  const Imath::V2f uv = at ? Imath::V2f(Imath::V2d((*at)[0], (*at)[1])) : Imath::V2f(INFINITY);
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+    obj.refuse(fmt::format("texture coordinates need two finite numbers (got {})", obj.rest()));
+  obj.reading.make_room(obj.coordinates, 1);
+  obj.coordinates.push_back(uv);
+}
+
+// What a face names counts from 1, or back from the last.
+template <typename T>
+std::size_t position(const Obj& obj, const char* what, std::int64_t named, const std::vector<T>& list) {
+  const auto last = static_cast<std::int64_t>(list.size());
+  const std::int64_t number = named > 0 ? named : last + 1 + named;
+  if (named == 0 || number < 1 || number > last)
+    obj.refuse(fmt::format("no such {} (got {}, allowed [1, {}])", what, named, last));
+  return static_cast<std::size_t>(number - 1);
+}
+
+void take_face(void* user, tinyobj::index_t* indices, int count) {
+  Obj& obj = *static_cast<Obj*>(user);
+  if (count < 3) obj.refuse(fmt::format("a face of {} corners (allowed 3 or more)", count));
+  std::vector<std::uint32_t> polygon;
+  std::vector<Imath::V2f> coordinates;
+  std::vector<Imath::V3f> normals;
+  for (int i = 0; i < count; ++i) {
+    polygon.push_back(
+        static_cast<std::uint32_t>(position(obj, "vertex", indices[i].vertex_index, obj.vertices)));
+    const int named = indices[i].texcoord_index;
+    if (obj.reading.coordinates == FileCoordinates::wanted && named != 0)
+      coordinates.push_back(obj.coordinates[position(obj, "vt", named, obj.coordinates)]);
+    if (const int normal = indices[i].normal_index; normal != 0) {
+      const std::size_t number = position(obj, "vn", normal, obj.normals);
+      normals.push_back(obj.normals[number]);
+      if (normals.back() == Imath::V3f(0)) obj.refuse(fmt::format("vn {} has no direction", number + 1));
+    }
+  }
+  Faces& faces = obj.faces[obj.material];
+  const std::size_t more = polygon.size() - 2;
+  if (normals.size() == polygon.size()) {
+    obj.reading.make_room(faces.normals, faces.triangles.size() - faces.normals.size() + more);
+    faces.normals.resize(faces.triangles.size());
+    add_fan(normals, faces.normals);
+  }
+  obj.reading.make_room(faces.triangles, more);
+  add_fan(polygon, faces.triangles);
+  if (coordinates.size() != polygon.size()) return;
+  obj.reading.make_room(faces.coordinates, more);
+  add_fan(coordinates, faces.coordinates);
+}
+
+// A name may have blanks and "#" in it, so that a comment begins where no material would be named otherwise.
+void use_material(void* user, const char* name, int number) {
+  Obj& obj = *static_cast<Obj*>(user);
+  if (number >= 0) {
+    obj.material = static_cast<std::size_t>(number);
+    return;
+  }
+  std::vector<std::string> names;
+  for (const FileMaterial& material : obj.reading.file.materials) names.push_back(material.name);
+  const std::string said = without_comment(name);
+  const auto found = std::find(names.begin(), names.end(), said);
+  if (found == names.end()) obj.refuse(unknown_name("material", said, names));
+  obj.material = static_cast<std::size_t>(found - names.begin());
+}
+
+// What a material says beyond its colour, in the words of the format.
+std::vector<std::string> lost(const tinyobj::material_t& m) {
+  const auto some = [](const double(&color)[3]) { return color[0] != 0 || color[1] != 0 || color[2] != 0; };
+  const std::pair<const char*, bool> known[] = {{"Ka", some(m.ambient)},
+                                                {"Ks", some(m.specular)},
+                                                {"Ke", some(m.emission)},
+                                                {"Tf", some(m.transmittance)},
+                                                {"Ns", m.shininess != 1},
+                                                {"Ni", m.ior != 1},
+                                                {"d", m.dissolve != 1},
+                                                {"Pr", m.roughness != 0},
+                                                {"Pm", m.metallic != 0},
+                                                {"Ps", m.sheen != 0},
+                                                {"Pc", m.clearcoat_thickness != 0},
+                                                {"Pcr", m.clearcoat_roughness != 0},
+                                                {"aniso", m.anisotropy != 0},
+                                                {"anisor", m.anisotropy_rotation != 0},
+                                                {"map_Ka", !m.ambient_texname.empty()},
+                                                {"map_Kd", !m.diffuse_texname.empty()},
+                                                {"map_Ks", !m.specular_texname.empty()},
+                                                {"map_Ns", !m.specular_highlight_texname.empty()},
+                                                {"bump", !m.bump_texname.empty()},
+                                                {"disp", !m.displacement_texname.empty()},
+                                                {"map_d", !m.alpha_texname.empty()},
+                                                {"refl", !m.reflection_texname.empty()},
+                                                {"map_Pr", !m.roughness_texname.empty()},
+                                                {"map_Pm", !m.metallic_texname.empty()},
+                                                {"map_Ps", !m.sheen_texname.empty()},
+                                                {"map_Ke", !m.emissive_texname.empty()},
+                                                {"norm", !m.normal_texname.empty()}};
+  std::vector<std::string> words;
+  for (const auto& [word, said] : known)
+    if (said) words.emplace_back(word);
+  for (const auto& [word, value] : m.unknown_parameter) words.push_back(word);
+  return words;
+}
+
+// Whether every Kd is a colour: the library takes for 0 what is no number.
+bool check_colors(const std::string& name, const std::string& text, MeshReading& reading) {
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
+    if (line.compare(key, 2, "Kd") != 0) continue;
+    const std::string rest = split(std::string_view(line).substr(key + 2), '\n')[0];
+    const auto color = numbers<3>(rest);
+    if (!color || !std::all_of(color->begin(), color->end(), [](double x) { return x >= 0 && x <= 1; }))
+      return reading.refuse(
+          fmt::format("\"{}\" line {}: Kd (got {}, allowed three of [0, 1])", name, number, rest));
+  }
+  return true;
+}
+
+/// Reads the .mtl files that an .obj names, through the check of their paths.
+class MaterialFiles : public tinyobj::MaterialReader {
+ public:
+  explicit MaterialFiles(const Obj& obj) : obj_(obj) {}
+  // The library cuts a name at its blanks, and asks for the pieces one by one.
+  bool operator()(const std::string& /*piece*/, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* numbers, std::string* warning, std::string* error) override {
+    MeshReading& reading = obj_.reading;
+    const std::string name = without_comment(obj_.rest());
+    std::string text;
+    if (!read_named_bytes(name, text, reading) || !check_colors(name, text, reading)) throw Refused();
+    std::istringstream stream(std::move(text));
+    tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
+    for (std::size_t i = reading.file.materials.size(); i < materials->size(); ++i) {
+      const tinyobj::material_t& m = (*materials)[i];
+      if (m.name.empty()) obj_.refuse(fmt::format("\"{}\" has a material without a name", name));
+      reading.file.materials.push_back(
+          {m.name, {m.diffuse[0], m.diffuse[1], m.diffuse[2]}, std::nullopt, lost(m)});
+    }
+    return true;
+  }
+
+ private:
+  const Obj& obj_;
+};
+
+// The faces with the vertices they name and no others.
+Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces, MeshReading& reading) {
+  Mesh mesh;
+  std::unordered_map<std::uint32_t, std::uint32_t> renamed;
+  for (Triangle& triangle : faces.triangles)
+    for (std::uint32_t& corner : triangle) {
+      const auto [at, added] = renamed.emplace(corner, static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (added) {
+        reading.make_room(mesh.vertices, 1);
+        mesh.vertices.push_back(vertices[corner]);
+      }
+      corner = at->second;
+    }
+  mesh.triangles = std::move(faces.triangles);
+  mesh.coordinates = std::move(faces.coordinates);
+  mesh.normals = std::move(faces.normals);
+  return mesh;
+}
+
+}  // namespace
+
+bool read_obj(std::string&& bytes, MeshReading& reading) {
+  erase_comments(bytes);
+  Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}, {}};
+  MaterialFiles files(obj);
+  const bool wanted = reading.materials == FileMaterials::wanted;
+  tinyobj::callback_t take;
+  take.vertex_cb = take_vertex;
+  take.normal_cb = take_normal;
+  take.index_cb = take_face;
+  if (reading.coordinates == FileCoordinates::wanted) take.texcoord_cb = take_coordinates;
+  if (wanted) take.usemtl_cb = use_material;
+  try {
+    tinyobj::LoadObjWithCallback(obj.stream, take, &obj, wanted ? &files : nullptr);
+  } catch (const Refused&) {
+    return false;
+  }
+  for (auto& [material, faces] : obj.faces) {
+    if (faces.coordinates.size() < faces.triangles.size()) faces.coordinates.clear();
+    if (!faces.normals.empty()) faces.normals.resize(faces.triangles.size());
+  }
+  if (obj.faces.size() == 1) {
+    auto& [material, faces] = *obj.faces.begin();
+    reading.file.parts.push_back({{std::move(obj.vertices), std::move(faces.triangles),
+                                   std::move(faces.coordinates), std::move(faces.normals)},
+                                  material});
+    return true;
+  }
+  for (auto& [material, faces] : obj.faces)
+    reading.file.parts.push_back({compact(obj.vertices, std::move(faces), reading), material});
+  return true;
+}
+
+}  // namespace abbe

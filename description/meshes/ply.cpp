@@ -1,0 +1,183 @@
+// The library's assertions stand between a property of an unexpected type and a null pointer: they stay in
+// every build.
+#define CGAL_DEBUG
+// Its check of rounding modes, which nothing here relies on, would end the program under Valgrind, which has
+// none.
+#define CGAL_DISABLE_ROUNDING_MATH_CHECK
+#include <CGAL/IO/PLY.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <locale>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "description/meshes/mesh_formats.h"
+
+namespace abbe {
+namespace {
+
+using Points = std::vector<CGAL::Simple_cartesian<double>::Point_3>;
+using Polygons = std::vector<std::vector<std::uint32_t>>;
+
+/// What a header says of vertices and faces.
+struct Header {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  int normals = 0;  ///< How many of nx, ny and nz they have.
+};
+
+bool is_vertices(std::string_view element) {
+  return element == "vertex" || element == "vertices";
+}
+bool is_faces(std::string_view element) {
+  return element == "face" || element == "faces";
+}
+
+// Nothing unless the header has what the library takes for granted: an element before any property, known
+// types, a property of each element (else as many as the header likes would cost no bytes), and lists counted
+// in 8 or 16 bits, because room is made for a list before the first of its values is read.
+std::optional<Header> sound_header(std::istream& stream) {
+  constexpr std::array<std::string_view, 16> kTypes{
+      "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
+      "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
+  const auto* const long_types = kTypes.begin() + 8;
+  Header header;
+  bool vertices = false;
+  int elements = 0;
+  int properties = 1;  // of the last element
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    std::string key;
+    std::string type;
+    words >> key >> type;
+    if (key == "end_header") return properties > 0 ? std::optional(header) : std::nullopt;
+    if (key == "element") {
+      if (properties == 0) return std::nullopt;
+      properties = 0;
+      ++elements;
+      vertices = is_vertices(type);
+      if (vertices) words >> header.vertices;
+      if (is_faces(type)) words >> header.faces;
+    } else if (key == "property") {
+      std::string count = "char";
+      std::string name;
+      if (type == "list") words >> count >> type;
+      words >> name;
+      if (elements == 0 || std::find(kTypes.begin(), long_types, count) == long_types ||
+          std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end())
+        return std::nullopt;
+      ++properties;
+      if (vertices && (name == "nx" || name == "ny" || name == "nz")) ++header.normals;
+    }
+  }
+  return std::nullopt;
+}
+
+// Changes the header so that what it calls normals are positions, and what follows the vertices is a comment.
+void call_normals_positions(std::string& bytes) {
+  bool vertices = false;
+  bool past = false;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    std::istringstream words(bytes.substr(begin, end - begin));
+    std::string key, type, name;
+    words >> key >> type >> name;
+    if (key == "end_header") return;
+    if (key == "element") {
+      past = past || vertices;
+      vertices = is_vertices(type);
+    }
+    if (past && (key == "element" || key == "property")) bytes.replace(bytes.find(key, begin), 8, "comment ");
+    const std::size_t last = bytes.find_last_not_of(" \t\r", end - 1);
+    const bool named = vertices && key == "property";
+    if (named && (name == "x" || name == "y" || name == "z")) bytes[last] = '_';
+    if (named && (name == "nx" || name == "ny" || name == "nz")) bytes[last - 1] = ' ';
+    begin = end + 1;
+  }
+}
+
+// Counts what the library stores of so many vertices and faces, at most as many as the file has bytes.
+void take_memory(std::size_t vertices, std::size_t faces, std::size_t bytes, MeshReading& reading) {
+  constexpr std::size_t kFace = sizeof(Polygons::value_type) + sizeof(Triangle);
+  reading.held.take_more(reading.path.string(), std::min(vertices, bytes) * sizeof(Points::value_type) +
+                                                    std::min(faces, bytes) * kFace);
+}
+
+// Polygons stay empty where only vertices are asked for.
+bool read(std::istream& stream, const Header& header, Points& points, Polygons& polygons,
+          MeshReading& reading) {
+  stream.imbue(std::locale::classic());
+  try {
+    if (CGAL::IO::read_PLY(stream, points, polygons, CGAL::parameters::verbose(false))) return true;
+  } catch (const std::logic_error&) {  // an assertion, or a list of negative length
+    return reading.refuse("malformed PLY");
+  }
+  std::string word;
+  stream.clear();
+  if (points.size() < header.vertices && stream >> word)
+    return reading.refuse(
+        fmt::format("vertex {} needs finite numbers (got \"{}\")", points.size(), word.substr(0, 20)));
+  return reading.refuse("malformed PLY, or the header promises more than the file holds");
+}
+
+// Gives the corners of the triangles the normals of their vertices.
+bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshReading& reading) {
+  if (header.normals != 3) return reading.refuse("a normal needs nx, ny and nz");
+  take_memory(header.vertices, 0, bytes.size(), reading);
+  reading.make_room(mesh.normals, mesh.triangles.size());
+  call_normals_positions(bytes);
+  std::istringstream stream(std::move(bytes));
+  Points given;
+  Polygons none;
+  if (!read(stream, header, given, none, reading)) return false;
+  mesh.normals.resize(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t vertex = mesh.triangles[i].at(corner);
+      if (vertex >= given.size()) continue;  // reported with the triangle
+      Imath::V3f& normal = mesh.normals[i].at(corner);
+      normal = unit_normal({given[vertex].x(), given[vertex].y(), given[vertex].z()});
+      if (normal == Imath::V3f(0))
+        return reading.refuse(fmt::format("the normal of vertex {} has no direction", vertex));
+    }
+  return true;
+}
+
+}  // namespace
+
+bool read_ply(std::string&& bytes, MeshReading& reading) {
+  std::istringstream stream(std::move(bytes));
+  stream.imbue(std::locale::classic());
+  const auto header = sound_header(stream);
+  if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
+  take_memory(header->vertices, header->faces, stream.view().size(), reading);
+  stream.seekg(0);
+  Points points;
+  Polygons polygons;
+  if (!read(stream, *header, points, polygons, reading)) return false;
+  if (points.size() > std::numeric_limits<std::uint32_t>::max()) return reading.refuse("too many vertices");
+  Mesh mesh;
+  reading.make_room(mesh.vertices, points.size());
+  for (const auto& point : points) mesh.vertices.emplace_back(point.x(), point.y(), point.z());
+  std::size_t triangles = 0;
+  for (const auto& polygon : polygons) triangles += std::max(polygon.size(), std::size_t{2}) - 2;
+  reading.make_room(mesh.triangles, triangles);
+  for (const auto& polygon : polygons) add_fan(polygon, mesh.triangles);
+  if (mesh.triangles.empty()) return reading.refuse("no faces");
+  if (header->normals > 0 && !read_normals(std::move(stream).str(), *header, mesh, reading)) return false;
+  reading.file.parts.push_back({std::move(mesh), std::nullopt});
+  return true;
+}
+
+}  // namespace abbe

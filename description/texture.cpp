@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/curve.h"
+#include "description/matter.h"
+#include "description/texture_file.h"
+#include "description/values.h"
+
+namespace abbe::description {
+namespace {
+
+// Beyond [0, 1] by this much, reflectances are taken for rounding of the file, and cut.
+constexpr double kSlight = 1e-3;
+// By less than this, for rounding of the sum.
+constexpr double kRounding = 1e-6;
+
+/// What an image is made into: channels and the spectra they weigh.
+struct Weights {
+  std::vector<std::string> channels;
+  std::vector<Curve> spectra;
+  Encoding encoding = Encoding::linear;
+};
+
+std::optional<Weights> read_weights(const JsonValue& json, LoadContext& context) {
+  const auto* members = std::get_if<JsonValue::Object>(&json.value);
+  if (!members || members->empty()) {
+    context.diagnostics.error(
+        json.where, fmt::format("expected spectra by channel (got {})", members ? "none" : json.kind()));
+    return std::nullopt;
+  }
+  Weights weights;
+  for (const auto& [channel, value] : *members) {
+    auto spectrum = read_curve(value, {"reflectance", kValue}, context);
+    if (!spectrum) return std::nullopt;
+    weights.channels.push_back(channel);
+    weights.spectra.push_back(std::move(*spectrum));
+  }
+  return weights;
+}
+
+// Files of floats hold linear values, those of integers what a display is sent.
+std::optional<Weights> read_rgb(const JsonValue& json, const TextureFile& file, LoadContext& context) {
+  const auto rgb = read_boolean(json, context.diagnostics);
+  if (!rgb) return std::nullopt;
+  if (!*rgb) {
+    context.diagnostics.error(json.where, "an image that is not rgb needs weights (got false, allowed true)");
+    return std::nullopt;
+  }
+  context.diagnostics.warning(
+      file.where, fmt::format("texture \"{}\": red, green and blue have no spectrum: the smooth one that "
+                              "looks so under D65 stands in for what was there",
+                              file.name));
+  const bool linear = file.name.ends_with(".exr") || file.name.ends_with(".hdr");
+  const RgbBasis& basis = rgb_basis();
+  return Weights{
+      {"R", "G", "B"}, {basis.red, basis.green, basis.blue}, linear ? Encoding::linear : Encoding::srgb};
+}
+
+/// The values of all spectra at one wavelength.
+struct Sample {
+  double nm;
+  std::vector<double> values;
+};
+
+// Where sums of the spectra can be largest or least: at their knots, on both sides of a jump.
+std::vector<Sample> extreme_samples(std::span<const Curve> spectra) {
+  std::set<double> wavelengths;
+  for (const Curve& spectrum : spectra)
+    for (const Knot& knot : spectrum.knots()) {
+      wavelengths.insert(knot.wavelength_nm);
+      wavelengths.insert(std::nextafter(knot.wavelength_nm, 0.0));
+    }
+  std::vector<Sample> samples;
+  for (const double nm : wavelengths) {
+    Sample& sample = samples.emplace_back(Sample{nm, {}});
+    for (const Curve& spectrum : spectra) sample.values.push_back(spectrum(nm));
+  }
+  return samples;
+}
+
+double excess(double reflectance) {
+  return std::max(-reflectance, reflectance - 1);
+}
+
+// Drops the samples at which no mixture of values between each channel's least and largest is in excess.
+void drop_harmless(std::vector<Sample>& samples, const std::vector<float>& texels) {
+  if (samples.empty()) return;
+  const std::size_t channels = samples[0].values.size();
+  std::vector<std::array<double, 2>> ends(channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    ends[c] = {static_cast<double>(texels[c]), static_cast<double>(texels[c])};
+    for (std::size_t i = c; i < texels.size(); i += channels) {
+      ends[c][0] = std::min(ends[c][0], static_cast<double>(texels[i]));
+      ends[c][1] = std::max(ends[c][1], static_cast<double>(texels[i]));
+    }
+  }
+  std::erase_if(samples, [&](const Sample& sample) {
+    double least = 0;
+    double most = 0;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const auto [low, high] = std::minmax({sample.values[c] * ends[c][0], sample.values[c] * ends[c][1]});
+      least += low;
+      most += high;
+    }
+    return excess(least) <= kRounding && excess(most) <= kRounding;
+  });
+}
+
+// Whether every texel reflects no less than nothing and no more than all.
+bool check_reflectances(const TextureFile& file, const Weights& weights, const std::vector<float>& texels,
+                        LoadContext& context) {
+  std::vector<Sample> samples = extreme_samples(weights.spectra);
+  drop_harmless(samples, texels);
+  const std::size_t channels = weights.channels.size();
+  double worst = 0.5;
+  std::size_t texel = 0;
+  double nm = 0;
+  for (std::size_t i = 0; i < texels.size() / channels; ++i)
+    for (const Sample& sample : samples) {
+      double sum = 0;
+      for (std::size_t c = 0; c < channels; ++c)
+        sum += sample.values[c] * static_cast<double>(texels[i * channels + c]);
+      if (excess(sum) <= excess(worst)) continue;
+      worst = sum;
+      texel = i;
+      nm = sample.nm;
+    }
+  if (excess(worst) <= kRounding) return true;
+  const std::string what =
+      fmt::format("{} reflects {:.6g} at {:g} nm", file.texel_name(texel), worst, std::round(nm));
+  if (excess(worst) > kSlight) {
+    file.refuse(fmt::format("{} (allowed {})", what, Range::unit().text()), ErrorCode::scene, context);
+    return false;
+  }
+  context.diagnostics.warning(file.where, fmt::format("texture \"{}\": {}: cut to [0, 1]", file.name, what));
+  return true;
+}
+
+}  // namespace
+
+std::optional<SpectralTexture> read_reflectance(const JsonValue& json, LoadContext& context) {
+  if (!json.find("image")) {
+    auto curve = read_curve(json, {"reflectance", Range::unit()}, context);
+    if (!curve) return std::nullopt;
+    return SpectralTexture(std::move(*curve));
+  }
+  ObjectReader reader(json, context.diagnostics);
+  const auto key = reader.exactly_one({"weights", "rgb"});
+  const auto file = read_texture_file(reader, context);
+  reader.finish();
+  if (!key || !file) return std::nullopt;
+  const JsonValue& of = *json.find(*key);
+  auto weights = *key == "rgb" ? read_rgb(of, *file, context) : read_weights(of, context);
+  if (!weights) return std::nullopt;
+  auto texels = read_texels(*file, weights->channels, weights->encoding, context);
+  if (!texels || !check_reflectances(*file, *weights, *texels, context)) return std::nullopt;
+  return SpectralTexture(texture_image(*file, weights->channels.size(), std::move(*texels)),
+                         std::move(weights->spectra));
+}
+
+}  // namespace abbe::description

@@ -1,0 +1,91 @@
+#include "description/texture_file.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/picture.h"
+#include "spectral/rgb.h"
+
+namespace abbe::description {
+namespace {
+
+constexpr Range kMapping{-1e6, 1e6};
+
+TextureMapping read_mapping(ObjectReader& reader, LoadContext& context) {
+  TextureMapping mapping;
+  if (const JsonValue* json = reader.find("filter"))
+    if (read_choice(*json, "filter", {"bilinear", "nearest"}, context.diagnostics) == 1)
+      mapping.filter = TextureFilter::nearest;
+  if (const JsonValue* json = reader.find("wrap"))
+    if (read_choice(*json, "wrap", {"repeat", "clamp"}, context.diagnostics) == 1)
+      mapping.wrap = TextureWrap::clamp;
+  if (const auto scale = reader.numbers("scale", 2, kMapping)) mapping.scale = {(*scale)[0], (*scale)[1]};
+  if (const auto offset = reader.numbers("offset", 2, kMapping))
+    mapping.offset = {(*offset)[0], (*offset)[1]};
+  return mapping;
+}
+
+}  // namespace
+
+void TextureFile::refuse(const std::string& what, ErrorCode code, LoadContext& context) const {
+  context.diagnostics.error(where, fmt::format("texture \"{}\": {}", name, what), code);
+}
+
+std::string TextureFile::texel_name(std::size_t i) const {
+  const auto columns = static_cast<std::size_t>(image.width);
+  return fmt::format("texel ({}, {})", i % columns, i / columns);
+}
+
+std::optional<TextureFile> read_texture_file(ObjectReader& reader, LoadContext& context) {
+  const JsonValue* json = reader.require("image");
+  const TextureMapping mapping = read_mapping(reader, context);
+  const auto name = json ? read_string(*json, context.diagnostics) : std::nullopt;
+  const auto path = name ? context.file(*name, json->where) : std::nullopt;
+  if (!path) return std::nullopt;
+  try {
+    Image image = read_image(*path, context.inputs);
+    const std::size_t bytes = image.memory_bytes();
+    return TextureFile{*name, json->where, std::move(image), mapping, {context.inputs, bytes}};
+  } catch (const Error& e) {
+    context.diagnostics.error(json->where, e.what(), e.code);
+    return std::nullopt;
+  }
+}
+
+std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span<const std::string> channels,
+                                              Encoding encoding, LoadContext& context) {
+  context.take_memory(fmt::format("texture \"{}\"", file.name),
+                      file.image.pixels() * channels.size() * sizeof(float));
+  std::vector<float> texels(file.image.pixels() * channels.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const ImageChannel* channel = file.image.find(channels[c]);
+    if (channel == nullptr) {
+      std::vector<std::string> names;
+      for (const ImageChannel& known : file.image.channels) names.push_back(known.name);
+      file.refuse(fmt::format("no channel \"{}\" (it has {})", channels[c], fmt::join(names, ", ")),
+                  ErrorCode::input, context);
+      return std::nullopt;
+    }
+    for (std::size_t i = 0; i < file.image.pixels(); ++i) {
+      const float value = channel->values[i];
+      if (!std::isfinite(value)) {
+        file.refuse(
+            fmt::format("{} of channel {} is not finite (got {})", file.texel_name(i), channel->name, value),
+            ErrorCode::input, context);
+        return std::nullopt;
+      }
+      texels[i * channels.size() + c] =
+          encoding == Encoding::linear ? value : static_cast<float>(srgb_decoded(static_cast<double>(value)));
+    }
+  }
+  return texels;
+}
+
+TextureImage texture_image(const TextureFile& file, std::size_t channels, std::vector<float> texels) {
+  return {static_cast<std::size_t>(file.image.width), static_cast<std::size_t>(file.image.height), channels,
+          std::move(texels), file.mapping};
+}
+
+}  // namespace abbe::description

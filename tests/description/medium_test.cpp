@@ -1,0 +1,120 @@
+#include "tests/description/description.h"
+
+namespace abbe::testing {
+namespace {
+
+class MediumDescription : public DescriptionTest {
+ protected:
+  // The first material, of a scene with a ball of it.
+  Loaded ball_of(const std::string& material) {
+    return load(fmt::format(R"({{"materials": {{"m": {}}},
+      "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "m"}}]}})",
+                            material));
+  }
+  static std::string npy(const std::string& header, const std::string& values, char version = 1) {
+    std::string text = header;
+    text.resize(117, ' ');
+    return std::string("\x93NUMPY") + version + '\0' + static_cast<char>(text.size() + 1) +
+           std::string(version == 1 ? 1 : 3, '\0') + text + '\n' + values;
+  }
+  static std::string eight(float value) {
+    std::string bytes;
+    for (int i = 0; i < 8; ++i) bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    return bytes;
+  }
+  // What is said of a grid of this file.
+  std::string complaint(const std::string& file) {
+    write(folder_ / "g.npy", file);
+    const Loaded ball =
+        ball_of(R"({"medium": {"grid": {"densities": "g.npy", "from": [0, 0, 0], "to": [1, 1, 1]}}})");
+    return ball.scene ? "" : fmt::format("{}: {}", static_cast<int>(ball.diagnostics.code()), ball.text());
+  }
+};
+
+const std::string kHeader = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 2), }";
+
+TEST_F(MediumDescription, FillsDielectricsAndStandsAlone) {
+  const Loaded fog = ball_of(
+      R"({"medium": {"absorption_per_m": 0.1, "scattering_per_m": {"band": [500, 600]}, "phase": {"henyey_greenstein": -0.5}}})");
+  ASSERT_TRUE(fog.scene) << fog.text();
+  const Matter& matter = *abbe::matter(fog->materials[0]);
+  EXPECT_EQ(matter.absorption_per_m(400.0), 0.1);
+  EXPECT_EQ(matter.scattering_per_m(550.0), 1);
+  EXPECT_FLOAT_EQ(std::get<HenyeyGreensteinPhase>(matter.phase).g, -0.5F);
+  EXPECT_TRUE(is_boundary(fog->materials[0]));
+  EXPECT_TRUE(fog->needs.media && fog->needs.scattering && fog->needs.boundaries);
+  EXPECT_EQ(fog->needs.because.at("scattering"), fog->needs.because.at("boundaries"));
+
+  const Loaded milk = ball_of(
+      R"({"dielectric": {"ior": 1.3, "absorption_per_m": 2, "scattering_per_m": 5, "phase": "rayleigh"}})");
+  ASSERT_TRUE(milk.scene) << milk.text();
+  EXPECT_EQ(abbe::matter(milk->materials[0])->scattering_per_m(550.0), 5);
+  EXPECT_TRUE(std::holds_alternative<RayleighPhase>(abbe::matter(milk->materials[0])->phase));
+  EXPECT_NEAR(interior(milk->materials[0])->absorption_per_m(550.0), 2, 1e-9);
+  EXPECT_TRUE(milk->needs.media && milk->needs.scattering && !milk->needs.boundaries);
+
+  const Loaded clear = ball_of(R"({"dielectric": {"ior": 1.3}})");
+  EXPECT_EQ(abbe::matter(clear->materials[0]), nullptr);
+  EXPECT_FALSE(clear->needs.scattering);
+}
+
+TEST_F(MediumDescription, GridsMoveWithTheScene) {
+  write(folder_ / "g.npy", npy(kHeader, eight(3)));
+  const Loaded smoke = load(R"({"units": "mm", "materials": {"m": {"medium": {"scattering_per_m": 1,
+      "grid": {"densities": "g.npy", "from": [0, 0, 0], "to": [1000, 2000, 3000]}}}},
+      "shapes": [{"sphere": {"center": [5000, 0, 0], "radius": 1}, "material": "m"}]})");
+  ASSERT_TRUE(smoke.scene) << smoke.text();
+  const PlacedGrid& grid = *abbe::matter(smoke->materials[0])->grid;
+  EXPECT_EQ(grid.from, Imath::V3d(-5, 0, 0));
+  EXPECT_EQ(grid.to, Imath::V3d(-4, 2, 3));
+  EXPECT_EQ(grid.grid->size, (std::array{2, 2, 2}));
+  EXPECT_EQ(grid.grid->density, std::vector<float>(8, 3));
+}
+
+TEST_F(MediumDescription, RefusesWhatMatterCannotBe) {
+  const auto text = [&](const std::string& material) { return ball_of(material).text(); };
+  EXPECT_NE(text(R"({"medium": {"absorption_per_m": -1}})").find("allowed"), std::string::npos);
+  EXPECT_NE(text(R"({"medium": {"scattering_per_m": {"band": [500, 600], "value": -1}}})").find("allowed"),
+            std::string::npos);
+  EXPECT_NE(text(R"({"medium": {"phase": {"henyey_greenstein": 1}}})").find("[-0.9999, 0.9999]"),
+            std::string::npos);
+  EXPECT_NE(text(R"({"medium": {"phase": "raleigh"}})").find("rayleigh"), std::string::npos);
+  EXPECT_NE(text(R"({"dielectric": {"ior": 1.5, "scattering_per_m": -1}})").find("allowed"),
+            std::string::npos);
+  EXPECT_NE(load(R"({"materials": {"m": {"medium": {}}}, "shapes": [{"sphere": {"center": [0, 0, 0],
+      "radius": 1}, "material": "m", "emission": {"spectrum": 1}}]})")
+                .text()
+                .find("a medium has no surface that could emit"),
+            std::string::npos);
+}
+
+TEST_F(MediumDescription, RefusesDamagedGrids) {
+  EXPECT_EQ(complaint(npy(kHeader, eight(3))).find("error"), std::string::npos);
+  EXPECT_EQ(complaint(npy(kHeader, eight(3), 2)).find("error"), std::string::npos);
+  const auto fails = [&](const std::string& file, const char* with) {
+    EXPECT_NE(complaint(file).find(with), std::string::npos) << complaint(file);
+  };
+  fails("no", "4: ");
+  fails(npy(kHeader, eight(3)).substr(0, 50), "damaged header");
+  fails(npy(kHeader, eight(3)).substr(0, 140), "is cut or too long for its 8 values");
+  fails(npy(kHeader, eight(3) + "x"), "is cut or too long");
+  fails(npy(kHeader, eight(3), 3), "format 3, allowed 1 or 2");
+  fails(npy(kHeader, eight(-1)), "has a density that is not in [0, 1e9]");
+  fails(npy(kHeader, eight(NAN)), "has a density that is not in");
+  fails(npy("{'descr': '<i4', 'fortran_order': False, 'shape': (2, 2, 2), }", eight(3)),
+        "its numbers are '<i4', allowed '<f4' or '<f8'");
+  fails(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 2, 2), }", eight(3)), "Fortran");
+  fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (8,), }", eight(3)), "has 1 axes");
+  fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (8, 1, 1), }", eight(3)), "less than 2");
+  fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2", eight(3)), "damaged header");
+  fails(npy("{'fortran_order': False, 'shape': (2, 2, 2), }", eight(3)), "has no descr");
+  fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999, 99999999999, 2), }", eight(3)),
+        "6: ");
+  EXPECT_NE(ball_of(R"({"medium": {"grid": {"densities": "g.npy", "from": [0, 0, 0], "to": [1, 0, 1]}}})")
+                .text()
+                .find("`to` must lie beyond its `from`"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe::testing
