@@ -7,13 +7,13 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
+#include "description/load_material.h"
 #include "io/atomic_file.h"
 #include "io/picture.h"
-#include "description/load_material.h"
 #include "spectral/library.h"
+#include "validation/lab/lobe_plot.h"
 #include "validation/lab/map.h"
 #include "validation/lab/measure.h"
-#include "validation/lab/plot.h"
 
 namespace abbe::cli {
 namespace {

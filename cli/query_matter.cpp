@@ -7,8 +7,8 @@
 #include "cli/answer.h"
 #include "cli/query.h"
 #include "io/text.h"
-#include "materials/coating.h"
 #include "materials/index/library.h"
+#include "materials/interface/coating.h"
 #include "materials/interface/prism.h"
 
 namespace abbe::cli {

@@ -7,7 +7,7 @@
 #include "cli/answer.h"
 #include "cli/film_output.h"
 #include "io/error.h"
-#include "scene/needs/dark_enclosure.h"
+#include "scene/dark_enclosure.h"
 #include "transport/plan/plan.h"
 
 namespace abbe::cli {

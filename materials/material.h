@@ -4,13 +4,13 @@
 #include <string>
 #include <variant>
 
+#include "materials/model/classic.h"
 #include "materials/model/layered.h"
 #include "materials/model/medium.h"
 #include "materials/model/mixture.h"
 #include "materials/model/principled.h"
 #include "materials/model/rough.h"
 #include "materials/model/smooth.h"
-#include "materials/model/classic.h"
 #include "materials/texture/relief.h"
 
 namespace abbe {

@@ -2,7 +2,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "scene/ray.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 

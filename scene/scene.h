@@ -17,9 +17,10 @@
 #include "materials/material.h"
 #include "scene/camera/camera.h"
 #include "scene/lights/light.h"
-#include "scene/needs/needs.h"
-#include "scene/ray.h"
+#include "scene/needs.h"
+#include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
+#include "scene/shapes/shape_instance.h"
 #include "scene/white.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/readout/readout.h"
@@ -27,17 +28,6 @@
 #include "sensor/response/mosaic.h"
 
 namespace abbe {
-
-/// A shape made of a material, perhaps emitting.
-struct ShapeInstance {
-  std::string name;
-  Shape shape;
-  std::uint32_t material;
-  std::int32_t light = -1;  ///< Index into `Scene::lights`, or -1.
-  // Worked out by `Scene::commit`:
-  bool far = false;     ///< Wholly beyond `Scene::far_from_m`.
-  double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
-};
 
 /// A colour chart of the scene: its patches are the quads `shapes[first]` and those that follow.
 struct ChartInstance {

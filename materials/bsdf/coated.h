@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "materials/bsdf/event.h"
-#include "materials/coating.h"
 #include "materials/index/relative_index.h"
+#include "materials/interface/coating.h"
 
 namespace abbe {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "materials/bsdf/event.h"
-#include "materials/model/lookup.h"
+#include "materials/bsdf/lookup.h"
 
 namespace abbe {
 

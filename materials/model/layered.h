@@ -3,8 +3,8 @@
 #include <string>
 
 #include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/lookup.h"
 #include "materials/index/refractive_index.h"
-#include "materials/model/lookup.h"
 #include "materials/texture/spectral_texture.h"
 
 namespace abbe {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/lookup.h"
 #include "materials/medium/matter.h"
-#include "materials/model/lookup.h"
 
 namespace abbe {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "materials/bsdf/bsdf.h"
-#include "materials/model/lookup.h"
+#include "materials/bsdf/lookup.h"
 #include "spectral/curve.h"
 
 namespace abbe {

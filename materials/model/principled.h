@@ -1,7 +1,7 @@
 #pragma once
 
 #include "materials/bsdf/bsdf.h"
-#include "materials/model/lookup.h"
+#include "materials/bsdf/lookup.h"
 #include "materials/texture/spectral_texture.h"
 
 namespace abbe {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "materials/bsdf/bsdf.h"
+#include "materials/bsdf/lookup.h"
 #include "materials/index/refractive_index.h"
 #include "materials/medium/matter.h"
-#include "materials/model/lookup.h"
 
 namespace abbe {
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "materials/bsdf/warp.h"
-#include "scene/scene.h"
 #include "scene/shapes/basis.h"
 
 namespace abbe {

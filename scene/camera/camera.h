@@ -5,7 +5,7 @@
 
 #include <ImathVec.h>
 
-#include "scene/ray.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 

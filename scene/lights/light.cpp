@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/error.h"
-#include "scene/scene.h"
 #include "scene/shapes/basis.h"
+#include "scene/shapes/shape_instance.h"
 #include "scene/shapes/sphere.h"
 
 namespace abbe {

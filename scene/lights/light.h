@@ -13,8 +13,8 @@
 
 #include "scene/lights/environment_image.h"
 #include "scene/lights/spherical_rectangle.h"
-#include "scene/ray.h"
 #include "scene/shapes/quad.h"
+#include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
 #include "spectral/scaled_curve.h"
 

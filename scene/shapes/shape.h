@@ -11,7 +11,7 @@
 #include <ImathMatrix.h>
 #include <ImathVec.h>
 
-#include "scene/ray.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 

@@ -1,4 +1,4 @@
-#include "materials/coating.h"
+#include "materials/interface/coating.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/needs/dark_enclosure.h"
+#include "scene/dark_enclosure.h"
 #include "tests/scene/meshes.h"
 #include "tests/scene/scenes.h"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
-#include "scene/ray.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 namespace {

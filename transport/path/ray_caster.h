@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/ray.h"
 #include "scene/scene.h"
+#include "scene/shapes/ray.h"
 #include "transport/path/cut.h"
 
 namespace abbe {

@@ -7,8 +7,8 @@
 
 #include "validation/bench/baseline.h"
 #include "validation/bench/machine.h"
-#include "validation/bench/plot.h"
 #include "validation/bench/rivals.h"
+#include "validation/plot/log_plot.h"
 
 namespace abbe {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "validation/bench/plot.h"
 #include "validation/picture/color_map.h"
+#include "validation/plot/log_plot.h"
 
 namespace abbe {
 namespace {

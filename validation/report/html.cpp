@@ -6,7 +6,7 @@
 
 #include "io/picture.h"
 #include "io/text.h"
-#include "validation/picture/svg.h"
+#include "validation/plot/svg.h"
 #include "validation/report/report.h"
 #include "validation/statistics/equivalence.h"
 
@@ -81,25 +81,20 @@ std::string bar_mark(const CaseResult& result, std::size_t i) {
   const std::string line = spread > 0 ? svg_line(bar_at(share - spread), y, bar_at(share + spread), y,
                                                  "stroke=\"#1f4e8c\" stroke-width=\"1.6\"")
                                       : "";
-  return line + fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>",
-                            bar_at(std::isfinite(share) ? share : kReach), y,
-                            outside ? 4
-                            : many  ? 1.6
-                                    : 3,
-                            outside ? "#b3261e" : "#1f4e8c", many && !outside ? 0.5 : 0.9);
+  const double radius = outside ? 4 : many ? 1.6 : 3;
+  return line + svg_circle(bar_at(std::isfinite(share) ? share : kReach), y, radius,
+                           fmt::format("fill=\"{}\" fill-opacity=\"{}\"", outside ? "#b3261e" : "#1f4e8c",
+                                       many && !outside ? 0.5 : 0.9));
 }
 
 // All figures of a case within the band of their margin.
 std::string margin_bar(const CaseResult& result) {
-  std::string all = fmt::format(
-      "<svg width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">"
-      "<rect x=\"{2:.1f}\" y=\"2\" width=\"{3:.1f}\" height=\"{4}\" fill=\"#e3f2ea\"/>",
-      kBarWidth, kBarHeight, bar_at(-1), bar_at(1) - bar_at(-1), kBarHeight - 4);
+  std::string all = svg_rect(bar_at(-1), 2, bar_at(1) - bar_at(-1), kBarHeight - 4, "fill=\"#e3f2ea\"");
   for (const double edge : {-1.0, 0.0, 1.0})
     all += svg_line(bar_at(edge), 2, bar_at(edge), kBarHeight - 2,
                     edge == 0 ? "stroke=\"#9aa5b1\"" : "stroke=\"#1b7f4b\"");
   for (std::size_t i = 0; i < result.figures.size(); ++i) all += bar_mark(result, i);
-  return all + "</svg>";
+  return svg_picture(kBarWidth, kBarHeight, all);
 }
 
 std::string number(double value) {

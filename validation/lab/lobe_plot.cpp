@@ -1,4 +1,4 @@
-#include "validation/lab/plot.h"
+#include "validation/lab/lobe_plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "validation/picture/display_color.h"
-#include "validation/picture/svg.h"
+#include "validation/plot/svg.h"
 
 namespace abbe {
 namespace {
@@ -50,16 +50,14 @@ Slice slice(const Material& material, const LabSettings& settings, const Imath::
   return all;
 }
 
-std::string polyline(const std::vector<double>& line, double most, double x, double y,
-                     const std::string& color) {
-  std::string points;
+std::string lobe(const std::vector<double>& line, double most, double x, double y, const std::string& color) {
+  SvgPoints points;
   for (std::size_t step = 0; step < line.size(); ++step) {
     const double angle = 360 * kDegree * (static_cast<double>(step) + 0.5) / static_cast<double>(line.size());
     const double radius = kRadius * std::sqrt(line[step] / most);
-    points += fmt::format("{:.2f},{:.2f} ", x + radius * std::sin(angle), y - radius * std::cos(angle));
+    points.emplace_back(x + radius * std::sin(angle), y - radius * std::cos(angle));
   }
-  return fmt::format("<polygon points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", points,
-                     color);
+  return svg_polygon(points, fmt::format("stroke=\"{}\" stroke-width=\"1.5\"", color));
 }
 
 // The single directions of the first wavelength, as long as the root of their shares.
@@ -79,8 +77,7 @@ std::string panel(const Material& material, const LabSettings& settings, const L
   const double x = left + kPanel / 2;
   const double y = kTop + kPanel / 2;
   const Imath::V3f wo = incidence(settings, at.angle_deg);
-  std::string all =
-      fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#dddddd\"/>\n", x, y, kRadius);
+  std::string all = svg_circle(x, y, kRadius, "fill=\"none\" stroke=\"#dddddd\"");
   all += svg_line(x - kRadius, y, x + kRadius, y, "stroke=\"#888888\"");
   all +=
       svg_line(x + (kRadius + 12) * static_cast<double>(wo.x), y - (kRadius + 12) * static_cast<double>(wo.z),
@@ -88,13 +85,13 @@ std::string panel(const Material& material, const LabSettings& settings, const L
   const Slice lines = slice(material, settings, wo);
   if (lines.most > 0)
     for (std::size_t i = 0; i < lines.values.size(); ++i)
-      all += polyline(lines.values[i], lines.most, x, y,
-                      line_color(settings.wavelengths_nm[i], settings.observer));
+      all +=
+          lobe(lines.values[i], lines.most, x, y, line_color(settings.wavelengths_nm[i], settings.observer));
   all += arrows(material, settings, wo, x, y);
   const double bottom = kTop + kPanel;
-  all += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"#888888\"/>\n",
-                     x - kSwatch, bottom, 2 * kSwatch, kSwatch,
-                     css_color(display_code(linear_rgb(at.reflected_color.lab))));
+  all += svg_rect(x - kSwatch, bottom, 2 * kSwatch, kSwatch,
+                  fmt::format("fill=\"{}\" stroke=\"#888888\"",
+                              css_color(display_code(linear_rgb(at.reflected_color.lab)))));
   const std::string middle = "text-anchor=\"middle\"";
   all += svg_text(x, kTop, fmt::format("{:g}\u00b0", at.angle_deg), middle);
   return all + svg_text(x, bottom + kSwatch + 16,
@@ -107,12 +104,7 @@ std::string lobe_plot(const Material& material, const LabSettings& settings, con
                       const std::string& title) {
   const double width = kPanel * static_cast<double>(report.angles.size());
   const double height = kTop + kPanel + kSwatch + 50;
-  std::string all = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" "
-      "height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      width, height);
-  all += svg_text(10, 20, title, "font-size=\"15\" font-weight=\"bold\"");
+  std::string all;
   double legend = 10;
   for (const double nm : settings.wavelengths_nm) {
     all += svg_line(legend, height - 14, legend + 20, height - 14,
@@ -122,7 +114,7 @@ std::string lobe_plot(const Material& material, const LabSettings& settings, con
   }
   for (std::size_t i = 0; i < report.angles.size(); ++i)
     all += panel(material, settings, report.angles[i], kPanel * static_cast<double>(i));
-  return all + "</svg>\n";
+  return svg_document(width, height, title, all);
 }
 
 }  // namespace abbe

@@ -1,4 +1,4 @@
-#include "scene/needs/dark_enclosure.h"
+#include "scene/dark_enclosure.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "validation/bench/plot.h"
+#include "validation/plot/log_plot.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "validation/picture/svg.h"
+#include "validation/plot/svg.h"
 
 namespace abbe {
 namespace {
@@ -42,36 +42,32 @@ std::string axes(const LogAxis& x, const LogAxis& y, const LogPlot& plot) {
     all +=
         svg_text(kLeft - 7, y.at(value) + 4, fmt::format("{:g}", value), "class=\"y\" text-anchor=\"end\"");
   }
-  all +=
-      fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#444444\"/>\n",
-                  kLeft, kTop, kRight - kLeft, kBottom - kTop);
+  all += svg_rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "fill=\"none\" stroke=\"#444444\"");
   const double middle = (kTop + kBottom) / 2;
   all += svg_text((kLeft + kRight) / 2, kBottom + 42, plot.x_label, "text-anchor=\"middle\"");
-  all += svg_text(18, middle, plot.y_label,
-                  fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
-  return all + svg_text(kLeft, kTop - 16, plot.title, "font-size=\"15\" font-weight=\"bold\"");
+  return all + svg_text(18, middle, plot.y_label,
+                        fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
 }
 
 std::string marker(double x, double y, const PlotSeries& series, const std::string& kind) {
-  return fmt::format(
-      "<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\" stroke=\"{}\" "
-      "stroke-width=\"1.8\"/>\n",
-      kind, x, y, series.hollow ? "white" : series.color, series.color);
+  return svg_circle(x, y, 4,
+                    fmt::format("class=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.8\"", kind,
+                                series.hollow ? "white" : series.color, series.color));
 }
 
 std::string stroke(const PlotSeries& series) {
-  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", series.color,
+  return fmt::format("stroke=\"{}\" stroke-width=\"1.8\"{}", series.color,
                      series.dashed ? " stroke-dasharray=\"6 4\"" : "");
 }
 
 std::string drawn(const PlotSeries& series, const LogAxis& x, const LogAxis& y) {
-  std::string path;
+  SvgPoints points;
   std::string markers;
   for (const auto& [px, py] : series.points) {
-    path += fmt::format("{}{:.2f},{:.2f}", path.empty() ? "" : " ", x.at(px), y.at(py));
+    points.emplace_back(x.at(px), y.at(py));
     markers += marker(x.at(px), y.at(py), series, "point");
   }
-  return fmt::format("<polyline points=\"{}\" {}/>\n", path, stroke(series)) + markers;
+  return svg_polyline(points, stroke(series)) + markers;
 }
 
 std::string legend(const std::vector<PlotSeries>& series) {
@@ -115,14 +111,9 @@ std::string svg(const LogPlot& plot) {
   const auto [y_low, y_high] = log_range(ys);
   const LogAxis x{x_low, x_high, kLeft, kRight};
   const LogAxis y{y_low, y_high, kBottom, kTop};
-  std::string all = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" "
-      "height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      kWidth, kHeight);
-  all += axes(x, y, plot);
+  std::string all = axes(x, y, plot);
   for (const PlotSeries& series : plot.series) all += drawn(series, x, y);
-  return all + legend(plot.series) + "</svg>\n";
+  return svg_document(kWidth, kHeight, plot.title, all + legend(plot.series));
 }
 
 }  // namespace abbe

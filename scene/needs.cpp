@@ -1,4 +1,4 @@
-#include "scene/needs/needs.h"
+#include "scene/needs.h"
 
 #include <algorithm>
 #include <array>

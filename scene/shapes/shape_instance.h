@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scene/shapes/shape.h"
+
+namespace abbe {
+
+/// A shape made of a material, perhaps emitting.
+struct ShapeInstance {
+  std::string name;
+  Shape shape;
+  std::uint32_t material;
+  std::int32_t light = -1;  ///< Index into `Scene::lights`, or -1.
+  // Worked out by `Scene::commit`:
+  bool far = false;     ///< Wholly beyond `Scene::far_from_m`.
+  double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
+};
+
+}  // namespace abbe
