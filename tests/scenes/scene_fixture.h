@@ -5,14 +5,15 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/data_directory.h"
 #include "description/load.h"
+#include "io/data_directory.h"
 #include "transport/render/render.h"
 
 namespace abbe::test {
@@ -83,6 +84,22 @@ inline Comparison compare_regions(const Film& a, const Film& b, int grid) {
       }
   result.ratio = total_b / total_a;
   return result;
+}
+
+/// Expects that two renders of a scene agree over a grid of regions: one by camera paths alone, one with
+/// photons for every light.
+inline void expect_same_from_either_end(const std::string& text) {
+  const auto rendered = [&text](const char* integrator, int samples) {
+    Scene scene =
+        load_text(text, {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}});
+    scene.needs.light_tracing = true;
+    scene.needs.light_is_traced.assign(scene.lights.size(), true);
+    return render(scene, {}).film;
+  };
+  const Comparison c = compare_regions(rendered("path", 1024), rendered("auto", 512), 4);
+  std::printf("largest z %.2f, ratio of the means %.5f\n", c.largest_z, c.ratio);
+  EXPECT_LT(c.largest_z, 5.5);  // 1e-6 over 2 channels x 16 regions
+  EXPECT_NEAR(c.ratio, 1, 0.01);
 }
 
 }  // namespace abbe::test
