@@ -7,6 +7,7 @@
 
 #include "materials/bsdf/mirror.h"
 #include "materials/interface/fresnel.h"
+#include "sampling/discrete.h"
 
 namespace abbe {
 namespace {
@@ -143,10 +144,8 @@ void LostEnergy::prepare_density(const Microfacets<float>& facets) {
 }
 
 Imath::V3f LostEnergy::sample(const Imath::V2f& u) const {
-  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u.x);
-  const auto k = static_cast<std::size_t>(above - cumulative_.begin());
-  const float within = (u.x - cumulative_[k - 1]) / (cumulative_[k] - cumulative_[k - 1]);
-  const float cos2 = cos2_[k - 1] + std::clamp(within, 0.0F, 1.0F) * (cos2_[k] - cos2_[k - 1]);
+  const auto [cell, within] = invert_cdf(std::span(cumulative_).subspan(1), u.x);
+  const float cos2 = cos2_[cell] + within * (cos2_[cell + 1] - cos2_[cell]);
   const float phi = 2 * std::numbers::pi_v<float> * u.y;
   const float sine = std::sqrt(1 - cos2);
   return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)};

@@ -7,6 +7,8 @@
 
 #include <ImathMatrix.h>
 
+#include "sampling/discrete.h"
+
 namespace abbe {
 namespace {
 
@@ -21,24 +23,8 @@ LinearRgb exposures(const std::array<Curve, 3>& primaries, std::span<const Chann
   return exposed;
 }
 
-// The step of a cumulative distribution that u falls into, and how far.
-struct Step {
-  std::size_t index;
-  double within;
-};
-Step find_step(std::span<const double> cdf, double u) {
-  const auto above = std::upper_bound(cdf.begin(), cdf.end(), u);
-  auto index = std::min(static_cast<std::size_t>(above - cdf.begin()), cdf.size() - 1);
-  const auto low = [&cdf](std::size_t i) { return i > 0 ? cdf[i - 1] : 0.0; };
-  while (index > 0 && cdf[index] == low(index)) --index;  // u beyond a sum rounded below 1
-  return {index, std::clamp((u - low(index)) / (cdf[index] - low(index)), 0.0, 1.0)};
-}
-
-// Divides by the last value, which is left as it is when nothing was added up.
-void normalise(std::span<double> sums) {
-  const double total = sums.back();
-  if (!(total > 0)) return;
-  for (double& sum : sums) sum /= total;
+std::span<const double> row_of(const std::vector<double>& texels, std::size_t row, std::size_t width) {
+  return std::span(texels).subspan(row * width, width);
 }
 
 }  // namespace
@@ -78,9 +64,9 @@ EnvironmentImage::EnvironmentImage(int width, int height, std::vector<std::array
     }
     rows += columns * solid_angle(row);
     row_cdf_[row] = rows;
-    normalise(std::span(column_cdf_).subspan(row * width_, width_));
+    normalise_cdf(std::span(column_cdf_).subspan(row * width_, width_));
   }
-  normalise(row_cdf_);
+  normalise_cdf(std::span(row_cdf_));
   if (!(rows > 0)) row_cdf_.clear();
 }
 
@@ -114,9 +100,8 @@ SampledSpectrum EnvironmentImage::radiance(const Imath::V3f& wi,
 
 std::optional<Imath::V3f> EnvironmentImage::sample(Imath::V2f u) const {
   if (row_cdf_.empty()) return std::nullopt;
-  const Step row = find_step(row_cdf_, static_cast<double>(u.y));
-  const Step column =
-      find_step(std::span(column_cdf_).subspan(row.index * width_, width_), static_cast<double>(u.x));
+  const auto row = invert_cdf(std::span(row_cdf_), static_cast<double>(u.y));
+  const auto column = invert_cdf(row_of(column_cdf_, row.index, width_), static_cast<double>(u.x));
   // Uniform by solid angle within the texel: in azimuth, and in the cosine.
   const double azimuth = (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
   const double phi = 2 * kPi * (azimuth - 0.5);
@@ -129,9 +114,8 @@ float EnvironmentImage::pdf(const Imath::V3f& wi) const {
   if (row_cdf_.empty()) return 0;
   const std::size_t texel = texel_at(wi);
   const std::size_t row = texel / width_;
-  const double by_row = row_cdf_[row] - (row > 0 ? row_cdf_[row - 1] : 0);
-  const double by_column = column_cdf_[texel] - (texel % width_ > 0 ? column_cdf_[texel - 1] : 0);
-  return static_cast<float>(by_row * by_column / solid_angle(row));
+  return static_cast<float>(cdf_step(std::span(row_cdf_), row) *
+                            cdf_step(row_of(column_cdf_, row, width_), texel % width_) / solid_angle(row));
 }
 
 Curve EnvironmentImage::mean_radiance() const {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sampling/discrete.h"
+
 namespace abbe {
 namespace {
 
@@ -84,13 +86,9 @@ std::vector<float> triangle_cdf(const Shape& shape) {
 }
 
 SurfacePoint sample_area(const Mesh& mesh, const std::vector<float>& triangle_cdf, Imath::V2f u) {
-  const auto above = std::upper_bound(triangle_cdf.begin(), triangle_cdf.end(), u.x);
-  const auto index =
-      std::min(static_cast<std::size_t>(above - triangle_cdf.begin()), mesh.triangles.size() - 1);
-  const double low = index > 0 ? static_cast<double>(triangle_cdf[index - 1]) : 0;
-  const double within = (static_cast<double>(u.x) - low) / (static_cast<double>(triangle_cdf[index]) - low);
+  const auto [index, within] = invert_cdf(std::span(triangle_cdf), static_cast<double>(u.x));
   // Uniform over the triangle: the square root spreads rows of equal area. [Pharr2023, sec. A.5.1]
-  const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
+  const double root = std::sqrt(within);
   const double weight_c = static_cast<double>(u.y) * root;
   const auto& [a, b, c] = mesh.triangles[index];
   const auto rendered = [&mesh](std::uint32_t i) { return Imath::V3d(Imath::V3f(mesh.vertices[i])); };

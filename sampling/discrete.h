@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace abbe {
+
+/// The step of a cumulative distribution that a number falls into.
+template <typename Number>
+struct CdfStep {
+  std::size_t index;
+  Number within;  ///< How far into the step, in [0, 1]: uniform again, or a place in a constant density.
+};
+
+/// Divides running sums of weights by the last, so that they are a cumulative distribution; sums of nothing
+/// are left as they are.
+template <typename T>
+void normalise_cdf(std::span<T> sums) {
+  const T total = sums.back();
+  if (!(total > 0)) return;
+  for (T& sum : sums) sum /= total;
+}
+
+/// Inverts the cumulative distribution `cdf` at `u` in [0, 1): step i has the probability cdf[i] - cdf[i -
+/// 1]. Steps of no probability are never found, not even by a `u` beyond a last value that was rounded
+/// below 1. `cdf` ends above 0. Computed in the precision of `u`.
+template <typename T, typename Number>
+[[nodiscard]] CdfStep<Number> invert_cdf(std::span<const T> cdf, Number u) {
+  const auto at = [&cdf](std::size_t i) { return static_cast<Number>(cdf[i]); };
+  const auto low = [&at](std::size_t i) { return i > 0 ? at(i - 1) : Number(0); };
+  const auto above = std::upper_bound(cdf.begin(), cdf.end(), u,
+                                      [](Number x, T value) { return x < static_cast<Number>(value); });
+  auto index = std::min(static_cast<std::size_t>(above - cdf.begin()), cdf.size() - 1);
+  while (index > 0 && at(index) == low(index)) --index;
+  return {index, std::clamp((u - low(index)) / (at(index) - low(index)), Number(0), Number(1))};
+}
+
+/// The probability of a step.
+template <typename T>
+[[nodiscard]] T cdf_step(std::span<const T> cdf, std::size_t index) {
+  return cdf[index] - (index > 0 ? cdf[index - 1] : T(0));
+}
+
+}  // namespace abbe
