@@ -5,9 +5,6 @@ foreach(package ${Abbe_PACKAGES})
   separate_arguments(package)
   find_package(${package} REQUIRED)
 endforeach()
-# Ceres is a static library of templates of Eigen compiled for any x86-64, where memory is aligned to 16 bytes. With
-# AVX Eigen would align to 32, and functions of one compilation would be linked into the other and crash.
-set_property(TARGET Ceres::ceres APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)
 # OpenImageIO's CMake config demands its tools package and OpenCV headers.
 foreach(module ${Abbe_PKGCONFIG} OpenImageIO)
   pkg_check_modules(${module} REQUIRED IMPORTED_TARGET ${module})
@@ -16,6 +13,10 @@ find_package(RapidJSON REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Boost 1.74 REQUIRED)
+find_package(Eigen3 REQUIRED)
+# Ceres is a static library of templates of Eigen compiled for any x86-64, where memory is aligned to 16 bytes. With
+# AVX Eigen would align to 32, and functions of one compilation would be linked into the other and crash.
+set_property(TARGET Ceres::ceres Eigen3::Eigen APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
   find_package(benchmark REQUIRED)

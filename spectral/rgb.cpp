@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
+
+#include <Eigen/LU>
+#include <unsupported/Eigen/NonLinearOptimization>
+#include <unsupported/Eigen/NumericalDiff>
 
 #include "io/error.h"
 #include "spectral/colorimetry.h"
@@ -14,29 +19,7 @@ namespace {
 
 constexpr SumRange kSums;
 constexpr std::size_t kCount = static_cast<std::size_t>(kSums.high_nm - kSums.low_nm) + 1;
-constexpr std::size_t kUnknowns = 6;
-
-using Vector = std::array<double, kUnknowns>;
-
-// Solves a x = b in place by elimination with pivots; both arguments are used up.
-template <std::size_t N>
-std::array<double, N> solve(std::array<std::array<double, N>, N> a, std::array<double, N> b) {
-  for (std::size_t i = 0; i < N; ++i) {
-    std::size_t pivot = i;
-    for (std::size_t row = i + 1; row < N; ++row)
-      if (std::abs(a[row][i]) > std::abs(a[pivot][i])) pivot = row;
-    for (std::size_t column = 0; column < N; ++column) std::swap(a[i][column], a[pivot][column]);
-    std::swap(b[i], b[pivot]);
-    for (std::size_t row = 0; row < N; ++row) {
-      if (row == i) continue;
-      const double factor = a[row][i] / a[i][i];
-      for (std::size_t column = i; column < N; ++column) a[row][column] -= factor * a[i][column];
-      b[row] -= factor * b[i];
-    }
-  }
-  for (std::size_t i = 0; i < N; ++i) b[i] /= a[i][i];
-  return b;
-}
+constexpr Eigen::Index kUnknowns = 6;
 
 // The share of each primary in a unit of power per nanometre, reflected by the perfect diffuser under D65.
 std::array<LinearRgb, kCount> make_weights() {
@@ -44,19 +27,19 @@ std::array<LinearRgb, kCount> make_weights() {
   const auto d65 = load_illuminant("D65", {}, diagnostics);
   if (!d65) throw Error(ErrorCode::input, "illuminant D65", diagnostics.text());
   const ColorMatching& match = color_matching(Observer::cie1931);
-  std::array<std::array<double, 3>, 3> primaries{};
+  Eigen::Matrix3d primaries;  // a column each
   for (std::size_t c = 0; c < 3; ++c) {
     const auto& [x, y] = kRec709Primaries.at(c);
-    primaries[0][c] = x;
-    primaries[1][c] = y;
-    primaries[2][c] = 1 - x - y;
+    primaries.col(static_cast<Eigen::Index>(c)) << x, y, 1 - x - y;
   }
+  const Eigen::PartialPivLU<Eigen::Matrix3d> shares(primaries);
   std::array<LinearRgb, kCount> weights{};
   LinearRgb white{};
   for (std::size_t i = 0; i < kCount; ++i) {
     const double nm = kSums.low_nm + static_cast<double>(i);
     const double power = d65->curve(nm);
-    weights[i] = solve<3>(primaries, {power * match.x(nm), power * match.y(nm), power * match.z(nm)});
+    const Eigen::Vector3d at = shares.solve(power * Eigen::Vector3d(match.x(nm), match.y(nm), match.z(nm)));
+    weights[i] = {at[0], at[1], at[2]};
     for (std::size_t c = 0; c < 3; ++c) white[c] += weights[i][c];
   }
   for (LinearRgb& at : weights)
@@ -71,7 +54,7 @@ const std::array<LinearRgb, kCount>& weights() {
 
 // Red, green and blue at the i-th nanometre: exp(p), 1 and exp(q) over their sum, p and q quadratics in
 // wavelength.
-LinearRgb basis_at(const Vector& u, std::size_t i) {
+LinearRgb basis_at(const Eigen::VectorXd& u, std::size_t i) {
   const double x = 2 * static_cast<double>(i) / (kCount - 1) - 1;
   const double p = u[0] + x * (u[1] + x * u[2]);
   const double q = u[3] + x * (u[4] + x * u[5]);
@@ -81,72 +64,45 @@ LinearRgb basis_at(const Vector& u, std::size_t i) {
   return {e[0] / total, e[1] / total, e[2] / total};
 }
 
-// The colours of red and blue less what they should be; green follows, since all three add up to white.
-Vector residual(const Vector& u) {
-  Vector r{-1, 0, 0, 0, 0, -1};
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const LinearRgb basis = basis_at(u, i);
-    for (std::size_t c = 0; c < 3; ++c) {
-      r[c] += weights()[i][c] * basis[0];
-      r[3 + c] += weights()[i][c] * basis[2];
+// The conditions on the coefficients u: the colours of red and blue less what they should be; green follows,
+// since all three add up to white.
+struct Conditions {
+  using Scalar = double;
+  using InputType = Eigen::VectorXd;
+  using ValueType = Eigen::VectorXd;
+  using JacobianType = Eigen::MatrixXd;
+  static constexpr int InputsAtCompileTime = Eigen::Dynamic;
+  static constexpr int ValuesAtCompileTime = Eigen::Dynamic;
+
+  [[nodiscard]] static Eigen::Index inputs() { return kUnknowns; }
+  [[nodiscard]] static Eigen::Index values() { return kUnknowns; }
+  int operator()(const Eigen::VectorXd& u, Eigen::VectorXd& r) const {
+    r << -1, 0, 0, 0, 0, -1;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const LinearRgb basis = basis_at(u, i);
+      const Eigen::Map<const Eigen::Vector3d> weight(weights()[i].data());
+      r.head<3>() += weight * basis[0];
+      r.tail<3>() += weight * basis[2];
     }
+    return 0;
   }
-  return r;
-}
+};
 
-double squared(const Vector& r) {
-  double sum = 0;
-  for (const double x : r) sum += x * x;
-  return sum;
-}
-
-// One step of Gauss and Newton from u, damped after Levenberg and Marquardt.
-Vector step(const Vector& u, const Vector& r, double damping) {
-  constexpr double kDifference = 1e-5;
-  std::array<Vector, kUnknowns> slope{};  // by unknown
-  for (std::size_t j = 0; j < kUnknowns; ++j) {
-    Vector above = u;
-    Vector below = u;
-    above[j] += kDifference;
-    below[j] -= kDifference;
-    const Vector a = residual(above);
-    const Vector b = residual(below);
-    for (std::size_t i = 0; i < kUnknowns; ++i) slope[j][i] = (a[i] - b[i]) / (2 * kDifference);
-  }
-  std::array<Vector, kUnknowns> normal{};
-  Vector right{};
-  for (std::size_t j = 0; j < kUnknowns; ++j)
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-      for (std::size_t k = 0; k < kUnknowns; ++k) normal[j][k] += slope[j][i] * slope[k][i];
-      right[j] -= slope[j][i] * r[i];
-    }
-  for (std::size_t j = 0; j < kUnknowns; ++j) normal[j][j] *= 1 + damping;
-  Vector moved = solve(normal, right);
-  for (std::size_t j = 0; j < kUnknowns; ++j) moved[j] += u[j];
-  return moved;
-}
-
-Vector fit() {
-  constexpr double kDone = 1e-24;
-  constexpr int kSteps = 200;  // 30 are needed
-  Vector u{-1, 8, 4, -1, -8, 4};
-  Vector r = residual(u);
-  double damping = 1e-2;
-  for (int i = 0; i < kSteps && squared(r) > kDone; ++i) {
-    const Vector next = step(u, r, damping);
-    const Vector left = residual(next);
-    const bool better = squared(left) < squared(r);
-    damping *= better ? 0.3 : 4;
-    if (!better) continue;
-    u = next;
-    r = left;
-  }
-  if (squared(r) > kDone) throw Error(ErrorCode::internal, "RGB basis", "the fit does not converge");
+// Six conditions on six unknowns, met as closely as doubles can.
+Eigen::VectorXd fit() {
+  constexpr double kDone = 1e-12;
+  Eigen::VectorXd u(kUnknowns);
+  u << -1, 8, 4, -1, -8, 4;
+  const Eigen::NumericalDiff<Conditions, Eigen::Central> conditions;
+  Eigen::LevenbergMarquardt search(conditions);
+  search.parameters.ftol = search.parameters.xtol = std::numeric_limits<double>::epsilon();
+  search.minimize(u);
+  if (!(search.fnorm <= kDone)) throw Error(ErrorCode::internal, "RGB basis", "the fit does not converge");
   return u;
 }
 
 RgbBasis make_basis() {
-  const Vector u = fit();
+  const Eigen::VectorXd u = fit();
   std::array<std::vector<Knot>, 3> knots;
   for (std::size_t i = 0; i < kCount; ++i) {
     const LinearRgb at = basis_at(u, i);
