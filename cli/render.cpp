@@ -187,6 +187,8 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
       {"load", json_of(costs.load)}, {"display", json_of(costs.display)}, {"write", json_of(costs.write)}};
   answer["threads"] = stats.threads;
   answer["samples_per_pixel"] = stats.samples_per_pixel;
+  answer["photons_per_sample"] = result.film.shape().photons;
+  answer["path_interval"] = result.film.shape().path_interval;
   answer["paths"] = stats.paths;
   answer["rays"] = stats.rays;
   answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again

@@ -53,9 +53,10 @@ double from_fixed(Int128 fixed, int unit_exponent) {
   return std::ldexp(static_cast<double>(fixed), unit_exponent);
 }
 
-Film::Film(int width, int height, int channels, int replicates, double nominal, bool shares_photons)
+Film::Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons,
+           std::uint32_t path_interval)
     : Film(FilmShape{width, height, channels, replicates,
-                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits, shares_photons}) {}
+                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits, photons, path_interval}) {}
 
 Film::Film(const FilmShape& shape)
     : shape_(shape),
@@ -159,13 +160,13 @@ Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
           static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);
       for (int r = 0; r < shape_.replicates; ++r)
         sums[static_cast<std::size_t>(r)].add(from_fixed(sum(pixel, r, channel), shape_.unit_exponent));
-      const double own = shape_.shares_photons ? 0 : variance(pixel, channel);
+      const double own = shape_.photons > 0 ? 0 : variance(pixel, channel);
       variances += own;
       squares += own * own;
     }
   const double pixels = static_cast<double>(x1 - x0) * (y1 - y0);
   const double f = filled_replicates() - 1;
-  if (shape_.shares_photons) {
+  if (shape_.photons > 0) {
     variances = variance_of(sum_of);
     squares = variances * variances;
   }

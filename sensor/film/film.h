@@ -28,8 +28,10 @@ struct FilmShape {
   int height;
   int channels;
   int replicates;
-  int unit_exponent;            ///< Sums are multiples of 2^unit_exponent.
-  bool shares_photons = false;  ///< One photon may add to many pixels, so that these are not independent.
+  int unit_exponent;  ///< Sums are multiples of 2^unit_exponent.
+  /// Of each sample. One may add to many pixels, so that these are not independent; 0 where none are traced.
+  std::uint64_t photons = 0;
+  std::uint32_t path_interval = 1;  ///< A pixel has a camera path in one of so many samples.
 
   bool operator==(const FilmShape&) const = default;
 };
@@ -42,7 +44,8 @@ class Film {
  public:
   /// `nominal` is the order of magnitude of a film value: values from 2^-80 to 2^44 times it are kept exactly
   /// to 2^-80 of it.
-  Film(int width, int height, int channels, int replicates, double nominal, bool shares_photons = false);
+  Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons = 0,
+       std::uint32_t path_interval = 1);
   /// Throws Error{resource} when there is no memory for the sums.
   explicit Film(const FilmShape& shape);
 

@@ -222,6 +222,10 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   const RenderPart misshapen{own, render(smaller, {.samples = SampleRange{2, 3}})};
   EXPECT_EQ(refusal(sum, misshapen), "b.abbepart: has a film of another shape");
   EXPECT_THROW((void)render(scene, {}, copy(misshapen.result)), Error);
+  FilmShape other_shares = sum.result.film.shape();
+  other_shares.path_interval = 2;
+  const RenderPart another{own, {Film(other_shares), {{2, 3}}, {}}};
+  EXPECT_EQ(refusal(sum, another), "b.abbepart: has a film of another shape");
   RenderPart more = part(renamed, {2, 3});
   more.result.stats.nonfinite_samples = 5;
   sum.result.stats.cut = {4, Int128{2} << 40};

@@ -1,4 +1,5 @@
 #include "tests/scenes/scene_fixture.h"
+#include "transport/render/pass.h"
 
 namespace abbe {
 namespace {
@@ -29,6 +30,29 @@ TEST(Techniques, SharingPathsLosesAndDoublesNothing) {
   const test::Comparison c = test::compare_regions(alone.film, shared.film, 4);
   EXPECT_LT(c.largest_z, kLargestZ);
   EXPECT_NEAR(c.ratio, 1, 0.003);
+}
+
+// However many photons and camera paths samples have, they stand for the same light; over any of them, so
+// that a range need not hold each pixel's camera paths equally often.
+TEST(Techniques, TheirSharesChangeNoiseOnly) {
+  const Scene scene = test::load("glass_sphere.json",
+                                 {{"/sensor/resolution", "[48, 48]"}, {"/lights/0/sphere/radius", "0.8"}});
+  const auto film_with = [&scene](std::uint64_t photons, std::uint32_t path_interval) {
+    constexpr std::uint64_t kSamples = 8 * 60;
+    Plan plan = make_plan(scene);
+    plan.photons = photons;
+    plan.path_interval = path_interval;
+    Film film(48, 48, 3, 8, plan.nominal_value, photons, path_interval);
+    Pass(plan, film, {}, {0, kSamples}, 0, path_interval).run(2, [] { return false; });
+    film.set_samples(count_per_replicate({{0, kSamples}}, 8));
+    return film;
+  };
+  const Film whole = film_with(48 * 48, 1);
+  for (const Film& other : {film_with(48 * 48 / 8, 2), film_with(48 * 48, 8)}) {
+    const test::Comparison c = test::compare_regions(whole, other, 4);
+    EXPECT_LT(c.largest_z, kLargestZ);
+    EXPECT_NEAR(c.ratio, 1, 0.01);
+  }
 }
 
 TEST(Techniques, RouletteChangesNoiseOnly) {

@@ -98,6 +98,8 @@ Plan make_plan(const Scene& scene) {
             light_active ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
             !light_only,
             light_active,
+            static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
+            1,
             light_only,
             nominal_value(scene, emissions),
             make_own_wavelengths(scene, emissions),

@@ -25,8 +25,10 @@ struct Plan {
   std::vector<Aim> aims;      ///< Per light where photons start at all.
   bool path_active;
   bool light_active;
-  bool light_owns_all;                                  ///< The light tracer alone renders the scene.
-  double nominal_value;                                 ///< Order of magnitude of a film value.
+  std::uint64_t photons;        ///< Of a sample.
+  std::uint32_t path_interval;  ///< A pixel has a camera path in one of so many samples.
+  bool light_owns_all;          ///< The light tracer alone renders the scene.
+  double nominal_value;         ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
   MediumStack camera_inside;                            ///< Where camera paths start,
   std::vector<MediumStack> light_inside;                ///< and photons, likewise.

@@ -41,9 +41,17 @@ std::optional<std::vector<Number>> parse_numbers(const std::string& text, std::s
 }
 
 std::optional<FilmShape> parse_shape(const std::string& text) {
-  const auto n = parse_numbers<int>(text, 6);
-  if (!n) return std::nullopt;
-  const FilmShape shape{(*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5] != 0};
+  const auto n = parse_numbers<std::int64_t>(text, 7);
+  if (!n || *std::max_element(n->begin(), n->begin() + 5) > std::numeric_limits<int>::max())
+    return std::nullopt;
+  const auto as_int = [&n](std::size_t i) { return static_cast<int>((*n)[i]); };
+  const FilmShape shape{as_int(0),
+                        as_int(1),
+                        as_int(2),
+                        as_int(3),
+                        as_int(4),
+                        static_cast<std::uint64_t>((*n)[5]),
+                        static_cast<std::uint32_t>((*n)[6])};
   const bool possible = shape.width > 0 && shape.width <= kMaxImageEdge && shape.height > 0 &&
                         shape.height <= kMaxImageEdge && shape.channels > 0 && shape.channels <= 1 << 14 &&
                         shape.replicates > 0 && shape.replicates <= 1 << 14;
@@ -77,8 +85,8 @@ bool take_samples(FilmIdentity& header, RenderResult& result) {
 void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result) {
   FilmIdentity header = identity;
   const FilmShape& s = result.film.shape();
-  header[kShape] = fmt::format("{} {} {} {} {} {:d}", s.width, s.height, s.channels, s.replicates,
-                               s.unit_exponent, s.shares_photons);
+  header[kShape] = fmt::format("{} {} {} {} {} {} {}", s.width, s.height, s.channels, s.replicates,
+                               s.unit_exponent, s.photons, s.path_interval);
   header[kSamples] = to_text(result.samples);
   if (const auto& pass = result.unfinished)
     header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);

@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t kTile = 16;
 constexpr std::uint32_t kPhotonBatch = 4096;
 
-constexpr std::uint32_t pieces(std::uint32_t whole, std::uint32_t piece) {
-  return (whole + piece - 1) / piece;
+constexpr std::uint32_t pieces(std::uint64_t whole, std::uint32_t piece) {
+  return static_cast<std::uint32_t>((whole + piece - 1) / piece);
 }
 
 }  // namespace
@@ -33,8 +33,9 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
   const auto height = static_cast<std::uint32_t>(film.height());
   tiles_x_ = pieces(width, kTile);
   tiles_ = plan.path_active ? tiles_x_ * pieces(height, kTile) : 0;
-  pixels_ = width * height;
-  batches_ = plan.light_active ? pieces(pixels_, kPhotonBatch) : 0;
+  photons_ = plan.photons;
+  path_interval_ = plan.path_interval;
+  batches_ = plan.light_active ? pieces(photons_, kPhotonBatch) : 0;
 }
 
 PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
@@ -86,21 +87,36 @@ void Pass::render_tile(std::uint32_t tile, Worker& worker) {
     for (int x = std::max(x0, crop_.x0); x < std::min(x0 + kEdge, crop_.x1); ++x) sample_pixel(x, y, worker);
 }
 
+// Of the replicate's sequence at a pixel, that of a sample; nothing where the pixel skips it. Which samples
+// these are is chance, for each pixel and replicate, so that the mean over any of them is right.
+std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t pixel) const {
+  const auto index = static_cast<std::uint32_t>(sample / static_cast<std::uint64_t>(film_.replicates()));
+  if (path_interval_ == 1) return index;
+  constexpr std::uint32_t kPhaseGroup = 0xC0000000;
+  const float u = Sampler(seed_, Purpose::camera, replicate(sample), pixel, 0).group(kPhaseGroup)[0];
+  const std::uint32_t at = index + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
+  if (at % path_interval_ != 0) return std::nullopt;
+  return at / path_interval_;
+}
+
 void Pass::sample_pixel(int x, int y, Worker& worker) {
   const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
   for (std::uint64_t s = first_; s < last_; ++s) {
     const std::uint32_t r = replicate(s);
-    const auto index = static_cast<std::uint32_t>(s / static_cast<std::uint64_t>(film_.replicates()));
-    const Sampler sampler(seed_, Purpose::camera, r, pixel, index);
+    const std::optional<std::uint32_t> index = path_of(s, pixel);
+    if (!index) continue;
+    const Sampler sampler(seed_, Purpose::camera, r, pixel, *index);
     trace_camera_path(plan_, worker.caster, sampler, x, y, worker.exposure);
     ++worker.counts.paths;
-    if (keeps(worker.exposure.values(), worker))
-      film_.add(pixel, static_cast<int>(r), worker.exposure.values());
+    worker.values.assign(worker.exposure.values().begin(), worker.exposure.values().end());
+    for (double& value : worker.values) value *= path_interval_;
+    if (keeps(worker.values, worker)) film_.add(pixel, static_cast<int>(r), worker.values);
   }
 }
 
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
-  const std::uint32_t end = std::min((batch + 1) * kPhotonBatch, pixels_);
+  const std::uint64_t begin = std::uint64_t{batch} * kPhotonBatch;
+  const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
     const Splat splat = [&](int x, int y, std::span<const double> values) {
       if (x < crop_.x0 || x >= crop_.x1 || y < crop_.y0 || y >= crop_.y1 || !keeps(values, worker)) return;
@@ -108,11 +124,12 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
           static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width()) + static_cast<std::size_t>(x),
           static_cast<int>(replicate(s)), values);
     };
-    for (std::uint32_t photon = batch * kPhotonBatch; photon < end; ++photon) {
-      const std::uint64_t index = s / static_cast<std::uint64_t>(film_.replicates()) * pixels_ + photon;
+    for (std::uint64_t photon = begin; photon < end; ++photon) {
+      const std::uint64_t index = s / static_cast<std::uint64_t>(film_.replicates()) * photons_ + photon;
       const Sampler sampler(seed_, Purpose::light, replicate(s), static_cast<std::uint32_t>(index >> 32),
                             static_cast<std::uint32_t>(index));
-      trace_photon(plan_, worker.caster, sampler, 1.0 / pixels_, worker.exposure, splat);
+      trace_photon(plan_, worker.caster, sampler, 1.0 / static_cast<double>(photons_), worker.exposure,
+                   splat);
       ++worker.counts.paths;
     }
   }

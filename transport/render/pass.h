@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "sensor/film/film.h"
 #include "transport/render/render.h"
@@ -21,9 +23,10 @@ struct PassCounts {
   Cut cut = {};
 };
 
-/// Samples [first, last) of every pixel, and as many photons as that makes. Sample s belongs to replicate s
-/// mod R and is number s / R of that replicate's sequence. Work items are tiles, then batches of photons,
-/// taken by threads from one counter, so that those done are always the first ones.
+/// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.
+/// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Work items are
+/// tiles, then batches of photons, taken by threads from one counter, so that those done are always the first
+/// ones.
 class Pass {
  public:
   /// Of which the film has the first `done` items already. `seed` is that of the random numbers.
@@ -44,6 +47,7 @@ class Pass {
     explicit Worker(const Scene& scene) : caster(scene), exposure(exposure_of(scene)) {}
     RayCaster caster;
     PathExposure exposure;
+    std::vector<double> values;  // of a camera path, as the film takes them
     PassCounts counts;
   };
 
@@ -53,6 +57,7 @@ class Pass {
   void trace_batch(std::uint32_t batch, Worker& worker);
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
+  [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, std::uint32_t pixel) const;
 
   const Plan& plan_;
   const Scene& scene_;
@@ -64,7 +69,8 @@ class Pass {
   std::uint32_t tiles_x_;
   std::uint32_t tiles_;
   std::uint32_t batches_;
-  std::uint32_t pixels_;
+  std::uint64_t photons_;
+  std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;
 };
 

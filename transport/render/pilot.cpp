@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::uint64_t kPaths = 1U << 16;
 constexpr std::uint64_t kMostSamples = 16;
-constexpr std::uint64_t kSeed = std::uint64_t{1} << 63;  // scene files have none so large
 
 constexpr std::uint32_t kBatches = 64;
 constexpr std::uint32_t kBatch = 256;
@@ -29,10 +28,10 @@ void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, Expo
   const Camera& camera = plan.scene.camera;
   const double pixels = static_cast<double>(camera.width) * camera.height;
   for (std::uint32_t i = batch * kBatch; plan.path_active && i < (batch + 1) * kBatch; ++i) {
-    const std::array<float, 4> u = Sampler(kSeed, Purpose::pilot, 0, 0, i).group(0);
+    const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 0, i).group(0);
     const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
     const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
-    trace_camera_path(plan, caster, Sampler(kSeed, Purpose::camera, 0, 0, i), x, y, exposure);
+    trace_camera_path(plan, caster, Sampler(kSeedOfPilots, Purpose::camera, 0, 0, i), x, y, exposure);
   }
   for (double& sum : sums.exposure) sum *= pixels / kAll;
 }
@@ -45,7 +44,7 @@ void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, Ex
   };
   for (std::uint32_t i = batch * kBatch; plan.light_active && i < (batch + 1) * kBatch; ++i) {
     std::fill(values.begin(), values.end(), 0.0);
-    const Sampler sampler(kSeed, Purpose::light, 0, 0, i);
+    const Sampler sampler(kSeedOfPilots, Purpose::light, 0, 0, i);
     const PhotonStart start = trace_photon(plan, caster, sampler, 1 / kAll, exposure, add);
     for (std::size_t k = 0; k < values.size(); ++k) sums.add(start.light, k, values[k]);
   }
@@ -60,7 +59,7 @@ std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop
             plan.nominal_value);
   const auto pixels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixels, 1, kMostSamples);
-  Pass pass(plan, film, crop, {0, samples}, 0, kSeed);
+  Pass pass(plan, film, crop, {0, samples}, 0, kSeedOfPilots);
   pass.run(threads, stop);
   if (!pass.finished()) return std::nullopt;
   film.set_samples({samples});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -9,6 +10,9 @@
 #include "transport/render/render.h"
 
 namespace abbe {
+
+/// Of the random numbers of pilots: scene files have none so large.
+inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
 
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers

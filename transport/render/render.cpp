@@ -14,6 +14,7 @@
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
 #include "transport/render/replay.h"
+#include "transport/render/technique_shares.h"
 #include "transport/render/threads.h"
 
 namespace abbe {
@@ -32,24 +33,31 @@ bool open_ended(const RenderOptions& options) {
   return options.time_limit_s || options.target_error;
 }
 
+Plan balanced_plan(const Scene& scene, int threads) {
+  Plan plan = make_learnt_plan(scene, threads, scene.render.seed);
+  set_technique_shares(plan, threads);
+  return plan;
+}
+
 class Rendering {
  public:
   Rendering(const Scene& scene, const RenderOptions& options, std::optional<RenderResult> start)
       : scene_(scene),
         options_(options),
         threads_(thread_count(options.threads)),
-        plan_(make_learnt_plan(scene, threads_, scene.render.seed)),
+        plan_(balanced_plan(scene, threads_)),
         wanted_(options.samples.value_or(SampleRange{
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
                                                        static_cast<std::uint64_t>(scene.camera.height)))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
-                     replicate_count(scene, options), plan_.nominal_value, plan_.light_active),
+                     replicate_count(scene, options), plan_.nominal_value,
+                     plan_.light_active ? plan_.photons : 0, plan_.path_interval),
                 {},
                 {}} {
     if (start) {
       if (start->film.shape() != result_.film.shape())
-        throw Error(ErrorCode::internal, "render", "the film to go on with has another shape");
+        throw Error(ErrorCode::input, "render", "the film to go on with has another shape");
       result_ = *std::move(start);
     }
     RenderStats& stats = result_.stats;

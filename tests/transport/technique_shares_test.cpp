@@ -1,0 +1,57 @@
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "transport/render/learn_aims.h"
+#include "transport/render/technique_shares.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uint64_t kPixels = 32 * 32;
+
+// A card seen from in front, a ball of glass and a lamp; what photons bring comes through the ball.
+Scene card_with(const Imath::V3d& ball, const Imath::V3f& lamp) {
+  Scene scene{};
+  scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true}, 32,
+                  32, 0.001};
+  scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
+                     {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
+  scene.channels = {energy_channel("all", Curve(1.0))};
+  scene.shapes.push_back({"card", Quad{{-5, -5, 5}, {0, 10, 0}, {10, 0, 0}}, 0});
+  scene.shapes.push_back({"ball", Sphere{ball, 0.3}, 1});
+  scene.lights.push_back({"lamp", PointLight{lamp}, Curve(1.0)});
+  scene.commit();
+  return scene;
+}
+
+// Photons, and the interval of camera paths.
+using Shares = std::pair<std::uint64_t, std::uint32_t>;
+Shares shares(const Scene& scene, int threads = 2) {
+  Plan plan = make_learnt_plan(scene, threads, 0);
+  set_technique_shares(plan, threads);
+  return {plan.photons, plan.path_interval};
+}
+
+TEST(TechniqueShares, GoWhereTheErrorIs) {
+  EXPECT_EQ(shares(card_with({0, 0, 2}, {0, 0, 2})), Shares(kPixels, 8))
+      << "all light comes through the ball";
+  EXPECT_EQ(shares(card_with({0, 0, -20}, {0, 0, 1})), Shares(kPixels / 8, 1))
+      << "the ball is behind the camera";
+}
+
+TEST(TechniqueShares, AreTheSameOnAnyNumberOfThreads) {
+  const Scene scene = card_with({0.6, 0, 3}, {-1, 0, 0.5});
+  EXPECT_EQ(shares(scene, 1), shares(scene, 3));
+}
+
+TEST(TechniqueShares, AreWholeWhereThereIsNoChoice) {
+  Scene scene = card_with({0, 0, 2}, {0, 0, 2});
+  scene.render.integrator = Integrator::path;
+  EXPECT_EQ(shares(scene), Shares(kPixels, 1));
+  scene.render.integrator = Integrator::light;
+  EXPECT_EQ(shares(scene), Shares(kPixels, 1));
+}
+
+}  // namespace
+}  // namespace abbe

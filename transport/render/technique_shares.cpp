@@ -1,0 +1,164 @@
+#include "transport/render/technique_shares.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "transport/render/pilot.h"
+#include "transport/render/threads.h"
+#include "transport/technique/light.h"
+#include "transport/technique/path.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uint32_t kPixels = 4096;
+constexpr std::uint32_t kPathsPerPixel = 8;
+constexpr std::uint32_t kPhotons = 1U << 16;
+constexpr std::uint32_t kBatches = 64;
+constexpr int kGrid = 16;  // regions along an edge of the film
+constexpr int kMostHalvings = 3;
+
+// What the pilots found in one region, a value being the sum of |film value| over the channels.
+struct Region {
+  double pixels = 0;        // that camera paths went through
+  double mean = 0;          // sum over them of the mean,
+  double variance = 0;      // of the variance of a path,
+  double path_squares = 0;  // and of the mean square
+  double photons = 0;       // sum of all splats of photons that each stand for all of a sample's,
+  double squares = 0;       // and of their squares
+};
+
+struct Findings {
+  std::array<Region, static_cast<std::size_t>(kGrid) * kGrid> regions;
+  std::uint64_t path_rays = 0;
+  std::uint64_t photon_rays = 0;
+
+  Region& at(const Camera& camera, int x, int y) {
+    return regions[static_cast<std::size_t>(y * kGrid / camera.height * kGrid + x * kGrid / camera.width)];
+  }
+  void add(const Findings& more) {
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      regions[i].pixels += more.regions[i].pixels;
+      regions[i].mean += more.regions[i].mean;
+      regions[i].variance += more.regions[i].variance;
+      regions[i].path_squares += more.regions[i].path_squares;
+      regions[i].photons += more.regions[i].photons;
+      regions[i].squares += more.regions[i].squares;
+    }
+    path_rays += more.path_rays;
+    photon_rays += more.photon_rays;
+  }
+};
+
+double strength(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values) sum += std::abs(v);
+  return std::isfinite(sum) ? sum : 0;
+}
+
+void try_paths(const Plan& plan, std::uint32_t pixel, RayCaster& caster, PathExposure& exposure,
+               Findings& found) {
+  const Camera& camera = plan.scene.camera;
+  const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 1, pixel).group(0);
+  const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
+  const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
+  double sum = 0;
+  double squares = 0;
+  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i) {
+    trace_camera_path(plan, caster, Sampler(kSeedOfPilots, Purpose::pilot, 1, pixel, i), x, y, exposure);
+    const double value = strength(exposure.values());
+    sum += value;
+    squares += value * value;
+  }
+  Region& region = found.at(camera, x, y);
+  region.pixels += 1;
+  region.mean += sum / kPathsPerPixel;
+  region.path_squares += squares / kPathsPerPixel;
+  region.variance += std::max(0.0, squares - sum * sum / kPathsPerPixel) / (kPathsPerPixel - 1);
+}
+
+Findings try_batch(const Plan& plan, std::uint32_t batch) {
+  Findings found;
+  PathExposure exposure = exposure_of(plan.scene);
+  RayCaster path_caster(plan.scene);
+  for (std::uint32_t i = batch; i < kPixels; i += kBatches) try_paths(plan, i, path_caster, exposure, found);
+  RayCaster photon_caster(plan.scene);
+  const Splat splat = [&](int x, int y, std::span<const double> values) {
+    const double value = strength(values);
+    Region& region = found.at(plan.scene.camera, x, y);
+    region.photons += value;
+    region.squares += value * value;
+  };
+  for (std::uint32_t i = batch; i < kPhotons; i += kBatches)
+    trace_photon(plan, photon_caster, Sampler(kSeedOfPilots, Purpose::pilot, 2, 0, i), 1, exposure, splat);
+  found.path_rays = path_caster.rays();
+  found.photon_rays = photon_caster.rays();
+  return found;
+}
+
+Findings try_all(const Plan& plan, int threads) {
+  std::vector<Findings> batches(kBatches);
+  std::atomic<std::uint32_t> next = 0;
+  run_on_threads(threads, [&] {
+    for (std::uint32_t batch = next++; batch < kBatches; batch = next++)
+      batches[batch] = try_batch(plan, batch);
+  });
+  Findings all;
+  for (const Findings& batch : batches) all.add(batch);  // in their order, whichever threads traced them
+  return all;
+}
+
+// Of the film, relative: variance and mean square of a camera path per pixel, and variance of as many
+// photons.
+struct Errors {
+  double path_variance = 0;
+  double path_square = 0;
+  double photon_variance = 0;
+};
+Errors errors_of(const Findings& found, double pixels) {
+  const double region_pixels = pixels / static_cast<double>(found.regions.size());
+  const auto mean = [&](const Region& region) {
+    return (region.pixels > 0 ? region.mean / region.pixels : 0) +
+           region.photons / (kPhotons * region_pixels);
+  };
+  double film_mean = 0;
+  for (const Region& region : found.regions)
+    film_mean += mean(region) / static_cast<double>(found.regions.size());
+  constexpr double kFloor = 0.01;  // of the film's mean, squared
+  Errors errors;
+  for (const Region& region : found.regions) {
+    const double scale = std::pow(mean(region), 2) + kFloor * film_mean * film_mean;
+    if (!(scale > 0)) continue;
+    errors.photon_variance += region.squares / (kPhotons * pixels) / scale;
+    if (!(region.pixels > 0)) continue;
+    errors.path_variance += region_pixels * region.variance / region.pixels / scale;
+    errors.path_square += region_pixels * region.path_squares / region.pixels / scale;
+  }
+  return errors;
+}
+
+// How often `share` is halved from 1: no more than an eighth is left of it, and nothing known leaves it.
+int halvings(double share) {
+  if (std::isnan(share)) return 0;
+  return static_cast<int>(std::clamp(std::round(-std::log2(share)), 0.0, 1.0 * kMostHalvings));
+}
+
+}  // namespace
+
+void set_technique_shares(Plan& plan, int threads) {
+  if (!plan.light_active || !plan.path_active) return;
+  const Findings found = try_all(plan, threads);
+  const Errors errors = errors_of(found, static_cast<double>(plan.photons));
+  const double path_cost = static_cast<double>(found.path_rays) / (kPixels * kPathsPerPixel);
+  const double photon_cost = static_cast<double>(found.photon_rays) / kPhotons;
+  const double cost = path_cost / photon_cost;
+  const int fewer_photons = halvings(std::sqrt(errors.photon_variance / errors.path_variance * cost));
+  const int fewer_paths = halvings(std::sqrt(errors.path_square / errors.photon_variance / cost));
+  plan.photons = std::max<std::uint64_t>(1, plan.photons >> fewer_photons);
+  plan.path_interval = 1U << fewer_paths;
+}
+
+}  // namespace abbe
