@@ -35,8 +35,10 @@ TEST(Techniques, SharingPathsLosesAndDoublesNothing) {
 // However many photons and camera paths samples have, they stand for the same light; over any of them, so
 // that a range need not hold each pixel's camera paths equally often.
 TEST(Techniques, TheirSharesChangeNoiseOnly) {
-  const Scene scene = test::load("glass_sphere.json",
-                                 {{"/sensor/resolution", "[48, 48]"}, {"/lights/0/sphere/radius", "0.8"}});
+  Scene scene = test::load("glass_sphere.json",
+                           {{"/sensor/resolution", "[48, 48]"}, {"/lights/0/sphere/radius", "0.8"}});
+  scene.needs.light_tracing = true;
+  scene.needs.light_is_traced[0] = true;
   const auto film_with = [&scene](std::uint64_t photons, std::uint32_t path_interval) {
     constexpr std::uint64_t kSamples = 8 * 60;
     Plan plan = make_plan(scene);
@@ -45,6 +47,8 @@ TEST(Techniques, TheirSharesChangeNoiseOnly) {
     Film film(48, 48, 3, 8, plan.nominal_value, photons, path_interval);
     Pass(plan, film, {}, {0, kSamples}, 0, path_interval).run(2, [] { return false; });
     film.set_samples(count_per_replicate({{0, kSamples}}, 8));
+    EXPECT_EQ(film.shape().photons, photons);
+    EXPECT_EQ(film.shape().path_interval, path_interval);
     return film;
   };
   const Film whole = film_with(48 * 48, 1);
