@@ -1,5 +1,6 @@
 #include "sampling/sampler.h"
 
+#include <bit>
 #include <cstddef>
 
 namespace abbe {
@@ -7,11 +8,25 @@ namespace {
 
 using Point = std::array<std::uint32_t, 4>;
 
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+// One 32-bit number for each dimension of two groups, held as one vector of the machine.
+using Lanes [[gnu::vector_size(32)]] = std::uint32_t;
+using Bytes [[gnu::vector_size(32)]] = std::uint8_t;
+
+constexpr std::uint32_t swap_bytes(std::uint32_t x) {
+  return __builtin_bswap32(x);
+}
+inline Lanes swap_bytes(Lanes x) {
+  constexpr Bytes kSwapped{3,  2,  1,  0,  7,  6,  5,  4,  11, 10, 9,  8,  15, 14, 13, 12,
+                           19, 18, 17, 16, 23, 22, 21, 20, 27, 26, 25, 24, 31, 30, 29, 28};
+  return std::bit_cast<Lanes>(__builtin_shuffle(std::bit_cast<Bytes>(x), kSwapped));
+}
+
+template <typename T>
+constexpr T reverse_bits(T x) {
   x = ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
   x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
   x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
-  return __builtin_bswap32(x);
+  return swap_bytes(x);
 }
 
 // Generator matrices of the first four Sobol dimensions: bit b of the index flips column b. The recurrence
@@ -55,7 +70,8 @@ constexpr std::array<std::array<Point, 256>, 4> sobol_bytes() {
 
 constexpr std::array<std::array<Point, 256>, 4> kSobol = sobol_bytes();
 
-constexpr std::uint32_t mix(std::uint32_t x) {  // a bijection with full avalanche [Wellons2018]
+template <typename T>
+constexpr T mix(T x) {  // a bijection with full avalanche [Wellons2018]
   x ^= x >> 16;
   x *= 0x7feb352dU;
   x ^= x >> 15;
@@ -64,15 +80,17 @@ constexpr std::uint32_t mix(std::uint32_t x) {  // a bijection with full avalanc
   return x;
 }
 
-constexpr std::uint32_t combine(std::uint32_t a, std::uint32_t b) {
+template <typename T>
+constexpr T combine(T a, T b) {
   return mix(a ^ (mix(b) + 0x9e3779b9U));
 }
 
 // A permutation in which each bit depends only on itself and lower bits [Laine2011]; between two bit
 // reversals, the first of which the caller has done, it is an Owen scrambling of a point, or a nested uniform
 // shuffle of an index.
-constexpr std::uint32_t owen_scramble(std::uint32_t reversed, std::uint32_t seed) {
-  std::uint32_t x = reversed + seed;
+template <typename T>
+constexpr T owen_scramble(T reversed, T seed) {
+  T x = reversed + seed;
   x ^= x * 0x6c50b47cU;
   x ^= x * 0xb82f1e52U;
   x ^= x * 0xc7afe638U;
@@ -80,8 +98,13 @@ constexpr std::uint32_t owen_scramble(std::uint32_t reversed, std::uint32_t seed
   return reverse_bits(x);
 }
 
-constexpr float to_unit(std::uint32_t x) {
-  return static_cast<float>(x >> 8) * 0x1p-24F;
+// Point i of the sequence, its bits reversed.
+Point sobol_point(std::uint32_t i) {
+  Point x;
+  for (std::size_t d = 0; d < 4; ++d)
+    x[d] = kSobol[0][i & 255U][d] ^ kSobol[1][(i >> 8) & 255U][d] ^ kSobol[2][(i >> 16) & 255U][d] ^
+           kSobol[3][i >> 24][d];
+  return x;
 }
 
 }  // namespace
@@ -95,16 +118,21 @@ Sampler::Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t replicate, s
           stream)),
       reversed_index_(reverse_bits(index)) {}
 
+std::array<std::array<float, 4>, 2> Sampler::two_groups(std::uint32_t first) const {
+  const std::array<std::uint32_t, 2> keys{combine(key_, first), combine(key_, first + 1)};
+  const std::array<Point, 2> points{sobol_point(owen_scramble(reversed_index_, keys[0])),
+                                    sobol_point(owen_scramble(reversed_index_, keys[1]))};
+  const Lanes key{keys[0], keys[0], keys[0], keys[0], keys[1], keys[1], keys[1], keys[1]};
+  constexpr Lanes kDimensions{1, 2, 3, 4, 1, 2, 3, 4};
+  const Lanes x = owen_scramble(std::bit_cast<Lanes>(points), combine(key, kDimensions));
+  using Floats [[gnu::vector_size(32)]] = float;
+  using Signed [[gnu::vector_size(32)]] = std::int32_t;  // there is an instruction for these
+  const Floats unit = __builtin_convertvector(std::bit_cast<Signed>(x >> 8), Floats) * 0x1p-24F;
+  return std::bit_cast<std::array<std::array<float, 4>, 2>>(unit);
+}
+
 std::array<float, 4> Sampler::group(std::uint32_t group) const {
-  const std::uint32_t key = combine(key_, group);
-  const std::uint32_t i = owen_scramble(reversed_index_, key);
-  std::array<float, 4> point;
-  for (std::uint32_t d = 0; d < 4; ++d) {
-    const std::uint32_t x = kSobol[0][i & 255U][d] ^ kSobol[1][(i >> 8) & 255U][d] ^
-                            kSobol[2][(i >> 16) & 255U][d] ^ kSobol[3][i >> 24][d];
-    point[d] = to_unit(owen_scramble(x, combine(key, d + 1)));
-  }
-  return point;
+  return two_groups(group)[0];
 }
 
 }  // namespace abbe

@@ -6,7 +6,7 @@
 namespace abbe {
 
 /// What a sequence of random numbers is for; sequences of different purposes are independent.
-enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3 };
+enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3, palette = 4 };
 
 /// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, replicate,
 /// stream (a pixel, say), sample index and group: nothing is consumed, so no path depends on what another
@@ -19,6 +19,8 @@ class Sampler {
 
   /// Four numbers in [0, 1).
   [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
+  /// Those of two groups that follow each other, at the cost of one.
+  [[nodiscard]] std::array<std::array<float, 4>, 2> two_groups(std::uint32_t first) const;
 
  private:
   std::uint32_t key_;

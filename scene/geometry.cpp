@@ -10,6 +10,7 @@
 
 #include "io/error.h"
 #include "scene/embree_query.h"
+#include "scene/exact_query.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/placed.h"
@@ -21,95 +22,6 @@ namespace {
 
 // One instruction set everywhere, so that a CPU with wider vectors gives the same bits.
 constexpr const char* kDeviceConfig = "isa=avx2";
-
-// What rays meet; those that ask for shadows leave out the boundaries of matter, which throw none.
-constexpr unsigned kOpaque = 1;
-constexpr unsigned kBoundary = 2;
-
-// What the callbacks need beyond Embree's float ray, and what they found beyond Embree's float hit.
-struct ExactContext : RTCIntersectContext {
-  ExactContext(const BasicRay<double>& r, const std::vector<Part>& all)
-      : RTCIntersectContext(), ray(r), parts(all) {
-    rtcInitIntersectContext(this);
-  }
-  BasicRay<double> ray;
-  const std::vector<Part>& parts;
-  ShapeHit<double> nearest{};              // on a sphere or disc
-  std::vector<SurfaceHit>* all = nullptr;  // where every hit goes, if they are asked for
-};
-
-std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context);
-
-// The ray is the world's; within an instance, where that stands, else nullptr.
-struct Exact {
-  const BasicRay<double>& ray;
-  const Placement* at;
-
-  explicit Exact(const RTCIntersectContext* context)
-      : ray(static_cast<const ExactContext*>(context)->ray), at(nullptr) {
-    const std::uint32_t instance = context->instID[0];
-    if (instance == RTC_INVALID_GEOMETRY_ID) return;
-    at = std::get<PlacedPart>(static_cast<const ExactContext*>(context)->parts[instance]).at.get();
-  }
-  template <typename S>
-  [[nodiscard]] std::optional<ShapeHit<double>> intersection(const S& shape) const {
-    return at == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *at, ray, 0.0);
-  }
-};
-
-// Rays come one by one, so N is 1 in all callbacks and the N-ray structures are plain ones.
-void reject_behind(const RTCFilterFunctionNArguments* args) {
-  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
-  const Exact exact(args->context);
-  const std::uint32_t triangle = reinterpret_cast<const RTCHit*>(args->hit)->primID;
-  const double t =
-      plane_crossing(set, triangle, exact.at == nullptr ? exact.ray : to_prototype(*exact.at, exact.ray));
-  if (!(t > 0 && t < exact.ray.t_max)) args->valid[0] = 0;
-}
-
-void collect(const RTCFilterFunctionNArguments* args) {
-  const auto& context = *static_cast<const ExactContext*>(args->context);
-  if (const auto hit = decide(*reinterpret_cast<const RTCHit*>(args->hit), context))
-    context.all->push_back(*hit);
-  args->valid[0] = 0;
-}
-
-template <typename S>
-void user_bounds(const RTCBoundsFunctionArguments* args) {
-  const Imath::Box3d box = bounds(*static_cast<const S*>(args->geometryUserPtr));
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const auto below = [](double x) { return std::nextafter(static_cast<float>(x), -kInfinity); };
-  const auto above = [](double x) { return std::nextafter(static_cast<float>(x), kInfinity); };
-  *args->bounds_o = {below(box.min.x), below(box.min.y), below(box.min.z), 0,
-                     above(box.max.x), above(box.max.y), above(box.max.z), 0};
-}
-
-template <typename S>
-void user_intersect(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto found = Exact(args->context).intersection(*static_cast<const S*>(args->geometryUserPtr));
-  if (!found || !(found->t < static_cast<double>(ray.tfar))) return;
-  auto& context = *static_cast<ExactContext*>(args->context);
-  context.nearest = *found;
-  RTCHit met{};
-  met.geomID = args->geomID;
-  met.primID = args->primID;
-  met.instID[0] = args->context->instID[0];
-  if (context.all != nullptr) {
-    if (const auto one = decide(met, context)) context.all->push_back(*one);
-    return;
-  }
-  ray.tfar = static_cast<float>(found->t);
-  hit = met;
-}
-
-template <typename S>
-void user_occluded(const RTCOccludedFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  if (Exact(args->context).intersection(*static_cast<const S*>(args->geometryUserPtr)))
-    reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
-}
 
 template <typename S>
 PlainPart plain_part(const S& shape) {
@@ -137,10 +49,7 @@ RTCGeometry user_geometry(RTCDevice device, S& shape) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, 1);
   rtcSetGeometryUserData(geometry, &shape);
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* args) { user_bounds<S>(args); }, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, user_intersect<S>);
-  rtcSetGeometryOccludedFunction(geometry, user_occluded<S>);
+  set_callbacks(geometry, shape);
   return geometry;
 }
 
@@ -165,46 +74,45 @@ RTCGeometry geometry_of(RTCDevice device, const PlacedPart& placed) {
   return geometry;
 }
 
-SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape, std::uint32_t primitive) {
-  return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape, primitive};
+BasicRay<double> exact(const Ray& ray) {
+  return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)};
 }
 
-// Of barycentric coordinates: well beyond what points keep off edges, in all but the smallest triangles.
-constexpr float kNearEdge = 0.01F;
+// The rays of a context as a packet; places beyond `count` are left idle by `valid`.
+struct alignas(32) Packet {
+  std::array<int, kPacket> valid;
+  RTCRayHit8 query;
 
-// How the point at t is to be moved to be as far from the edges of its triangle as rays start from the
-// surface.
-Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const PlacedPart* instance,
-                          const BasicRay<double>& local, double t, const Imath::V3f& point) {
-  const Imath::V3f axis(1, 0, 0);
-  const double distance = 0.5 * static_cast<double>((offset_point(point, axis, axis) - point).x);
-  Imath::V3d shift = shift_off_edges(set, hit.primID, local.origin + local.direction * t,
-                                     distance * local.direction.length());
-  if (instance != nullptr) instance->at->to_world.multDirMatrix(shift, shift);
-  return shift;
-}
-
-// What Embree found, in double; nothing for the plane of a triangle that the ray does not cross.
-std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context) {
-  const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-  const std::uint32_t shape = placed ? hit.instID[0] : hit.geomID;
-  const Part& part = context.parts[shape];
-  const auto* instance = std::get_if<PlacedPart>(&part);
-  const auto* set =
-      instance == nullptr ? std::get_if<TriangleSet>(&part) : std::get_if<TriangleSet>(&instance->of->part);
-  if (set == nullptr) return surface_hit(context.nearest, shape, 0);
-  const BasicRay<double>& ray = context.ray;
-  const BasicRay<double> local = instance == nullptr ? ray : to_prototype(*instance->at, ray);
-  const double t = plane_crossing(*set, hit.primID, local);
-  if (!(t > 0 && t < ray.t_max)) return std::nullopt;
-  Imath::V3d point = ray.origin + ray.direction * t;
-  if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
-    point += shift_in_world(*set, hit, instance, local, t, Imath::V3f(point));
-  if (instance == nullptr)
-    return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
-  const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
-  return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape, hit.primID);
-}
+  Packet(const ExactContext& context, std::size_t count, unsigned mask) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      const RTCRay ray = embree_ray(context.rays[std::min(i, count - 1)]);
+      query.ray.org_x[i] = ray.org_x;
+      query.ray.org_y[i] = ray.org_y;
+      query.ray.org_z[i] = ray.org_z;
+      query.ray.dir_x[i] = ray.dir_x;
+      query.ray.dir_y[i] = ray.dir_y;
+      query.ray.dir_z[i] = ray.dir_z;
+      query.ray.tnear[i] = 0;
+      query.ray.time[i] = 0;
+      query.ray.tfar[i] = ray.tfar;
+      query.ray.mask[i] = mask;
+      query.ray.id[i] = static_cast<unsigned>(i);
+      query.ray.flags[i] = 0;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+  [[nodiscard]] RTCHit hit(std::size_t i) const {
+    RTCHit one{};
+    one.u = query.hit.u[i];
+    one.v = query.hit.v[i];
+    one.primID = query.hit.primID[i];
+    one.geomID = query.hit.geomID[i];
+    one.instID[0] = query.hit.instID[0][i];
+    return one;
+  }
+};
 
 }  // namespace
 
@@ -298,17 +206,33 @@ void Geometry::check() const {
 }
 
 std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
-  const BasicRay<double> exact{Imath::V3d(ray.origin), Imath::V3d(ray.direction),
-                               static_cast<double>(ray.t_max)};
-  ExactContext context(exact, parts_);
+  ExactContext context(parts_);
+  context.rays[0] = exact(ray);
   while (true) {
-    RTCRayHit query = embree_query(exact);
+    RTCRayHit query = embree_query(context.rays[0]);
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (auto hit = decide(query.hit, context)) return hit;
+    if (auto hit = decide(query.hit, context, 0)) return hit;
     // The plane the ray has just left, mistaken by rounding: rare enough to ask again with every candidate
     // looked at in double.
     context.filter = reject_behind;
+  }
+}
+
+void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const {
+  ExactContext context(parts_);
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) context.rays[i] = exact(rays[first + i]);
+    Packet packet(context, count, ~0U);
+    rtcIntersect8(packet.valid.data(), scene_.get(), &context, &packet.query);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::optional<SurfaceHit>& hit = hits[first + i];
+      hit.reset();
+      if (packet.query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      hit = decide(packet.hit(i), context, i);
+      if (!hit) hit = intersect(rays[first + i]);
+    }
   }
 }
 
@@ -323,10 +247,11 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
   const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
   std::vector<SurfaceHit> all;
-  ExactContext context({origin, direction, static_cast<double>(hit.t) + reach - start}, parts_);
+  ExactContext context(parts_);
+  context.rays[0] = {origin, direction, static_cast<double>(hit.t) + reach - start};
   context.all = &all;
   context.filter = collect;
-  RTCRayHit query = embree_query(context.ray);
+  RTCRayHit query = embree_query(context.rays[0]);
   rtcIntersect1(scene_.get(), &context, &query);
   const auto sooner = [](const SurfaceHit& a, const SurfaceHit& b) {
     return std::tie(a.t, a.shape) < std::tie(b.t, b.shape);
@@ -348,19 +273,30 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
 }
 
 bool Geometry::occluded(const BasicRay<double>& ray) const {
-  ExactContext context(ray, parts_);
+  ExactContext context(parts_);
+  context.rays[0] = ray;
   RTCRay query = embree_ray(ray);
   query.mask = kOpaque;
   rtcOccluded1(scene_.get(), &context, &query);
   return query.tfar < 0;
 }
 
+void Geometry::occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const {
+  ExactContext context(parts_);
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(first), count, context.rays.begin());
+    Packet packet(context, count, kOpaque);
+    rtcOccluded8(packet.valid.data(), scene_.get(), &context, &packet.query.ray);
+    for (std::size_t i = 0; i < count; ++i) blocked[first + i] = packet.query.ray.tfar[i] < 0 ? 1 : 0;
+  }
+}
+
 void Geometry::replay(std::span<const LoggedRay> rays) const {
   for (const LoggedRay& logged : rays) {
-    const Ray& ray = logged.ray;
-    ExactContext context({Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)},
-                         parts_);
-    RTCRayHit query = embree_query(context.ray);
+    ExactContext context(parts_);
+    context.rays[0] = exact(logged.ray);
+    RTCRayHit query = embree_query(context.rays[0]);
     if (logged.shadow)
       rtcOccluded1(scene_.get(), &context, &query.ray);
     else

@@ -46,10 +46,14 @@ class Geometry {
   Geometry& operator=(const Geometry&) = delete;
 
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
+  /// The same of each of the rays, as many as `hits`, whichever travel together.
+  void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
   /// As `Scene::touching`, of the scene whose shapes these are.
   [[nodiscard]] TouchingSurfaces touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
   /// Whether anything but a boundary of matter is met at t in (0, ray.t_max).
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
+  /// The same of each of the rays, as many as `blocked`: 1 where something is met, else 0.
+  void occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const;
   /// Every ray through Embree, the answers dropped.
   void replay(std::span<const LoggedRay> rays) const;
 

@@ -74,6 +74,14 @@ bool Scene::occluded(const Ray& ray) const {
       {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)});
 }
 
+void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const {
+  geometry_->intersect(rays, hits);
+}
+
+void Scene::occluded(std::span<const BasicRay<double>> ways, std::span<std::uint8_t> blocked) const {
+  geometry_->occluded(ways, blocked);
+}
+
 void Scene::replay(std::span<const LoggedRay> rays) const {
   geometry_->replay(rays);
 }

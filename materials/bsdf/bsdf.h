@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "materials/bsdf/coated.h"
@@ -28,6 +29,13 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDiel
                           CosinePowerBsdf<false>, CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every vertex of a path holds one
 
+/// What `visitor` makes of the model, the commonest being asked for first, in line.
+template <typename Visitor>
+[[nodiscard]] decltype(auto) visit_model(Visitor&& visitor, const Bsdf& bsdf) {
+  if (const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf)) return visitor(*diffuse);
+  return std::visit(std::forward<Visitor>(visitor), bsdf);
+}
+
 /// A model that sends light in more than single directions.
 template <typename Model>
 concept Scattering = requires(const Model& model, const Imath::V3f& w) {
@@ -38,13 +46,13 @@ concept Scattering = requires(const Model& model, const Imath::V3f& w) {
 /// Nothing where no light leaves.
 [[nodiscard]] inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo,
                                                       const BsdfRandom& u, int hero, TransportMode mode) {
-  return std::visit([&](const auto& model) { return model.sample(wo, u, hero, mode); }, bsdf);
+  return visit_model([&](const auto& model) { return model.sample(wo, u, hero, mode); }, bsdf);
 }
 
 /// f(wo, wi) [1/sr] lane by lane, without the cosine and without what goes in single directions.
 [[nodiscard]] inline SampledSpectrum eval(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi,
                                           TransportMode mode) {
-  return std::visit(
+  return visit_model(
       [&]<typename Model>(const Model& model) {
         if constexpr (Scattering<Model>)
           return model.eval(wo, wi, mode);
@@ -56,7 +64,7 @@ concept Scattering = requires(const Model& model, const Imath::V3f& w) {
 
 /// Density with which `sample` would draw wi, by an event that is not delta, were each lane the hero [1/sr].
 [[nodiscard]] inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi) {
-  return std::visit(
+  return visit_model(
       [&]<typename Model>(const Model& model) {
         if constexpr (Scattering<Model>)
           return model.pdf(wo, wi);
@@ -68,13 +76,13 @@ concept Scattering = requires(const Model& model, const Imath::V3f& w) {
 
 /// Whether light may leave in more than single directions, so that connecting to lights pays.
 [[nodiscard]] inline bool scatters(const Bsdf& bsdf) {
-  return std::visit([]<typename Model>(const Model&) { return Scattering<Model>; }, bsdf);
+  return visit_model([]<typename Model>(const Model&) { return Scattering<Model>; }, bsdf);
 }
 
 /// Index of the matter behind a surface that lets light in, relative to what is outside, at one lane; 1 for
 /// the others.
 [[nodiscard]] inline float index_inside(const Bsdf& bsdf, int lane) {
-  return std::visit(
+  return visit_model(
       [lane](const auto& model) {
         if constexpr (requires { model.index_inside(lane); })
           return model.index_inside(lane);

@@ -72,7 +72,7 @@ Profile profile(const Room& room) {
   const std::string command = fmt::format(
       "cd {} && valgrind -q --tool=callgrind --callgrind-out-file=counts --compress-strings=no "
       "--compress-pos=no "
-      "'--toggle-collect=abbe::trace_camera_path*' {} render room.json -o room.exr --threads 1 --quiet",
+      "'--toggle-collect=abbe::PathTracer::trace(*' {} render room.json -o room.exr --threads 1 --quiet",
       folder.string(), ABBE_BINARY);
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   Profile result;
@@ -128,8 +128,8 @@ TEST(NeedsCost, OnlyWhatIsNeededRuns) {
 TEST(NeedsCost, OnlyFiltersThatShiftAreWeighedByTheAngle) {
   const Profile tilting =
       profile({.filters = R"(, "filters": [{"transmittance": {"band": [400, 700]}, "effective_index": 2}])"});
-  EXPECT_FALSE(plain().ran("PathExposure::weigh_by_angle"));
-  EXPECT_TRUE(tilting.ran("PathExposure::weigh_by_angle"));
+  EXPECT_FALSE(plain().ran("FilmResponse::weight_by_angle"));
+  EXPECT_TRUE(tilting.ran("FilmResponse::weight_by_angle"));
 }
 
 TEST(NeedsCost, APinholeDrawsNoLensPoint) {

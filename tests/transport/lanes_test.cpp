@@ -6,7 +6,7 @@
 #include "materials/interface/fresnel.h"
 #include "spectral/sources.h"
 #include "spectral/wavelength_distribution.h"
-#include "transport/path/exposure.h"
+#include "transport/path/film_response.h"
 #include "transport/path/packet.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"

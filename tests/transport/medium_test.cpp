@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "transport/path/medium.h"
+#include "transport/path/medium_stack.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "scene/scene.h"
-#include "transport/path/medium.h"
+#include "transport/path/medium_stack.h"
 
 namespace abbe {
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -8,6 +10,16 @@
 #include "transport/path/cut.h"
 
 namespace abbe {
+
+/// A straight way that light may be blocked on: between two points that `offset_point` put beside their
+/// surfaces, or from such a point to infinity.
+[[nodiscard]] inline BasicRay<double> way_between(const Imath::V3f& from, const Imath::V3f& to) {
+  const Imath::V3d start(from);
+  return {start, Imath::V3d(to) - start, 1.0};
+}
+[[nodiscard]] inline BasicRay<double> way_along(const Ray& ray) {
+  return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)};
+}
 
 /// Asks the scene on behalf of one thread, counting, and logging where a log is given.
 class RayCaster {
@@ -17,28 +29,38 @@ class RayCaster {
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
   [[nodiscard]] const Cut& cut() const { return cut_; }
-  /// Of a path that is cut; see `Cut`.
+  /// Counts a path that is cut while it carries `throughput`; see `Cut`.
   void count_cut(float throughput) { cut_.count(throughput); }
 
+  /// The nearest hit of a ray, or of each of many, as many as `hits`.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) {
-    ++rays_;
-    if (log_ != nullptr) log_->push_back({ray, false});
+    count({&ray, 1});
     return scene_.intersect(ray);
   }
-  /// Whether anything stands between two points that `offset_point` put beside their surfaces.
-  [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) {
-    count_shadow({from, to - from, 1});
-    return scene_.occluded(from, to);
+  void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) {
+    count(rays);
+    scene_.intersect(rays, hits);
   }
-  [[nodiscard]] bool occluded(const Ray& ray) {
-    count_shadow(ray);
-    return scene_.occluded(ray);
+  /// Whether anything but boundaries of matter stands on a way, or on each of many: 1 where it does, else 0.
+  [[nodiscard]] bool occluded(const BasicRay<double>& way) {
+    std::uint8_t blocked = 0;
+    occluded({&way, 1}, {&blocked, 1});
+    return blocked != 0;
+  }
+  void occluded(std::span<const BasicRay<double>> ways, std::span<std::uint8_t> blocked) {
+    rays_ += ways.size();
+    if (log_ != nullptr)
+      for (const BasicRay<double>& way : ways)
+        log_->push_back(
+            {{Imath::V3f(way.origin), Imath::V3f(way.direction), static_cast<float>(way.t_max)}, true});
+    scene_.occluded(ways, blocked);
   }
 
  private:
-  void count_shadow(const Ray& ray) {
-    ++rays_;
-    if (log_ != nullptr) log_->push_back({ray, true});
+  void count(std::span<const Ray> rays) {
+    rays_ += rays.size();
+    if (log_ != nullptr)
+      for (const Ray& ray : rays) log_->push_back({ray, false});
   }
 
   const Scene& scene_;

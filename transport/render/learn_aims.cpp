@@ -19,23 +19,28 @@ struct Pilot {
   double exposure = 0;  // the sum of |film value|
 };
 
+// Those from `first` on, as many as `pilots`.
+void trace_batch(LightTracer& tracer, std::uint64_t seed, std::uint32_t stage, std::uint32_t first,
+                 std::span<Pilot> pilots) {
+  std::vector<Sampler> photons;
+  for (std::uint32_t i = 0; i < pilots.size(); ++i)
+    photons.emplace_back(seed, Purpose::pilot, stage, 0, first + i);
+  tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint&, std::span<const double> values) {
+    for (const double v : values) pilots[photon].exposure += std::abs(v);
+  });
+  for (std::size_t i = 0; i < pilots.size(); ++i) pilots[i].start = tracer.starts()[i];
+}
+
 std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint32_t stage, int threads) {
   constexpr std::uint32_t kPhotons = 1U << 17;
-  constexpr std::uint32_t kBatch = 1U << 11;
+  constexpr std::uint32_t kBatch = 1U << 9;
   std::vector<Pilot> pilots(kPhotons);
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
-    PathExposure exposure = exposure_of(plan.scene);
+    LightTracer tracer(plan, caster, 1);
     for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
-      for (std::uint32_t i = first; i < first + kBatch; ++i) {
-        double& sum = pilots[i].exposure;
-        const Splat add = [&sum](int, int, std::span<const double> values) {
-          for (const double v : values) sum += std::abs(v);
-        };
-        const Sampler sampler(seed, Purpose::pilot, stage, 0, i);
-        pilots[i].start = trace_photon(plan, caster, sampler, 1, exposure, add);
-      }
+      trace_batch(tracer, seed, stage, first, std::span(pilots).subspan(first, kBatch));
   });
   return pilots;
 }

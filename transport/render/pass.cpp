@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kTile = 16;
 constexpr std::uint32_t kPhotonBatch = 4096;
+constexpr std::uint32_t kTogether = 64;  // photons that take each step together
 
 constexpr std::uint32_t pieces(std::uint64_t whole, std::uint32_t piece) {
   return static_cast<std::uint32_t>((whole + piece - 1) / piece);
@@ -55,7 +56,7 @@ PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
 PassCounts Pass::work(const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  Worker worker(scene_);
+  Worker worker(plan_);
   const std::uint32_t items = tiles_ + batches_;
   for (std::uint32_t item = next_++; item < items; item = next_++) {
     if (item < tiles_)
@@ -82,9 +83,7 @@ bool Pass::keeps(std::span<const double> values, Worker& worker) const {
 void Pass::render_tile(std::uint32_t tile, Worker& worker) {
   const auto x0 = static_cast<int>(tile % tiles_x_ * kTile);
   const auto y0 = static_cast<int>(tile / tiles_x_ * kTile);
-  constexpr int kEdge = kTile;
-  for (int y = std::max(y0, crop_.y0); y < std::min(y0 + kEdge, crop_.y1); ++y)
-    for (int x = std::max(x0, crop_.x0); x < std::min(x0 + kEdge, crop_.x1); ++x) sample_pixel(x, y, worker);
+  for (std::uint64_t s = first_; s < last_; ++s) sample_tile(x0, y0, tile, s, worker);
 }
 
 // Of the replicate's sequence at a pixel, that of a sample; nothing where the pixel skips it. Which samples
@@ -99,40 +98,57 @@ std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t p
   return at / path_interval_;
 }
 
-void Pass::sample_pixel(int x, int y, Worker& worker) {
-  const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
-  for (std::uint64_t s = first_; s < last_; ++s) {
-    const std::uint32_t r = replicate(s);
-    const std::optional<std::uint32_t> index = path_of(s, pixel);
-    if (!index) continue;
-    const Sampler sampler(seed_, Purpose::camera, r, pixel, *index);
-    trace_camera_path(plan_, worker.caster, sampler, x, y, worker.exposure);
-    ++worker.counts.paths;
-    worker.values.assign(worker.exposure.values().begin(), worker.exposure.values().end());
+// One sample of each pixel of a tile: they share a palette, which so depends on tile and sample alone, and
+// lies within one replicate.
+void Pass::sample_tile(int x0, int y0, std::uint32_t tile, std::uint64_t sample, Worker& worker) {
+  constexpr int kEdge = kTile;
+  const auto pixel_at = [this](int x, int y) { return static_cast<std::uint32_t>(y * film_.width() + x); };
+  worker.pixels.clear();
+  for (int y = std::max(y0, crop_.y0); y < std::min(y0 + kEdge, crop_.y1); ++y)
+    for (int x = std::max(x0, crop_.x0); x < std::min(x0 + kEdge, crop_.x1); ++x)
+      if (const auto index = path_of(sample, pixel_at(x, y)))
+        worker.pixels.push_back(
+            {x, y, Sampler(seed_, Purpose::camera, replicate(sample), pixel_at(x, y), *index)});
+  worker.counts.paths += worker.pixels.size();
+  const Deposit deposit = [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+    worker.values.assign(values.begin(), values.end());
     for (double& value : worker.values) value *= path_interval_;
-    if (keeps(worker.values, worker)) film_.add(pixel, static_cast<int>(r), worker.values);
-  }
+    if (keeps(worker.values, worker))
+      film_.add(pixel_at(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
+  };
+  const auto index = static_cast<std::uint32_t>(sample / static_cast<std::uint64_t>(film_.replicates()));
+  worker.path_tracer.trace(worker.pixels, Sampler(seed_, Purpose::palette, replicate(sample), tile, index),
+                           deposit);
 }
 
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   const std::uint64_t begin = std::uint64_t{batch} * kPhotonBatch;
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
-    const Splat splat = [&](int x, int y, std::span<const double> values) {
-      if (x < crop_.x0 || x >= crop_.x1 || y < crop_.y0 || y >= crop_.y1 || !keeps(values, worker)) return;
-      film_.add(
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width()) + static_cast<std::size_t>(x),
-          static_cast<int>(replicate(s)), values);
+    const Deposit deposit = [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+      if (at.x < crop_.x0 || at.x >= crop_.x1 || at.y < crop_.y0 || at.y >= crop_.y1 ||
+          !keeps(values, worker))
+        return;
+      film_.add(static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film_.width()) +
+                    static_cast<std::size_t>(at.x),
+                static_cast<int>(replicate(s)), values);
     };
-    for (std::uint64_t photon = begin; photon < end; ++photon) {
-      const std::uint64_t index = s / static_cast<std::uint64_t>(film_.replicates()) * photons_ + photon;
-      const Sampler sampler(seed_, Purpose::light, replicate(s), static_cast<std::uint32_t>(index >> 32),
-                            static_cast<std::uint32_t>(index));
-      trace_photon(plan_, worker.caster, sampler, 1.0 / static_cast<double>(photons_), worker.exposure,
-                   splat);
-      ++worker.counts.paths;
-    }
+    for (std::uint64_t first = begin; first < end; first += kTogether)
+      trace_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker, deposit);
   }
+}
+
+// Those from `first` to `last` of a sample.
+void Pass::trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
+                         const Deposit& deposit) const {
+  worker.photons.clear();
+  for (std::uint64_t photon = first; photon < last; ++photon) {
+    const std::uint64_t index = sample / static_cast<std::uint64_t>(film_.replicates()) * photons_ + photon;
+    worker.photons.emplace_back(seed_, Purpose::light, replicate(sample),
+                                static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(index));
+  }
+  worker.counts.paths += worker.photons.size();
+  worker.light_tracer.trace(worker.photons, deposit);
 }
 
 }  // namespace abbe

@@ -44,17 +44,28 @@ class Pass {
  private:
   // What one thread keeps between items.
   struct Worker {
-    explicit Worker(const Scene& scene) : caster(scene), exposure(exposure_of(scene)) {}
+    explicit Worker(const Plan& plan)
+        : caster(plan.scene),
+          path_tracer(plan, caster),
+          light_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)) {}
+    Worker(const Worker&) = delete;  // the tracers refer to the caster
+    Worker& operator=(const Worker&) = delete;
+
     RayCaster caster;
-    PathExposure exposure;
+    PathTracer path_tracer;
+    LightTracer light_tracer;
+    std::vector<PixelSample> pixels;
+    std::vector<Sampler> photons;
     std::vector<double> values;  // of a camera path, as the film takes them
     PassCounts counts;
   };
 
   PassCounts work(const std::function<bool()>& pause);
   void render_tile(std::uint32_t tile, Worker& worker);
-  void sample_pixel(int x, int y, Worker& worker);
+  void sample_tile(int x0, int y0, std::uint32_t tile, std::uint64_t sample, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
+  void trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
+                     const Deposit& deposit) const;
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
   [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, std::uint32_t pixel) const;

@@ -23,31 +23,33 @@ constexpr double kAll = kBatches * kBatch;
 
 // Camera paths through pixels all over the film, whose mean stands for all pixels.
 void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
-  PathExposure exposure = exposure_of(plan.scene);
-  exposure.tell_lights_apart(sums);
   const Camera& camera = plan.scene.camera;
-  const double pixels = static_cast<double>(camera.width) * camera.height;
-  for (std::uint32_t i = batch * kBatch; plan.path_active && i < (batch + 1) * kBatch; ++i) {
+  std::vector<PixelSample> samples;
+  for (std::uint32_t i = batch * kBatch; i < (batch + 1) * kBatch; ++i) {
     const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 0, i).group(0);
     const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
     const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
-    trace_camera_path(plan, caster, Sampler(kSeedOfPilots, Purpose::camera, 0, 0, i), x, y, exposure);
+    samples.push_back({x, y, Sampler(kSeedOfPilots, Purpose::camera, 0, 0, i)});
   }
-  for (double& sum : sums.exposure) sum *= pixels / kAll;
+  PathTracer tracer(plan, caster);
+  tracer.tell_lights_apart(sums);
+  tracer.trace(samples, Sampler(kSeedOfPilots, Purpose::palette, 0, 0, batch),
+               [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kAll;
 }
 
 void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
-  PathExposure exposure = exposure_of(plan.scene);
-  std::vector<double> values(exposure.values().size());
-  const Splat add = [&](int, int, std::span<const double> splat) {
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] += splat[k];
-  };
-  for (std::uint32_t i = batch * kBatch; plan.light_active && i < (batch + 1) * kBatch; ++i) {
-    std::fill(values.begin(), values.end(), 0.0);
-    const Sampler sampler(kSeedOfPilots, Purpose::light, 0, 0, i);
-    const PhotonStart start = trace_photon(plan, caster, sampler, 1 / kAll, exposure, add);
-    for (std::size_t k = 0; k < values.size(); ++k) sums.add(start.light, k, values[k]);
-  }
+  std::vector<Sampler> photons;
+  for (std::uint32_t i = batch * kBatch; i < (batch + 1) * kBatch; ++i)
+    photons.emplace_back(kSeedOfPilots, Purpose::light, 0, 0, i);
+  LightTracer tracer(plan, caster, 1 / kAll);
+  const std::size_t planes = plan.scene.film_planes().size();
+  std::vector<double> values(photons.size() * planes);
+  tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint&, std::span<const double> splat) {
+    for (std::size_t k = 0; k < planes; ++k) values[photon * planes + k] += splat[k];
+  });
+  for (std::size_t i = 0; i < photons.size(); ++i)
+    sums.add(tracer.starts()[i].light, std::span(values).subspan(i * planes, planes));
 }
 
 }  // namespace
@@ -73,8 +75,8 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     for (std::uint32_t batch = next++; batch < kBatches; batch = next++) {
-      expose_batch(plan, batch, caster, batches[batch]);
-      expose_photons(plan, batch, caster, batches[batch]);
+      if (plan.path_active) expose_batch(plan, batch, caster, batches[batch]);
+      if (plan.light_active) expose_photons(plan, batch, caster, batches[batch]);
     }
   });
   // In their order, whichever threads traced them.

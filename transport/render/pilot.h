@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "sensor/film/film.h"
-#include "transport/path/exposure.h"
+#include "transport/path/film_response.h"
 #include "transport/plan/plan.h"
 #include "transport/render/render.h"
 

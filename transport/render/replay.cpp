@@ -21,18 +21,27 @@ double cpu_seconds(clockid_t clock) {
 // Paths spread evenly over the film, and as many photons.
 void trace_some(const Plan& plan, RayCaster& caster) {
   constexpr std::uint32_t kPaths = 1U << 15;
+  constexpr std::uint32_t kTogether = 256;
   const Scene& scene = plan.scene;
   const auto width = static_cast<std::uint32_t>(scene.camera.width);
   const std::uint32_t pixels = width * static_cast<std::uint32_t>(scene.camera.height);
-  PathExposure exposure = exposure_of(scene);
-  const Splat dropped = [](int, int, std::span<const double>) {};
-  for (std::uint32_t i = 0; i < kPaths; ++i) {
-    const auto pixel = static_cast<std::uint32_t>(std::uint64_t{i} * pixels / kPaths);
+  PathTracer path_tracer(plan, caster);
+  LightTracer light_tracer(plan, caster, 1);
+  const Deposit dropped = [](std::uint32_t, const FilmPoint&, std::span<const double>) {};
+  std::vector<PixelSample> samples;
+  std::vector<Sampler> photons;
+  for (std::uint32_t first = 0; first < kPaths; first += kTogether) {
+    samples.clear();
+    photons.clear();
+    for (std::uint32_t i = first; i < first + kTogether; ++i) {
+      const auto pixel = static_cast<std::uint32_t>(std::uint64_t{i} * pixels / kPaths);
+      samples.push_back({static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                         Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels)});
+      photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
+    }
     if (plan.path_active)
-      trace_camera_path(plan, caster, Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels),
-                        static_cast<int>(pixel % width), static_cast<int>(pixel / width), exposure);
-    if (plan.light_active)
-      trace_photon(plan, caster, Sampler(scene.render.seed, Purpose::light, 0, 0, i), 1, exposure, dropped);
+      path_tracer.trace(samples, Sampler(scene.render.seed, Purpose::palette, 0, 0, first), dropped);
+    if (plan.light_active) light_tracer.trace(photons, dropped);
   }
 }
 

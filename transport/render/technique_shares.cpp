@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "transport/render/pilot.h"
@@ -59,17 +60,21 @@ double strength(std::span<const double> values) {
   return std::isfinite(sum) ? sum : 0;
 }
 
-void try_paths(const Plan& plan, std::uint32_t pixel, RayCaster& caster, PathExposure& exposure,
-               Findings& found) {
-  const Camera& camera = plan.scene.camera;
+void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pixel, Findings& found) {
   const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 1, pixel).group(0);
   const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
   const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
+  std::vector<PixelSample> samples;
+  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i)
+    samples.push_back({x, y, Sampler(kSeedOfPilots, Purpose::pilot, 1, pixel, i)});
+  std::array<double, kPathsPerPixel> values{};
+  tracer.trace(samples, Sampler(kSeedOfPilots, Purpose::palette, 1, pixel, 0),
+               [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
+                 values[path] += strength(more);
+               });
   double sum = 0;
   double squares = 0;
-  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i) {
-    trace_camera_path(plan, caster, Sampler(kSeedOfPilots, Purpose::pilot, 1, pixel, i), x, y, exposure);
-    const double value = strength(exposure.values());
+  for (const double value : values) {
     sum += value;
     squares += value * value;
   }
@@ -80,20 +85,27 @@ void try_paths(const Plan& plan, std::uint32_t pixel, RayCaster& caster, PathExp
   region.variance += std::max(0.0, squares - sum * sum / kPathsPerPixel) / (kPathsPerPixel - 1);
 }
 
-Findings try_batch(const Plan& plan, std::uint32_t batch) {
-  Findings found;
-  PathExposure exposure = exposure_of(plan.scene);
-  RayCaster path_caster(plan.scene);
-  for (std::uint32_t i = batch; i < kPixels; i += kBatches) try_paths(plan, i, path_caster, exposure, found);
-  RayCaster photon_caster(plan.scene);
-  const Splat splat = [&](int x, int y, std::span<const double> values) {
+void try_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch, Findings& found) {
+  std::vector<Sampler> photons;
+  for (std::uint32_t i = batch; i < kPhotons; i += kBatches)
+    photons.emplace_back(kSeedOfPilots, Purpose::pilot, 2, 0, i);
+  tracer.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
     const double value = strength(values);
-    Region& region = found.at(plan.scene.camera, x, y);
+    Region& region = found.at(camera, at.x, at.y);
     region.photons += value;
     region.squares += value * value;
-  };
-  for (std::uint32_t i = batch; i < kPhotons; i += kBatches)
-    trace_photon(plan, photon_caster, Sampler(kSeedOfPilots, Purpose::pilot, 2, 0, i), 1, exposure, splat);
+  });
+}
+
+Findings try_batch(const Plan& plan, std::uint32_t batch) {
+  Findings found;
+  const Camera& camera = plan.scene.camera;
+  RayCaster path_caster(plan.scene);
+  PathTracer path_tracer(plan, path_caster);
+  for (std::uint32_t i = batch; i < kPixels; i += kBatches) try_paths(path_tracer, camera, i, found);
+  RayCaster photon_caster(plan.scene);
+  LightTracer light_tracer(plan, photon_caster, 1);
+  try_photons(light_tracer, camera, batch, found);
   found.path_rays = path_caster.rays();
   found.photon_rays = photon_caster.rays();
   return found;

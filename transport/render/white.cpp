@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/extent.h"
-#include "transport/path/exposure.h"
+#include "transport/path/film_response.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/pilot.h"
 

@@ -1,29 +1,92 @@
 #pragma once
 
-#include <functional>
+#include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "sampling/sampler.h"
-#include "transport/path/exposure.h"
+#include "transport/path/film_response.h"
+#include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
 
 namespace abbe {
 
-/// Receives what one connection adds to a pixel, one value per channel.
-using Splat = std::function<void(int x, int y, std::span<const double> values)>;
-
 /// How a photon left its light.
 struct PhotonStart {
   std::uint32_t light = 0;
-  int cell = -1;  ///< Aim cell, or -1.
+  int cell = -1;  ///< Of the light's aim, or -1.
 };
 
-/// One path from a traced light, connected to the camera at every vertex that is not specular. A photon whose
-/// first vertex is not specular is not followed, as path tracing owns it, unless `plan.light_owns_all`.
-/// `share` is the part of a sample per pixel one photon stands for (1/pixels when a sample per pixel is as
-/// many photons as pixels).
-PhotonStart trace_photon(const Plan& plan, RayCaster& caster, const Sampler& sampler, double share,
-                         PathExposure& exposure, const Splat& splat);
+/// A path from a light, under way: a photon.
+struct LightPath : Walk {
+  using Walk::Walk;
+  float power = 0;  ///< That it set out with, its largest lane's.
+};
+
+/// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
+/// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
+/// it, unless the plan says that this technique owns all. Serves one thread.
+class LightTracer {
+ public:
+  using Path = LightPath;
+  static constexpr TransportMode kMode = TransportMode::power;
+
+  /// `share` is the part of a sample per pixel one photon stands for: 1/pixels when a sample per pixel is as
+  /// many photons as pixels.
+  LightTracer(const Plan& plan, RayCaster& caster, double share);
+
+  /// Traces a photon for each of the samplers, and deposits what its connections bring, by its number.
+  void trace(std::span<const Sampler> photons, const Deposit& deposit);
+  /// How those of the last call set out.
+  [[nodiscard]] std::span<const PhotonStart> starts() const { return starts_; }
+
+  // What RandomWalks asks.
+  void escape(LightPath& /*path*/) {}
+  void meet(LightPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  void connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
+  void connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  // Whether paths that scatter at their first vertex in more than a single direction go on.
+  [[nodiscard]] bool follows(const LightPath& path, const BsdfSample& event) const {
+    return event.delta || owned(path);
+  }
+  [[nodiscard]] bool follows_within(const LightPath& path) const { return owned(path); }
+  // The power a photon starts with says nothing about what it adds to the film: roulette goes by what the
+  // event itself keeps.
+  [[nodiscard]] float kept(const LightPath& /*path*/, const SurfaceVertex& /*vertex*/,
+                           const BsdfSample& event) const {
+    return event.weight.max() / event.lane_pdf.max();
+  }
+  [[nodiscard]] float kept_within(const LightPath& /*path*/) const { return 1; }
+  [[nodiscard]] float carried(const LightPath& path) const { return path.packet.carried() / path.power; }
+  void resolve_connections();
+
+ private:
+  struct Connection {
+    std::uint32_t path;
+    SampledSpectrum contribution;
+    FilmPoint at;
+  };
+
+  // Whether the photon goes anywhere at all.
+  bool start(LightPath& path, PhotonStart& start);
+  [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || plan_.light_owns_all; }
+  void connect_to(const LightPath& path, const CameraConnection& lens, const SampledSpectrum& scattered,
+                  const Ray& ray, const Surroundings& around);
+
+  const Plan& plan_;
+  const Scene& scene_;
+  RayCaster& caster_;
+  float scale_;
+  FilmResponse response_;
+  RandomWalks<LightTracer> walks_;
+  const Deposit* deposit_ = nullptr;
+  std::vector<PhotonStart> starts_;
+  std::vector<Connection> connections_;  // of the step under way,
+  std::vector<BasicRay<double>> ways_;   // their ways to the lens,
+  std::vector<std::uint8_t> blocked_;    // and whether something stands on them
+  std::vector<double> values_;           // of one deposit
+};
 
 }  // namespace abbe

@@ -4,318 +4,243 @@
 #include <cmath>
 #include <limits>
 
-#include "transport/path/free_path.h"
-#include "transport/path/packet.h"
-#include "transport/path/roulette.h"
-#include "transport/path/vertex.h"
+#include "transport/path/mis_weight.h"
 
 namespace abbe {
 namespace {
 
-// Groups of random numbers: the film position shares its group with the wavelength, since a spectrum on the
-// film is a function of both.
-constexpr std::uint32_t kFilmGroup = 0;
-constexpr std::uint32_t kLensGroup = 1;  // its third number is kept for the time within the exposure
-constexpr int kMeterDepth = -1;          // a meter scatters before the first surface does
-constexpr std::uint32_t scatter_group(int depth) {
-  return 2 + 2 * static_cast<std::uint32_t>(depth - kMeterDepth);
+BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
+  return std::isfinite(light.distance) ? way_between(ray.origin, light.end) : way_along(ray);
 }
-constexpr std::uint32_t light_group(int depth) {
-  return 1 + scatter_group(depth);
-}
-
-constexpr std::uint32_t free_path_group(int depth) {
-  return 0x80000000 + static_cast<std::uint32_t>(depth);
-}
-
-class CameraPath {
- public:
-  CameraPath(const Plan& plan, RayCaster& caster, const Sampler& sampler,
-             const SampledWavelengths& wavelengths, const CameraRay& start, PathExposure& exposure)
-      : plan_(plan),
-        scene_(plan.scene),
-        caster_(caster),
-        sampler_(sampler),
-        exposure_(exposure),
-        end_{start.ray, {}, plan.camera_inside, {}},
-        has_free_paths_(has_free_paths(scene_)),
-        most_events_(most_events(scene_.render)) {
-    end_.packet.wavelengths = wavelengths;
-    if (!end_.inside.empty()) end_.medium = medium_within(scene_, end_.inside, lambda());
-    exposure_.begin(wavelengths, start.weight * static_cast<float>(scene_.exposure_s));
-  }
-
-  /// At a meter: adds what lights it directly. Whether a ray is left to find the rest.
-  bool leave_meter(const Imath::V3f& point, const Imath::V3f& normal) {
-    const bool leaves = scatter(Vertex::meter(point, normal), kMeterDepth);
-    exposure_.at_angle(end_.ray.direction.dot(normal));
-    return leaves;
-  }
-
-  void trace() {
-    for (int depth = 0;; ++depth) {
-      std::optional<SurfaceHit> hit = caster_.intersect(end_.ray);
-      if (has_free_paths_) {
-        if (scatters_before(hit, depth)) {
-          if (is_cut(depth) || !scatter_within(depth)) return;
-          continue;
-        }
-      } else if (hit) {
-        end_.medium.attenuate(end_.packet.throughput, hit->t);
-      }
-      if (!hit) {
-        add_background(depth);
-        return;
-      }
-      if (scene_.needs.nesting) {
-        interface_ = interface_at(scene_, end_.ray, *hit, end_.inside);
-        hit = interface_->hit;
-      }
-      add_emission(*hit, depth);
-      const Vertex vertex = interface_ ? Vertex(scene_, *interface_, end_.ray.direction, lambda())
-                                       : Vertex(scene_, *hit, end_.ray.direction, lambda());
-      if (is_black(vertex.bsdf) || is_cut(depth)) return;
-      if (!scatter(vertex, depth)) return;
-    }
-  }
-
- private:
-  [[nodiscard]] const SampledSpectrum& lambda() const { return end_.packet.wavelengths.lambda_nm; }
-
-  // The throughput that decides about roulette: what refraction into glass takes off radiance counts as still
-  // there.
-  [[nodiscard]] float carried() const { return end_.packet.carried() * eta_scale_; }
-
-  // Whether the path may not have the event number `depth`, counted from 0.
-  bool is_cut(int depth) {
-    if (depth < most_events_) return false;
-    caster_.count_cut(carried());
-    return true;
-  }
-
-  // Sum over lanes and techniques of the densities that could have made the path now ending on a light,
-  // relative to the hero's by scattering. `light_pdf` is that of light sampling from the previous vertex.
-  [[nodiscard]] float balance(float light_pdf) const {
-    return end_.packet.lane_pdf.sum() + light_pdf * light_sampling_lanes_;
-  }
-
-  // Whether photons bring what a light met after `depth` events sends along this path.
-  [[nodiscard]] bool owned_by_photons(std::uint32_t light, int depth) const {
-    return depth > 0 && !light_sampled_before_ && !first_specular_ && plan_.traced[light];
-  }
-
-  // With which light sampling chose the light where the path scattered last.
-  [[nodiscard]] float light_probability(std::uint32_t light) const {
-    return plan_.path_lights.probability(light, place_.point, place_.normal());
-  }
-
-  void add_background(int depth) {
-    if (scene_.background().empty()) return;
-    end_.medium.attenuate(end_.packet.throughput, std::numeric_limits<float>::infinity());
-    for (const std::uint32_t index : scene_.background()) {
-      const Light& light = scene_.lights[index];
-      const auto* sun = std::get_if<SunLight>(&light.kind);
-      if ((sun != nullptr && !sun->shows(end_.ray.direction)) || owned_by_photons(index, depth)) continue;
-      const float pdf =
-          !light_sampled_before_
-              ? 0.0F
-              : light_probability(index) * light_pdf(light, scene_.shapes, end_.ray.origin,
-                                                     end_.ray.direction, Imath::V3f(0), Imath::V3f(0));
-      exposure_.deposit(
-          end_.packet.throughput * emission_from(light, end_.ray.direction, lambda()) * (1 / balance(pdf)),
-          index);
-    }
-  }
-
-  void add_emission(const SurfaceHit& hit, int depth) {
-    const std::int32_t index = scene_.shapes[hit.shape].light;
-    if (index < 0) return;
-    const auto light_index = static_cast<std::uint32_t>(index);
-    const Light& light = scene_.lights[light_index];
-    if (!emits_towards(light, hit.normal, -end_.ray.direction)) return;
-    if (owned_by_photons(light_index, depth)) return;
-    const float pdf = !light_sampled_before_ ? 0.0F
-                                             : light_probability(light_index) *
-                                                   light_pdf(light, scene_.shapes, end_.ray.origin,
-                                                             end_.ray.direction, hit.point, hit.normal);
-    exposure_.deposit(end_.packet.throughput * light.emission(lambda()) * (1 / balance(pdf)), light_index);
-  }
-
-  // In line in the loop of `trace`: left to itself the compiler makes it a call, for the meter's sake, which
-  // costs every path more than all else it does not need.
-  [[gnu::always_inline]] bool scatter(const Vertex& vertex, int depth) {
-    place_.point = vertex.hit.point;
-    if (plan_.path_lights.asks_for_places()) place_.side = vertex.lit_side();
-    if (scatters(vertex.bsdf)) add_direct(vertex, depth);
-    const std::array<float, 4> u = sampler_.group(scatter_group(depth));
-    const std::optional<BsdfSample> sampled = vertex.scatter({u[2], {u[0], u[1]}}, TransportMode::radiance);
-    if (!sampled) return false;
-    if (depth == 0) first_specular_ = sampled->delta;
-    follow(vertex, *sampled);
-    return survives(depth, u[3]);
-  }
-
-  void follow(const Vertex& vertex, const BsdfSample& event) {
-    light_sampling_lanes_ = event.delta ? 0.0F : end_.packet.lane_pdf.sum() / event.pdf;
-    light_sampled_before_ = !event.delta;
-    end_.packet.throughput *= event.weight;
-    end_.packet.lane_pdf *= event.lane_pdf;
-    const Imath::V3f direction = vertex.frame.to_world(event.wi);
-    if (event.transmitted) {
-      end_.enter(scene_, vertex.behind(scene_, end_.inside));
-      const float n = index_inside(vertex.bsdf, kHero);
-      eta_scale_ *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
-    }
-    end_.ray = spawn(vertex.hit, direction);
-  }
-
-  bool survives(int depth, float u) {
-    if (end_.packet.throughput.is_zero()) return false;
-    if (!plays_roulette(scene_.render, depth + 1)) return true;
-    const float q = survival(carried(), depth + 1);
-    if (u >= q) return false;
-    end_.packet.throughput *= 1 / q;
-    return true;
-  }
-
-  // Flies to the next event: whether that is in matter, before the surface `hit`.
-  [[gnu::noinline]] bool scatters_before(std::optional<SurfaceHit>& hit, int depth) {
-    const std::array<float, 4> u = sampler_.group(free_path_group(depth));
-    const FreePath free_path = propagate(scene_, caster_, {u[0], u[1]}, end_, hit);
-    light_sampling_lanes_ *= free_path.density_scale;
-    return free_path.scattered;
-  }
-
-  [[gnu::noinline]] bool scatter_within(int depth) {
-    const PhaseFunction& phase = end_.medium.scattering->phase;
-    place_ = {end_.ray.origin, {}};
-    add_direct_within(phase, depth);
-    const std::array<float, 4> u = sampler_.group(scatter_group(depth));
-    const PhaseSample turned = sample(phase, {u[0], u[1]});
-    light_sampling_lanes_ = end_.packet.lane_pdf.sum() / turned.pdf;
-    light_sampled_before_ = true;
-    end_.ray.direction = Basis<float>(end_.ray.direction).to_world(turned.direction);
-    return survives(depth, u[3]);
-  }
-
-  // A light, a direction towards it from a point, and the density of both.
-  struct Lit {
-    std::uint32_t index;
-    const Light& light;
-    LightSample towards;
-    float density;
-  };
-  [[nodiscard]] std::optional<Lit> pick_light(int depth) const {
-    if (plan_.path_lights.empty()) return std::nullopt;
-    const std::array<float, 4> u = sampler_.group(light_group(depth));
-    const LightPicker::Pick pick = plan_.path_lights.pick(place_.point, place_.normal(), u[0]);
-    const Light& light = scene_.lights[pick.light];
-    const std::optional<LightSample> towards = sample_light(light, scene_.shapes, place_.point, {u[1], u[2]});
-    if (!towards) return std::nullopt;
-    return Lit{pick.light, light, *towards, pick.probability * towards->pdf};
-  }
-
-  // What comes from the light on an unobstructed way and is turned towards the path, `scattered` being the
-  // share of it.
-  [[nodiscard]] SampledSpectrum turned_light(const Lit& lit, const SampledSpectrum& scattered,
-                                             float cosine) const {
-    return scattered * (end_.packet.throughput * emission_from(lit.light, lit.towards.wi, lambda()) *
-                        (cosine * lit.towards.factor));
-  }
-
-  void add_direct(const Vertex& vertex, int depth) {
-    const std::optional<Lit> lit = pick_light(depth);
-    if (!lit) return;
-    const Imath::V3f wi = vertex.frame.to_local(lit->towards.wi);
-    const SampledSpectrum scattered = vertex.towards(lit->towards.wi, wi, TransportMode::radiance);
-    if (scattered.is_zero()) return;
-    SampledSpectrum contribution = turned_light(*lit, scattered, std::abs(wi.z));
-    const SampledSpectrum density =
-        lit->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
-    const Ray ray = spawn(vertex.hit, lit->towards.wi);
-    if (depth == kMeterDepth) exposure_.at_angle(wi.z);
-    if (has_free_paths_) {
-      add_through_media(*lit, contribution, density, leaving(scene_, end_, vertex, wi, ray));
-      return;
-    }
-    const float balance = (end_.packet.lane_pdf * (SampledSpectrum(lit->density) + density)).sum();
-    if (!(balance > 0) || blocked(ray, lit->towards)) return;
-    side_of(vertex, wi).attenuate(contribution, lit->towards.distance);
-    exposure_.deposit(contribution * (1 / balance), lit->index);
-  }
-
-  void add_direct_within(const PhaseFunction& phase, int depth) {
-    const std::optional<Lit> lit = pick_light(depth);
-    if (!lit) return;
-    const SampledSpectrum turned(pdf(phase, end_.ray.direction, lit->towards.wi));
-    PathEnd start = end_;
-    start.ray.direction = lit->towards.wi;
-    add_through_media(*lit, turned_light(*lit, turned, 1),
-                      lit->light.is_delta() ? SampledSpectrum(0.0F) : turned, start);
-  }
-
-  // Adds what is left of the light that comes along the ray of `start`, the direction of which scattering
-  // would have drawn with `density`.
-  [[gnu::noinline]] void add_through_media(const Lit& lit, const SampledSpectrum& contribution,
-                                           const SampledSpectrum& density, const PathEnd& start) {
-    if (blocked(start.ray, lit.towards)) return;
-    const Transmission way = transmission(scene_, caster_, start, lit.towards.distance);
-    const float balance =
-        (end_.packet.lane_pdf * (SampledSpectrum(lit.density) + density * way.density)).sum();
-    if (balance > 0) exposure_.deposit(contribution * way.transmittance * (1 / balance), lit.index);
-  }
-
-  // The medium that light from the local direction `wi` comes through.
-  [[nodiscard]] Medium side_of(const Vertex& vertex, const Imath::V3f& wi) const {
-    if (wi.z * vertex.wo.z > 0) return end_.medium;
-    return leaving(scene_, end_, vertex, wi, end_.ray).medium;
-  }
-
-  [[nodiscard]] bool blocked(const Ray& ray, const LightSample& towards) {
-    return std::isfinite(towards.distance) ? caster_.occluded(ray.origin, towards.end)
-                                           : caster_.occluded(ray);
-  }
-
-  // Where light arrives to be scattered: at a point, on one side of a surface or from everywhere.
-  struct Place {
-    Imath::V3f point{0, 0, 0};
-    std::optional<Imath::V3f> side = {};
-    [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
-  };
-
-  const Plan& plan_;
-  const Scene& scene_;
-  RayCaster& caster_;
-  const Sampler& sampler_;
-  PathExposure& exposure_;
-  PathEnd end_;
-  Place place_;                         // the vertex last met
-  std::optional<Interface> interface_;  // met last, where matter may be nested
-  bool has_free_paths_;
-  int most_events_;
-  float eta_scale_ = 1;
-  // Sum of lane densities before the last scattering over the hero's density of it: what a unit of
-  // light-sampling density weighs.
-  float light_sampling_lanes_ = 0;
-  bool light_sampled_before_ = false;
-  bool first_specular_ = false;
-};
 
 }  // namespace
 
-void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampler, int x, int y,
-                       PathExposure& exposure) {
-  const std::array<float, 4> film = sampler.group(kFilmGroup);
-  const Camera& camera = plan.scene.camera;
-  const std::array<float, 4> lens = camera.is_pinhole() ? std::array<float, 4>{} : sampler.group(kLensGroup);
-  const Imath::V2f position(static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]);
-  const CameraRay start = sample_ray(camera, position, {lens[0], lens[1]});
-  const SampledWavelengths wavelengths = plan.wavelengths_at(x, y).sample(film[2]);
-  CameraPath path(plan, caster, sampler, wavelengths, start, exposure);
-  exposure.at_pixel(x, y);
-  exposure.at_angle(start.cos_film);
+PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
+    : plan_(plan),
+      scene_(plan.scene),
+      caster_(caster),
+      response_(film_response_of(plan.scene)),
+      palette_(plan.scene, plan.shares_packets ? std::max<std::size_t>(1, plan.own_wavelengths.size()) : 0),
+      walks_(plan.scene, caster),
+      values_(response_.planes()) {}
+
+// The estimate of a pixel's film value is, over its paths x_0 x_1 ... from the film,
+//     sum_n w_n [T_n / P_n] L_e(x_n -> x_{n-1}) + sum_n w'_n [T_n / P_n] f cos L_e / p_light,
+// T_n being the throughput up to x_n and P_n its density: light met by scattering, and light connected to,
+// each weighed by `mis_weight` over both ways and all lanes. The sums over n are kept in `found`, one value
+// per lane, and exposed at the end of a path at once.
+void PathTracer::trace(std::span<const PixelSample> samples, const Sampler& block, const Deposit& deposit) {
+  deposit_ = &deposit;
+  if (plan_.shares_packets) begin_block(block);
+  for (first_ = 0; first_ < samples.size(); first_ += kTogether)
+    trace_together(samples.subspan(first_, std::min<std::size_t>(kTogether, samples.size() - first_)));
+}
+
+void PathTracer::trace_together(std::span<const PixelSample> samples) {
+  std::vector<CameraPath>& paths = walks_.paths();
+  paths.clear();
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    paths.emplace_back(samples[i].sampler, i);
+    if (start(samples[i], paths.back())) walks_.going().push_back(i);
+  }
+  resolve_connections();
+  walks_.run(*this);
+  for (const CameraPath& path : paths) {
+    std::fill(values_.begin(), values_.end(), 0.0);
+    response_.add(path.at, path.packet.wavelengths, path.found * path.scale, values_);
+    (*deposit_)(first_ + path.path, path.at, values_);
+  }
+}
+
+void PathTracer::begin_block(const Sampler& block) {
+  const std::size_t own = plan_.own_wavelengths.size();
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, own); ++i)
+    palette_.begin(i, own == 0 ? plan_.wavelengths : plan_.own_wavelengths[i],
+                   block.group(static_cast<std::uint32_t>(i / 4))[i % 4]);
+}
+
+bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
+  const std::array<float, 4> film = sample.sampler.group(kFilmGroup);
+  const Camera& camera = scene_.camera;
+  const std::array<float, 4> lens =
+      camera.is_pinhole() ? std::array<float, 4>{} : sample.sampler.group(kLensGroup);
+  const CameraRay ray =
+      sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
+                 {lens[0], lens[1]});
+  if (plan_.shares_packets) {
+    const std::size_t own =
+        scene_.mosaic ? static_cast<std::size_t>(scene_.mosaic->at(sample.x, sample.y)) : 0;
+    const Palette::Pick pick = palette_.pick(own, film[2]);
+    path.packet = pick.packet;
+    path.spectra = pick.spectra;
+  } else {
+    path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
+  }
+  path.ray = ray.ray;
+  path.at = {sample.x, sample.y, ray.cos_film};
+  path.scale = ray.weight * static_cast<float>(scene_.exposure_s);
+  if (!plan_.camera_inside.empty()) path.around.enter(scene_, plan_.camera_inside, path.lambda_nm());
   const auto* meter = std::get_if<IrradianceProbe>(&camera.kind);
-  if (meter == nullptr || path.leave_meter(start.ray.origin, Imath::V3f(meter->normal))) path.trace();
+  if (meter == nullptr) return true;
+  const Imath::V3f normal(meter->normal);
+  path.events = kMeterEvent;
+  const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(path.ray.origin, normal));
+  path.at.cos_film = path.ray.direction.dot(normal);
+  return leaves;
+}
+
+SampledSpectrum PathTracer::emission(const CameraPath& path, std::uint32_t light,
+                                     const Imath::V3f& wi) const {
+  const Light& of = scene_.lights[light];
+  if (path.spectra != nullptr && !of.is_environment()) return path.spectra->emission(light);
+  return emission_from(of, wi, path.lambda_nm());
+}
+
+// Whether photons bring what a light that the path has met sends along it.
+bool PathTracer::owned_by_photons(const CameraPath& path, std::uint32_t light) const {
+  return path.events > 0 && path.connected == 0 && !path.first_delta && plan_.traced[light];
+}
+
+// With which a connection from its last vertex would have drawn the path's ray to the light.
+float PathTracer::connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
+                                 const Imath::V3f& normal) const {
+  if (path.connected == 0) return 0;
+  return plan_.path_lights.probability(light, path.last.point, path.last.normal()) *
+         light_pdf(scene_.lights[light], scene_.shapes, path.ray.origin, path.ray.direction, point, normal);
+}
+
+void PathTracer::escape(CameraPath& path) {
+  if (scene_.background().empty()) return;
+  path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
+  for (const std::uint32_t light : scene_.background()) {
+    const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
+    if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_photons(path, light)) continue;
+    const float pdf = connection_pdf(path, light, Imath::V3f(0), Imath::V3f(0));
+    add(path, light,
+        path.packet.throughput * emission(path, light, path.ray.direction) *
+            mis_weight(path.packet.lane_pdf, pdf, path.connected),
+        path.at.cos_film);
+  }
+}
+
+void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
+  const std::int32_t index = scene_.shapes[hit.shape].light;
+  if (index < 0) return;
+  const auto light = static_cast<std::uint32_t>(index);
+  if (!emits_towards(scene_.lights[light], hit.normal, -path.ray.direction) || owned_by_photons(path, light))
+    return;
+  const float pdf = connection_pdf(path, light, hit.point, hit.normal);
+  add(path, light,
+      path.packet.throughput * emission(path, light, path.ray.direction) *
+          mis_weight(path.packet.lane_pdf, pdf, path.connected),
+      path.at.cos_film);
+}
+
+std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const Place& place,
+                                                                const std::array<float, 4>& u) const {
+  if (plan_.path_lights.empty()) return std::nullopt;
+  const LightPicker::Pick pick = plan_.path_lights.pick(place.point, place.normal(), u[0]);
+  const Light& light = scene_.lights[pick.light];
+  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, place.point, {u[1], u[2]});
+  if (!towards) return std::nullopt;
+  return ChosenLight{pick.light, light, *towards, pick.probability * towards->pdf};
+}
+
+void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
+  const std::optional<ChosenLight> chosen = choose_light(vertex.place(), u);
+  if (!chosen) return;
+  const Imath::V3f& world = chosen->towards.wi;
+  const Imath::V3f wi = vertex.frame.to_local(world);
+  const SampledSpectrum f = vertex.f(world, wi, kMode);
+  if (f.is_zero()) return;
+  SampledSpectrum contribution = f * (path.packet.throughput * emission(path, chosen->index, world) *
+                                      (std::abs(wi.z) * chosen->towards.factor));
+  const SampledSpectrum scattering_pdf =
+      chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
+  const Ray ray = spawn(vertex.hit, world);
+  const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
+  const bool crosses = wi.z * vertex.wo.z < 0;
+  if (walks_.has_free_paths()) {
+    Surroundings around = path.around;
+    if (crosses) around.enter(scene_, vertex.behind(scene_, around.inside), path.lambda_nm());
+    connect_through_media(path, *chosen, contribution, scattering_pdf, ray, around, cos_film);
+    return;
+  }
+  const float weight =
+      mis_weight(path.packet.lane_pdf * scattering_pdf, chosen->pdf, path.packet.lane_pdf.sum());
+  if (!std::isfinite(weight)) return;
+  if (crosses)
+    medium_at(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm())
+        .attenuate(contribution, chosen->towards.distance);
+  else
+    path.around.medium.attenuate(contribution, chosen->towards.distance);
+  connections_.push_back({path.path, chosen->index, contribution * weight, cos_film});
+  ways_.push_back(way_to(ray, chosen->towards));
+}
+
+void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
+  const std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u);
+  if (!chosen) return;
+  const Imath::V3f& wi = chosen->towards.wi;
+  const SampledSpectrum turned(pdf(phase, path.ray.direction, wi));
+  const SampledSpectrum contribution =
+      turned * (path.packet.throughput * emission(path, chosen->index, wi) * chosen->towards.factor);
+  connect_through_media(path, *chosen, contribution,
+                        chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned, {path.ray.origin, wi},
+                        path.around, path.at.cos_film);
+}
+
+// Adds what is left of the light that comes along `ray`, the direction of which scattering would have drawn
+// with `scattering_pdf`.
+[[gnu::noinline]] void PathTracer::connect_through_media(CameraPath& path, const ChosenLight& chosen,
+                                                         const SampledSpectrum& contribution,
+                                                         const SampledSpectrum& scattering_pdf,
+                                                         const Ray& ray, const Surroundings& around,
+                                                         float cos_film) {
+  if (caster_.occluded(way_to(ray, chosen.towards))) return;
+  const Transmission way =
+      transmission(scene_, caster_, ray, around, path.lambda_nm(), chosen.towards.distance);
+  const float weight =
+      mis_weight(path.packet.lane_pdf * scattering_pdf * way.density, chosen.pdf, path.packet.lane_pdf.sum());
+  if (std::isfinite(weight)) add(path, chosen.index, contribution * way.transmittance * weight, cos_film);
+}
+
+bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {
+  if (path.events == 0) path.first_delta = event.delta;
+  return true;
+}
+
+float PathTracer::kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
+  if (event.transmitted) {
+    const float n = index_inside(vertex.bsdf, path.packet.hero);
+    path.eta_scale *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
+  }
+  return carried(path);
+}
+
+void PathTracer::resolve_connections() {
+  blocked_.resize(ways_.size());
+  caster_.occluded(ways_, blocked_);
+  for (std::size_t i = 0; i < ways_.size(); ++i)
+    if (blocked_[i] == 0)
+      add(walks_.paths()[connections_[i].path], connections_[i].light, connections_[i].contribution,
+          connections_[i].cos_film);
+  connections_.clear();
+  ways_.clear();
+}
+
+// Light that a meter sees directly comes in under an angle of its own.
+void PathTracer::add(CameraPath& path, std::uint32_t light, const SampledSpectrum& contribution,
+                     float cos_film) {
+  if (by_light_ == nullptr && !(response_.angular() && cos_film != path.at.cos_film)) {
+    path.found += contribution;
+    return;
+  }
+  const FilmPoint at{path.at.x, path.at.y, cos_film};
+  std::fill(values_.begin(), values_.end(), 0.0);
+  response_.add(at, path.packet.wavelengths, contribution * path.scale, values_);
+  if (by_light_ != nullptr) by_light_->add(light, values_);
+  (*deposit_)(first_ + path.path, at, values_);
 }
 
 }  // namespace abbe

@@ -1,19 +1,116 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "sampling/sampler.h"
-#include "transport/path/exposure.h"
+#include "transport/path/film_response.h"
+#include "transport/path/palette.h"
+#include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
 
 namespace abbe {
 
-/// One camera path through pixel (x, y): path tracing with light sampling at every vertex that is not
-/// specular, balanced over techniques and lanes, and Russian roulette. Adds to `values`, one per channel, the
-/// exposure the path found: what it owns by `plan`.
+/// A path from the camera, under way.
+struct CameraPath : Walk {
+  using Walk::Walk;
+  FilmPoint at;
+  float scale = 1;           ///< What radiance along its first ray exposes, times the exposure time.
+  SampledSpectrum found;     ///< Light it has found so far, balanced over lanes and techniques.
+  float eta_scale = 1;       ///< What refraction has taken off radiance.
+  bool first_delta = false;  ///< The event next to the camera was of a single direction.
+};
+
+/// One sample of a pixel.
+struct PixelSample {
+  int x;
+  int y;
+  Sampler sampler;
+};
+
+/// Path tracing [Kajiya1986]: from the camera, with a connection to a light at every vertex that is not
+/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Serves one
+/// thread.
 ///
-/// Owned: every path that ends on an area or environment light or by light sampling, except those whose
-/// vertex next to the camera is not specular while the one next to a traced light is.
-void trace_camera_path(const Plan& plan, RayCaster& caster, const Sampler& sampler, int x, int y,
-                       PathExposure& exposure);
+/// Owned: every path that ends on an area or environment light or by a connection, except those whose vertex
+/// next to the camera is not specular while the one next to a traced light is.
+class PathTracer {
+ public:
+  using Path = CameraPath;
+  static constexpr TransportMode kMode = TransportMode::radiance;
+
+  PathTracer(const Plan& plan, RayCaster& caster);
+
+  /// From now on also adds up what each light deposits.
+  void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
+
+  /// Traces a path for each of some samples, one block of a palette whose offsets `block` draws, and deposits
+  /// what they find by their numbers, at least once each.
+  void trace(std::span<const PixelSample> samples, const Sampler& block, const Deposit& deposit);
+
+  // What RandomWalks asks.
+  void escape(CameraPath& path);
+  void meet(CameraPath& path, const SurfaceHit& hit);
+  void connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
+  void connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  [[nodiscard]] bool follows(CameraPath& path, const BsdfSample& event) const;
+  [[nodiscard]] bool follows_within(const CameraPath& /*path*/) const { return true; }
+  [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
+  [[nodiscard]] float kept_within(const CameraPath& path) const { return carried(path); }
+  // What refraction into glass takes off radiance counts as still there.
+  [[nodiscard]] float carried(const CameraPath& path) const { return path.packet.carried() * path.eta_scale; }
+  void resolve_connections();
+
+ private:
+  // Paths that take each step together: as many as a near cache holds.
+  static constexpr std::uint32_t kTogether = 64;
+
+  // A light, a direction towards it from a point, and the density of both.
+  struct ChosenLight {
+    std::uint32_t index;
+    const Light& light;
+    LightSample towards;
+    float pdf;
+  };
+  struct Connection {
+    std::uint32_t path;
+    std::uint32_t light;
+    SampledSpectrum contribution;
+    float cos_film;
+  };
+
+  void begin_block(const Sampler& block);
+  void trace_together(std::span<const PixelSample> samples);
+  // Whether there is more to find than what a meter sees directly.
+  bool start(const PixelSample& sample, CameraPath& path);
+  [[nodiscard]] std::optional<ChosenLight> choose_light(const Place& place,
+                                                        const std::array<float, 4>& u) const;
+  [[nodiscard]] SampledSpectrum emission(const CameraPath& path, std::uint32_t light,
+                                         const Imath::V3f& wi) const;
+  [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
+                                     const Imath::V3f& normal) const;
+  [[nodiscard]] bool owned_by_photons(const CameraPath& path, std::uint32_t light) const;
+  void connect_through_media(CameraPath& path, const ChosenLight& chosen, const SampledSpectrum& contribution,
+                             const SampledSpectrum& scattering_pdf, const Ray& ray,
+                             const Surroundings& around, float cos_film);
+  void add(CameraPath& path, std::uint32_t light, const SampledSpectrum& contribution, float cos_film);
+
+  const Plan& plan_;
+  const Scene& scene_;
+  RayCaster& caster_;
+  FilmResponse response_;
+  Palette palette_;
+  RandomWalks<PathTracer> walks_;
+  const Deposit* deposit_ = nullptr;
+  std::uint32_t first_ = 0;  // number of the first of the paths under way
+  ExposureByLight* by_light_ = nullptr;
+  std::vector<Connection> connections_;  // of the step under way,
+  std::vector<BasicRay<double>> ways_;   // their ways to the light,
+  std::vector<std::uint8_t> blocked_;    // and whether something stands on them
+  std::vector<double> values_;           // of one deposit
+};
 
 }  // namespace abbe

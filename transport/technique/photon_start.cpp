@@ -41,7 +41,7 @@ PhotonRay start_far(const Plan& plan, RayCaster& caster, const LightPicker::Pick
   const Ray ray = arriving(aim, at, wi);
   if (!shines(light, from, wi)) return {ray, 0, at.cell};
   const bool area = light.is<AreaLight>();
-  if (caster.occluded(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point))
+  if (caster.occluded(way_between(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point)))
     return {ray, 0, at.cell};
   const float cosines = (area ? std::abs(from.normal.dot(wi)) : 1.0F) * std::abs(aim.axis().dot(wi));
   const double density = static_cast<double>(pick.probability * from.pdf_area) * static_cast<double>(at.pdf) *
@@ -56,7 +56,7 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const LightPick
   const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start);
   const AimedPoint at = aim.point(u.aim);
   const Ray ray = arriving(aim, at, -from.wi);
-  if (caster.occluded(Ray{ray.origin, from.wi})) return {ray, 0, at.cell};
+  if (caster.occluded(way_along({ray.origin, from.wi}))) return {ray, 0, at.cell};
   const float cosine = std::abs(aim.axis().dot(from.wi));
   return {ray, cosine / (pick.probability * at.pdf * from.pdf), at.cell};
 }

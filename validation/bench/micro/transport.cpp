@@ -15,23 +15,29 @@ void sampler_group(benchmark::State& state) {
 }
 BENCHMARK(sampler_group);
 
-// Whole camera paths through the Cornell box.
-void camera_path(benchmark::State& state) {
+// Whole camera paths through the Cornell box, 256 at a time.
+void camera_paths(benchmark::State& state) {
   const Scene scene = load_suite(choose_suites({"cornell"}).front(), "", false);
   const Plan plan = make_plan(scene);
   RayCaster caster(scene);
-  PathExposure exposure = exposure_of(scene);
+  PathTracer tracer(plan, caster);
   const auto width = static_cast<std::uint32_t>(scene.camera.width);
   std::uint32_t i = 0;
+  std::vector<PixelSample> samples;
   for (auto _ : state) {
-    const std::uint32_t pixel = (i++ * 2654435761U) % (width * width);
-    trace_camera_path(plan, caster, Sampler(1, Purpose::camera, 0, pixel, 0), static_cast<int>(pixel % width),
-                      static_cast<int>(pixel / width), exposure);
+    samples.clear();
+    for (int together = 0; together < 256; ++together) {
+      const std::uint32_t pixel = (i++ * 2654435761U) % (width * width);
+      samples.push_back({static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                         Sampler(1, Purpose::camera, 0, pixel, 0)});
+    }
+    tracer.trace(samples, Sampler(1, Purpose::palette, 0, 0, i),
+                 [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
   }
   state.counters["rays/s"] =
       benchmark::Counter(static_cast<double>(caster.rays()), benchmark::Counter::kIsRate);
 }
-BENCHMARK(camera_path);
+BENCHMARK(camera_paths);
 
 }  // namespace
 }  // namespace abbe

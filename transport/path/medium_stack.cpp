@@ -1,4 +1,4 @@
-#include "transport/path/medium.h"
+#include "transport/path/medium_stack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,25 +119,6 @@ MediumStack around_light(const Scene& scene, const Light& light) {
                   "--integrator path renders it");
   }
   return middle;
-}
-
-Medium medium_within(const Scene& scene, const MediumStack& inside, const SampledSpectrum& wavelengths_nm) {
-  if (inside.empty()) return {};
-  const Material& material = scene.materials[scene.shapes[inside.innermost()].material];
-  const RefractiveIndex* index = interior(material);
-  Medium medium;
-  if (index != nullptr && index->absorbing()) medium = {true, index->absorption_per_m(wavelengths_nm)};
-  const Matter* filling = matter(material);
-  if (filling == nullptr) return medium;
-  medium.attenuating = medium.attenuating || filling->absorbs() || filling->scatters();
-  if (filling->absorbs()) medium.extinction_per_m += filling->absorption_per_m(wavelengths_nm);
-  if (filling->scatters()) {
-    medium.scattering = filling;
-    medium.scattering_per_m = filling->scattering_per_m(wavelengths_nm);
-    medium.extinction_per_m += medium.scattering_per_m;
-  }
-  if (filling->grid) medium.grid = &*filling->grid;
-  return medium;
 }
 
 }  // namespace abbe

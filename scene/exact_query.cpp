@@ -1,0 +1,165 @@
+#include "scene/exact_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/shapes/disc.h"
+#include "scene/shapes/mesh.h"
+#include "scene/shapes/placed.h"
+#include "scene/shapes/quad.h"
+#include "scene/shapes/sphere.h"
+
+namespace abbe {
+namespace {
+
+// Where the instance stands that a ray is within; nullptr in the world.
+const Placement* placement_of(const RTCIntersectContext* context) {
+  const std::uint32_t instance = context->instID[0];
+  if (instance == RTC_INVALID_GEOMETRY_ID) return nullptr;
+  return std::get<PlacedPart>(static_cast<const ExactContext*>(context)->parts[instance]).at.get();
+}
+
+template <typename S>
+std::optional<ShapeHit<double>> intersection(const S& shape, const Placement* at,
+                                             const BasicRay<double>& ray) {
+  return at == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *at, ray, 0.0);
+}
+
+template <typename S>
+void user_bounds(const RTCBoundsFunctionArguments* args) {
+  const Imath::Box3d box = bounds(*static_cast<const S*>(args->geometryUserPtr));
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto below = [](double x) { return std::nextafter(static_cast<float>(x), -kInfinity); };
+  const auto above = [](double x) { return std::nextafter(static_cast<float>(x), kInfinity); };
+  *args->bounds_o = {below(box.min.x), below(box.min.y), below(box.min.z), 0,
+                     above(box.max.x), above(box.max.y), above(box.max.z), 0};
+}
+
+// What one ray of a packet meets becomes its hit, or goes to `all`.
+void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_t id,
+              const ShapeHit<double>& found) {
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
+  auto& context = *static_cast<ExactContext*>(args->context);
+  context.nearest[id] = found;
+  RTCHit met{};
+  met.geomID = args->geomID;
+  met.primID = args->primID;
+  met.instID[0] = args->context->instID[0];
+  if (context.all != nullptr) {
+    if (const auto one = decide(met, context, id)) context.all->push_back(*one);
+    return;
+  }
+  RTCRayN_tfar(ray, args->N, i) = static_cast<float>(found.t);
+  RTCHitN_geomID(hit, args->N, i) = met.geomID;
+  RTCHitN_primID(hit, args->N, i) = met.primID;
+  RTCHitN_instID(hit, args->N, i, 0) = met.instID[0];
+}
+
+template <typename S>
+void user_intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& shape = *static_cast<const S*>(args->geometryUserPtr);
+  const Placement* at = placement_of(args->context);
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const std::size_t id = RTCRayN_id(ray, args->N, i);
+    const auto found = intersection(shape, at, context.rays[id]);
+    if (found && found->t < static_cast<double>(RTCRayN_tfar(ray, args->N, i))) take_hit(args, i, id, *found);
+  }
+}
+
+template <typename S>
+void user_occluded(const RTCOccludedFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& shape = *static_cast<const S*>(args->geometryUserPtr);
+  const Placement* at = placement_of(args->context);
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] != 0 && intersection(shape, at, context.rays[RTCRayN_id(args->ray, args->N, i)]))
+      RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+}
+
+template <typename S>
+void set_user_callbacks(RTCGeometryTy* geometry) {
+  rtcSetGeometryBoundsFunction(
+      geometry, [](const RTCBoundsFunctionArguments* args) { user_bounds<S>(args); }, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, user_intersect<S>);
+  rtcSetGeometryOccludedFunction(geometry, user_occluded<S>);
+}
+
+SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape, std::uint32_t primitive) {
+  return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape, primitive};
+}
+
+// Of barycentric coordinates: well beyond what points keep off edges, in all but the smallest triangles.
+constexpr float kNearEdge = 0.01F;
+
+// How the point at t is to be moved to be as far from the edges of its triangle as rays start from the
+// surface.
+Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const PlacedPart* instance,
+                          const BasicRay<double>& local, double t, const Imath::V3f& point) {
+  const Imath::V3f axis(1, 0, 0);
+  const double distance = 0.5 * static_cast<double>((offset_point(point, axis, axis) - point).x);
+  Imath::V3d shift = shift_off_edges(set, hit.primID, local.origin + local.direction * t,
+                                     distance * local.direction.length());
+  if (instance != nullptr) instance->at->to_world.multDirMatrix(shift, shift);
+  return shift;
+}
+
+}  // namespace
+
+void reject_behind(const RTCFilterFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
+  const Placement* at = placement_of(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const BasicRay<double>& ray = context.rays[RTCRayN_id(args->ray, args->N, i)];
+    const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, i);
+    const double t = plane_crossing(set, triangle, at == nullptr ? ray : to_prototype(*at, ray));
+    if (!(t > 0 && t < ray.t_max)) args->valid[i] = 0;
+  }
+}
+
+void collect(const RTCFilterFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, i);
+    if (const auto found = decide(hit, context, RTCRayN_id(args->ray, args->N, i)))
+      context.all->push_back(*found);
+    args->valid[i] = 0;
+  }
+}
+
+void set_callbacks(RTCGeometryTy* geometry, const Sphere& /*sphere*/) {
+  set_user_callbacks<Sphere>(geometry);
+}
+void set_callbacks(RTCGeometryTy* geometry, const Disc& /*disc*/) {
+  set_user_callbacks<Disc>(geometry);
+}
+
+std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context, std::size_t number) {
+  const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  const std::uint32_t shape = placed ? hit.instID[0] : hit.geomID;
+  const Part& part = context.parts[shape];
+  const auto* instance = std::get_if<PlacedPart>(&part);
+  const auto* set =
+      instance == nullptr ? std::get_if<TriangleSet>(&part) : std::get_if<TriangleSet>(&instance->of->part);
+  if (set == nullptr) return surface_hit(context.nearest[number], shape, 0);
+  const BasicRay<double>& ray = context.rays[number];
+  const BasicRay<double> local = instance == nullptr ? ray : to_prototype(*instance->at, ray);
+  const double t = plane_crossing(*set, hit.primID, local);
+  if (!(t > 0 && t < ray.t_max)) return std::nullopt;
+  Imath::V3d point = ray.origin + ray.direction * t;
+  if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
+    point += shift_in_world(*set, hit, instance, local, t, Imath::V3f(point));
+  if (instance == nullptr)
+    return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
+  const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
+  return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape, hit.primID);
+}
+
+}  // namespace abbe

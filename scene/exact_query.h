@@ -1,0 +1,49 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scene/geometry.h"
+
+namespace abbe {
+
+/// What rays meet; those that ask for shadows leave out the boundaries of matter, which throw none.
+inline constexpr unsigned kOpaque = 1;
+inline constexpr unsigned kBoundary = 2;
+
+/// Rays that Embree is asked about at once. Its answer to each is that to a single ray, bit for bit: packets
+/// that are not said to be coherent are traversed ray by ray, and only what it costs to ask is shared.
+inline constexpr std::size_t kPacket = 8;
+
+/// What the callbacks need beyond Embree's float rays, and what they found beyond its float hits. Rays are
+/// told apart by their `id`.
+struct ExactContext : RTCIntersectContext {
+  explicit ExactContext(const std::vector<Part>& all) : RTCIntersectContext(), parts(all) {
+    rtcInitIntersectContext(this);
+  }
+  const std::vector<Part>& parts;
+  std::array<BasicRay<double>, kPacket> rays;
+  std::array<ShapeHit<double>, kPacket> nearest;  ///< On a sphere or disc.
+  std::vector<SurfaceHit>* all = nullptr;         ///< Where every hit goes, if they are asked for.
+};
+
+/// What Embree found for the ray of that number, in double; nothing for the plane of a triangle that the ray
+/// does not cross.
+[[nodiscard]] std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
+                                               std::size_t ray);
+
+/// A filter that drops the triangles whose plane the ray does not cross in double.
+void reject_behind(const RTCFilterFunctionNArguments* args);
+/// A filter that passes every hit to `ExactContext::all`.
+void collect(const RTCFilterFunctionNArguments* args);
+
+/// Tells Embree how rays meet a sphere or disc, which `user_pointer` of the geometry is.
+void set_callbacks(RTCGeometryTy* geometry, const Sphere& sphere);
+void set_callbacks(RTCGeometryTy* geometry, const Disc& disc);
+
+}  // namespace abbe

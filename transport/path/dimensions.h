@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+namespace abbe {
+
+/// Which group of four random numbers a path uses for what. The film position shares its group with the
+/// wavelength, since a spectrum on the film is a function of both; a photon's target shares its with the
+/// same. The third number of the lens is kept for the time within the exposure.
+inline constexpr std::uint32_t kFilmGroup = 0;
+inline constexpr std::uint32_t kLensGroup = 1;
+inline constexpr std::uint32_t kAimGroup = 0;
+inline constexpr std::uint32_t kEmissionGroup = 1;
+
+/// Number of the event at a meter, where camera paths scatter before they meet the first surface.
+inline constexpr int kMeterEvent = -1;
+
+/// For the scattering of an event, and, next to it, for the connection made there.
+[[nodiscard]] constexpr std::uint32_t scattering_group(int event) {
+  return 2 + 2 * static_cast<std::uint32_t>(event - kMeterEvent);
+}
+/// For how far a path comes in matter that scatters, before an event.
+[[nodiscard]] constexpr std::uint32_t free_path_group(int event) {
+  return 0x80000000 + static_cast<std::uint32_t>(event);
+}
+
+}  // namespace abbe

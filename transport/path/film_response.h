@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "spectral/packet.h"
+
+namespace abbe {
+
+/// What paths expose the film with in all, by the group that each light belongs to.
+struct ExposureByLight {
+  std::vector<std::uint32_t> group;  ///< Of each light of the scene.
+  std::vector<double> weight;        ///< Of each channel's film value; of a mosaic, of its plane's.
+  std::vector<double> exposure;      ///< Of each group: the sum of |film value| times its weight.
+
+  void add(std::uint32_t light, std::span<const double> values) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (std::isfinite(values[k])) exposure[group[light]] += weight[k] * std::abs(values[k]);
+  }
+};
+
+/// Where light meets the film: the pixel, and the cosine of the angle of incidence.
+struct FilmPoint {
+  int x = 0;
+  int y = 0;
+  float cos_film = 1;
+};
+
+/// Receives the film values, one per plane, that the path of that number adds to a pixel.
+using Deposit = std::function<void(std::uint32_t path, const FilmPoint& at, std::span<const double> values)>;
+
+/// What light does to the film: a contribution c at the wavelengths lambda_j, drawn with the density p,
+/// exposes channel k by sum_j c_j weight_k(lambda_j) / p(lambda_j). With a mosaic there is one value, that of
+/// the pixel's own channel.
+class FilmResponse {
+ public:
+  explicit FilmResponse(std::span<const Channel> channels, const Mosaic* mosaic = nullptr)
+      : sensor_(channels),
+        mosaic_(mosaic),
+        angular_(std::any_of(channels.begin(), channels.end(),
+                             [](const Channel& channel) { return channel.angular.has_value(); })) {}
+
+  /// How many values a contribution makes.
+  [[nodiscard]] std::size_t planes() const { return mosaic_ == nullptr ? sensor_.size() : 1; }
+  /// Whether the values depend on the angle of incidence.
+  [[nodiscard]] bool angular() const { return angular_; }
+
+  /// Adds to `values`, as many as `planes`, what `contribution` exposes, already divided by its balance over
+  /// lanes and techniques.
+  void add(const FilmPoint& at, const SampledWavelengths& wavelengths, const SampledSpectrum& contribution,
+           std::span<double> values) const {
+    const SampledSpectrum share = contribution / wavelengths.pdf;
+    const std::size_t first = mosaic_ == nullptr ? 0 : static_cast<std::size_t>(mosaic_->at(at.x, at.y));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] += static_cast<double>((share * weight(sensor_[first + k], at, wavelengths.lambda_nm)).sum());
+  }
+
+ private:
+  [[nodiscard]] SampledSpectrum weight(const Channel& channel, const FilmPoint& at,
+                                       const SampledSpectrum& wavelengths_nm) const {
+    return angular_ ? weight_by_angle(channel, at.cos_film, wavelengths_nm) : channel.weight(wavelengths_nm);
+  }
+  [[gnu::noinline]] static SampledSpectrum weight_by_angle(const Channel& channel, float cos_film,
+                                                           const SampledSpectrum& wavelengths_nm) {
+    return weight_at(channel, wavelengths_nm, cos_film);  // out of the way of the others
+  }
+
+  std::span<const Channel> sensor_;
+  const Mosaic* mosaic_;
+  bool angular_;
+};
+
+/// That of the scene's sensor.
+[[nodiscard]] inline FilmResponse film_response_of(const Scene& scene) {
+  return FilmResponse(scene.channels, scene.mosaic ? &*scene.mosaic : nullptr);
+}
+
+}  // namespace abbe

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "spectral/packet.h"
+#include "transport/path/medium_stack.h"
+
+namespace abbe {
+
+/// The matter a path segment runs through, at the path's wavelengths.
+struct MediumAt {
+  bool attenuating = false;
+  SampledSpectrum extinction_per_m;       ///< What is absorbed and scattered together.
+  const Matter* scattering = nullptr;     ///< What scatters, if anything does.
+  SampledSpectrum scattering_per_m = {};  ///< Where something does.
+  const PlacedGrid* grid = nullptr;       ///< Multiplies both, only in matter without an interface.
+
+  /// Attenuates the lanes over a distance [m], perhaps an infinite one, by Beer's law. In a grid the distance
+  /// is the integral of density along the way.
+  void attenuate(SampledSpectrum& throughput, float distance) const {
+    if (!attenuating) return;
+    // Where nothing is lost an infinite distance makes no difference.
+    throughput *= exp_of_negative(
+        SampledSpectrum::map(extinction_per_m, [distance](float a) { return a > 0 ? -a * distance : 0; }));
+  }
+  /// How far along a ray a column of matter lasts, within `distance`.
+  [[nodiscard]] GridStretch march(const Ray& ray, float distance, float column) const {
+    if (grid != nullptr) return grid->march(ray.origin, ray.direction, distance, column);
+    const bool reached = column < distance;
+    return {reached ? column : distance, reached ? column : distance, reached};
+  }
+};
+
+/// The matter of the innermost of the shapes in `inside`, or air.
+[[nodiscard]] MediumAt medium_at(const Scene& scene, const MediumStack& inside,
+                                 const SampledSpectrum& wavelengths_nm);
+
+/// What surrounds a point of a path: the shapes it lies in, and their matter at the path's wavelengths.
+struct Surroundings {
+  MediumStack inside;
+  MediumAt medium;
+
+  /// Passes into `beyond`.
+  void enter(const Scene& scene, const MediumStack& beyond, const SampledSpectrum& wavelengths_nm) {
+    inside = beyond;
+    medium = medium_at(scene, inside, wavelengths_nm);
+  }
+};
+
+}  // namespace abbe

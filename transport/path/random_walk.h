@@ -1,0 +1,157 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "materials/medium/phase.h"
+#include "transport/path/dimensions.h"
+#include "transport/path/free_path.h"
+#include "transport/path/interface.h"
+#include "transport/path/ray_caster.h"
+#include "transport/path/roulette.h"
+#include "transport/path/vertex.h"
+#include "transport/path/walk.h"
+
+namespace abbe {
+
+/// What a technique does with its paths on their way. A path is a `Walk` of its direction; `kMode` says which
+/// quantity it carries. `u` are numbers in [0, 1).
+template <typename T>
+concept WalkingTechnique = requires(T technique, typename T::Path& path, const SurfaceHit& hit,
+                                    const SurfaceVertex& vertex, const PhaseFunction& phase,
+                                    const BsdfSample& event, const std::array<float, 4>& u) {
+  { T::kMode } -> std::convertible_to<TransportMode>;
+  // A path leaves the scene, or comes to a surface.
+  technique.escape(path);
+  technique.meet(path, hit);
+  // It may be connected to the end of another, from a surface or from within matter.
+  technique.connect(path, vertex, u);
+  technique.connect_within(path, phase, u);
+  // Whether it may go on after an event.
+  { technique.follows(path, event) } -> std::same_as<bool>;
+  { technique.follows_within(path) } -> std::same_as<bool>;
+  // What roulette goes by, after an event.
+  { technique.kept(path, vertex, event) } -> std::same_as<float>;
+  { technique.kept_within(path) } -> std::same_as<float>;
+  // Its throughput over what it set out with.
+  { technique.carried(path) } -> std::same_as<float>;
+  // The connections of all paths, at the end of each step.
+  technique.resolve_connections();
+};
+
+/// Random walks of many paths that take each step together: rays are cast together, and each path goes on by
+/// itself. What becomes of a path does not depend on the others.
+template <typename Technique>
+class RandomWalks {
+ public:
+  using Path = typename Technique::Path;
+
+  RandomWalks(const Scene& scene, RayCaster& caster)
+      : scene_(scene),
+        caster_(caster),
+        has_free_paths_(abbe::has_free_paths(scene)),
+        most_events_(most_events(scene.render)) {}
+
+  /// All paths, and the indices of those that go on.
+  [[nodiscard]] std::vector<Path>& paths() { return paths_; }
+  [[nodiscard]] std::vector<std::uint32_t>& going() { return going_; }
+  [[nodiscard]] bool has_free_paths() const { return has_free_paths_; }
+
+  /// Takes the paths that go on to their ends.
+  void run(Technique& technique) {
+    while (!going_.empty()) step(technique);
+  }
+
+  /// Scatters a path at a vertex; connects it first, where that pays. Whether it goes on.
+  bool leave(Technique& technique, Path& path, const SurfaceVertex& vertex) {
+    const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
+    if (scatters(vertex.bsdf)) technique.connect(path, vertex, v);
+    const auto event = vertex.scatter({u[2], {u[0], u[1]}}, path.packet.hero, Technique::kMode);
+    if (!event || !technique.follows(path, *event)) return false;
+    path.connected = event->delta ? 0.0F : path.packet.lane_pdf.sum() / event->pdf;
+    path.last = vertex.place();
+    advance(path.packet, *event);
+    if (event->transmitted)
+      path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
+    path.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi));
+    return survives(path, technique.kept(path, vertex, *event), u[3]);
+  }
+
+ private:
+  void step(Technique& technique) {
+    rays_.clear();
+    for (const std::uint32_t i : going_) rays_.push_back(paths_[i].ray);
+    hits_.resize(rays_.size());
+    caster_.intersect(rays_, hits_);
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < going_.size(); ++k)
+      if (advance_path(technique, paths_[going_[k]], hits_[k])) going_[left++] = going_[k];
+    going_.resize(left);
+    technique.resolve_connections();
+  }
+
+  // From its last vertex, its ray's nearest hit being `hit`, to its next one and on. Whether it goes on.
+  bool advance_path(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
+    if (has_free_paths_) {
+      const std::array<float, 4> u = path.sampler.group(free_path_group(path.events));
+      if (propagate(scene_, caster_, {u[0], u[1]}, path, hit)) return scatter_within(technique, path);
+    } else if (hit) {
+      path.around.medium.attenuate(path.packet.throughput, hit->t);
+    }
+    if (!hit) {
+      technique.escape(path);
+      return false;
+    }
+    std::optional<Interface> met;
+    if (scene_.needs.nesting) {
+      met = interface_at(scene_, path.ray, *hit, path.around.inside);
+      hit = met->hit;
+    }
+    technique.meet(path, *hit);
+    const SurfaceVertex vertex(scene_, *hit, met, path);
+    return !is_black(vertex.bsdf) && !is_cut(technique, path) && leave(technique, path, vertex);
+  }
+
+  bool scatter_within(Technique& technique, Path& path) {
+    if (!technique.follows_within(path) || is_cut(technique, path)) return false;
+    const PhaseFunction& phase = path.around.medium.scattering->phase;
+    const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
+    technique.connect_within(path, phase, v);
+    const PhaseSample turned = sample(phase, {u[0], u[1]});
+    path.connected = path.packet.lane_pdf.sum() / turned.pdf;
+    path.last = {path.ray.origin, std::nullopt};
+    path.ray.direction = Basis<float>(path.ray.direction).to_world(turned.direction);
+    return survives(path, technique.kept_within(path), u[3]);
+  }
+
+  // Whether a path may not have another event.
+  bool is_cut(const Technique& technique, const Path& path) {
+    if (path.events < most_events_) return false;
+    caster_.count_cut(technique.carried(path));
+    return true;
+  }
+
+  bool survives(Path& path, float kept, float u) const {
+    ++path.events;
+    if (path.packet.throughput.is_zero()) return false;
+    if (!plays_roulette(scene_.render, path.events)) return true;
+    const float q = survival(kept, path.events);
+    if (u >= q) return false;
+    survive(path.packet, q);
+    return true;
+  }
+
+  const Scene& scene_;
+  RayCaster& caster_;
+  bool has_free_paths_;
+  int most_events_;
+  std::vector<Path> paths_;
+  std::vector<std::uint32_t> going_;
+  std::vector<Ray> rays_;  // of those
+  std::vector<std::optional<SurfaceHit>> hits_;
+};
+
+}  // namespace abbe

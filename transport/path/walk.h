@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "sampling/sampler.h"
+#include "scene/shapes/ray.h"
+#include "transport/path/medium_at.h"
+#include "transport/path/packet.h"
+#include "transport/path/spectra.h"
+
+namespace abbe {
+
+/// Where light arrives to be scattered: at a point, on the side of a surface that a unit normal says, or from
+/// everywhere.
+struct Place {
+  Imath::V3f point{0, 0, 0};
+  std::optional<Imath::V3f> side = {};
+
+  [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
+};
+
+/// A path of either direction under way: the ray it leaves its last vertex on, and all that is needed to go
+/// on from there.
+struct Walk {
+  Walk(const Sampler& numbers, std::uint32_t number) : sampler(numbers), path(number) {}
+
+  Ray ray;
+  PathPacket packet;
+  Sampler sampler;
+  std::uint32_t path;  ///< Its number among those traced together.
+  int events = 0;      ///< That it has had between its ends; kMeterEvent at a meter.
+  /// What `mis_weight` takes as `connected`, were the path's next vertex its end; 0 where no connection was
+  /// possible, as after an event of a single direction.
+  float connected = 0;
+  Place last;  ///< The vertex it left.
+  Surroundings around;
+  SharedSpectra* spectra = nullptr;  ///< At its packet, where it shares that with others.
+
+  [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
+};
+
+}  // namespace abbe
