@@ -281,7 +281,13 @@ bool Geometry::occluded(const BasicRay<double>& ray) const {
   return query.tfar < 0;
 }
 
+// Embree 3.13 calls each ray of a packet blocked at an instance once another one is, so that rays among
+// instances go alone.
 void Geometry::occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const {
+  if (!prototypes_.empty()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
+    return;
+  }
   ExactContext context(parts_);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);

@@ -24,7 +24,7 @@ WavelengthDistribution uneven() {
 
 constexpr int kSamples = 1 << 16;
 
-// Mean of an estimator over evenly spread wavelength rotations and lobe choices.
+// Mean of an estimator over evenly spread packets and lobe choices.
 template <typename F>
 double mean_over(const WavelengthDistribution& distribution, F estimate) {
   double total = 0;
@@ -32,7 +32,7 @@ double mean_over(const WavelengthDistribution& distribution, F estimate) {
     const float u = (static_cast<float>(i) + 0.5F) / kSamples;
     const float lobe =
         static_cast<float>(static_cast<unsigned>(i) * 2654435769U >> 8) * 0x1p-24F;  // golden-ratio sequence
-    total += estimate(distribution.sample(u), lobe);
+    total += estimate(draw_packet(distribution, u), lobe);
   }
   return total / kSamples;
 }
@@ -44,23 +44,23 @@ struct Found {
 
 // What one event at a glass surface (index 1.4 to 1.9 over the visible) gives for unit spectral radiance,
 // integrated over 400 to 700 nm.
-Found glass_event(const SampledWavelengths& wavelengths, float lobe) {
+Found glass_event(const PathPacket& drawn, float lobe) {
   const SampledSpectrum n =
-      SampledSpectrum::map(wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
+      SampledSpectrum::map(drawn.wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
   const Bsdf glass = DielectricBsdf{n, true};
   const std::optional<BsdfSample> event =
-      sample(glass, Imath::V3f(0.8F, 0, 0.6F), {lobe, {0.5F, 0.5F}}, kHero, TransportMode::power);
-  PathPacket packet{wavelengths, event->weight, event->lane_pdf};
+      sample(glass, Imath::V3f(0.8F, 0, 0.6F), {lobe, {0.5F, 0.5F}}, drawn.hero, TransportMode::power);
+  PathPacket packet = drawn;
+  advance(packet, *event);
   const std::vector<Channel> channels{energy_channel("flat", band(400, 700))};
-  PathExposure exposure(channels);
-  exposure.begin(wavelengths, 1);
-  exposure.deposit(packet.throughput * (1 / packet.lane_pdf.sum()));
-  const double value = exposure.values()[0];
+  double value = 0;
+  FilmResponse(channels).add({}, packet.wavelengths, packet.throughput * (1 / packet.lane_pdf.sum()),
+                             {&value, 1});
   return event->transmitted ? Found{0, value} : Found{value, 0};
 }
 
 TEST(Lanes, ReflectionAndRefractionTogetherKeepAllLightOfAllWavelengths) {
-  const double total = mean_over(uneven(), [](const SampledWavelengths& w, float lobe) {
+  const double total = mean_over(uneven(), [](const PathPacket& w, float lobe) {
     const Found found = glass_event(w, lobe);
     return found.reflected + found.transmitted;
   });
@@ -70,19 +70,19 @@ TEST(Lanes, ReflectionAndRefractionTogetherKeepAllLightOfAllWavelengths) {
 TEST(Lanes, ReflectedShareIsTheIntegralOfFresnel) {
   double expected = 0;
   for (double l = 400.5; l < 700; ++l) expected += fresnel_dielectric(0.6, 1.4 + (700 - l) / 600).R();
-  const double reflected = mean_over(
-      uneven(), [](const SampledWavelengths& w, float lobe) { return glass_event(w, lobe).reflected; });
+  const double reflected =
+      mean_over(uneven(), [](const PathPacket& w, float lobe) { return glass_event(w, lobe).reflected; });
   EXPECT_NEAR(reflected, expected, expected * 3e-3);
 }
 
 TEST(Lanes, ADenominatorWithWavelengthDensitiesWouldBeBiased) {
   // sum_j f_j / sum_k p(lambda_k) P_k: why the density of wavelengths belongs in the numerator alone.
-  const double biased = mean_over(uneven(), [](const SampledWavelengths& w, float lobe) {
+  const double biased = mean_over(uneven(), [](const PathPacket& w, float lobe) {
     const SampledSpectrum n =
-        SampledSpectrum::map(w.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
+        SampledSpectrum::map(w.wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
     const auto event = sample(Bsdf(DielectricBsdf{n, true}), Imath::V3f(0.8F, 0, 0.6F), {lobe, {0.5F, 0.5F}},
-                              kHero, TransportMode::power);
-    return static_cast<double>(event->weight.sum() / (w.pdf * event->lane_pdf).sum());
+                              w.hero, TransportMode::power);
+    return static_cast<double>(event->weight.sum() / (w.wavelengths.pdf * event->lane_pdf).sum());
   });
   EXPECT_GT(std::abs(biased - 300), 10);
 }

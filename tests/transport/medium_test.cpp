@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
-#include "transport/path/medium_stack.h"
+#include "transport/path/medium_at.h"
 
 namespace abbe {
 namespace {
 
-Medium medium() {
+MediumAt medium() {
   SampledSpectrum::Values absorption;
   absorption.fill(2);
   absorption[3] = 0;
@@ -25,12 +25,12 @@ TEST(Medium, AttenuatesByBeersLaw) {
 TEST(Medium, AttenuatesPreciselyAtAnyDepth) {
   for (float depth = 0; depth < 87; depth += 0.0137F) {
     SampledSpectrum lanes(1.0F);
-    Medium{true, SampledSpectrum(1.0F)}.attenuate(lanes, depth);
+    MediumAt{true, SampledSpectrum(1.0F)}.attenuate(lanes, depth);
     const double expected = std::exp(-static_cast<double>(depth));
     ASSERT_NEAR(lanes[5], expected, 3e-7 * expected) << depth;
   }
   SampledSpectrum lanes(1.0F);
-  Medium{true, SampledSpectrum(1.0F)}.attenuate(lanes, 88);
+  MediumAt{true, SampledSpectrum(1.0F)}.attenuate(lanes, 88);
   EXPECT_EQ(lanes[5], 0);
 }
 

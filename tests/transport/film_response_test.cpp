@@ -1,4 +1,4 @@
-#include "transport/path/exposure.h"
+#include "transport/path/film_response.h"
 
 #include <gtest/gtest.h>
 
@@ -16,43 +16,45 @@ SampledWavelengths all_at(double nm) {
 
 const std::vector<Channel> kChannels{energy_channel("a", Curve(1.0)), energy_channel("b", Curve(3.0))};
 
-TEST(PathExposure, AMosaicExposesThePixelsOwnChannel) {
+std::vector<double> exposed(const FilmResponse& response, const FilmPoint& at, double nm,
+                            float contribution) {
+  std::vector<double> values(response.planes(), 0.0);
+  response.add(at, all_at(nm), SampledSpectrum(contribution), values);
+  return values;
+}
+
+TEST(FilmResponse, AMosaicExposesThePixelsOwnChannel) {
   const Mosaic mosaic{2, 1, {1, 0}};
-  PathExposure exposure(kChannels, &mosaic);
-  exposure.begin(all_at(500), 2);
-  exposure.at_pixel(4, 7);
-  exposure.deposit(SampledSpectrum(0.25F));
-  ASSERT_EQ(exposure.values().size(), 1U);
-  EXPECT_EQ(exposure.values()[0], 8 * 0.25 * 2 / 0.5 * 3);
-  exposure.clear();
-  exposure.at_pixel(5, 7);  // as a photon reaches the film again
-  exposure.deposit(SampledSpectrum(0.25F));
-  EXPECT_EQ(exposure.values()[0], 8 * 0.25 * 2 / 0.5);
+  const FilmResponse response(kChannels, &mosaic);
+  EXPECT_EQ(exposed(response, {4, 7}, 500, 0.5F), std::vector<double>{8 * 0.5 / 0.5 * 3});
+  EXPECT_EQ(exposed(response, {5, 7}, 500, 0.5F), std::vector<double>{8 * 0.5 / 0.5});
 }
 
-TEST(PathExposure, WithoutAMosaicEveryPixelHasAllChannels) {
-  PathExposure exposure(kChannels);
-  exposure.begin(all_at(500), 1);
-  exposure.at_pixel(1, 0);
-  exposure.deposit(SampledSpectrum(0.5F));
-  ASSERT_EQ(exposure.values().size(), 2U);
-  EXPECT_EQ(exposure.values()[1], 3 * exposure.values()[0]);
+TEST(FilmResponse, WithoutAMosaicEveryPixelHasAllChannels) {
+  const std::vector<double> values = exposed(FilmResponse(kChannels), {1, 0}, 500, 0.5F);
+  ASSERT_EQ(values.size(), 2U);
+  EXPECT_EQ(values[0], 8 * 0.5 / 0.5);
+  EXPECT_EQ(values[1], 3 * values[0]);
 }
 
-TEST(PathExposure, AngularChannelsFollowTheAngle) {
+TEST(FilmResponse, AddsUp) {
+  const FilmResponse response(kChannels);
+  std::vector<double> values{1, 2};
+  response.add({}, all_at(500), SampledSpectrum(0.5F), values);
+  EXPECT_EQ(values, (std::vector<double>{9, 26}));
+}
+
+TEST(FilmResponse, AngularChannelsFollowTheAngle) {
   const std::vector<Channel> channels{
       behind(energy_channel("line", Curve(1.0)), {Curve(1.0), {{band(645, 655), 2.0}}}),
       energy_channel("plain", Curve(1.0))};
-  PathExposure exposure(channels);
-  exposure.begin(all_at(640), 1);
-  exposure.at_angle(1);
-  exposure.deposit(SampledSpectrum(1.0F));
-  EXPECT_EQ(exposure.values()[0], 0);
-  const double lit = exposure.values()[1];
-  exposure.at_angle(static_cast<float>(std::sqrt(1 - 4 * (1 - std::pow(640.0 / 650, 2)))));
-  exposure.deposit(SampledSpectrum(1.0F));
-  EXPECT_EQ(exposure.values()[0], lit);
-  EXPECT_EQ(exposure.values()[1], 2 * lit);
+  const FilmResponse response(channels);
+  const std::vector<double> upright = exposed(response, {0, 0, 1}, 640, 1);
+  EXPECT_EQ(upright[0], 0);
+  const auto tilt = static_cast<float>(std::sqrt(1 - 4 * (1 - std::pow(640.0 / 650, 2))));
+  const std::vector<double> tilted = exposed(response, {0, 0, tilt}, 640, 1);
+  EXPECT_EQ(tilted[0], upright[1]);
+  EXPECT_EQ(tilted[1], upright[1]);
 }
 
 Scene card_in_a_line(const std::vector<Channel>& channels) {
