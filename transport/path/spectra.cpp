@@ -8,6 +8,7 @@ void SharedSpectra::begin(const SampledWavelengths& wavelengths) {
   if (packet_ != 0) return;
   bsdfs_ = {};  // after 2^32 packets what was kept in the first would seem new
   emissions_ = {};
+  channel_shares_ = {};
   packet_ = 1;
 }
 

@@ -27,6 +27,14 @@ class SharedSpectra {
       look_up(material, kept);
     return kept.value;
   }
+  /// What light of these wavelengths counts in a channel that does not depend on the angle, over the density
+  /// they were drawn with.
+  [[nodiscard]] const SampledSpectrum& channel_share(std::uint32_t channel) {
+    Kept<SampledSpectrum>& kept = channel_shares_[channel % kKept];
+    if (kept.number != channel || kept.packet != packet_) [[unlikely]]
+      kept = {channel, packet_, scene_.channels[channel].weight(wavelengths_.lambda_nm) / wavelengths_.pdf};
+    return kept.value;
+  }
   /// The emission of a light that is no image.
   [[nodiscard]] const SampledSpectrum& emission(std::uint32_t light) {
     Kept<SampledSpectrum>& kept = emissions_[light % kKept];
@@ -50,6 +58,7 @@ class SharedSpectra {
   std::uint32_t packet_ = 0;
   std::array<Kept<Bsdf>, kKept> bsdfs_;
   std::array<Kept<SampledSpectrum>, kKept> emissions_;
+  std::array<Kept<SampledSpectrum>, kKept> channel_shares_;
 };
 
 }  // namespace abbe

@@ -47,7 +47,7 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
   walks_.run(*this);
   for (const CameraPath& path : paths) {
     std::fill(values_.begin(), values_.end(), 0.0);
-    response_.add(path.at, path.packet.wavelengths, path.found * path.scale, values_);
+    response_.add(path.at, path.packet.wavelengths, path.found * path.scale, values_, path.spectra);
     (*deposit_)(first_ + path.path, path.at, values_);
   }
 }
@@ -238,7 +238,7 @@ void PathTracer::add(CameraPath& path, std::uint32_t light, const SampledSpectru
   }
   const FilmPoint at{path.at.x, path.at.y, cos_film};
   std::fill(values_.begin(), values_.end(), 0.0);
-  response_.add(at, path.packet.wavelengths, contribution * path.scale, values_);
+  response_.add(at, path.packet.wavelengths, contribution * path.scale, values_, path.spectra);
   if (by_light_ != nullptr) by_light_->add(light, values_);
   (*deposit_)(first_ + path.path, at, values_);
 }
