@@ -58,8 +58,8 @@ TEST(Palette, IntegratesAsPacketsOfOnesOwnDo) {
   double mean = 0;
   double hero = 0;
   for (std::uint32_t i = 0; i < kBlocks; ++i) {
-    palette.begin(0, distribution, Sampler(1, Purpose::palette, i, 0).group(0)[0]);
-    const auto [packet, spectra] = palette.pick(0, Sampler(1, Purpose::camera, 0, i).group(0)[2]);
+    palette.begin(0, distribution, Sampler(1, Purpose::palette, 0, i, 0).group(0)[0]);
+    const auto [packet, spectra] = palette.pick(0, Sampler(1, Purpose::camera, 0, 0, i).group(0)[2]);
     const SampledSpectrum f = spectra->emission(0);
     mean += static_cast<double>((f / packet.wavelengths.pdf).mean()) / kBlocks;
     hero += static_cast<double>(f[packet.hero] / packet.wavelengths.pdf[packet.hero]) / kBlocks;

@@ -152,10 +152,13 @@ Errors errors_of(const Findings& found, double pixels) {
   return errors;
 }
 
-// How often `share` is halved from 1: no more than an eighth is left of it, and nothing known leaves it.
-int halvings(double share) {
-  if (std::isnan(share)) return 0;
-  return static_cast<int>(std::clamp(std::round(-std::log2(share)), 0.0, 1.0 * kMostHalvings));
+// How often a share, from 1, is halved to come nearest to the root of `wanted` over `whole`: no more than an
+// eighth is left of it, and where nothing is known of either it is left whole.
+int halvings(double wanted, double whole) {
+  if (!(wanted < whole)) return 0;
+  if (!(wanted > 0)) return kMostHalvings;
+  return static_cast<int>(
+      std::min(std::round((std::log2(whole) - std::log2(wanted)) / 2), 1.0 * kMostHalvings));
 }
 
 }  // namespace
@@ -166,9 +169,8 @@ void set_technique_shares(Plan& plan, int threads) {
   const Errors errors = errors_of(found, static_cast<double>(plan.photons));
   const double path_cost = static_cast<double>(found.path_rays) / (kPixels * kPathsPerPixel);
   const double photon_cost = static_cast<double>(found.photon_rays) / kPhotons;
-  const double cost = path_cost / photon_cost;
-  const int fewer_photons = halvings(std::sqrt(errors.photon_variance / errors.path_variance * cost));
-  const int fewer_paths = halvings(std::sqrt(errors.path_square / errors.photon_variance / cost));
+  const int fewer_photons = halvings(errors.photon_variance * path_cost, errors.path_variance * photon_cost);
+  const int fewer_paths = halvings(errors.path_square * photon_cost, errors.photon_variance * path_cost);
   plan.photons = std::max<std::uint64_t>(1, plan.photons >> fewer_photons);
   plan.path_interval = 1U << fewer_paths;
 }
