@@ -16,8 +16,9 @@ namespace abbe {
 inline constexpr unsigned kOpaque = 1;
 inline constexpr unsigned kBoundary = 2;
 
-/// Rays that Embree is asked about at once. Its answer to each is that to a single ray, bit for bit: packets
-/// that are not said to be coherent are traversed ray by ray, and only what it costs to ask is shared. So who travels along never matters, not even to ties.
+/// Rays that Embree is asked about at once. Packets that are not said to be coherent are traversed ray by
+/// ray, and only what it costs to ask is shared: an answer depends on the ray alone, ties included, whichever
+/// rays travel along.
 inline constexpr std::size_t kPacket = 8;
 
 /// What the callbacks need beyond Embree's float rays, and what they found beyond its float hits. Rays are
