@@ -165,7 +165,7 @@ Centroid of_pixel(const Scene& scene, int x, int y) {
 class TiltedFilter : public testing::TestWithParam<const char*> {};
 
 TEST_P(TiltedFilter, TheCentreOfItsBandMovesByTheFormula) {
-  const Scene scene = card(GetParam(), GetParam() == std::string("path") ? 512 : 4096);
+  const Scene scene = card(GetParam(), GetParam() == std::string("path") ? 512 : 16384);
   const RenderResult result = render(scene, {});
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
   const Film& film = result.film;
