@@ -16,9 +16,10 @@ constexpr std::uint32_t swap_bytes(std::uint32_t x) {
   return __builtin_bswap32(x);
 }
 inline Lanes swap_bytes(Lanes x) {
-  constexpr Bytes kSwapped{3,  2,  1,  0,  7,  6,  5,  4,  11, 10, 9,  8,  15, 14, 13, 12,
-                           19, 18, 17, 16, 23, 22, 21, 20, 27, 26, 25, 24, 31, 30, 29, 28};
-  return std::bit_cast<Lanes>(__builtin_shuffle(std::bit_cast<Bytes>(x), kSwapped));
+  const auto bytes = std::bit_cast<Bytes>(x);
+  return std::bit_cast<Lanes>(__builtin_shufflevector(bytes, bytes, 3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15,
+                                                      14, 13, 12, 19, 18, 17, 16, 23, 22, 21, 20, 27, 26, 25,
+                                                      24, 31, 30, 29, 28));
 }
 
 template <typename T>
