@@ -54,9 +54,9 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
 std::string failure_of(const Scene& scene, const RenderResult& whole, const DrawnScene& drawn) {
   if (whole.stats.nonfinite_samples > 0)
     return fmt::format("{} samples are not finite", whole.stats.nonfinite_samples);
-  if (const std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty())
+  if (std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty())
     return fault;
-  if (const std::string traps = traps_seen(); !traps.empty()) return traps;
+  if (std::string traps = traps_seen(); !traps.empty()) return traps;
   return difference_of_parts(scene, whole);
 }
 

@@ -15,7 +15,7 @@ namespace {
 // A name that no other file of the scene has.
 std::filesystem::path name_of(const Drawing& drawing, const char* extension) {
   for (int i = 0;; ++i) {
-    const std::filesystem::path path = drawing.folder / fmt::format("file{}{}", i, extension);
+    std::filesystem::path path = drawing.folder / fmt::format("file{}{}", i, extension);
     if (!std::filesystem::exists(path)) return path;
   }
 }
