@@ -54,8 +54,7 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
 std::string failure_of(const Scene& scene, const RenderResult& whole, const DrawnScene& drawn) {
   if (whole.stats.nonfinite_samples > 0)
     return fmt::format("{} samples are not finite", whole.stats.nonfinite_samples);
-  if (std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty())
-    return fault;
+  if (std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty()) return fault;
   if (std::string traps = traps_seen(); !traps.empty()) return traps;
   return difference_of_parts(scene, whole);
 }
