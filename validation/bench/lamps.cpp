@@ -21,9 +21,10 @@ std::string make_lamps(int rows) {
   const double step = 38.0 / rows;
   std::string lamps;
   for (int i = 0; i < rows * rows; ++i) {
+    const int row = i / rows;
     const double x = -19 + step * (i % rows + spread(i, 0.6180339887));
     const double y = 5.9 - 2 * spread(i, 0.7548776662);
-    const double z = -19 + step * (i / rows + spread(i, 0.5698402910));
+    const double z = -19 + step * (row + spread(i, 0.5698402910));
     const double strength = std::pow(30, spread(i, 0.4142135624));
     const std::string shape =
         i % 8 == 0 ? fmt::format(
