@@ -67,9 +67,8 @@ TEST(FileLock, ManyWhoTryAreOneAtATime) {
   const auto path = test_folder() / "out.exr";
   std::atomic<int> inside{0};
   std::atomic<int> most{0};
-  std::atomic<int> held{0};
-  const auto try_often = [&] {
-    for (int i = 0; i < 5000; ++i) try {
+  const auto hold_often = [&] {
+    for (int held = 0; held < 100;) try {
         const FileLock lock(path);
         most = std::max(most.load(), ++inside);
         std::this_thread::yield();
@@ -80,10 +79,9 @@ TEST(FileLock, ManyWhoTryAreOneAtATime) {
   };
   {
     std::vector<std::jthread> threads;
-    for (int t = 0; t < 4; ++t) threads.emplace_back(try_often);
+    for (int t = 0; t < 4; ++t) threads.emplace_back(hold_often);
   }
   EXPECT_EQ(most, 1);
-  EXPECT_GT(held, 100);
 }
 
 TEST(FileLock, ALinkAndWhatItLeadsToAreOneOutput) {
