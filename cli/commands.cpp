@@ -15,7 +15,7 @@
 #include "cli/compare.h"
 #include "cli/develop.h"
 #include "cli/info.h"
-#include "cli/matter_commands.h"
+#include "cli/material_commands.h"
 #include "cli/merge.h"
 #include "cli/render.h"
 #include "cli/trace.h"

@@ -11,14 +11,14 @@
 #include "io/atomic_file.h"
 #include "io/picture.h"
 #include "spectral/library.h"
-#include "validation/lab/lobe_plot.h"
-#include "validation/lab/map.h"
-#include "validation/lab/measure.h"
+#include "validation/goniometer/lobe_plot.h"
+#include "validation/goniometer/map.h"
+#include "validation/goniometer/measure.h"
 
 namespace abbe::cli {
 namespace {
 
-LabSettings settings_of(const LabOptions& options) {
+GoniometerSettings settings_of(const LabOptions& options) {
   Diagnostics diagnostics;
   NamedCurve illuminant = accepted(load_illuminant(options.illuminant, {}, diagnostics), diagnostics);
   return {options.at_nm,    options.angles_deg, options.inside, std::move(illuminant.curve),
@@ -38,9 +38,9 @@ Json errors(const std::vector<Estimate>& estimates) {
 }
 
 // One row per angle.
-Json rows_of(const LabReport& report) {
+Json rows_of(const GoniometerReport& report) {
   Json rows = Json::array();
-  for (const LabAngle& at : report.angles)
+  for (const GoniometerAngle& at : report.angles)
     rows.push_back({{"angle_deg", at.angle_deg},
                     {"R", means(at.reflected)},
                     {"R_error", errors(at.reflected)},
@@ -55,7 +55,7 @@ Json rows_of(const LabReport& report) {
   return rows;
 }
 
-Json answer_of(const std::string& name, const LabOptions& options, const LabReport& report) {
+Json answer_of(const std::string& name, const LabOptions& options, const GoniometerReport& report) {
   return {{"name", name},
           {"wavelength_nm", options.at_nm},
           {"side", options.inside ? "inside" : "outside"},
@@ -79,7 +79,7 @@ std::string cells(const std::array<double, 3>& color) {
   return fmt::format("{:>7.2f}{:>7.2f}{:>7.2f}", color[0], color[1], color[2]);
 }
 
-void print_table(const Json& answer, const LabOptions& options, const LabReport& report) {
+void print_table(const Json& answer, const LabOptions& options, const GoniometerReport& report) {
   Json head = answer;
   head.erase("angles");
   head.erase("wavelength_nm");
@@ -91,7 +91,7 @@ void print_table(const Json& answer, const LabOptions& options, const LabReport&
   };
   fmt::print("\n{:>7}{}{}      X      Y      Z     L*     a*     b*   sampling p\n", "angle", columns("R"),
              columns("T"));
-  for (const LabAngle& at : report.angles)
+  for (const GoniometerAngle& at : report.angles)
     fmt::print("{:>7g}{}{}{}{}   {}\n", at.angle_deg, cells(at.reflected), cells(at.transmitted),
                cells(at.reflected_color.xyz), cells(at.reflected_color.lab),
                report.lobes.spread ? fmt::format("{:.3f}", at.sampling_p) : "-");
@@ -107,8 +107,8 @@ int lab(const LabOptions& options) {
   const Material material = accepted(load_material(options.material, diagnostics, &inputs), diagnostics);
   for (std::filesystem::path& file : files_among({options.illuminant})) inputs.add_file(std::move(file));
   require_distinct(std::array{options.plot, options.map}, inputs.files());
-  const LabSettings settings = settings_of(options);
-  const LabReport report = measure(material, settings);
+  const GoniometerSettings settings = settings_of(options);
+  const GoniometerReport report = measure(material, settings);
   const Json answer = answer_of(material.name, options, report);
   if (!options.plot.empty())
     write_atomically(options.plot, lobe_plot(material, settings, report, material.name));

@@ -184,7 +184,7 @@ void refuse(ObjectReader& reader, std::initializer_list<const char*> keys, const
 }
 
 void require_response(const Channel& channel, const SourcePosition& where, LoadContext& context) {
-  if (reach(channel).max() == 0 && reach(channel).min() == 0)
+  if (envelope(channel).max() == 0 && envelope(channel).min() == 0)
     context.diagnostics.error(where, fmt::format("channel \"{}\" responds to no wavelength in [{}, {}] nm",
                                                  channel.name, kMinWavelengthNm, kMaxWavelengthNm));
 }

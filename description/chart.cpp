@@ -90,8 +90,8 @@ bool check_reflectances(const Chart& chart, const JsonValue& at, const LoadConte
 
 }  // namespace
 
-std::vector<Part> read_chart(const JsonValue& json, const std::string& name, LoadContext& context,
-                             Scene& scene) {
+std::vector<NamedShape> read_chart(const JsonValue& json, const std::string& name, LoadContext& context,
+                                   Scene& scene) {
   ObjectReader reader(json, context.diagnostics);
   const JsonValue* table = reader.require("reflectances");
   const auto corner = read_point(reader, "corner", context);
@@ -110,7 +110,7 @@ std::vector<Part> read_chart(const JsonValue& json, const std::string& name, Loa
   }
   const std::size_t patches = chart->patches.size();
   const Grid grid{{*corner, *edge_u, *edge_v}, (patches + kColumns - 1) / kColumns};
-  std::vector<Part> parts;
+  std::vector<NamedShape> parts;
   for (std::size_t i = 0; i < patches; ++i) {
     const Patch& patch = chart->patches[i];
     parts.push_back({name + "/" + patch.name, patch_quad(grid, i),

@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "description/matter.h"
+#include "description/material_readers.h"
 #include "materials/interface/fresnel.h"
 
 namespace abbe::description {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "description/matter.h"
+#include "description/material_readers.h"
 #include "description/values.h"
 
 namespace abbe::description {
@@ -12,23 +12,24 @@ namespace {
 constexpr Range kFilmThickness{0, 1e5, true, false};  // [nm]; nothing thicker is coherent
 constexpr Range kRepeats{1, static_cast<double>(Coating::kMaxLayers)};
 
-// The number of the matter `json` names among those of `coating`, added if it is new: the same words name the
-// same matter.
-std::optional<std::uint32_t> film_matter(const JsonValue& json, Coating& coating, LoadContext& context) {
+// The number of the material that `json` names among those of `coating`, added if it is new: the same words
+// name the same material.
+std::optional<std::uint32_t> film_material(const JsonValue& json, Coating& coating, LoadContext& context) {
   auto ior = read_ior(json, kIndex, context);
   if (!ior) return std::nullopt;
   const auto* words = std::get_if<std::string>(&json.value);
   const std::string name = words ? *words : ior->name;
-  const auto known = std::find_if(coating.matters.begin(), coating.matters.end(),
-                                  [&](const Coating::Matter& matter) { return matter.index_name == name; });
-  const auto number = static_cast<std::uint32_t>(known - coating.matters.begin());
-  if (known != coating.matters.end()) return number;
-  if (number == Coating::kMaxMatters) {
+  const auto known =
+      std::find_if(coating.materials.begin(), coating.materials.end(),
+                   [&](const Coating::Material& material) { return material.index_name == name; });
+  const auto number = static_cast<std::uint32_t>(known - coating.materials.begin());
+  if (known != coating.materials.end()) return number;
+  if (number == Coating::kMaxMaterials) {
     context.diagnostics.error(
-        json.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMatters));
+        json.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMaterials));
     return std::nullopt;
   }
-  coating.matters.push_back({name, std::move(ior->index)});
+  coating.materials.push_back({name, std::move(ior->index)});
   return number;
 }
 
@@ -46,8 +47,8 @@ void read_layers(const JsonValue& json, Coating& coating, LoadContext& context) 
     } else {
       const JsonValue* ior = reader.require("ior");
       const auto thickness = reader.require_number("thickness_nm", kFilmThickness);
-      const auto matter = ior ? film_matter(*ior, coating, context) : std::nullopt;
-      if (matter && thickness) coating.layers.push_back({*matter, *thickness});
+      const auto material = ior ? film_material(*ior, coating, context) : std::nullopt;
+      if (material && thickness) coating.layers.push_back({*material, *thickness});
     }
     reader.finish();
     const std::size_t last = coating.layers.size();

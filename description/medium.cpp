@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "description/curve.h"
-#include "description/matter.h"
+#include "description/material_readers.h"
 #include "description/values.h"
 #include "io/npy.h"
 
@@ -76,13 +76,13 @@ std::optional<PlacedGrid> read_grid(const JsonValue& json, LoadContext& context)
 
 }  // namespace
 
-std::optional<Matter> read_filling(ObjectReader& reader, bool absorbs, LoadContext& context) {
+std::optional<Medium> read_filling(ObjectReader& reader, bool absorbs, LoadContext& context) {
   const JsonValue* phase = reader.find("phase");
   auto scattering = read_coefficient(reader.find("scattering_per_m"), context);
   auto absorption = read_coefficient(absorbs ? reader.find("absorption_per_m") : nullptr, context);
   const auto turns = phase ? read_phase(*phase, context) : PhaseFunction{IsotropicPhase{}};
   if (!scattering || !absorption || !turns) return std::nullopt;
-  return Matter{std::move(*absorption), std::move(*scattering), *turns};
+  return Medium{std::move(*absorption), std::move(*scattering), *turns};
 }
 
 std::optional<MaterialModel> read_medium(const JsonValue& json, LoadContext& context) {

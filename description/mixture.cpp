@@ -5,7 +5,7 @@
 
 #include "description/curve.h"
 #include "description/material.h"
-#include "description/matter.h"
+#include "description/material_readers.h"
 #include "description/values.h"
 
 namespace abbe::description {
@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kSlack = 1e-9;  // thirds written to ten digits may add up to 1
 
-// A material that may be part of a mixture.
-std::shared_ptr<const Material> read_component(const JsonValue& name, LoadContext& context,
-                                               const Scene& scene) {
+// The material of that name, if a mixture may be made of it.
+std::shared_ptr<const Material> mixable_material(const JsonValue& name, LoadContext& context,
+                                                 const Scene& scene) {
   const auto number = find_material(name, context, scene);
   if (!number) return nullptr;
   const Material& material = scene.materials[*number];
   const char* fault = nullptr;
   if (std::holds_alternative<MixtureMaterial>(material.model)) fault = "a mixture within a mixture";
-  if (interior(material) != nullptr || matter(material) != nullptr)
+  if (interior(material) != nullptr || medium(material) != nullptr)
     fault = "light enters it, which a mixture has no inside for";
   if (material.relief != nullptr) fault = "its relief would be lost, which the mixture may have instead";
   if (fault == nullptr) return std::make_shared<const Material>(material);
@@ -30,17 +30,17 @@ std::shared_ptr<const Material> read_component(const JsonValue& name, LoadContex
   return nullptr;
 }
 
-std::optional<MixtureMaterial::Part> read_part(const JsonValue& json, LoadContext& context,
-                                               const Scene& scene) {
+std::optional<MixtureMaterial::Component> read_component(const JsonValue& json, LoadContext& context,
+                                                         const Scene& scene) {
   ObjectReader reader(json, context.diagnostics);
   const JsonValue* name = reader.require("material");
   const JsonValue* weight_value = reader.require("weight");
   reader.finish();
   if (!name || !weight_value) return std::nullopt;
   auto weight = read_curve(*weight_value, {"reflectance", Range::unit()}, context);
-  auto material = read_component(*name, context, scene);
+  auto material = mixable_material(*name, context, scene);
   if (!weight || !material) return std::nullopt;
-  return MixtureMaterial::Part{std::move(*weight), std::move(material)};
+  return MixtureMaterial::Component{std::move(*weight), std::move(material)};
 }
 
 }  // namespace
@@ -51,10 +51,10 @@ std::optional<MixtureMaterial> read_mixture(const JsonValue& json, LoadContext& 
   MixtureMaterial mixture;
   Curve total(0.0);
   for (const JsonValue& entry : *entries) {
-    auto part = read_part(entry, context, scene);
-    if (!part) return std::nullopt;
-    total = sum(total, part->weight);
-    mixture.parts.push_back(std::move(*part));
+    auto component = read_component(entry, context, scene);
+    if (!component) return std::nullopt;
+    total = sum(total, component->weight);
+    mixture.components.push_back(std::move(*component));
   }
   if (total.max() <= 1 + kSlack) return mixture;
   context.diagnostics.error(

@@ -13,7 +13,7 @@ namespace abbe::description {
 namespace {
 
 void read_object_shape(const JsonValue& json, std::size_t number, LoadContext& context, Scene& scene,
-                       std::vector<Part>& parts) {
+                       std::vector<NamedShape>& parts) {
   ObjectReader reader(json, context.diagnostics);
   const std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
   if (const JsonValue* instance = json.find("instance")) {
@@ -24,17 +24,18 @@ void read_object_shape(const JsonValue& json, std::size_t number, LoadContext& c
     context.diagnostics.error(emission->where, "a shape of an object cannot emit");
   const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism"});
   if (!key) return;
-  for (Part& part : read_parts(reader, *key, name, context, scene)) parts.push_back(std::move(part));
+  for (NamedShape& part : read_named_shapes(reader, *key, name, context, scene))
+    parts.push_back(std::move(part));
   reader.finish();
 }
 
 // Around the middle of the object, where floats are finest.
-Object centred(std::vector<Part> parts) {
+Object centred(std::vector<NamedShape> parts) {
   Imath::Box3d box;
-  for (const Part& part : parts)
+  for (const NamedShape& part : parts)
     std::visit([&](const auto& shape) { box.extendBy(bounds(shape)); }, part.shape);
   Object object{{}, box.isEmpty() ? Imath::V3d(0) : box.center()};
-  for (Part& part : parts) {
+  for (NamedShape& part : parts) {
     std::visit([&](auto& shape) { shift(shape, -object.center); }, part.shape);
     object.parts.push_back({std::move(part.name), part.material, make_prototype(std::move(part.shape))});
   }
@@ -54,7 +55,7 @@ void read_objects(const JsonValue& json, LoadContext& context, Scene& scene) {
     ObjectReader reader(value, context.diagnostics);
     const JsonValue* list = reader.require("shapes");
     reader.finish();
-    std::vector<Part> parts;
+    std::vector<NamedShape> parts;
     const JsonValue::Array* shapes = list ? read_array(*list, "shapes", 1, context) : nullptr;
     for (std::size_t i = 0; shapes && i < shapes->size(); ++i)
       read_object_shape((*shapes)[i], i, context, scene, parts);

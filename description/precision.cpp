@@ -25,7 +25,7 @@ void check_shapes(const LoadContext& context, const Scene& scene) {
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];
     const Imath::Box3d box = bounds(instance.shape);
-    const bool body = encloses_matter(scene.materials[instance.material]);
+    const bool body = encloses_medium(scene.materials[instance.material]);
     const bool opaque = !emitting_mesh[i] && !body;
     if (opaque && distance_to(box, position(scene.camera)) > far_from) continue;
     const double size = box.size().length();

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "description/matter.h"
+#include "description/material_readers.h"
 
 namespace abbe::description {
 

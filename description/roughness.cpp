@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "description/matter.h"
+#include "description/material_readers.h"
 
 namespace abbe::description {
 namespace {

@@ -121,9 +121,10 @@ std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view 
 }
 
 // The parts of a mesh file, made of `material` or of the file's own.
-std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file, const std::string& name,
-                                 const std::uint32_t* material, LoadContext& context, Scene& scene) {
-  std::vector<Part> parts;
+std::vector<NamedShape> read_mesh_file(const JsonValue& json, const std::string& file,
+                                       const std::string& name, const std::uint32_t* material,
+                                       LoadContext& context, Scene& scene) {
+  std::vector<NamedShape> parts;
   const auto path = context.file(file, json.where);
   if (!path) return parts;
   const bool mapped = material && needs_coordinates(scene.materials[*material]);
@@ -132,7 +133,7 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
                               mapped ? FileCoordinates::wanted : FileCoordinates::ignored, context.inputs);
   if (!found) return parts;
   for (const std::filesystem::path& other : found->others) context.remember(other);
-  for (MeshFile::Part& part : found->parts) {
+  for (MeshFile::Submesh& part : found->submeshes) {
     context.take_memory(path->string(), memory_bytes(part.mesh));
     if (!material && !part.material) {
       context.diagnostics.error(
@@ -140,8 +141,9 @@ std::vector<Part> read_mesh_file(const JsonValue& json, const std::string& file,
       return {};
     }
     const std::string full =
-        found->parts.size() == 1 ? name : name + "/" + found->materials[*part.material].name;
-    Part& added = parts.emplace_back(Part{full, *scaled(std::move(part.mesh), context.unit_m), 0});
+        found->submeshes.size() == 1 ? name : name + "/" + found->materials[*part.material].name;
+    NamedShape& added =
+        parts.emplace_back(NamedShape{full, *scaled(std::move(part.mesh), context.unit_m), 0});
     if (material)
       added.material = *material;
     else
@@ -155,10 +157,10 @@ std::string mesh_name(const std::string* file) {
 }
 
 // Reports a mesh without the texture coordinates that its material needs.
-void require_coordinates(std::span<const Part> parts, const Material& material, const JsonValue& json,
+void require_coordinates(std::span<const NamedShape> parts, const Material& material, const JsonValue& json,
                          const std::string* file, const LoadContext& context) {
   if (!needs_coordinates(material)) return;
-  for (const Part& part : parts)
+  for (const NamedShape& part : parts)
     if (const auto* mesh = std::get_if<Mesh>(&part.shape); mesh && mesh->coordinates.empty())
       context.diagnostics.error(json.where,
                                 fmt::format("{}: no texture coordinates, which its material \"{}\" needs",
@@ -167,15 +169,15 @@ void require_coordinates(std::span<const Part> parts, const Material& material, 
 }
 
 // The shape of the kind `key` before its transform.
-std::vector<Part> read_unplaced(ObjectReader& reader, std::string_view key, const std::string& name,
-                                LoadContext& context, Scene& scene) {
+std::vector<NamedShape> read_unplaced(ObjectReader& reader, std::string_view key, const std::string& name,
+                                      LoadContext& context, Scene& scene) {
   const JsonValue& json = *reader.find(key);
   if (key == "chart") return read_chart(json, name, context, scene);
   const auto* file = key == "mesh" ? std::get_if<std::string>(&json.value) : nullptr;
   const bool optional = file && brings_materials(*file);
   const JsonValue* material_name = optional ? reader.find("material") : reader.require("material");
   const auto material = material_name ? find_material(*material_name, context, scene) : std::nullopt;
-  std::vector<Part> parts;
+  std::vector<NamedShape> parts;
   if (file && (material || !material_name)) {
     parts = read_mesh_file(json, *file, name, material ? &*material : nullptr, context, scene);
   } else if (!file) {
@@ -184,8 +186,8 @@ std::vector<Part> read_unplaced(ObjectReader& reader, std::string_view key, cons
   }
   if (material) require_coordinates(parts, scene.materials[*material], json, file, context);
   if (key == "mesh")
-    for (Part& part : parts)
-      prepare_for_matter(std::get<Mesh>(part.shape), mesh_name(file), scene.materials[part.material],
+    for (NamedShape& part : parts)
+      prepare_for_medium(std::get<Mesh>(part.shape), mesh_name(file), scene.materials[part.material],
                          json.where, context);
   return parts;
 }
@@ -200,7 +202,7 @@ void read_shape(const JsonValue& json, std::size_t number, LoadContext& context,
     reader.finish();
     return;
   }
-  std::vector<Part> parts = read_parts(reader, *key, name, context, scene);
+  std::vector<NamedShape> parts = read_named_shapes(reader, *key, name, context, scene);
   if (*key == "chart" && !parts.empty())
     scene.charts.push_back({name, static_cast<std::uint32_t>(scene.shapes.size()),
                             static_cast<std::uint32_t>(parts.size() - 1)});
@@ -209,7 +211,7 @@ void read_shape(const JsonValue& json, std::size_t number, LoadContext& context,
   reader.finish();
   if (emission && !reader.find("material"))
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
-  for (Part& part : parts) {
+  for (NamedShape& part : parts) {
     scene.shapes.push_back({std::move(part.name),
                             std::visit([](auto& s) { return Shape(std::move(s)); }, part.shape),
                             part.material});
@@ -284,12 +286,12 @@ std::optional<Quad> read_quad(const JsonValue& json, const LoadContext& context)
   return std::nullopt;
 }
 
-std::vector<Part> read_parts(ObjectReader& reader, std::string_view key, const std::string& name,
-                             LoadContext& context, Scene& scene) {
-  std::vector<Part> parts = read_unplaced(reader, key, name, context, scene);
+std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view key, const std::string& name,
+                                          LoadContext& context, Scene& scene) {
+  std::vector<NamedShape> parts = read_unplaced(reader, key, name, context, scene);
   const JsonValue* steps = reader.find("transform");
   const Transform transform = steps ? read_similarity(*steps, context) : Transform{};
-  for (Part& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
+  for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
   return parts;
 }
 

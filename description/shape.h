@@ -11,7 +11,7 @@
 namespace abbe::description {
 
 /// A shape as read, in metres.
-struct Part {
+struct NamedShape {
   std::string name;
   PlainShape shape;
   std::uint32_t material;
@@ -20,18 +20,19 @@ struct Part {
 /// Makes a mesh the surface of the matter that its material may be: closed, facing outward, without vertex
 /// normals. Says what it puts right, and what it cannot as what strictness refuses; `name` is that of the
 /// mesh there.
-void prepare_for_matter(Mesh& mesh, const std::string& name, const Material& material,
+void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
                         const SourcePosition& where, const LoadContext& context);
 
 [[nodiscard]] std::optional<Sphere> read_sphere(const JsonValue& json, const LoadContext& context);
 [[nodiscard]] std::optional<Disc> read_disc(const JsonValue& json, const LoadContext& context);
 [[nodiscard]] std::optional<Quad> read_quad(const JsonValue& json, const LoadContext& context);
 /// The shape of the kind `key`, placed; of a mesh file, one for each material. None after an error.
-[[nodiscard]] std::vector<Part> read_parts(ObjectReader& reader, std::string_view key,
-                                           const std::string& name, LoadContext& context, Scene& scene);
+[[nodiscard]] std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view key,
+                                                        const std::string& name, LoadContext& context,
+                                                        Scene& scene);
 /// The patches of a chart in the order of its table, then what surrounds them. None after an error.
-[[nodiscard]] std::vector<Part> read_chart(const JsonValue& json, const std::string& name,
-                                           LoadContext& context, Scene& scene);
+[[nodiscard]] std::vector<NamedShape> read_chart(const JsonValue& json, const std::string& name,
+                                                 LoadContext& context, Scene& scene);
 void read_shapes(const JsonValue& json, LoadContext& context, Scene& scene);
 
 void shift(Mesh& mesh, const Imath::V3d& by);

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "description/curve.h"
-#include "description/matter.h"
+#include "description/material_readers.h"
 #include "description/texture_file.h"
 #include "description/values.h"
 

@@ -42,8 +42,8 @@ void check_validity(const JsonValue& json, const LoadContext& context, const Sce
         [&](const auto& model) {
           if constexpr (requires { model.index_name; }) check(material, model.index_name, model.index);
           if constexpr (requires { model.coating; })
-            for (const Coating::Matter& matter : model.coating.matters)
-              check(material, matter.index_name, matter.index);
+            for (const Coating::Material& film : model.coating.materials)
+              check(material, film.index_name, film.index);
         },
         material.model);
 }

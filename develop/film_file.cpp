@@ -30,10 +30,10 @@ void require_finite(const Image& film, const std::filesystem::path& path) {
                                 i / static_cast<std::size_t>(film.width), value));
 }
 
-Image joined(std::vector<ImagePart> parts, const std::filesystem::path& path) {
+Image joined(std::vector<ExrPart> parts, const std::filesystem::path& path) {
   if (parts.size() == 1) return std::move(parts.front().image);
   Image film;
-  for (ImagePart& part : parts) {
+  for (ExrPart& part : parts) {
     if (part.name != kExposurePart && part.name != kVariancePart) continue;
     if (part.name == kExposurePart) {
       film.width = part.image.width;
@@ -57,7 +57,7 @@ Image read_film(const std::filesystem::path& path, Inputs* inputs) {
 
 void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
                  const FilmSensor& sensor, std::optional<double> scale) {
-  std::vector<ImagePart> parts{{kExposurePart, developed.exposure}, {kVariancePart, developed.variance}};
+  std::vector<ExrPart> parts{{kExposurePart, developed.exposure}, {kVariancePart, developed.variance}};
   if (sensor.readout) {
     parts.push_back({"electrons", developed.electrons});
     parts.push_back({"dn", developed.codes});

@@ -40,7 +40,7 @@ std::string stored_text(const std::string& key, const std::string& value) {
   return number ? number_text(static_cast<float>(*number)) : value;
 }
 
-Imf::Header header_of(const ImagePart& part) {
+Imf::Header header_of(const ExrPart& part) {
   const Image& image = part.image;
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -69,7 +69,7 @@ Imf::FrameBuffer frame_buffer(const Image& image, const Imath::Box2i& window) {
 }
 
 /// Compares bytes, not values: a NaN must survive, and -0 is not 0.
-bool same_bits(const ImagePart& written, const ImagePart& read) {
+bool same_bits(const ExrPart& written, const ExrPart& read) {
   const Image& a = written.image;
   const Image& b = read.image;
   const bool same_metadata =
@@ -110,16 +110,16 @@ Image announced(const Imf::Header& header, const std::string& name) {
   return image;
 }
 
-std::vector<ImagePart> read(const std::filesystem::path& path, Inputs* inputs) {
+std::vector<ExrPart> read(const std::filesystem::path& path, Inputs* inputs) {
   const std::string name = path.string();
   if (!std::filesystem::is_regular_file(path)) throw Error(ErrorCode::input, name, "no such regular file");
   Imf::MultiPartInputFile file(name.c_str());
-  std::vector<ImagePart> parts;
+  std::vector<ExrPart> parts;
   std::size_t bytes = 0;
   for (int i = 0; i < file.parts(); ++i) {
     const Imf::Header& header = file.header(i);
-    ImagePart& part =
-        parts.emplace_back(ImagePart{header.hasName() ? header.name() : "", announced(header, name)});
+    ExrPart& part =
+        parts.emplace_back(ExrPart{header.hasName() ? header.name() : "", announced(header, name)});
     bytes += part.image.memory_bytes();
     if (bytes > kMaxImageBytes)
       throw Error(ErrorCode::resource, name,
@@ -139,9 +139,9 @@ std::vector<ImagePart> read(const std::filesystem::path& path, Inputs* inputs) {
   return parts;
 }
 
-void write(const std::filesystem::path& path, std::span<const ImagePart> parts) {
+void write(const std::filesystem::path& path, std::span<const ExrPart> parts) {
   std::vector<Imf::Header> headers;
-  for (const ImagePart& part : parts) headers.push_back(header_of(part));
+  for (const ExrPart& part : parts) headers.push_back(header_of(part));
   Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Imf::OutputPart output(file, static_cast<int>(i));
@@ -153,20 +153,20 @@ void write(const std::filesystem::path& path, std::span<const ImagePart> parts) 
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const Image& image) {
-  const ImagePart part{"", image};
+  const ExrPart part{"", image};
   write_exr(path, std::span(&part, 1));
 }
 
-void write_exr(const std::filesystem::path& path, std::span<const ImagePart> parts) {
+void write_exr(const std::filesystem::path& path, std::span<const ExrPart> parts) {
   write_atomically(
       path, [parts](const std::filesystem::path& temporary) { write(temporary, parts); },
       [parts](const std::filesystem::path& temporary) {
-        const std::vector<ImagePart> read = read_exr_parts(temporary);
+        const std::vector<ExrPart> read = read_exr_parts(temporary);
         return std::equal(parts.begin(), parts.end(), read.begin(), read.end(), same_bits);
       });
 }
 
-std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path, Inputs* inputs) {
+std::vector<ExrPart> read_exr_parts(const std::filesystem::path& path, Inputs* inputs) {
   try {
     return read(path, inputs);
   } catch (const Error&) {
@@ -177,7 +177,7 @@ std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path, Inputs*
 }
 
 Image read_exr(const std::filesystem::path& path, Inputs* inputs) {
-  std::vector<ImagePart> parts = read_exr_parts(path, inputs);
+  std::vector<ExrPart> parts = read_exr_parts(path, inputs);
   if (parts.size() != 1)
     throw Error(ErrorCode::input, path.string(), fmt::format("has {} parts (allowed 1)", parts.size()));
   return std::move(parts.front().image);

@@ -11,7 +11,7 @@
 namespace abbe {
 
 /// One of several images in a file.
-struct ImagePart {
+struct ExrPart {
   std::string name;
   Image image;
 };
@@ -21,7 +21,7 @@ struct ImagePart {
 /// atomically, and re-read before it appears. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, const Image& image);
 /// The same for several images of one size, each under a name of its own.
-void write_exr(const std::filesystem::path& path, std::span<const ImagePart> parts);
+void write_exr(const std::filesystem::path& path, std::span<const ExrPart> parts);
 
 /// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes and those numbers as
 /// metadata. Throws Error{input} for a missing, truncated or malformed file and Error{resource} for one
@@ -29,7 +29,7 @@ void write_exr(const std::filesystem::path& path, std::span<const ImagePart> par
 [[nodiscard]] Image read_exr(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The same for a file of one part or more, which together keep within the limits; a single part may have no
 /// name.
-[[nodiscard]] std::vector<ImagePart> read_exr_parts(const std::filesystem::path& path,
-                                                    Inputs* inputs = nullptr);
+[[nodiscard]] std::vector<ExrPart> read_exr_parts(const std::filesystem::path& path,
+                                                  Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -51,19 +51,19 @@ const RefractiveIndex* interior(const Material& material) {
       material.model);
 }
 
-const Matter* matter(const Material& material) {
+const Medium* medium(const Material& material) {
   return std::visit(
-      [](const auto& model) -> const Matter* {
-        if constexpr (requires { model.matter(); })
-          return model.matter();
+      [](const auto& model) -> const Medium* {
+        if constexpr (requires { model.medium(); })
+          return model.medium();
         else
           return nullptr;
       },
       material.model);
 }
 
-bool encloses_matter(const Material& material) {
-  return interior(material) != nullptr || matter(material) != nullptr;
+bool encloses_medium(const Material& material) {
+  return interior(material) != nullptr || medium(material) != nullptr;
 }
 
 bool is_boundary(const Material& material) {

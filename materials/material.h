@@ -6,7 +6,7 @@
 
 #include "materials/model/classic.h"
 #include "materials/model/layered.h"
-#include "materials/model/medium.h"
+#include "materials/model/medium_material.h"
 #include "materials/model/mixture.h"
 #include "materials/model/principled.h"
 #include "materials/model/rough.h"
@@ -49,9 +49,9 @@ struct Material {
 /// The index of the matter inside a closed surface of this material, or nullptr when light does not enter it.
 [[nodiscard]] const RefractiveIndex* interior(const Material& material);
 /// What light meets inside besides the absorption of that index, or nullptr.
-[[nodiscard]] const Matter* matter(const Material& material);
+[[nodiscard]] const Medium* medium(const Material& material);
 /// Whether its surfaces bound matter that light enters, so that they must be closed.
-[[nodiscard]] bool encloses_matter(const Material& material);
+[[nodiscard]] bool encloses_medium(const Material& material);
 /// Matter begins and ends at a surface of this material, but light is neither reflected nor refracted there.
 [[nodiscard]] bool is_boundary(const Material& material);
 

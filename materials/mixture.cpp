@@ -8,21 +8,22 @@ namespace abbe {
 
 Lobes MixtureMaterial::lobes() const {
   Lobes all;
-  for (const Part& part : parts) {
-    const Lobes own = abbe::lobes(*part.material);
+  for (const Component& component : components) {
+    const Lobes own = abbe::lobes(*component.material);
     all = {all.delta || own.delta, all.spread || own.spread};
   }
   return all;
 }
 
 bool MixtureMaterial::needs_coordinates() const {
-  return std::any_of(parts.begin(), parts.end(),
-                     [](const Part& part) { return abbe::needs_coordinates(*part.material); });
+  return std::any_of(components.begin(), components.end(),
+                     [](const Component& component) { return abbe::needs_coordinates(*component.material); });
 }
 
 bool MixtureMaterial::depends_on_outside() const {
-  return std::any_of(parts.begin(), parts.end(),
-                     [](const Part& part) { return abbe::depends_on_outside(*part.material); });
+  return std::any_of(components.begin(), components.end(), [](const Component& component) {
+    return abbe::depends_on_outside(*component.material);
+  });
 }
 
 }  // namespace abbe

@@ -14,13 +14,14 @@ SampledSpectrum quotient(const SampledSpectrum& a, const SampledSpectrum& b) {
 
 SampledSpectrum total_weight(const MixtureMaterial& material, const SampledSpectrum& wavelengths_nm) {
   SampledSpectrum sum;
-  for (const MixtureMaterial::Part& part : material.parts) sum += part.weight(wavelengths_nm);
+  for (const MixtureMaterial::Component& component : material.components)
+    sum += component.weight(wavelengths_nm);
   return sum;
 }
 
-/// A part, what it weighs in each lane, and the number in [0, 1) left for its own choice.
+/// A component, what it weighs in each lane, and the number in [0, 1) left for its own choice.
 struct Choice {
-  const MixtureMaterial::Part* part = nullptr;
+  const MixtureMaterial::Component* component = nullptr;
   SampledSpectrum weight;
   float rest = 0;
 };
@@ -28,10 +29,10 @@ Choice choose(const MixtureMaterial& material, const SampledSpectrum& wavelength
               int hero) {
   Choice choice;
   float left = u * total;
-  for (const MixtureMaterial::Part& part : material.parts) {
-    const SampledSpectrum weight = part.weight(wavelengths_nm);
+  for (const MixtureMaterial::Component& component : material.components) {
+    const SampledSpectrum weight = component.weight(wavelengths_nm);
     if (!(weight[hero] > 0)) continue;
-    choice = {&part, weight, std::clamp(left / weight[hero], 0.0F, 0x1.fffffep-1F)};
+    choice = {&component, weight, std::clamp(left / weight[hero], 0.0F, 0x1.fffffep-1F)};
     if (left < weight[hero]) break;
     left -= weight[hero];
   }
@@ -45,7 +46,8 @@ std::optional<BsdfSample> MixtureBsdf::sample(const Imath::V3f& wo, const BsdfRa
   const SampledSpectrum total = total_weight(*material_, wavelengths_nm_);
   if (!(total[hero] > 0)) return std::nullopt;
   const Choice chosen = choose(*material_, wavelengths_nm_, u.lobe, total[hero], hero);
-  auto s = abbe::sample(make_bsdf(*chosen.part->material, at()), wo, {chosen.rest, u.direction}, hero, mode);
+  auto s =
+      abbe::sample(make_bsdf(*chosen.component->material, at()), wo, {chosen.rest, u.direction}, hero, mode);
   if (!s) return std::nullopt;
   if (s->delta) {
     const SampledSpectrum share = quotient(chosen.weight, total);
@@ -64,15 +66,15 @@ std::optional<BsdfSample> MixtureBsdf::sample(const Imath::V3f& wo, const BsdfRa
 
 SampledSpectrum MixtureBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const {
   SampledSpectrum f;
-  for (const MixtureMaterial::Part& part : material_->parts)
-    f += part.weight(wavelengths_nm_) * abbe::eval(make_bsdf(*part.material, at()), wo, wi, mode);
+  for (const MixtureMaterial::Component& component : material_->components)
+    f += component.weight(wavelengths_nm_) * abbe::eval(make_bsdf(*component.material, at()), wo, wi, mode);
   return f;
 }
 
 SampledSpectrum MixtureBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
   SampledSpectrum weighted;
-  for (const MixtureMaterial::Part& part : material_->parts)
-    weighted += part.weight(wavelengths_nm_) * abbe::pdf(make_bsdf(*part.material, at()), wo, wi);
+  for (const MixtureMaterial::Component& component : material_->components)
+    weighted += component.weight(wavelengths_nm_) * abbe::pdf(make_bsdf(*component.material, at()), wo, wi);
   return quotient(weighted, total_weight(*material_, wavelengths_nm_));
 }
 

@@ -8,7 +8,7 @@ namespace abbe {
 namespace {
 
 bool opaque(const Material& material) {
-  return interior(material) == nullptr && matter(material) == nullptr &&
+  return interior(material) == nullptr && medium(material) == nullptr &&
          !std::holds_alternative<ThinGlassMaterial>(material.model) &&
          !std::holds_alternative<MixtureMaterial>(material.model);
 }

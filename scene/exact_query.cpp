@@ -17,7 +17,7 @@ namespace {
 const Placement* placement_of(const RTCIntersectContext* context) {
   const std::uint32_t instance = context->instID[0];
   if (instance == RTC_INVALID_GEOMETRY_ID) return nullptr;
-  return std::get<PlacedPart>(static_cast<const ExactContext*>(context)->parts[instance]).at.get();
+  return std::get<SceneInstance>(static_cast<const ExactContext*>(context)->attached[instance]).at.get();
 }
 
 template <typename S>
@@ -98,7 +98,7 @@ constexpr float kNearEdge = 0.01F;
 
 // How the point at t is to be moved to be as far from the edges of its triangle as rays start from the
 // surface.
-Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const PlacedPart* instance,
+Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const SceneInstance* instance,
                           const BasicRay<double>& local, double t, const Imath::V3f& point) {
   const Imath::V3f axis(1, 0, 0);
   const double distance = 0.5 * static_cast<double>((offset_point(point, axis, axis) - point).x);
@@ -144,10 +144,10 @@ void set_callbacks(RTCGeometryTy* geometry, const Disc& /*disc*/) {
 std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context, std::size_t number) {
   const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const std::uint32_t shape = placed ? hit.instID[0] : hit.geomID;
-  const Part& part = context.parts[shape];
-  const auto* instance = std::get_if<PlacedPart>(&part);
-  const auto* set =
-      instance == nullptr ? std::get_if<TriangleSet>(&part) : std::get_if<TriangleSet>(&instance->of->part);
+  const AttachedGeometry& attached = context.attached[shape];
+  const auto* instance = std::get_if<SceneInstance>(&attached);
+  const auto* set = instance == nullptr ? std::get_if<TriangleSet>(&attached)
+                                        : std::get_if<TriangleSet>(&instance->of->geometry);
   if (set == nullptr) return surface_hit(context.nearest[number], shape, 0);
   const BasicRay<double>& ray = context.rays[number];
   const BasicRay<double> local = instance == nullptr ? ray : to_prototype(*instance->at, ray);

@@ -24,10 +24,10 @@ inline constexpr std::size_t kPacket = 8;
 /// What the callbacks need beyond Embree's float rays, and what they found beyond its float hits. Rays are
 /// told apart by their `id`.
 struct ExactContext : RTCIntersectContext {
-  explicit ExactContext(const std::vector<Part>& all) : RTCIntersectContext(), parts(all) {
+  explicit ExactContext(const std::vector<AttachedGeometry>& all) : RTCIntersectContext(), attached(all) {
     rtcInitIntersectContext(this);
   }
-  const std::vector<Part>& parts;
+  const std::vector<AttachedGeometry>& attached;
   std::array<BasicRay<double>, kPacket> rays;
   std::array<ShapeHit<double>, kPacket> nearest;  ///< On a sphere or disc.
   std::vector<SurfaceHit>* all = nullptr;         ///< Where every hit goes, if they are asked for.

@@ -24,8 +24,8 @@ namespace {
 constexpr const char* kDeviceConfig = "isa=avx2";
 
 template <typename S>
-PlainPart plain_part(const S& shape) {
-  if constexpr (std::is_constructible_v<PlainPart, const S&>)
+PlainGeometry plain_geometry(const S& shape) {
+  if constexpr (std::is_constructible_v<PlainGeometry, const S&>)
     return shape;
   else
     return triangles_of(shape);
@@ -62,7 +62,7 @@ RTCGeometry geometry_of(RTCDevice device, Sphere& sphere) {
 RTCGeometry geometry_of(RTCDevice device, Disc& disc) {
   return user_geometry(device, disc);
 }
-RTCGeometry geometry_of(RTCDevice device, const PlacedPart& placed) {
+RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, placed.of->scene.get());
   const Imath::M44d& m = placed.at->to_world;  // its rows are the columns Embree asks for
@@ -119,19 +119,19 @@ struct alignas(32) Packet {
 Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials)
     : device_(nullptr, rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
   open_device();
-  parts_.reserve(shapes.size());
+  attached_.reserve(shapes.size());
   for (const ShapeInstance& instance : shapes) {
-    if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) parts_.emplace_back(with_normals(*mesh));
-    if (const auto* quad = std::get_if<Quad>(&instance.shape)) parts_.emplace_back(with_normals(*quad));
-    if (const auto* sphere = std::get_if<Sphere>(&instance.shape)) parts_.emplace_back(*sphere);
-    if (const auto* disc = std::get_if<Disc>(&instance.shape)) parts_.emplace_back(*disc);
+    if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) attached_.emplace_back(with_normals(*mesh));
+    if (const auto* quad = std::get_if<Quad>(&instance.shape)) attached_.emplace_back(with_normals(*quad));
+    if (const auto* sphere = std::get_if<Sphere>(&instance.shape)) attached_.emplace_back(*sphere);
+    if (const auto* disc = std::get_if<Disc>(&instance.shape)) attached_.emplace_back(*disc);
     if (const auto* placed = std::get_if<PlacedShape>(&instance.shape))
-      parts_.emplace_back(PlacedPart{build_prototype(placed->of), placed->at});
+      attached_.emplace_back(SceneInstance{build_prototype(placed->of), placed->at});
   }
   scene_ = new_scene();
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
+  for (std::size_t i = 0; i < attached_.size(); ++i) {
     RTCGeometryTy* geometry =
-        std::visit([this](auto& part) { return geometry_of(device_.get(), part); }, parts_[i]);
+        std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); }, attached_[i]);
     rtcSetGeometryMask(geometry, is_boundary(materials[shapes[i].material]) ? kBoundary : kOpaque);
     attach(scene_.get(), static_cast<std::uint32_t>(i), geometry);
   }
@@ -183,14 +183,15 @@ void Geometry::attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geo
   check();
 }
 
-const PrototypePart* Geometry::build_prototype(const std::shared_ptr<const Prototype>& prototype) {
-  std::unique_ptr<PrototypePart>& built = prototypes_[prototype.get()];
+const InstancedScene* Geometry::build_prototype(const std::shared_ptr<const Prototype>& prototype) {
+  std::unique_ptr<InstancedScene>& built = prototypes_[prototype.get()];
   if (built) return built.get();
-  built = std::make_unique<PrototypePart>(PrototypePart{
-      prototype, std::visit([](const auto& shape) { return plain_part(shape); }, prototype->shape),
+  built = std::make_unique<InstancedScene>(InstancedScene{
+      prototype, std::visit([](const auto& shape) { return plain_geometry(shape); }, prototype->shape),
       new_scene()});
-  attach(built->scene.get(), 0,
-         std::visit([this](auto& part) { return geometry_of(device_.get(), part); }, built->part));
+  attach(
+      built->scene.get(), 0,
+      std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); }, built->geometry));
   commit(built->scene.get());
   return built.get();
 }
@@ -206,7 +207,7 @@ void Geometry::check() const {
 }
 
 std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
-  ExactContext context(parts_);
+  ExactContext context(attached_);
   context.rays[0] = exact(ray);
   while (true) {
     RTCRayHit query = embree_query(context.rays[0]);
@@ -220,7 +221,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
 }
 
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const {
-  ExactContext context(parts_);
+  ExactContext context(attached_);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     for (std::size_t i = 0; i < count; ++i) context.rays[i] = exact(rays[first + i]);
@@ -247,7 +248,7 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
   const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
   std::vector<SurfaceHit> all;
-  ExactContext context(parts_);
+  ExactContext context(attached_);
   context.rays[0] = {origin, direction, static_cast<double>(hit.t) + reach - start};
   context.all = &all;
   context.filter = collect;
@@ -273,7 +274,7 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
 }
 
 bool Geometry::occluded(const BasicRay<double>& ray) const {
-  ExactContext context(parts_);
+  ExactContext context(attached_);
   context.rays[0] = ray;
   RTCRay query = embree_ray(ray);
   query.mask = kOpaque;
@@ -288,7 +289,7 @@ void Geometry::occluded(std::span<const BasicRay<double>> rays, std::span<std::u
     for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
     return;
   }
-  ExactContext context(parts_);
+  ExactContext context(attached_);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(first), count, context.rays.begin());
@@ -300,7 +301,7 @@ void Geometry::occluded(std::span<const BasicRay<double>> rays, std::span<std::u
 
 void Geometry::replay(std::span<const LoggedRay> rays) const {
   for (const LoggedRay& logged : rays) {
-    ExactContext context(parts_);
+    ExactContext context(attached_);
     context.rays[0] = exact(logged.ray);
     RTCRayHit query = embree_query(context.rays[0]);
     if (logged.shadow)
@@ -312,24 +313,24 @@ void Geometry::replay(std::span<const LoggedRay> rays) const {
 
 std::size_t Geometry::triangle_count() const {
   std::size_t count = 0;
-  for (const Part& part : parts_) {
-    const auto* set = std::get_if<TriangleSet>(&part);
-    if (const auto* instance = std::get_if<PlacedPart>(&part))
-      set = std::get_if<TriangleSet>(&instance->of->part);
+  for (const AttachedGeometry& attached : attached_) {
+    const auto* set = std::get_if<TriangleSet>(&attached);
+    if (const auto* instance = std::get_if<SceneInstance>(&attached))
+      set = std::get_if<TriangleSet>(&instance->of->geometry);
     if (set != nullptr) count += set->triangles.size();
   }
   return count;
 }
 
 std::size_t Geometry::memory_bytes() const {
-  std::size_t bytes =
-      static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree_bytes_, 0)) + parts_.size() * sizeof(Part);
-  for (const Part& part : parts_)
-    if (const auto* set = std::get_if<TriangleSet>(&part)) bytes += memory_bytes_of(*set);
+  std::size_t bytes = static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree_bytes_, 0)) +
+                      attached_.size() * sizeof(AttachedGeometry);
+  for (const AttachedGeometry& attached : attached_)
+    if (const auto* set = std::get_if<TriangleSet>(&attached)) bytes += memory_bytes_of(*set);
   for (const auto& [prototype, built] : prototypes_) {
-    bytes += sizeof(PrototypePart) + sizeof(Prototype);
+    bytes += sizeof(InstancedScene) + sizeof(Prototype);
     if (const auto* mesh = std::get_if<Mesh>(&prototype->shape)) bytes += abbe::memory_bytes(*mesh);
-    if (const auto* set = std::get_if<TriangleSet>(&built->part)) bytes += memory_bytes_of(*set);
+    if (const auto* set = std::get_if<TriangleSet>(&built->geometry)) bytes += memory_bytes_of(*set);
   }
   return bytes;
 }

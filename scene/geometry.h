@@ -20,18 +20,18 @@ struct RTCSceneTy;
 namespace abbe {
 
 /// What Embree holds of a shape that stands by itself.
-using PlainPart = std::variant<TriangleSet, Sphere, Disc>;
+using PlainGeometry = std::variant<TriangleSet, Sphere, Disc>;
 /// A prototype in Embree's hands: a scene of one geometry, which its instances refer to.
-struct PrototypePart {
+struct InstancedScene {
   std::shared_ptr<const Prototype> prototype;
-  PlainPart part;
+  PlainGeometry geometry;
   std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene;
 };
-struct PlacedPart {
-  const PrototypePart* of;
+struct SceneInstance {
+  const InstancedScene* of;
   std::shared_ptr<const Placement> at;
 };
-using Part = std::variant<TriangleSet, Sphere, Disc, PlacedPart>;
+using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 
 /// The shapes in Embree's hands. Embree finds the primitive in float; where it is met, and whether it is met
 /// at all rather than left, is then decided in double by the shape's own formula, for instances in the
@@ -74,14 +74,14 @@ class Geometry {
   [[nodiscard]] ScenePointer new_scene();
   void commit(RTCSceneTy* scene);
   void attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geometry);
-  const PrototypePart* build_prototype(const std::shared_ptr<const Prototype>& prototype);
+  const InstancedScene* build_prototype(const std::shared_ptr<const Prototype>& prototype);
   void check() const;
 
-  std::vector<Part> parts_;  // by index of the shape
+  std::vector<AttachedGeometry> attached_;  // by index of the shape
   std::atomic<std::ptrdiff_t> embree_bytes_{0};
   Failure failure_;
   std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;
-  std::unordered_map<const Prototype*, std::unique_ptr<PrototypePart>> prototypes_;
+  std::unordered_map<const Prototype*, std::unique_ptr<InstancedScene>> prototypes_;
   std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene_;
 };
 

@@ -126,7 +126,7 @@ bool seen_along_normals(const Scene& scene) {
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
     const Lobes sent = lobes(material);
-    const Matter* filling = matter(material);
+    const Medium* filling = medium(material);
     if ((sent.spread && !is_black(material)) || (filling != nullptr && filling->scatters())) return false;
     if (!sent.delta) continue;
     const std::optional<Imath::V3d> normal = flat_normal(instance.shape);
@@ -194,7 +194,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
     const Material& material = material_of(scene, instance);
     const RefractiveIndex* inside = interior(material);
     require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
-    const Matter* filling = matter(material);
+    const Medium* filling = medium(material);
     const bool absorbing = (inside != nullptr && inside->absorbing()) || (filling && filling->absorbs());
     const bool turbid = filling != nullptr && filling->scatters();
     require(needs, &Needs::media, absorbing, "shape", instance.name);

@@ -129,7 +129,7 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
 }
 
 /// What nodes have put together so far, by material.
-using Parts = std::map<std::optional<std::size_t>, Mesh>;
+using MeshesByMaterial = std::map<std::optional<std::size_t>, Mesh>;
 
 /// Those of a primitive's vertices: none when it has none, or nobody wants them. False after a fault.
 bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -192,7 +192,7 @@ bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
 }
 
 bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
-                   Parts& parts, MeshReading& reading) {
+                   MeshesByMaterial& meshes, MeshReading& reading) {
   const auto named = primitive.attributes.find("POSITION");
   const auto positions = numbers_of(model, named == primitive.attributes.end() ? -1 : named->second,
                                     TINYGLTF_TYPE_VEC3, reading);
@@ -211,7 +211,7 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   std::optional<std::size_t> material;
   if (reading.materials == FileMaterials::wanted && primitive.material >= 0)
     material = static_cast<std::size_t>(primitive.material);
-  Mesh& mesh = parts[material];
+  Mesh& mesh = meshes[material];
   const std::size_t base = mesh.vertices.size();
   const auto triangles = corners(primitive.mode, indices ? indices->count : positions->count);
   if (static_cast<double>(mesh.triangles.size() + triangles.size()) > kMaxTriangles ||
@@ -272,7 +272,7 @@ Imath::M44d local_map(const tinygltf::Node& node) {
 
 // Every mesh the scene's nodes place. Nodes form a tree: one reached twice would let a small file grow
 // without bound.
-bool walk(const tinygltf::Model& model, Parts& parts, MeshReading& reading) {
+bool walk(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& reading) {
   const auto* scene = at(model.scenes, std::max(model.defaultScene, 0));
   if (!scene) return reading.refuse("it has no scene");
   struct Visit {
@@ -298,7 +298,7 @@ bool walk(const tinygltf::Model& model, Parts& parts, MeshReading& reading) {
       const auto* mesh = at(model.meshes, node->mesh);
       if (!mesh) return reading.refuse("a mesh does not exist");
       for (const tinygltf::Primitive& primitive : mesh->primitives)
-        if (!add_primitive(model, primitive, map, parts, reading)) return false;
+        if (!add_primitive(model, primitive, map, meshes, reading)) return false;
     }
     push(node->children, map);
   }
@@ -314,23 +314,23 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
   for (const auto& [count, what] :
        {std::pair(model.lights.size(), "lights"), {model.cameras.size(), "cameras"}})
     if (count > 0) reading.lost.push_back(fmt::format("its {} are not read ({} of them)", what, count));
-  Parts parts;
-  if (!walk(model, parts, reading)) return false;
+  MeshesByMaterial meshes;
+  if (!walk(model, meshes, reading)) return false;
   if (reading.materials == FileMaterials::wanted) {
     for (std::size_t i = 0; i < model.materials.size(); ++i)
       if (!read_gltf_material(model.materials[i], i, reading)) return false;
-    if (parts.contains(std::nullopt)) {  // what the format says then
+    if (meshes.contains(std::nullopt)) {  // what the format says then
       reading.file.materials.push_back({"default", {1, 1, 1}, std::nullopt, {"metallic 1"}});
     }
   }
-  for (auto& [material, mesh] : parts) {
+  for (auto& [material, mesh] : meshes) {
     if (mesh.triangles.empty()) continue;  // points and lines
     if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();
     if (!mesh.normals.empty()) mesh.normals.resize(mesh.triangles.size());
     const std::size_t last = reading.file.materials.size();
     const bool wanted = reading.materials == FileMaterials::wanted;
     if (wanted && material && *material >= last) return reading.refuse("a material does not exist");
-    reading.file.parts.push_back(
+    reading.file.submeshes.push_back(
         {std::move(mesh), wanted ? std::optional(material.value_or(last - 1)) : std::nullopt});
   }
   return true;

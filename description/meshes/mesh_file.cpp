@@ -113,10 +113,10 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .obj, .gltf, .glb)",
                               path.extension().string()));
   if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
-  if (reading.file.parts.empty()) return refuse("no faces");
-  for (MeshFile::Part& part : reading.file.parts)
+  if (reading.file.submeshes.empty()) return refuse("no faces");
+  for (MeshFile::Submesh& part : reading.file.submeshes)
     if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;
-  for (MeshFile::Part& part : reading.file.parts) complete_normals(part.mesh);
+  for (MeshFile::Submesh& part : reading.file.submeshes) complete_normals(part.mesh);
   for (const std::string& lost : reading.lost)
     diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), lost));
   return std::move(reading.file);

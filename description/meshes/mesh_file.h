@@ -23,11 +23,11 @@ struct FileMaterial {
 
 /// The triangles of a file, in its own units, split by material when materials were asked for.
 struct MeshFile {
-  struct Part {
+  struct Submesh {
     Mesh mesh;
     std::optional<std::size_t> material;
   };
-  std::vector<Part> parts;
+  std::vector<Submesh> submeshes;
   std::vector<FileMaterial> materials;
   std::vector<std::filesystem::path> others;  ///< Files the file named and that were read.
 };
@@ -40,7 +40,7 @@ enum class FileCoordinates { ignored, wanted };
 [[nodiscard]] bool brings_materials(const std::filesystem::path& path);
 
 /// Reads a PLY (ASCII or binary), OBJ, glTF or GLB file, told by its extension; convex polygons are cut into
-/// triangles. A part whose triangles do not all have texture coordinates has none; where some have vertex
+/// triangles. A submesh whose triangles do not all have texture coordinates has none; where some have vertex
 /// normals, the others get their own normal at each corner. Warns of lights and cameras, which are not read.
 /// Reports, as input errors at `where`, a file that is missing, not regular or too large, anything malformed,
 /// a count that promises more than the file holds (before anything is allocated for it), a name of another

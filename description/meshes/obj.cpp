@@ -313,13 +313,13 @@ bool read_obj(std::string&& bytes, MeshReading& reading) {
   }
   if (obj.faces.size() == 1) {
     auto& [material, faces] = *obj.faces.begin();
-    reading.file.parts.push_back({{std::move(obj.vertices), std::move(faces.triangles),
-                                   std::move(faces.coordinates), std::move(faces.normals)},
-                                  material});
+    reading.file.submeshes.push_back({{std::move(obj.vertices), std::move(faces.triangles),
+                                       std::move(faces.coordinates), std::move(faces.normals)},
+                                      material});
     return true;
   }
   for (auto& [material, faces] : obj.faces)
-    reading.file.parts.push_back({compact(obj.vertices, std::move(faces), reading), material});
+    reading.file.submeshes.push_back({compact(obj.vertices, std::move(faces), reading), material});
   return true;
 }
 

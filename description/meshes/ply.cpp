@@ -176,7 +176,7 @@ bool read_ply(std::string&& bytes, MeshReading& reading) {
   for (const auto& polygon : polygons) add_fan(polygon, mesh.triangles);
   if (mesh.triangles.empty()) return reading.refuse("no faces");
   if (header->normals > 0 && !read_normals(std::move(stream).str(), *header, mesh, reading)) return false;
-  reading.file.parts.push_back({std::move(mesh), std::nullopt});
+  reading.file.submeshes.push_back({std::move(mesh), std::nullopt});
   return true;
 }
 

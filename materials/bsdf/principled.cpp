@@ -82,7 +82,7 @@ Principled::Principled(const PrincipledLook& look)
   }
 }
 
-Principled::Parts Principled::value(Lobe lobe, const Facet& at) const {
+Principled::Terms Principled::value(Lobe lobe, const Facet& at) const {
   const float body = 1 - look_.metallic;
   if (lobe == ground)
     return {body * look_.sheen * at.rise, body * retro_diffuse(look_.roughness, at.wo.z, at.wi.z, at.cos_d)};
@@ -115,13 +115,13 @@ std::optional<V3f> Principled::draw(Lobe lobe, const V3f& wo, const Imath::V2f& 
   return wi;
 }
 
-Principled::Parts Principled::unlimited(const V3f& wo, const V3f& wi) const {
-  Parts f;
+Principled::Terms Principled::unlimited(const V3f& wo, const V3f& wi) const {
+  Terms f;
   if (!(wo.z > 0 && wi.z > 0)) return f;
   const Facet at(wo, wi);
   for (const Lobe lobe : kLobes) {
     if (!(probability_[lobe] > 0)) continue;
-    const Parts part = value(lobe, at);
+    const Terms part = value(lobe, at);
     f = {f.white + part.white, f.coloured + part.coloured};
   }
   return f;
@@ -143,8 +143,8 @@ std::optional<V3f> Principled::draw(const V3f& wo, const BsdfRandom& u) const {
 }
 
 // Each lobe by the midpoint rule over what draws it.
-Principled::Parts Principled::integrated(const V3f& wo) const {
-  Parts sum;
+Principled::Terms Principled::integrated(const V3f& wo) const {
+  Terms sum;
   for (const Lobe lobe : kLobes)
     for (int i = 0; i < kSteps * kSteps && probability_[lobe] > 0; ++i) {
       const int row = i / kSteps;
@@ -153,19 +153,19 @@ Principled::Parts Principled::integrated(const V3f& wo) const {
       const auto wi = draw(lobe, wo, u);
       if (!wi) continue;
       const Facet at(wo, *wi);
-      const Parts f = value(lobe, at);
+      const Terms f = value(lobe, at);
       const float share = wi->z / (density(lobe, at) * kSteps * kSteps);
       sum = {sum.white + f.white * share, sum.coloured + f.coloured * share};
     }
   return sum;
 }
 
-Principled::Parts Principled::albedo(float cosine) const {
+Principled::Terms Principled::albedo(float cosine) const {
   const float x = std::sqrt(std::clamp(cosine, 0.0F, 1.0F)) * (kCosines - 1);
   const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kCosines - 2));
   const float t = x - static_cast<float>(i);
-  const Parts& a = albedo_[i];
-  const Parts& b = albedo_[i + 1];
+  const Terms& a = albedo_[i];
+  const Terms& b = albedo_[i + 1];
   return {a.white + t * (b.white - a.white), a.coloured + t * (b.coloured - a.coloured)};
 }
 
@@ -179,9 +179,9 @@ V3f above(const V3f& w) {
 
 SampledSpectrum PrincipledBsdf::eval(const V3f& wo, const V3f& wi, TransportMode /*mode*/) const {
   if (!(wo.z * wi.z > 0)) return {};
-  const Principled::Parts f = look->unlimited(above(wo), above(wi));
-  const Principled::Parts o = look->albedo(std::abs(wo.z));
-  const Principled::Parts i = look->albedo(std::abs(wi.z));
+  const Principled::Terms f = look->unlimited(above(wo), above(wi));
+  const Principled::Terms o = look->albedo(std::abs(wo.z));
+  const Principled::Terms i = look->albedo(std::abs(wi.z));
   return SampledSpectrum::map(base, [&](float b) {
     const float most = std::max(o.white + b * o.coloured, i.white + b * i.coloured);
     return (f.white + b * f.coloured) / std::max(1.0F, most * (1 + kTableError));

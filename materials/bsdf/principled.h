@@ -22,8 +22,8 @@ struct PrincipledLook {
 /// times the base colour, `coloured` are held at 32 cosines.
 class Principled {
  public:
-  /// Both parts of a scattering function [1/sr], or of its albedo.
-  struct Parts {
+  /// Both terms of a scattering function [1/sr], or of its albedo.
+  struct Terms {
     float white = 0;
     float coloured = 0;
   };
@@ -31,9 +31,9 @@ class Principled {
   explicit Principled(const PrincipledLook& look);
 
   /// As Burley has them, where directions are on the side z > 0.
-  [[nodiscard]] Parts unlimited(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] Terms unlimited(const Imath::V3f& wo, const Imath::V3f& wi) const;
   /// Of what arrives at an angle, before it is limited; to 3e-3.
-  [[nodiscard]] Parts albedo(float cosine) const;
+  [[nodiscard]] Terms albedo(float cosine) const;
   /// Density of the directions drawn [1/sr], the same for all lanes.
   [[nodiscard]] float density(const Imath::V3f& wo, const Imath::V3f& wi) const;
   /// Nothing where that leads below the surface.
@@ -44,16 +44,16 @@ class Principled {
   static constexpr std::array kLobes{ground, highlight, coat};
   struct Facet;
 
-  [[nodiscard]] Parts value(Lobe lobe, const Facet& at) const;
+  [[nodiscard]] Terms value(Lobe lobe, const Facet& at) const;
   [[nodiscard]] float density(Lobe lobe, const Facet& at) const;
   [[nodiscard]] std::optional<Imath::V3f> draw(Lobe lobe, const Imath::V3f& wo, const Imath::V2f& u) const;
-  [[nodiscard]] Parts integrated(const Imath::V3f& wo) const;
+  [[nodiscard]] Terms integrated(const Imath::V3f& wo) const;
 
   PrincipledLook look_;
   float n_;                             // of what is no metal
   float alpha_, coat_alpha_;            // widths of the facets
   std::array<float, 3> probability_{};  // of drawing each lobe; that of an absent one is 0
-  std::vector<Parts> albedo_;
+  std::vector<Terms> albedo_;
 };
 
 /// The principled model of Disney's animation studio [Burley2012]: a diffuse ground that is darker or lighter

@@ -5,22 +5,22 @@
 namespace abbe {
 namespace {
 
-LostEnergy lost_by_mirror(const Microfacets<float>& facets) {
-  return LostEnergy::tabulate(facets, 1, [&](const Imath::V3f& w, std::span<double> energies) {
+EnergyCompensation lost_by_mirror(const Microfacets<float>& facets) {
+  return EnergyCompensation::tabulate(facets, 1, [&](const Imath::V3f& w, std::span<double> energies) {
     energies[0] = mirror_energy(facets, w);
   })[0];
 }
 
 }  // namespace
 
-RoughMirror::RoughMirror(const Microfacets<float>& of) : facets(of), lost(lost_by_mirror(of)) {}
+RoughMetal::RoughMetal(const Microfacets<float>& of) : facets(of), lost(lost_by_mirror(of)) {}
 
-RoughBoundary::RoughBoundary(const Microfacets<float>& of, float low, float high)
+RoughInterface::RoughInterface(const Microfacets<float>& of, float low, float high)
     : facets(of), low_n(low), high_n(high) {
   const std::array<float, kIndices> n{low, (low + high) / 2, high};
   const std::array<float, 2 * kIndices> etas{n[0], n[1], n[2], 1 / n[0], 1 / n[1], 1 / n[2]};
-  const std::vector<LostEnergy> tables =
-      LostEnergy::tabulate(facets, etas.size(), [&](const Imath::V3f& w, std::span<double> energies) {
+  const std::vector<EnergyCompensation> tables =
+      EnergyCompensation::tabulate(facets, etas.size(), [&](const Imath::V3f& w, std::span<double> energies) {
         dielectric_energies(facets, w, etas, energies);
       });
   std::copy_n(tables.begin(), kIndices, lost[0].begin());

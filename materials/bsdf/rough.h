@@ -3,30 +3,31 @@
 #include <array>
 #include <optional>
 
+#include "materials/bsdf/energy_compensation.h"
 #include "materials/bsdf/event.h"
-#include "materials/bsdf/lost_energy.h"
 #include "materials/index/refractive_index.h"
 #include "materials/interface/microfacet.h"
 
 namespace abbe {
 
 /// Microfacets that reflect alone: what is worked out once for all wavelengths and directions.
-struct RoughMirror {
-  explicit RoughMirror(const Microfacets<float>& facets);
+struct RoughMetal {
+  explicit RoughMetal(const Microfacets<float>& facets);
 
   Microfacets<float> facets;
-  LostEnergy lost;
+  EnergyCompensation lost;
 };
 
 /// Microfacets between air and matter of index n in [low_n, high_n].
-struct RoughBoundary {
+struct RoughInterface {
   static constexpr int kIndices = 3;  // energies are quadratic in n between them
 
-  RoughBoundary(const Microfacets<float>& facets, float low_n, float high_n);
+  RoughInterface(const Microfacets<float>& facets, float low_n, float high_n);
 
   Microfacets<float> facets;
   float low_n, high_n;
-  std::array<std::array<LostEnergy, kIndices>, 2> lost;  ///< For light from outside, from inside; by n.
+  std::array<std::array<EnergyCompensation, kIndices>, 2>
+      lost;            ///< For light from outside, from inside; by n.
   float inside_share;  ///< Of what is scattered more than once, at the middle index.
 };
 
@@ -39,7 +40,7 @@ struct RoughConductorBsdf {
   const RefractiveIndex* index;
   const RefractiveIndex* outside;  ///< nullptr is air.
   const Curve* mean_reflectance;   ///< Against air.
-  const RoughMirror* surface;
+  const RoughMetal* surface;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -55,7 +56,7 @@ struct RoughConductorBsdf {
 /// n = 1 single transmission keeps its masking: the surface does not fade away as a real one does.
 struct RoughDielectricBsdf {
   SampledSpectrum n;
-  const RoughBoundary* surface;
+  const RoughInterface* surface;
   /// Whether n is what the surface is tabulated for, against air; else what is scattered more than once is
   /// lost, as nothing tells how much that is.
   bool compensated = true;

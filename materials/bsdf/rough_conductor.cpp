@@ -18,13 +18,13 @@ struct Reflection {
   float pdf = 0;
 };
 
-Reflection reflection(const RoughMirror& surface, const Imath::V3f& o, const Imath::V3f& i) {
+Reflection reflection(const RoughMetal& surface, const Imath::V3f& o, const Imath::V3f& i) {
   const Microfacets<float>& facets = surface.facets;
   const float lambda_o = facets.lambda(o);
   const float seen = 1 / ((1 + lambda_o) * o.z);
   const FacetMirror mirror = facet_mirror(facets, seen, o, i);
-  const LostEnergy::Place place = LostEnergy::place(facets, i);
-  const float lost = surface.lost.at(LostEnergy::place(facets, o));
+  const EnergyCompensation::Place place = EnergyCompensation::place(facets, i);
+  const float lost = surface.lost.at(EnergyCompensation::place(facets, o));
   return {mirror.density * (1 + lambda_o) / (1 + lambda_o + facets.lambda(i)),
           lost * surface.lost.at(place) * i.z / surface.lost.total(), mirror.cos,
           (1 - lost) * mirror.density + lost * surface.lost.pdf(place, i.z)};
@@ -50,7 +50,7 @@ std::optional<BsdfSample> RoughConductorBsdf::sample(const Imath::V3f& wo, const
                                                      TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
   const Imath::V3f o = from_side_of(wo, wo);
-  const float lost = surface->lost.at(LostEnergy::place(surface->facets, o));
+  const float lost = surface->lost.at(EnergyCompensation::place(surface->facets, o));
   Imath::V3f i;
   if (u.lobe < lost) {
     i = surface->lost.sample(u.direction);

@@ -8,10 +8,10 @@
 namespace abbe {
 namespace {
 
-using Quadratic = std::array<SampledSpectrum, RoughBoundary::kIndices>;
+using Quadratic = std::array<SampledSpectrum, RoughInterface::kIndices>;
 
 // Of each lane, the weights of the three indices that a surface is tabulated at.
-Quadratic weights(const RoughBoundary& surface, const SampledSpectrum& n) {
+Quadratic weights(const RoughInterface& surface, const SampledSpectrum& n) {
   const float range = surface.high_n - surface.low_n;
   const SampledSpectrum one(1);
   const SampledSpectrum w = SampledSpectrum::map(n, [&](float lane_n) {
@@ -22,15 +22,15 @@ Quadratic weights(const RoughBoundary& surface, const SampledSpectrum& n) {
 
 // Lane by lane, the value of the tables of one side by `read`.
 template <typename F>
-SampledSpectrum at_lanes(const RoughBoundary& surface, bool inside, const Quadratic& weights, F read) {
+SampledSpectrum at_lanes(const RoughInterface& surface, bool inside, const Quadratic& weights, F read) {
   const auto& tables = surface.lost[inside ? 1 : 0];
   SampledSpectrum sum;
   for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * read(tables[k]);
   return SampledSpectrum::map(sum, [](float x) { return std::max(x, 0.0F); });
 }
-SampledSpectrum lost_energy(const RoughBoundary& surface, bool inside, const Quadratic& weights,
-                            const LostEnergy::Place& place) {
-  return at_lanes(surface, inside, weights, [&](const LostEnergy& table) { return table.at(place); });
+SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const Quadratic& weights,
+                            const EnergyCompensation::Place& place) {
+  return at_lanes(surface, inside, weights, [&](const EnergyCompensation& table) { return table.at(place); });
 }
 
 // Power sent from o into i, lane by lane, times the cosine of i [1/sr], and the density of i were each lane
@@ -60,15 +60,15 @@ Scattered by_facets(const Microfacets<float>& facets, const SampledSpectrum& eta
 // Including what is scattered more than once: with A_s the integral of what side s loses over projected solid
 // angle, (1 - E(o)) (1 - E(i)) n_i^2 / (A_outside + n^2 A_inside).
 Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V3f& o, const Imath::V3f& i) {
-  const RoughBoundary& surface = *bsdf.surface;
+  const RoughInterface& surface = *bsdf.surface;
   const SampledSpectrum& n = bsdf.n;
   const Scattered once = by_facets(surface.facets, inside ? SampledSpectrum(1) / n : n, o, i);
   if (!bsdf.compensated) return once;
   const Quadratic w = weights(surface, n);
   const bool into_inside = inside == (i.z > 0);
-  const LostEnergy::Place place_i = LostEnergy::place(surface.facets, i);
-  const SampledSpectrum lost = lost_energy(surface, inside, w, LostEnergy::place(surface.facets, o));
-  const auto total = [](const LostEnergy& table) { return table.total(); };
+  const EnergyCompensation::Place place_i = EnergyCompensation::place(surface.facets, i);
+  const SampledSpectrum lost = lost_energy(surface, inside, w, EnergyCompensation::place(surface.facets, o));
+  const auto total = [](const EnergyCompensation& table) { return table.total(); };
   const SampledSpectrum leaves =
       at_lanes(surface, false, w, total) + n * n * at_lanes(surface, true, w, total);
   SampledSpectrum share = lost_energy(surface, into_inside, w, place_i) * std::abs(i.z) / leaves;
@@ -100,7 +100,8 @@ std::optional<Imath::V3f> off_facet(const Microfacets<float>& facets, const Imat
 }
 
 // Scattered more than once: the side first, by `choice`.
-Imath::V3f off_surface(const RoughBoundary& surface, bool inside, const Imath::V2f& direction, float choice) {
+Imath::V3f off_surface(const RoughInterface& surface, bool inside, const Imath::V2f& direction,
+                       float choice) {
   const bool into_inside = choice < surface.inside_share;
   const Imath::V3f i = surface.lost[into_inside ? 1 : 0][1].sample(direction);
   return {i.x, i.y, into_inside == inside ? i.z : -i.z};
@@ -114,7 +115,7 @@ std::optional<BsdfSample> RoughDielectricBsdf::sample(const Imath::V3f& wo, cons
   const bool inside = wo.z < 0;
   const Imath::V3f o = from_side_of(wo, wo);
   const float lost = compensated ? lost_energy(*surface, inside, weights(*surface, n),
-                                               LostEnergy::place(surface->facets, o))[hero]
+                                               EnergyCompensation::place(surface->facets, o))[hero]
                                  : 0.0F;
   const std::optional<Imath::V3f> i = u.lobe < lost
                                           ? off_surface(*surface, inside, u.direction, u.lobe / lost)

@@ -26,9 +26,9 @@ std::optional<std::string> glass_at(const std::string& db_path) {
 }
 
 /// Reads a catalogue once, however many ask for it.
-class Shelf {
+class CatalogueCache {
  public:
-  Shelf(const char* file, bool with_extinction) : file_(file), with_extinction_(with_extinction) {}
+  CatalogueCache(const char* file, bool with_extinction) : file_(file), with_extinction_(with_extinction) {}
 
   const Catalogue* get(Diagnostics& diagnostics) {
     const std::lock_guard lock(mutex_);
@@ -124,12 +124,12 @@ std::string Catalogue::source_of(std::size_t row) const {
 }
 
 const Catalogue* dielectrics(Diagnostics& diagnostics) {
-  static Shelf shelf("dielectrics.csv", true);
+  static CatalogueCache shelf("dielectrics.csv", true);
   return shelf.get(diagnostics);
 }
 
 const Catalogue* makers(Diagnostics& diagnostics) {
-  static Shelf shelf("makers.csv", false);
+  static CatalogueCache shelf("makers.csv", false);
   return shelf.get(diagnostics);
 }
 

@@ -10,20 +10,20 @@
 namespace abbe {
 
 /// Coherent layers on a smooth surface, from the outside inwards; none of them is the bare surface. Layers of
-/// one matter share it.
+/// one material share it.
 struct Coating {
-  struct Matter {
+  struct Material {
     std::string index_name;
     RefractiveIndex index;
   };
   struct Layer {
-    std::uint32_t matter;
+    std::uint32_t material;
     double thickness_nm;
   };
-  static constexpr std::size_t kMaxMatters = 16;
+  static constexpr std::size_t kMaxMaterials = 16;
   static constexpr std::size_t kMaxLayers = 256;
 
-  std::vector<Matter> matters;
+  std::vector<Material> materials;
   std::vector<Layer> layers;
 };
 
@@ -46,8 +46,8 @@ class CoatingAt {
  private:
   const Coating& coating_;
   SampledSpectrum wavelengths_nm_;  // as they are outside
-  std::array<SampledSpectrum, Coating::kMaxMatters> n_;
-  std::array<SampledSpectrum, Coating::kMaxMatters> k_;
+  std::array<SampledSpectrum, Coating::kMaxMaterials> n_;
+  std::array<SampledSpectrum, Coating::kMaxMaterials> k_;
 };
 
 }  // namespace abbe

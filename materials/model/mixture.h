@@ -14,11 +14,11 @@ struct Material;
 /// Several materials side by side, too fine to be told apart: f = sum_i w_i f_i. None of them is a mixture,
 /// and light enters none.
 struct MixtureMaterial {
-  struct Part {
-    Curve weight;  ///< In [0, 1]; the sum over the parts is at most 1 at every wavelength.
+  struct Component {
+    Curve weight;  ///< In [0, 1]; the sum over the components is at most 1 at every wavelength.
     std::shared_ptr<const Material> material;
   };
-  std::vector<Part> parts;
+  std::vector<Component> components;
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const { return MixtureBsdf(*this, at); }
   [[nodiscard]] Lobes lobes() const;

@@ -16,8 +16,8 @@ float apart_from_one(float n) {
   return std::abs(n - 1) < kLeastContrast ? 1 + std::copysign(kLeastContrast, n - 1) : n;
 }
 
-std::shared_ptr<const RoughBoundary> boundary(const RefractiveIndex& index,
-                                              const Microfacets<float>& facets) {
+std::shared_ptr<const RoughInterface> boundary(const RefractiveIndex& index,
+                                               const Microfacets<float>& facets) {
   auto low = static_cast<float>(index.n(double{kMinWavelengthNm}));
   float high = low;
   for (int nm = kMinWavelengthNm; index.dispersive() && nm <= kMaxWavelengthNm; ++nm) {
@@ -25,7 +25,7 @@ std::shared_ptr<const RoughBoundary> boundary(const RefractiveIndex& index,
     low = std::min(low, n);
     high = std::max(high, n);
   }
-  return std::make_shared<RoughBoundary>(facets, apart_from_one(low), apart_from_one(high));
+  return std::make_shared<RoughInterface>(facets, apart_from_one(low), apart_from_one(high));
 }
 
 // 2 int_0^1 R(c) c dc by the midpoints of c^2.
@@ -45,7 +45,7 @@ Curve mean_reflectance_of(const RefractiveIndex& index) {
 
 RoughDielectricMaterial::RoughDielectricMaterial(std::string name, RefractiveIndex inside,
                                                  const Microfacets<float>& facets,
-                                                 std::optional<Matter> scattering)
+                                                 std::optional<Medium> scattering)
     : index_name(std::move(name)),
       index(std::move(inside)),
       filling(std::move(scattering)),
@@ -61,7 +61,7 @@ RoughConductorMaterial::RoughConductorMaterial(std::string name, RefractiveIndex
     : index_name(std::move(name)),
       index(std::move(metal)),
       mean_reflectance(mean_reflectance_of(index)),
-      surface(std::make_shared<RoughMirror>(facets)) {}
+      surface(std::make_shared<RoughMetal>(facets)) {}
 
 Bsdf RoughConductorMaterial::bsdf(const SurfaceLookup& at) const {
   return RoughConductorBsdf{at.wavelengths_nm, &index, at.outside, &mean_reflectance, surface.get()};

@@ -7,7 +7,7 @@
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
 #include "materials/index/refractive_index.h"
-#include "materials/medium/matter.h"
+#include "materials/medium/medium.h"
 
 namespace abbe {
 
@@ -18,18 +18,18 @@ class RoughDielectricMaterial {
  public:
   /// Tabulates what it scatters more than once: some ms.
   RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets,
-                          std::optional<Matter> filling = {});
+                          std::optional<Medium> filling = {});
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
   [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
-  [[nodiscard]] const Matter* matter() const { return filling ? &*filling : nullptr; }
+  [[nodiscard]] const Medium* medium() const { return filling ? &*filling : nullptr; }
 
   std::string index_name;
   RefractiveIndex index;
-  std::optional<Matter> filling;  ///< Scatters inside.
-  std::shared_ptr<const RoughBoundary> surface;
+  std::optional<Medium> filling;  ///< Scatters inside.
+  std::shared_ptr<const RoughInterface> surface;
 };
 
 /// Rough conductor, in the same way.
@@ -44,7 +44,7 @@ class RoughConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
   Curve mean_reflectance;  ///< Over the hemisphere, weighed by the cosine.
-  std::shared_ptr<const RoughMirror> surface;
+  std::shared_ptr<const RoughMetal> surface;
 };
 
 }  // namespace abbe

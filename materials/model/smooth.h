@@ -6,7 +6,7 @@
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
 #include "materials/index/refractive_index.h"
-#include "materials/medium/matter.h"
+#include "materials/medium/medium.h"
 #include "materials/texture/spectral_texture.h"
 
 namespace abbe {
@@ -22,12 +22,12 @@ struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
   Coating coating = {};
-  std::optional<Matter> filling = {};  ///< Scatters inside.
+  std::optional<Medium> filling = {};  ///< Scatters inside.
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
-  [[nodiscard]] const Matter* matter() const { return filling ? &*filling : nullptr; }
+  [[nodiscard]] const Medium* medium() const { return filling ? &*filling : nullptr; }
 };
 struct ConductorMaterial {
   std::string index_name;

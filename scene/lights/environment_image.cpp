@@ -19,7 +19,7 @@ LinearRgb exposures(const std::array<Curve, 3>& primaries, std::span<const Chann
   LinearRgb exposed{};
   for (std::size_t c = 0; c < 3; ++c)
     for (const Channel& channel : channels)
-      exposed.at(c) += std::abs(integral_of_product(primaries.at(c), reach(channel)));
+      exposed.at(c) += std::abs(integral_of_product(primaries.at(c), envelope(channel)));
   return exposed;
 }
 

@@ -49,9 +49,9 @@ Channel exposed(Channel channel, double ratio) {
 void limit_angles(Channel& channel, double least_cosine) {
   if (!channel.angular) return;
   AngularResponse& angular = *channel.angular;
-  angular.reach = angular.filters.fixed;
+  angular.envelope = angular.filters.fixed;
   for (const InterferenceFilter& filter : angular.filters.shifting)
-    angular.reach = product(angular.reach, reach(filter, least_cosine));
+    angular.envelope = product(angular.envelope, envelope(filter, least_cosine));
 }
 
 std::optional<std::vector<Channel>> load_camera(const std::string& name, const SourcePosition& where,

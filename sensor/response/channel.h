@@ -19,7 +19,7 @@ enum class ResponseKind { energy, quantum };
 /// How the weight of a channel depends on the angle of incidence.
 struct AngularResponse {
   FilterStack filters;  ///< Of which `fixed` is all of the weight that does not depend on the angle.
-  Curve reach;          ///< Nowhere less than the weight at any angle that occurs.
+  Curve envelope;       ///< Nowhere less than the weight at any angle that occurs.
 };
 
 /// One channel of a sensor. Its film value for a spectral irradiance E over the sensor's exposure t is t
@@ -46,8 +46,8 @@ struct Channel {
 
 /// Nowhere less in magnitude than the weight at any angle that occurs: by it lights and wavelengths are
 /// drawn.
-[[nodiscard]] inline const Curve& reach(const Channel& channel) {
-  return channel.angular ? channel.angular->reach : channel.weight;
+[[nodiscard]] inline const Curve& envelope(const Channel& channel) {
+  return channel.angular ? channel.angular->envelope : channel.weight;
 }
 
 /// A channel whose response multiplies energy.

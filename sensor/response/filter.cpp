@@ -18,7 +18,7 @@ double largest_between(const Curve& curve, double low, double high) {
 
 }  // namespace
 
-Curve reach(const InterferenceFilter& filter, double least_cosine) {
+Curve envelope(const InterferenceFilter& filter, double least_cosine) {
   const double shift = blue_shift(least_cosine, filter.effective_index);
   std::vector<double> edges;
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) edges.push_back(nm);

@@ -31,6 +31,6 @@ struct FilterStack {
 
 /// The largest transmittance at any angle whose cosine is at least `least_cosine`, as steps of at most a
 /// nanometre: nowhere less, and zero exactly where no angle lets anything through.
-[[nodiscard]] Curve reach(const InterferenceFilter& filter, double least_cosine);
+[[nodiscard]] Curve envelope(const InterferenceFilter& filter, double least_cosine);
 
 }  // namespace abbe

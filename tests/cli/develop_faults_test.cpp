@@ -114,7 +114,7 @@ TEST(DevelopFaults, FilesThatAreNoFilmsAreInputErrors) {
   (void)scratch().write("cut.exr", bytes.substr(0, bytes.size() - 10));
   (void)scratch().write("text.exr", "no film");
   (void)scratch().write("empty.exr", "");
-  write_exr(file("others.exr"), std::vector<ImagePart>{{"left", film()}, {"right", film()}});
+  write_exr(file("others.exr"), std::vector<ExrPart>{{"left", film()}, {"right", film()}});
   fs::create_directories(file("folder.exr"));
   for (const char* name : {"cut.exr", "text.exr", "empty.exr", "others.exr", "folder.exr", "absent.exr"}) {
     const Outcome run = abbe("develop " + file(name) + " --display " + file("none.png"));

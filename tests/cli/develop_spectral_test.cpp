@@ -108,11 +108,11 @@ TEST(DevelopSpectral, AMosaicLooksThroughEachPixelsOwnFilter) {
     EXPECT_EQ(run.code, 0) << run.err;
     return read_exr_parts(file(name + ".exr"));
   };
-  const std::vector<ImagePart> all = seen("all_channels", kCamera);
-  const std::vector<ImagePart> own = seen("bayer", kCamera + R"(, "mosaic": [["R", "G"], ["G", "B"]])");
+  const std::vector<ExrPart> all = seen("all_channels", kCamera);
+  const std::vector<ExrPart> own = seen("bayer", kCamera + R"(, "mosaic": [["R", "G"], ["G", "B"]])");
   ASSERT_GE(own.size(), 2U);
   for (const int part : {0, 1}) {
-    const auto plane = [&](const std::vector<ImagePart>& parts, const std::string& name) {
+    const auto plane = [&](const std::vector<ExrPart>& parts, const std::string& name) {
       const ImageChannel* found =
           parts[static_cast<std::size_t>(part)].image.find((part == 0 ? "" : "Variance.") + name);
       return found == nullptr ? std::vector<float>(384) : found->values;

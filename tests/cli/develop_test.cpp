@@ -105,9 +105,9 @@ TEST(Develop, PartsHoldEveryStepAndDevelopAgain) {
   const std::string path = rgb_film();
   developed(path + " -o " + file("parts.exr") + " -o " + file("once.png"));
   const Image rendered = read_exr(path);
-  const std::vector<ImagePart> parts = read_exr_parts(file("parts.exr"));
+  const std::vector<ExrPart> parts = read_exr_parts(file("parts.exr"));
   std::vector<std::string> names;
-  for (const ImagePart& part : parts) names.push_back(part.name);
+  for (const ExrPart& part : parts) names.push_back(part.name);
   ASSERT_EQ(names, (std::vector<std::string>{"exposure", "variance", "electrons", "dn", "preview"}));
   EXPECT_EQ(parts[0].image.find("G")->values, rendered.find("G")->values);
   EXPECT_EQ(parts[0].image.find("Variance.G"), nullptr);
@@ -241,7 +241,7 @@ TEST(Develop, AMosaicIsOnePlane) {
   const Image raw = read_picture(file("bayer.tif"));
   ASSERT_EQ(raw.channels.size(), 1U);
   EXPECT_EQ(whole_numbers(raw.channels[0]), codes(read_exr(path), "raw", {0.01, 0, 0}));
-  const std::vector<ImagePart> parts = read_exr_parts(file("bayer_parts.exr"));
+  const std::vector<ExrPart> parts = read_exr_parts(file("bayer_parts.exr"));
   EXPECT_EQ(parts.back().name, "preview");
   EXPECT_EQ(parts.back().image.channels.size(), 3U);
 }
@@ -250,7 +250,7 @@ TEST(Develop, AMosaicIsOnePlane) {
 TEST(Develop, ThePreviewIsLinear) {
   const std::string path = film("linear", R"("observer": "1931")");
   developed(path + " -o " + file("linear_parts.exr") + " --display " + file("linear.png"));
-  const std::vector<ImagePart> parts = read_exr_parts(file("linear_parts.exr"));
+  const std::vector<ExrPart> parts = read_exr_parts(file("linear_parts.exr"));
   ASSERT_EQ(parts.back().name, "preview");
   const Image& preview = parts.back().image;
   const Image picture = read_picture(file("linear.png"));

@@ -8,13 +8,13 @@
 #include "cli/query.h"
 #include "io/picture.h"
 #include "spectral/library.h"
-#include "tests/cli/ask.h"
+#include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 
 namespace abbe {
 namespace {
 
-using test::ask;
+using test::json_output;
 using test::fault;
 using test::json;
 using test::scratch;
@@ -30,8 +30,8 @@ TEST(Lab, SmoothGlassIsFresnelsToTheLastDigitOfFloat) {
   cli::LabOptions options = about(R"({"dielectric": {"ior": "N-BK7"}})");
   options.at_nm = {450, 550};
   options.angles_deg = {0, 60};
-  const json lab = ask(cli::lab, options);
-  const json exact = ask(cli::query_reflectance, {"N-BK7", options.at_nm, options.angles_deg});
+  const json lab = json_output(cli::lab, options);
+  const json exact = json_output(cli::query_reflectance, {"N-BK7", options.at_nm, options.angles_deg});
   for (std::size_t angle : {0U, 1U})
     for (std::size_t nm : {0U, 1U}) {
       const double R = lab["angles"][angle]["R"][nm].get<double>();
@@ -49,14 +49,14 @@ TEST(Lab, LooksFromWithinToo) {
   cli::LabOptions options = about(R"({"dielectric": {"ior": 1.5}})");
   options.inside = true;
   options.angles_deg = {0, 60};
-  const json lab = ask(cli::lab, options);
+  const json lab = json_output(cli::lab, options);
   EXPECT_NEAR(lab["angles"][0]["R"][0].get<double>(), 0.04, 1e-7);
   EXPECT_EQ(lab["angles"][1]["R"][0], 1);
   EXPECT_EQ(lab["angles"][1]["T"][0], 0);
 }
 
 TEST(Lab, PaintHasItsReflectanceAndColour) {
-  const json lab = ask(cli::lab, about(R"({"diffuse": {"reflectance": 0.5}})"));
+  const json lab = json_output(cli::lab, about(R"({"diffuse": {"reflectance": 0.5}})"));
   for (const json& row : lab["angles"]) {
     EXPECT_NEAR(row["R"][1].get<double>(), 0.5, 1e-6);
     EXPECT_EQ(row["T"][1], 0);
@@ -74,10 +74,10 @@ TEST(Lab, ColoursAreSumsAtOneNanometre) {
   cli::LabOptions options = about(R"({"film": {"layers": [{"ior": "water", "thickness_nm": 5000}]}})");
   options.illuminant = "FL11";
   options.angles_deg = {0, 30};
-  const json lab = ask(cli::lab, options);
+  const json lab = json_output(cli::lab, options);
   options.at_nm.clear();
   for (int nm = 380; nm <= 780; ++nm) options.at_nm.push_back(nm);
-  const json spectrum = ask(cli::lab, options);
+  const json spectrum = json_output(cli::lab, options);
   Diagnostics diagnostics;
   const Curve light = load_illuminant("FL11", {}, diagnostics)->curve;
   for (std::size_t angle : {0U, 1U})
@@ -99,8 +99,8 @@ TEST(Lab, WhatReflectsAllHasTheXyzOfTheLight) {
   cli::LabOptions options = about(R"({"mirror": {"reflectance": 1}})");
   options.illuminant = "A";
   options.angles_deg = {45};
-  const json xyz = ask(cli::lab, options)["angles"][0]["reflected_XYZ"];
-  const json light = ask(cli::query_color, {"A"})["XYZ"];
+  const json xyz = json_output(cli::lab, options)["angles"][0]["reflected_XYZ"];
+  const json light = json_output(cli::query_color, {"A"})["XYZ"];
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(xyz[k].get<double>(), light[k].get<double>(), 1e-4);
 }
 
@@ -108,11 +108,11 @@ TEST(Lab, TakesAMaterialOutOfAScene) {
   const auto scene = scratch().write(
       "two.json",
       R"({"materials": {"a": {"diffuse": {"reflectance": 0.2}}, "b": {"diffuse": {"reflectance": 0.7}}}})");
-  const json lab = ask(cli::lab, about(scene.string() + ":b"));
+  const json lab = json_output(cli::lab, about(scene.string() + ":b"));
   EXPECT_EQ(lab["name"], "b");
   EXPECT_NEAR(lab["energy_max"].get<double>(), 0.7, 1e-6);
   const auto one = scratch().write("one.json", R"({"diffuse": {"reflectance": 0.3}})");
-  EXPECT_NEAR(ask(cli::lab, about(one.string()))["energy_max"].get<double>(), 0.3, 1e-6);
+  EXPECT_NEAR(json_output(cli::lab, about(one.string()))["energy_max"].get<double>(), 0.3, 1e-6);
 }
 
 TEST(Lab, SaysWhatIsWrongWithAMaterial) {
@@ -133,7 +133,7 @@ TEST(Lab, DrawsLobesAndHemispheres) {
   options.angles_deg = {0, 45};
   options.plot = scratch() / "lobes.svg";
   options.map = scratch() / "lobes.png";
-  (void)ask(cli::lab, options);
+  (void)json_output(cli::lab, options);
   const std::string svg = test::read_file(options.plot);
   std::size_t lines = 0;
   for (std::size_t at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1))

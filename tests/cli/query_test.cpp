@@ -9,7 +9,7 @@
 #include "cli/query.h"
 
 #include "io/reference_table.h"
-#include "tests/cli/ask.h"
+#include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 
 namespace abbe::test {
@@ -86,7 +86,7 @@ TEST(QueryIor, EveryLineOfEveryMaterial) {
       expected.push_back(table.number(row, column));
     }
     ASSERT_GT(expected.size(), 7U);
-    const json found = ask(cli::query_ior, options);
+    const json found = json_output(cli::query_ior, options);
     for (std::size_t i = 0; i < expected.size(); ++i)
       EXPECT_NEAR(found["n"][i].get<double>(), expected[i], 5.1e-8)
           << options.name << ' ' << options.at_nm[i];
@@ -94,39 +94,39 @@ TEST(QueryIor, EveryLineOfEveryMaterial) {
 }
 
 TEST(QueryIor, KeysOfTheContractAndPlainNumbersForOneWavelength) {
-  const json found = ask(cli::query_ior, {"Cr_Johnson", {550}});
+  const json found = json_output(cli::query_ior, {"Cr_Johnson", {550}});
   EXPECT_EQ(found["name"], "Cr_Johnson");
   EXPECT_FALSE(found["source"].get<std::string>().empty());
   EXPECT_EQ(found["medium"], "air");
   EXPECT_EQ(found["wavelength_nm"], 550);
   EXPECT_TRUE(found["n"].is_number());
   EXPECT_GT(found["k"], 3);
-  EXPECT_EQ(ask(cli::query_ior, {"water_20.0C", {550}})["medium"], "vacuum");
+  EXPECT_EQ(json_output(cli::query_ior, {"water_20.0C", {550}})["medium"], "vacuum");
 }
 
 TEST(QueryIor, InternalTransmittanceOfAThickness) {
   cli::IndexOptions options{"schott/N-BK7", {300, 1100}};
-  EXPECT_FALSE(ask(cli::query_ior, options).contains("internal_transmittance"));
+  EXPECT_FALSE(json_output(cli::query_ior, options).contains("internal_transmittance"));
   options.thickness_mm = 10;
-  const json ten = ask(cli::query_ior, options);
+  const json ten = json_output(cli::query_ior, options);
   EXPECT_NEAR(ten["internal_transmittance"][0].get<double>(), 0.301711, 1e-6) << "as its maker tells";
   options.thickness_mm = 25;
-  const json more = ask(cli::query_ior, options);
+  const json more = json_output(cli::query_ior, options);
   EXPECT_NEAR(more["internal_transmittance"][0].get<double>(),
               std::pow(ten["internal_transmittance"][0].get<double>(), 2.5), 1e-12);
 }
 
 TEST(QueryReflectance, OfACoatedSurface) {
   cli::ReflectanceOptions options{"N-BK7", {550}, {0, 60}};
-  const json bare = ask(cli::query_reflectance, options);
+  const json bare = json_output(cli::query_reflectance, options);
   EXPECT_FALSE(bare.contains("T"));
   options.coating = "MgF2:99.6";
-  const json coated = ask(cli::query_reflectance, options);
+  const json coated = json_output(cli::query_reflectance, options);
   EXPECT_NEAR(coated["R"][0].get<double>(), 0.01247, 1e-5);
   EXPECT_LT(coated["R"][1], bare["R"][1]);
   EXPECT_NEAR(coated["R"][1].get<double>() + coated["T"][1].get<double>(), 1, 1e-12);
   options.coating = "MgF2:1e-9,rutile:1e-9";
-  EXPECT_NEAR(ask(cli::query_reflectance, options)["R"][1].get<double>(), bare["R"][1].get<double>(), 1e-9);
+  EXPECT_NEAR(json_output(cli::query_reflectance, options)["R"][1], bare["R"][1], 1e-9);
   for (const char* wrong : {"MgF2", "MgF2:", "MgF2:-3", "MgF2:a", ":3"}) {
     options.coating = wrong;
     EXPECT_THROW(cli::query_reflectance(options), Error) << wrong;
@@ -134,7 +134,7 @@ TEST(QueryReflectance, OfACoatedSurface) {
 }
 
 TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
-  const json glass = ask(cli::query_list, {"glass"});
+  const json glass = json_output(cli::query_list, {"glass"});
   ASSERT_EQ(glass["glass"].size(), 1634U);
   const auto& names = glass["glass"];
   const auto at =
@@ -147,7 +147,7 @@ TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
   EXPECT_EQ(cli::query_list({"material"}), 0);
   EXPECT_NE(testing::internal::GetCapturedStdout().find("\nAu_Johnson\t191.6-1937 nm\tP. B. Johnson"),
             std::string::npos);
-  const json all = ask(cli::query_list, {""});
+  const json all = json_output(cli::query_list, {""});
   EXPECT_EQ(all["glass"].size(), 1634U);
   EXPECT_FALSE(all.contains("source"));
   testing::internal::CaptureStdout();
@@ -160,7 +160,7 @@ TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
 TEST(QueryPrism, EveryMinimumDeviation) {
   const ReferenceTable table("prism_minimum_deviation");
   for (const auto& [id, rows] : rows_by(table, "id")) {
-    const json found = ask(cli::query_prism, {id, 60, values(table, rows, "wavelength_nm"), {}});
+    const json found = json_output(cli::query_prism, {id, 60, values(table, rows, "wavelength_nm"), {}});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ASSERT_EQ(table.number(rows[i], "apex_deg"), 60);
       EXPECT_NEAR(found["n"][i].get<double>(), table.number(rows[i], "n"), 5.1e-8);
@@ -172,10 +172,10 @@ TEST(QueryPrism, EveryMinimumDeviation) {
 }
 
 TEST(QueryPrism, FixedIncidence) {
-  const json found = ask(cli::query_prism, {"N-BK7", 60, {656.2725, 587.5618, 486.1327, 404.6561}, 50});
+  const json all = json_output(cli::query_prism, {"N-BK7", 60, {656.2725, 587.5618, 486.1327, 404.6561}, 50});
   const std::array expected{38.43841, 38.65364, 39.14097, 39.83544};
   for (std::size_t i = 0; i < expected.size(); ++i)
-    EXPECT_NEAR(found["deviation_deg"][i].get<double>(), expected[i], 1e-5);
+    EXPECT_NEAR(all["deviation_deg"][i].get<double>(), expected[i], 1e-5);
 }
 
 TEST(QueryPrism, SmallestIncidenceThatIsTransmitted) {
@@ -183,7 +183,7 @@ TEST(QueryPrism, SmallestIncidenceThatIsTransmitted) {
       {{656.2725, 29.00097}, {587.5618, 29.18821}, {486.1327, 29.61000}}};
   for (const auto& [nm, edge] : edges) {
     const auto at = [nm = nm](double incidence) {
-      return ask(cli::query_prism, {"N-BK7", 60, {nm}, incidence})["deviation_deg"];
+      return json_output(cli::query_prism, {"N-BK7", 60, {nm}, incidence})["deviation_deg"];
     };
     EXPECT_TRUE(at(edge - 1e-5).is_null()) << nm;
     EXPECT_TRUE(at(edge + 1e-5).is_number()) << nm;
@@ -191,7 +191,7 @@ TEST(QueryPrism, SmallestIncidenceThatIsTransmitted) {
 }
 
 TEST(QueryPrism, ThroughputOfBothPolarisations) {
-  const json found = ask(cli::query_prism, {"N-BK7", 60, {587.5618}, {}});
+  const json found = json_output(cli::query_prism, {"N-BK7", 60, {587.5618}, {}});
   EXPECT_NEAR(found["Ts"].get<double>(), 0.786084, 1e-6);
   EXPECT_NEAR(found["Tp"].get<double>(), 0.991278, 1e-6);
 }
@@ -201,13 +201,12 @@ TEST(QueryAngles, EveryCriticalAngleBrewsterAngleAndReflectance) {
   const std::vector<double> angles{0, 30, 45, 60, 75, 85};
   for (const auto& [id, rows] : rows_by(table, "id")) {
     const std::vector<double> at = values(table, rows, "wavelength_nm");
-    const json critical = ask(cli::query_critical, {id, at});
-    const json brewster = ask(cli::query_brewster, {id, at});
-    const json reflectance = ask(cli::query_reflectance, {id, at, angles});
+    const json critical = json_output(cli::query_critical, {id, at});
+    const json brewster = json_output(cli::query_brewster, {id, at});
+    const json reflectance = json_output(cli::query_reflectance, {id, at, angles});
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      EXPECT_NEAR(critical["angle_deg"][i].get<double>(), table.number(rows[i], "critical_deg"), 5.1e-7);
-      EXPECT_NEAR(brewster["angle_deg"][i].get<double>(), table.number(rows[i], "brewster_outside_deg"),
-                  5.1e-7);
+      EXPECT_NEAR(critical["angle_deg"][i], table.number(rows[i], "critical_deg"), 5.1e-7);
+      EXPECT_NEAR(brewster["angle_deg"][i], table.number(rows[i], "brewster_outside_deg"), 5.1e-7);
       for (std::size_t a = 0; a < angles.size(); ++a)
         for (const std::string kind : {"Rs", "Rp"})
           EXPECT_NEAR(reflectance[kind][i][a].get<double>(),
@@ -218,13 +217,14 @@ TEST(QueryAngles, EveryCriticalAngleBrewsterAngleAndReflectance) {
 }
 
 TEST(QueryAngles, NoCriticalAngleBelowAnIndexOfOne) {
-  EXPECT_TRUE(ask(cli::query_critical, {"Ag_Johnson", {550}})["angle_deg"].is_null());
+  EXPECT_TRUE(json_output(cli::query_critical, {"Ag_Johnson", {550}})["angle_deg"].is_null());
 }
 
 TEST(QueryReflectance, EveryMetal) {
   const ReferenceTable table("metal_reflectance");
   for (const auto& [name, rows] : rows_by(table, "name")) {
-    const json found = ask(cli::query_reflectance, {name, values(table, rows, "wavelength_nm"), {0, 45, 75}});
+    const std::vector<double> at_nm = values(table, rows, "wavelength_nm");
+    const json found = json_output(cli::query_reflectance, {name, at_nm, {0, 45, 75}});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ASSERT_EQ(found["wavelength_nm"][i / 3], table.number(rows[i], "wavelength_nm"));
       ASSERT_EQ(found["angle_deg"][i % 3], table.number(rows[i], "theta_deg"));
@@ -236,10 +236,10 @@ TEST(QueryReflectance, EveryMetal) {
 }
 
 TEST(QueryReflectance, ShapeFollowsTheQuestion) {
-  EXPECT_TRUE(ask(cli::query_reflectance, {"Al_Rakic", {550}, {60}})["R"].is_number());
-  EXPECT_EQ(ask(cli::query_reflectance, {"Al_Rakic", {550}, {0, 60, 80}})["R"].size(), 3U);
-  EXPECT_EQ(ask(cli::query_reflectance, {"Al_Rakic", {500, 550}, {60}})["R"].size(), 2U);
-  const json full = ask(cli::query_reflectance, {"Al_Rakic", {500, 550}, {0, 60, 90}})["R"];
+  EXPECT_TRUE(json_output(cli::query_reflectance, {"Al_Rakic", {550}, {60}})["R"].is_number());
+  EXPECT_EQ(json_output(cli::query_reflectance, {"Al_Rakic", {550}, {0, 60, 80}})["R"].size(), 3U);
+  EXPECT_EQ(json_output(cli::query_reflectance, {"Al_Rakic", {500, 550}, {60}})["R"].size(), 2U);
+  const json full = json_output(cli::query_reflectance, {"Al_Rakic", {500, 550}, {0, 60, 90}})["R"];
   EXPECT_EQ(full.size(), 2U);
   EXPECT_EQ(full[0].size(), 3U);
   EXPECT_EQ(full[1][2], 1);
@@ -249,7 +249,7 @@ TEST(QueryColor, EveryWhitePointOfBothObservers) {
   const ReferenceTable table("white_points");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const Observer observer = table.text(row, "observer") == "2" ? Observer::cie1931 : Observer::cie1964;
-    const json found = ask(cli::query_color, {table.text(row, "illuminant"), observer, ""});
+    const json found = json_output(cli::query_color, {table.text(row, "illuminant"), observer, ""});
     EXPECT_NEAR(found["xy"][0].get<double>(), table.number(row, "x_1nm"), 5.1e-7)
         << table.text(row, "illuminant");
     EXPECT_NEAR(found["xy"][1].get<double>(), table.number(row, "y_1nm"), 5.1e-7)
@@ -262,9 +262,9 @@ TEST(QueryColor, EveryWhitePointOfBothObservers) {
 TEST(QueryColor, EveryPatchOfTheChart) {
   const ReferenceTable table("colorchecker_babelcolor_2deg");
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const json found =
-        ask(cli::query_color, {table.text(row, "illuminant"), Observer::cie1931,
-                               patch("colorchecker24_babelcolor_average", table.number(row, "index"))});
+    const json found = json_output(cli::query_color,
+                                   {table.text(row, "illuminant"), Observer::cie1931,
+                                    patch("colorchecker24_babelcolor_average", table.number(row, "index"))});
     const std::array columns{"X", "Y", "Z", "L", "a", "b"};
     for (std::size_t i = 0; i < 6; ++i)
       EXPECT_NEAR(found[i < 3 ? "XYZ" : "Lab"][i % 3].get<double>(), table.number(row, columns[i]), 1e-5)
@@ -275,7 +275,7 @@ TEST(QueryColor, EveryPatchOfTheChart) {
 TEST(QueryColor, ByTheWeightsOfAstmE308) {
   const ReferenceTable table("colorchecker_babelcolor_2deg");
   const auto by = [](const std::string& light, const std::string& reflectance, cli::ColorMethod method) {
-    return ask(cli::query_color, {light, Observer::cie1931, reflectance, true, method});
+    return json_output(cli::query_color, {light, Observer::cie1931, reflectance, true, method});
   };
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string& light = table.text(row, "illuminant");
@@ -306,11 +306,11 @@ TEST(QueryArrays, OneWavelengthIsAListOnlyWhereListsWereAskedFor) {
   cli::ReflectanceOptions surface{"N-BK7", {550}, {60}, true};
   cli::PrismOptions prism{"N-BK7", 60, {550}, {}, true};
   const auto all = [&] {
-    json answers{{"ior", ask(cli::query_ior, index)},
-                 {"critical", ask(cli::query_critical, index)},
-                 {"brewster", ask(cli::query_brewster, index)},
-                 {"reflectance", ask(cli::query_reflectance, surface)},
-                 {"prism", ask(cli::query_prism, prism)}};
+    json answers{{"ior", json_output(cli::query_ior, index)},
+                 {"critical", json_output(cli::query_critical, index)},
+                 {"brewster", json_output(cli::query_brewster, index)},
+                 {"reflectance", json_output(cli::query_reflectance, surface)},
+                 {"prism", json_output(cli::query_prism, prism)}};
     return answers.flatten();
   };
   const json plain = all();
@@ -329,7 +329,7 @@ TEST(QueryArrays, OneWavelengthIsAListOnlyWhereListsWereAskedFor) {
 }
 
 TEST(QueryDeltaE, PublishedPair) {
-  const json found = ask(cli::query_delta_e, {{50, 2.6772, -79.7751}, {50, 0, -82.7485}});
+  const json found = json_output(cli::query_delta_e, {{50, 2.6772, -79.7751}, {50, 0, -82.7485}});
   EXPECT_NEAR(found["dE00"].get<double>(), 2.0425, 5e-5);
   EXPECT_NEAR(found["dE76"].get<double>(), std::hypot(2.6772, 2.9734), 1e-12);
   EXPECT_TRUE(found.contains("dE94"));
@@ -338,9 +338,9 @@ TEST(QueryDeltaE, PublishedPair) {
 TEST(QueryCamera, EveryPatchOfEveryChart) {
   const ReferenceTable table("camera_raw_colorchecker");
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const json raw =
-        ask(cli::query_camera, {table.text(row, "camera"), table.text(row, "illuminant"),
-                                patch(table.text(row, "spectra"), table.number(row, "index"))})["raw"];
+    const json raw = json_output(cli::query_camera,
+                                 {table.text(row, "camera"), table.text(row, "illuminant"),
+                                  patch(table.text(row, "spectra"), table.number(row, "index"))})["raw"];
     for (const std::string channel : {"R", "G", "B"})
       EXPECT_NEAR(raw[channel].get<double>(), table.number(row, "raw_" + channel), 5.1e-8)
           << table.text(row, "patch") << ' ' << channel;
@@ -348,11 +348,11 @@ TEST(QueryCamera, EveryPatchOfEveryChart) {
 }
 
 TEST(QueryList, NamesEveryKind) {
-  const json all = ask(cli::query_list, cli::ListOptions{});
+  const json all = json_output(cli::query_list, cli::ListOptions{});
   EXPECT_EQ(all.size(), 7U);
   const auto names = all["material"].get<std::vector<std::string>>();
   EXPECT_NE(std::find(names.begin(), names.end(), "N-BK7"), names.end());
-  EXPECT_EQ(ask(cli::query_list, {"camera"}).size(), 1U);
+  EXPECT_EQ(json_output(cli::query_list, {"camera"}).size(), 1U);
 }
 
 TEST(QueryFaults, UnknownNamesAreMissingInputsAndSuggestTheNearest) {

@@ -6,7 +6,7 @@
 
 #include "cli/query.h"
 #include "cli/trace.h"
-#include "tests/cli/ask.h"
+#include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
@@ -20,8 +20,8 @@ constexpr double kF = 486.1327;
 
 json trace(const std::string& scene, double nm, const Imath::V3d& origin, const Imath::V3d& direction,
            int max_events = 64) {
-  return ask(cli::trace,
-             cli::TraceOptions{scratch().write("scene.json", scene), nm, origin, direction, max_events});
+  return json_output(
+      cli::trace, cli::TraceOptions{scratch().write("scene.json", scene), nm, origin, direction, max_events});
 }
 
 // A ray onto the middle of the left face of the prism at an angle of incidence from below its normal.
@@ -70,7 +70,7 @@ TEST(TraceMirror, ReflectsAndNamesTheMetal) {
   EXPECT_NEAR(event["angle_in_deg"].get<double>(), 45, 1e-9);
   EXPECT_NEAR(event["angle_out_deg"].get<double>(), 45, 1e-9);
   EXPECT_NEAR(found["deviation_deg"].get<double>(), 90, 1e-9);
-  const json asked = ask(cli::query_reflectance, {"Au_Johnson", {550}, {45}});
+  const json asked = json_output(cli::query_reflectance, {"Au_Johnson", {550}, {45}});
   EXPECT_NEAR(event["Rs"].get<double>(), asked["Rs"].get<double>(), 1e-12);
   EXPECT_NEAR(event["Rp"].get<double>(), asked["Rp"].get<double>(), 1e-12);
   EXPECT_NEAR(found["final_dir"][2].get<double>(), std::sqrt(0.5), 1e-12);

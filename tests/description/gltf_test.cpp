@@ -50,7 +50,7 @@ TEST_F(GltfTest, ReadsPrimitives) {
   write(folder_ / "two words.bin", triangle_bytes());
   outside.buffer = R"({"byteLength": 44, "uri": "two%20words.bin"})";
   const MeshFile file = read("a.gltf", outside.text());
-  EXPECT_EQ(file.parts.at(0).mesh.triangles, one);
+  EXPECT_EQ(file.submeshes.at(0).mesh.triangles, one);
   ASSERT_EQ(file.others.size(), 1U);
   EXPECT_EQ(file.others[0], folder_ / "two words.bin");
 

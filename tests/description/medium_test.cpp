@@ -37,10 +37,10 @@ TEST_F(MediumDescription, FillsDielectricsAndStandsAlone) {
   const Loaded fog = ball_of(
       R"({"medium": {"absorption_per_m": 0.1, "scattering_per_m": {"band": [500, 600]}, "phase": {"henyey_greenstein": -0.5}}})");
   ASSERT_TRUE(fog.scene) << fog.text();
-  const Matter& matter = *abbe::matter(fog->materials[0]);
-  EXPECT_EQ(matter.absorption_per_m(400.0), 0.1);
-  EXPECT_EQ(matter.scattering_per_m(550.0), 1);
-  EXPECT_FLOAT_EQ(std::get<HenyeyGreensteinPhase>(matter.phase).g, -0.5F);
+  const Medium& medium = *abbe::medium(fog->materials[0]);
+  EXPECT_EQ(medium.absorption_per_m(400.0), 0.1);
+  EXPECT_EQ(medium.scattering_per_m(550.0), 1);
+  EXPECT_FLOAT_EQ(std::get<HenyeyGreensteinPhase>(medium.phase).g, -0.5F);
   EXPECT_TRUE(is_boundary(fog->materials[0]));
   EXPECT_TRUE(fog->needs.media && fog->needs.scattering && fog->needs.boundaries);
   EXPECT_EQ(fog->needs.because.at("scattering"), fog->needs.because.at("boundaries"));
@@ -48,13 +48,13 @@ TEST_F(MediumDescription, FillsDielectricsAndStandsAlone) {
   const Loaded milk = ball_of(
       R"({"dielectric": {"ior": 1.3, "absorption_per_m": 2, "scattering_per_m": 5, "phase": "rayleigh"}})");
   ASSERT_TRUE(milk.scene) << milk.text();
-  EXPECT_EQ(abbe::matter(milk->materials[0])->scattering_per_m(550.0), 5);
-  EXPECT_TRUE(std::holds_alternative<RayleighPhase>(abbe::matter(milk->materials[0])->phase));
+  EXPECT_EQ(abbe::medium(milk->materials[0])->scattering_per_m(550.0), 5);
+  EXPECT_TRUE(std::holds_alternative<RayleighPhase>(abbe::medium(milk->materials[0])->phase));
   EXPECT_NEAR(interior(milk->materials[0])->absorption_per_m(550.0), 2, 1e-9);
   EXPECT_TRUE(milk->needs.media && milk->needs.scattering && !milk->needs.boundaries);
 
   const Loaded clear = ball_of(R"({"dielectric": {"ior": 1.3}})");
-  EXPECT_EQ(abbe::matter(clear->materials[0]), nullptr);
+  EXPECT_EQ(abbe::medium(clear->materials[0]), nullptr);
   EXPECT_FALSE(clear->needs.scattering);
 }
 
@@ -64,7 +64,7 @@ TEST_F(MediumDescription, GridsMoveWithTheScene) {
       "grid": {"densities": "g.npy", "from": [0, 0, 0], "to": [1000, 2000, 3000]}}}},
       "shapes": [{"sphere": {"center": [5000, 0, 0], "radius": 1}, "material": "m"}]})");
   ASSERT_TRUE(smoke.scene) << smoke.text();
-  const PlacedGrid& grid = *abbe::matter(smoke->materials[0])->grid;
+  const PlacedGrid& grid = *abbe::medium(smoke->materials[0])->grid;
   EXPECT_EQ(grid.from, Imath::V3d(-5, 0, 0));
   EXPECT_EQ(grid.to, Imath::V3d(-4, 2, 3));
   EXPECT_EQ(grid.grid->size, (std::array{2, 2, 2}));

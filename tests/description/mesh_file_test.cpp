@@ -24,7 +24,7 @@ TEST_F(MeshFileTest, SurvivesDamage) {
   testing::write(folder_ / "a.mtl", "newmtl red\nKd 0.8 0.1 0.05\n");
   for (const auto& [name, sound] : sound_files()) {
     SCOPED_TRACE(name);
-    EXPECT_EQ(read(name, sound, FileMaterials::wanted).parts.size(), 1U);
+    EXPECT_EQ(read(name, sound, FileMaterials::wanted).submeshes.size(), 1U);
     std::size_t refused = 0;
     const auto attempt = [&](const std::string& bytes) {
       testing::write(folder_ / name, bytes);

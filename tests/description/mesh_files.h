@@ -39,8 +39,8 @@ class MeshFileTest : public DescriptionTest {
   }
   Mesh mesh(const std::string& name, const std::string& bytes) {
     MeshFile file = read(name, bytes);
-    EXPECT_EQ(file.parts.size(), 1U);
-    return file.parts.empty() ? Mesh{} : file.parts[0].mesh;
+    EXPECT_EQ(file.submeshes.size(), 1U);
+    return file.submeshes.empty() ? Mesh{} : file.submeshes[0].mesh;
   }
   void expect_refused(const std::string& name, const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) {

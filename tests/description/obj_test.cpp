@@ -32,9 +32,9 @@ TEST_F(ObjTest, CommentsEndLines) {
       "# all\nmtllib a.mtl # colours\nv 0 0 0 # first\nv 1 0 0#second\r\nv 0 1 0\t# third\n  # v 5 5 5\n"
       "usemtl red # 2\nf 1 2 3 # a face\nusemtl plain # the other\nf 3 2 1#f 1 1 1";
   const MeshFile file = read("a.obj", text, FileMaterials::wanted);
-  ASSERT_EQ(file.parts.size(), 2U);
-  EXPECT_EQ(file.parts[0].mesh.vertices[1], Imath::V3d(1, 0, 0));
-  EXPECT_EQ(file.parts[1].mesh.triangles.size(), 1U);
+  ASSERT_EQ(file.submeshes.size(), 2U);
+  EXPECT_EQ(file.submeshes[0].mesh.vertices[1], Imath::V3d(1, 0, 0));
+  EXPECT_EQ(file.submeshes[1].mesh.triangles.size(), 1U);
 }
 
 TEST_F(ObjTest, BringsItsMaterials) {

@@ -91,11 +91,11 @@ TEST_F(SensorTest, AnInterferenceFilterReachesAsFarAsTheCameraLetsIt) {
   // The far corner, 2.5 mm from the axis, through the far edge of the opening of 2.5 mm radius.
   const double edge = 645 * blue_shift(std::cos(std::atan(0.5)), 2.0);
   const auto ends_at = [](const Loaded& loaded, double nm) {
-    const Curve& reached = reach(loaded->channels.at(0));
-    EXPECT_EQ(reached(nm - 0.01), 0) << nm;
-    EXPECT_EQ(reached(nm + 0.01), 1) << nm;
-    EXPECT_EQ(reached(654.9), 1);
-    EXPECT_EQ(reached(655.1), 0);
+    const Curve& highest = envelope(loaded->channels.at(0));
+    EXPECT_EQ(highest(nm - 0.01), 0) << nm;
+    EXPECT_EQ(highest(nm + 0.01), 1) << nm;
+    EXPECT_EQ(highest(654.9), 1);
+    EXPECT_EQ(highest(655.1), 0);
   };
   ends_at(lens, edge);
   ends_at(line(R"({"pinhole": {"focal_length": 0.01}, )" + at),

@@ -157,11 +157,10 @@ TEST(Exr, UnwritablePlacesAreOutputErrors) {
 
 TEST(Exr, PartsKeepTheirNamesPixelsAndMetadata) {
   const auto path = test_folder() / "parts.exr";
-  const std::vector<ImagePart> parts{
-      {"exposure", sample_image()},
-      {"dn", {3, 2, {{"R", {12, 65535, 0, 1, 2, 3}}}, {{"comments", "codes"}}}}};
+  const std::vector<ExrPart> parts{{"exposure", sample_image()},
+                                   {"dn", {3, 2, {{"R", {12, 65535, 0, 1, 2, 3}}}, {{"comments", "codes"}}}}};
   write_exr(path, parts);
-  const std::vector<ImagePart> read = read_exr_parts(path);
+  const std::vector<ExrPart> read = read_exr_parts(path);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].name, "exposure");
   EXPECT_EQ(read[0].image.metadata, parts[0].image.metadata);
@@ -177,7 +176,7 @@ TEST(Exr, PartsKeepTheirNamesPixelsAndMetadata) {
 
 TEST(Exr, EveryTruncationOfPartsIsAnInputError) {
   const auto path = test_folder() / "a.exr";
-  write_exr(path, std::vector<ImagePart>{{"a", sample_image()}, {"b", sample_image()}});
+  write_exr(path, std::vector<ExrPart>{{"a", sample_image()}, {"b", sample_image()}});
   const std::string bytes = bytes_of(path);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     put(path, bytes.substr(0, size));
@@ -193,7 +192,7 @@ TEST(Exr, EveryTruncationOfPartsIsAnInputError) {
 TEST(Exr, ASinglePartReadsAsPartsToo) {
   const auto path = test_folder() / "a.exr";
   write_exr(path, sample_image());
-  const std::vector<ImagePart> read = read_exr_parts(path);
+  const std::vector<ExrPart> read = read_exr_parts(path);
   ASSERT_EQ(read.size(), 1U);
   EXPECT_EQ(read[0].image.channels.size(), 2U);
 }
@@ -201,7 +200,7 @@ TEST(Exr, ASinglePartReadsAsPartsToo) {
 TEST(Exr, PartsOfOneNameAreAnOutputError) {
   const auto path = test_folder() / "a.exr";
   try {
-    write_exr(path, std::vector<ImagePart>{{"a", sample_image()}, {"a", sample_image()}});
+    write_exr(path, std::vector<ExrPart>{{"a", sample_image()}, {"a", sample_image()}});
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::output);

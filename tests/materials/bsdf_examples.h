@@ -26,9 +26,9 @@ inline std::optional<double> lossless_within(const DielectricBsdf& /*model*/) {
 }
 template <>
 inline std::optional<double> lossless_within(const CoatedDielectricBsdf& model) {
-  const auto& films = model.coating->matters;
+  const auto& films = model.coating->materials;
   const bool absorbing = std::any_of(films.begin(), films.end(),
-                                     [](const Coating::Matter& matter) { return matter.index.absorbing(); });
+                                     [](const Coating::Material& film) { return film.index.absorbing(); });
   return absorbing ? std::nullopt : std::optional(1e-3);
 }
 
@@ -134,10 +134,10 @@ inline Microfacets<float> facets_of(FacetShape shape, float alpha_x, float alpha
 }
 template <>
 inline std::vector<RoughDielectricBsdf> examples() {
-  static const RoughBoundary wide(facets_of(FacetShape::ggx, 0.5F, 0.5F), 1.45F, 1.9F);
-  static const RoughBoundary brushed(facets_of(FacetShape::beckmann, 0.3F, 0.6F), 1.5F, 1.5F);
-  static const RoughBoundary thin(facets_of(FacetShape::ggx, 1, 1), 0.6F, 0.8F);
-  static const RoughBoundary needle(facets_of(FacetShape::ggx, 5e-3F, 5e-3F), 1.45F, 1.9F);
+  static const RoughInterface wide(facets_of(FacetShape::ggx, 0.5F, 0.5F), 1.45F, 1.9F);
+  static const RoughInterface brushed(facets_of(FacetShape::beckmann, 0.3F, 0.6F), 1.5F, 1.5F);
+  static const RoughInterface thin(facets_of(FacetShape::ggx, 1, 1), 0.6F, 0.8F);
+  static const RoughInterface needle(facets_of(FacetShape::ggx, 5e-3F, 5e-3F), 1.45F, 1.9F);
   return {{ramp(1.45F, 1.9F), &wide},
           {SampledSpectrum(1.5F), &brushed},
           {ramp(0.8F, 0.6F), &thin},
@@ -221,8 +221,8 @@ inline std::vector<RetroreflectorBsdf> examples() {
 // a single direction, so that its way back is told from others'.
 inline const std::vector<MixtureMaterial>& mixtures() {
   const auto part = [](double red, double blue, MaterialModel model) {
-    return MixtureMaterial::Part{Curve({{390, blue}, {770, red}}),
-                                 std::make_shared<const Material>(Material{"part", std::move(model)})};
+    return MixtureMaterial::Component{Curve({{390, blue}, {770, red}}),
+                                      std::make_shared<const Material>(Material{"part", std::move(model)})};
   };
   static const std::vector<MixtureMaterial> all{
       {{part(0.2, 0.5, MirrorMaterial{Curve(0.8)}), part(0.8, 0.1, OrenNayarMaterial{Curve(0.7), 30}),

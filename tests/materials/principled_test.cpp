@@ -41,7 +41,7 @@ TEST(PrincipledBsdf, KnowsHowMuchLeaves) {
       .metallic = 0.3F, .roughness = 0.7F, .sheen = 0.5F, .clearcoat = 1, .clearcoat_gloss = 0});
   for (const double cosine : {1.0, 0.5, 0.15}) {
     const V3f from = direction(cosine, 0);
-    const Principled::Parts known = look.albedo(static_cast<float>(cosine));
+    const Principled::Terms known = look.albedo(static_cast<float>(cosine));
     const auto part = [&](auto which) {
       return integral_over_cosines(
           [&](const V3f& to) { return static_cast<double>(which(look.unlimited(from, to))); });
@@ -55,7 +55,7 @@ TEST(PrincipledBsdf, KnowsHowMuchLeaves) {
 // what conserves energy by itself stays as Burley has it.
 TEST(PrincipledBsdf, IsLimitedWhereItWouldMakeLight) {
   const Principled cloth(PrincipledLook{.roughness = 1, .sheen = 1});
-  const Principled::Parts grazing = cloth.albedo(0.1F);
+  const Principled::Terms grazing = cloth.albedo(0.1F);
   EXPECT_GT(grazing.white + grazing.coloured, 1.4);
   const PrincipledBsdf white{SampledSpectrum(1), &cloth};
   for (const double cosine : {1.0, 0.7, 0.4, 0.2, 0.1})
@@ -63,7 +63,7 @@ TEST(PrincipledBsdf, IsLimitedWhereItWouldMakeLight) {
   const PrincipledBsdf dark{SampledSpectrum(0.1F), &cloth};
   const V3f a = direction(0.8, 0);
   const V3f b = direction(0.6, 2);
-  const Principled::Parts f = cloth.unlimited(a, b);
+  const Principled::Terms f = cloth.unlimited(a, b);
   EXPECT_FLOAT_EQ(dark.eval(a, b, TransportMode::radiance)[0], f.white + 0.1F * f.coloured);
 }
 

@@ -73,7 +73,7 @@ TEST(RoughDielectric, LosslessMatterLosesNothing) {
   double worst = 0;
   for (const auto& facets : furnace_facets())
     for (const float n : {1.33F, 1.5F, 2.4F, 0.7F}) {
-      const RoughBoundary surface(facets, n, n);
+      const RoughInterface surface(facets, n, n);
       const Bsdf bsdf = RoughDielectricBsdf{SampledSpectrum(n), &surface};
       for (const double cos : {1.0, 0.6, 0.15, -1.0, -0.7, -0.3, -0.02}) {
         const double albedo = leaving(bsdf, direction_at(cos, 0.5 + cos), 0, all, 1 << 12);
@@ -87,35 +87,35 @@ TEST(RoughDielectric, LosslessMatterLosesNothing) {
 
 // Between the indices it was tabulated at.
 TEST(RoughDielectric, LosesNothingAtAnyIndexOfItsRange) {
-  const RoughBoundary surface({FacetShape::ggx, 0.8F, 0.8F}, 1.4F, 2.0F);
+  const RoughInterface surface({FacetShape::ggx, 0.8F, 0.8F}, 1.4F, 2.0F);
   const Bsdf bsdf = RoughDielectricBsdf{ramp(1.4F, 2.0F), &surface};
   for (int lane = 0; lane < kLanes; ++lane)
     for (const double cos : {0.7, -0.5}) EXPECT_NEAR(leaving(bsdf, direction_at(cos, 1), lane, all), 1, 4e-3);
 }
 
 // A few rough directions against the quadrature, everywhere else against the table.
-TEST(LostEnergy, IsWhatTheTableSays) {
+TEST(EnergyCompensation, IsWhatTheTableSays) {
   for (const auto& facets : furnace_facets()) {
-    const LostEnergy lost = RoughMirror(facets).lost;
+    const EnergyCompensation lost = RoughMetal(facets).lost;
     for (const double cos : {0.9, 0.43, 0.11})
       for (const double phi : {0.05, 0.6, 1.5, 2.9, 4.4}) {
         const V3f w = direction_at(cos, phi);
-        EXPECT_NEAR(lost.at(LostEnergy::place(facets, w)), 1 - mirror_energy(facets, w), 1e-2)
+        EXPECT_NEAR(lost.at(EnergyCompensation::place(facets, w)), 1 - mirror_energy(facets, w), 1e-2)
             << facets.alpha_x << " " << facets.alpha_y << " cos " << cos << " phi " << phi;
       }
   }
 }
 
-TEST(LostEnergy, IsSoonTabulated) {
+TEST(EnergyCompensation, IsSoonTabulated) {
   // Calls of the quadrature, not time.
   int calls = 0;
   const auto count = [&](const V3f&, std::span<double> energies) {
     ++calls;
     energies[0] = 1;
   };
-  static_cast<void>(LostEnergy::tabulate({FacetShape::ggx, 0.3F, 0.3F}, 1, count));
+  static_cast<void>(EnergyCompensation::tabulate({FacetShape::ggx, 0.3F, 0.3F}, 1, count));
   EXPECT_LE(calls, 50);
-  static_cast<void>(LostEnergy::tabulate({FacetShape::ggx, 0.3F, 0.4F}, 1, count));
+  static_cast<void>(EnergyCompensation::tabulate({FacetShape::ggx, 0.3F, 0.4F}, 1, count));
   EXPECT_LE(calls, 650);
 }
 
@@ -132,7 +132,7 @@ TEST(RoughConductor, IsColouredByEveryScattering) {
   EXPECT_NEAR(metal.mean_reflectance(550), mean, 1e-4);
 
   const V3f wo = direction_at(0.6, 1);
-  const LostEnergy& lost = metal.surface->lost;
+  const EnergyCompensation& lost = metal.surface->lost;
   const double energy = 1 - lost.total() / std::numbers::pi;
   double often = 0;
   double term = mean * mean * energy;
@@ -146,7 +146,7 @@ TEST(RoughConductor, IsColouredByEveryScattering) {
       once += static_cast<double>(fresnel_conductor(wo.dot(h), 0.2F, 3.0F).R() * (1 + facets.lambda(wo)) /
                                   (1 + facets.lambda(wo) + facets.lambda(wi)));
   }
-  const double expected = once / kFacets + lost.at(LostEnergy::place(facets, wo)) * often;
+  const double expected = once / kFacets + lost.at(EnergyCompensation::place(facets, wo)) * often;
   EXPECT_NEAR(leaving(metal.bsdf({packet()}), wo, 2, all), expected, 2e-3);
 }
 
@@ -167,7 +167,7 @@ TEST(RoughConductor, OfLeastRoughnessIsSmooth) {
 
 TEST(RoughDielectric, OfLeastRoughnessIsSmooth) {
   for (const FacetShape shape : kShapes) {
-    const RoughBoundary surface({shape, 1e-3F, 1e-3F}, 1.5F, 1.5F);
+    const RoughInterface surface({shape, 1e-3F, 1e-3F}, 1.5F, 1.5F);
     const Bsdf rough = RoughDielectricBsdf{SampledSpectrum(1.5F), &surface};
     const Bsdf smooth = DielectricBsdf{SampledSpectrum(1.5F), false};
     for (const double cos : {1.0, 0.4, -0.9, -0.5}) {
@@ -180,7 +180,7 @@ TEST(RoughDielectric, OfLeastRoughnessIsSmooth) {
 // Each lane by the balance over eight heroes, against a packet of that lane's index alone.
 TEST(RoughDielectric, BalancedLanesAreUnbiased) {
   for (const float alpha : {0.03F, 0.3F}) {
-    const RoughBoundary surface({FacetShape::ggx, alpha, alpha}, 1.4F, 2.0F);
+    const RoughInterface surface({FacetShape::ggx, alpha, alpha}, 1.4F, 2.0F);
     const SampledSpectrum n = ramp(1.4F, 2.0F);
     const Bsdf bsdf = RoughDielectricBsdf{n, &surface};
     for (const double cos : {0.5, -0.8}) {
@@ -203,7 +203,7 @@ TEST(RoughDielectric, BalancedLanesAreUnbiased) {
 }
 
 TEST(RoughDielectric, RefractionScalesRadianceLaneByLane) {
-  const RoughBoundary surface({FacetShape::ggx, 0.3F, 0.3F}, 1.4F, 2.0F);
+  const RoughInterface surface({FacetShape::ggx, 0.3F, 0.3F}, 1.4F, 2.0F);
   const RoughDielectricBsdf bsdf{ramp(1.4F, 2.0F), &surface};
   for (const double cos : {0.5, -0.8}) {
     const V3f wo = direction_at(cos, 0.4);
@@ -223,7 +223,7 @@ TEST(RoughDielectric, RefractionScalesRadianceLaneByLane) {
 
 // Facets of little slope cannot help what is beyond the critical angle through.
 TEST(RoughDielectric, ReflectsTotally) {
-  const RoughBoundary surface({FacetShape::beckmann, 0.01F, 0.01F}, 1.5F, 1.5F);
+  const RoughInterface surface({FacetShape::beckmann, 0.01F, 0.01F}, 1.5F, 1.5F);
   const Bsdf bsdf = RoughDielectricBsdf{SampledSpectrum(1.5F), &surface};
   const auto through = [](const V3f& wi) { return wi.z > 0 ? 1.0 : 0.0; };
   EXPECT_LT(leaving(bsdf, direction_at(-0.6, 0), 0, through), 1e-4);
@@ -242,7 +242,7 @@ TEST(RoughSurfaces, WeighSamplesEvenly) {
     const Bsdf bsdf = mirror.bsdf({packet()});
     for (const double cos : kCosines) {
       const V3f wo = direction_at(cos, 0.5 + cos);
-      const float lost = mirror.surface->lost.at(LostEnergy::place(facets, wo));
+      const float lost = mirror.surface->lost.at(EnergyCompensation::place(facets, wo));
       for (int i = 0; i < 2048; ++i) {
         BsdfRandom u = event(i);
         if (const auto s = sample(bsdf, wo, u, 0, TransportMode::power))

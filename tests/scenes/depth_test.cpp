@@ -98,10 +98,10 @@ TEST(Depth, WhatIsCutDependsOnNoThreads) {
                                  {{"/sensor/resolution", "[64, 64]"},
                                   {"/materials/wall/diffuse/reflectance", R"({"band": [400, 650]})"},
                                   {"/render", R"({"samples": 16, "max_depth": 6, "integrator": "light"})"}});
-  const Cut one = render(scene, {.threads = 1}).stats.cut;
+  const TruncatedPaths one = render(scene, {.threads = 1}).stats.cut;
   EXPECT_GT(one.throughput(), 0);
   for (int trial = 0; trial < 4; ++trial) {
-    const Cut four = render(scene, {.threads = 4}).stats.cut;
+    const TruncatedPaths four = render(scene, {.threads = 4}).stats.cut;
     EXPECT_EQ(four.paths, one.paths);
     EXPECT_EQ(four.throughput(), one.throughput());
   }

@@ -95,7 +95,7 @@ TEST(Nesting, MetalInWaterReflectsByTheRatioOfIndices) {
         std::get<ConductorMaterial>(scene.materials[scene.shapes[1].material].model).coating;
     // By a film seen from water: everything relative to it, the wavelength too.
     Coating seen = coating;
-    for (Coating::Matter& matter : seen.matters) matter.index = RefractiveIndex(1.6 / 1.333);
+    for (Coating::Material& film : seen.materials) film.index = RefractiveIndex(1.6 / 1.333);
     const FresnelPower<double> f = coated_power(seen, 550 / 1.333, 0.2 / 1.333, 3 / 1.333, c, false);
     EXPECT_NEAR(passage.Rs, f.Rs, 1e-6) << metal;
     EXPECT_NEAR(passage.Rp, f.Rp, 1e-6) << metal;

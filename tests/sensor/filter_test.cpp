@@ -74,25 +74,25 @@ TEST(InterferenceFilter, NothingExceedsItsReachAndTheReachIsNoWider) {
   for (double deg = 0; deg <= 40; deg += 2.5)
     for (double nm = 400.05; nm < 700; nm += 0.1) {
       const auto weight = static_cast<double>(weight_at(channel, at(nm), static_cast<float>(cosine(deg)))[0]);
-      EXPECT_LE(weight, reach(channel)(nm) * (1 + 1e-4)) << nm << ' ' << deg;
+      EXPECT_LE(weight, envelope(channel)(nm) * (1 + 1e-4)) << nm << ' ' << deg;
       if (weight == 0) continue;
       low = std::min(low, nm);
       high = std::max(high, nm);
     }
   const double first = 560 * blue_shift(cosine(40), 2.1);
   EXPECT_NEAR(low, first, 0.11);
-  EXPECT_EQ(reach(channel)(first - 0.01), 0);
-  EXPECT_GT(reach(channel)(first + 0.01), 0);
+  EXPECT_EQ(envelope(channel)(first - 0.01), 0);
+  EXPECT_GT(envelope(channel)(first + 0.01), 0);
   EXPECT_NEAR(high, 640.3, 0.11);
-  EXPECT_EQ(reach(channel)(640.31), 0);
-  EXPECT_GT(reach(channel)(640.29), 0);
+  EXPECT_EQ(envelope(channel)(640.31), 0);
+  EXPECT_GT(envelope(channel)(640.29), 0);
 }
 
 TEST(InterferenceFilter, ChannelsWithoutOneReachTheirWeight) {
   Channel channel = behind(energy_channel("plain", band(400, 500)), {Curve(0.5), {}});
   limit_angles(channel, 0.5);
   EXPECT_FALSE(channel.angular);
-  EXPECT_EQ(&reach(channel), &channel.weight);
+  EXPECT_EQ(&envelope(channel), &channel.weight);
   EXPECT_EQ(weight_at(channel, at(450), 0.1F)[0], 0.5F);
 }
 

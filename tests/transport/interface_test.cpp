@@ -32,10 +32,12 @@ class BoundaryTest : public testing::Test {
     return {inside.shapes().begin(), inside.shapes().end()};
   }
   // The shape that acts, or -1.
-  static int acting(const Boundary& boundary, const std::vector<CrossedSurface>& met) {
+  static int acting(const ActingSurface& boundary, const std::vector<CrossedSurface>& met) {
     return boundary.acting ? static_cast<int>(met[*boundary.acting].shape) : -1;
   }
-  double outside(const Boundary& boundary) const { return boundary.outside ? boundary.outside->n(550) : 0; }
+  double outside(const ActingSurface& boundary) const {
+    return boundary.outside ? boundary.outside->n(550) : 0;
+  }
 
   struct Expected {
     std::vector<std::uint32_t> inside;
@@ -47,7 +49,7 @@ class BoundaryTest : public testing::Test {
   void check(const std::vector<Expected>& all) const {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Expected& one = all[i];
-      const Boundary found = boundary_of(scene_, one.met, in(one.inside));
+      const ActingSurface found = acting_surface(scene_, one.met, in(one.inside));
       EXPECT_EQ(acting(found, one.met), one.acting) << i;
       if (found.acting) {
         EXPECT_EQ(outside(found), one.outside) << i;

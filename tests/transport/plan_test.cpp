@@ -90,14 +90,14 @@ TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_GT(learned, 4096) << "the aims have learned nothing that could differ";
 }
 
-TEST(LightPicker, PicksAsOftenAsItSays) {
+TEST(PowerLightSampler, PicksAsOftenAsItSays) {
   std::vector<double> weights;
   for (int i = 0; i < 10000; ++i) weights.push_back(i % 3 == 0 ? 0 : 1 + i % 7);
-  const LightPicker picker(weights);
+  const PowerLightSampler picker(weights);
   std::vector<int> counts(weights.size());
   constexpr int kPicks = 1 << 21;
   for (int i = 0; i < kPicks; ++i) {
-    const LightPicker::Pick pick = picker.pick((static_cast<float>(i) + 0.5F) / kPicks);
+    const PowerLightSampler::SampledLight pick = picker.pick((static_cast<float>(i) + 0.5F) / kPicks);
     ASSERT_EQ(pick.probability, picker.probability(pick.light));
     ++counts[pick.light];
   }

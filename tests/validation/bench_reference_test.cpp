@@ -146,8 +146,8 @@ TEST(BenchMeshes, ComeBackFromPly) {
   write_ply(folder.path() / "ball.ply", ball);
   Diagnostics diagnostics;
   const auto file = load_mesh_file(folder.path() / "ball.ply", FileMaterials::ignored, {}, diagnostics);
-  ASSERT_TRUE(file && file->parts.size() == 1) << diagnostics.text();
-  const Mesh& read = file->parts.front().mesh;
+  ASSERT_TRUE(file && file->submeshes.size() == 1) << diagnostics.text();
+  const Mesh& read = file->submeshes.front().mesh;
   EXPECT_EQ(read.triangles, ball.triangles);
   ASSERT_EQ(read.vertices.size(), ball.vertices.size());
   EXPECT_NEAR((read.vertices.back() - ball.vertices.back()).length(), 0, 1e-6);

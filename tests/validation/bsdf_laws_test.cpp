@@ -10,7 +10,7 @@
 #include "materials/bsdf/warp.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/random_directions.h"
-#include "validation/lab/lobes.h"
+#include "validation/goniometer/lobes.h"
 
 namespace abbe {
 namespace {

@@ -13,7 +13,7 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "sensor/film/recorded_white.h"
-#include "tests/cli/ask.h"
+#include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "validation/picture/color_map.h"
 #include "validation/picture/difference_maps.h"
@@ -80,11 +80,11 @@ TEST(DifferenceMaps, HistogramBarsAreAsHighAsTheirShares) {
 TEST(CompareCommand, KeysOfTheContractAndOfTheChoice) {
   const auto a = saved("a.exr", grey({1, 0.5F}));
   const auto b = saved("b.exr", grey({1, 0.25F}));
-  const json plain = ask(cli::compare, {a, b});
+  const json plain = json_output(cli::compare, {a, b});
   for (const char* key : {"relMSE", "rmse", "mean_ratio", "dE00_mean", "dE00_p95", "dE00_max"})
     EXPECT_TRUE(plain.contains(key)) << key;
   EXPECT_EQ(plain.size(), 6U);
-  const json other = ask(cli::compare, {a, b, DeltaE::cie76});
+  const json other = json_output(cli::compare, {a, b, DeltaE::cie76});
   EXPECT_EQ(other["dE00_max"], plain["dE00_max"]);
   EXPECT_NEAR(other["dE76_max"].get<double>(), 116 * (std::cbrt(0.5) - std::cbrt(0.25)), 1e-5);
 }
@@ -93,7 +93,7 @@ TEST(CompareCommand, MapsAreWritten) {
   const auto a = saved("a.exr", grey({1, 0.5F}));
   const auto b = saved("b.exr", grey({1, 0.25F}));
   const std::filesystem::path folder = scratch() / "maps" / "deep";
-  const json answer = ask(cli::compare, {a, b, DeltaE::cie2000, {}, folder});
+  const json answer = json_output(cli::compare, {a, b, DeltaE::cie2000, {}, folder});
   ASSERT_EQ(answer["maps"].size(), 2U);
   for (const auto& map : answer["maps"]) {
     EXPECT_EQ(read_picture(folder / map["map"].get<std::string>()).width, 2);
@@ -187,9 +187,9 @@ TEST(CompareCommand, FilmsOfASensorWithoutAMatrixHaveNoColours) {
   const auto bare = saved("bare.exr", film);
   film.metadata["to_xyz_d65"] = "1 0 0 0 1 0 0 0";
   const auto broken = saved("broken.exr", film);
-  EXPECT_EQ(ask(cli::compare, {whole, whole})["dE00_mean"], 0);
+  EXPECT_EQ(json_output(cli::compare, {whole, whole})["dE00_mean"], 0);
   for (const auto& other : {bare, broken}) {
-    const json answer = ask(cli::compare, {other, whole, DeltaE::cie2000, chart_file()});
+    const json answer = json_output(cli::compare, {other, whole, DeltaE::cie2000, chart_file()});
     for (const char* key : {"dE00_mean", "dE00_p95", "dE00_max", "patches_dE00_mean", "patches_dE00_max"})
       EXPECT_TRUE(answer.contains(key) && answer[key].is_null()) << key << " of " << other;
     EXPECT_EQ(answer["relMSE"], 0);
@@ -279,7 +279,7 @@ TEST(CompareCommand, AWhiteIsNamedByALightAnIlluminantOrItsCoordinates) {
   const auto mean = [&](const std::string& white) {
     cli::CompareOptions options{b, a};
     options.white = white;
-    return ask(cli::compare, options)["dE00_mean"].get<double>();
+    return json_output(cli::compare, options)["dE00_mean"].get<double>();
   };
   EXPECT_DOUBLE_EQ(mean("light 0"), mean(""));
   EXPECT_NEAR(mean("A"), mean(""), 1e-9);
@@ -299,8 +299,9 @@ TEST(CompareChart, TwoFilmsAreScaledAlike) {
   EXPECT_GT(patches[0].delta_e.value(), 1);
   for (std::size_t i = 1; i < patches.size(); ++i)
     EXPECT_LT(patches[i].delta_e.value(), 1e-4) << patches[i].name;
-  const json answer = ask(cli::compare, {saved("film.exr", planted_film(scene, 1.1)),
-                                         saved("other.exr", reference), DeltaE::cie2000, chart_file()});
+  const json answer =
+      json_output(cli::compare, {saved("film.exr", planted_film(scene, 1.1)), saved("other.exr", reference),
+                                 DeltaE::cie2000, chart_file()});
   EXPECT_EQ(answer["patches"].size(), 24U);
   EXPECT_EQ(answer["patches"][0]["patch"], "dark skin");
   EXPECT_EQ(answer["patches_dE00_max"], answer["patches"][0]["dE00"]);

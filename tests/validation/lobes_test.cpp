@@ -1,5 +1,5 @@
 // The lab's instruments must be able to see a fault.
-#include "validation/lab/lobes.h"
+#include "validation/goniometer/lobes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "materials/bsdf/warp.h"
-#include "validation/lab/sphere_cells.h"
+#include "validation/goniometer/sphere_cells.h"
 
 namespace abbe {
 namespace {

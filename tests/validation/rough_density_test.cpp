@@ -6,7 +6,7 @@
 
 #include "materials/bsdf/warp.h"
 #include "materials/model/rough.h"
-#include "validation/lab/lobes.h"
+#include "validation/goniometer/lobes.h"
 
 namespace abbe {
 namespace {

@@ -27,11 +27,11 @@ bool same_around(const MediumStack& a, const MediumStack& b) {
 
 }  // namespace
 
-Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces,
-                     const MediumStack& inside) {
+ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
+                             const MediumStack& inside) {
   const auto opaque = std::find_if(surfaces.begin(), surfaces.end(), [&](const CrossedSurface& s) {
     const Material& material = material_of(scene, s.shape);
-    return interior(material) == nullptr && matter(material) == nullptr;
+    return interior(material) == nullptr && medium(material) == nullptr;
   });
   if (opaque != surfaces.end())
     return {static_cast<std::size_t>(opaque - surfaces.begin()), index_of(scene, inside), inside};
@@ -51,7 +51,7 @@ Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surface
   for (auto shape = entered.begin(); shape != end; ++shape) beyond.cross(scene, *shape, true);
   if (same_around(before, beyond)) return {std::nullopt, nullptr, beyond};
 
-  Boundary boundary{std::nullopt, nullptr, beyond};
+  ActingSurface boundary{std::nullopt, nullptr, beyond};
   std::tuple<bool, int, std::uint32_t> highest;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const auto [shape, entering] = surfaces[i];
@@ -72,7 +72,7 @@ Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& fir
   std::array<CrossedSurface, TouchingSurfaces::kMost> crossed;
   for (std::size_t i = 0; i < met.count; ++i)
     crossed[i] = {met.at[i].shape, met.at[i].normal.dot(ray.direction) < 0};
-  const Boundary boundary = boundary_of(scene, {crossed.data(), met.count}, inside);
+  const ActingSurface boundary = acting_surface(scene, {crossed.data(), met.count}, inside);
   SurfaceHit hit = met.at[boundary.acting.value_or(0)];
   for (const SurfaceHit& other : met.all())
     hit.spread = std::max(hit.spread, std::abs((other.point - hit.point).dot(hit.normal)));

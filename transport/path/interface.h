@@ -20,7 +20,7 @@ struct CrossedSurface {
 };
 
 /// What surfaces that touch are to a ray.
-struct Boundary {
+struct ActingSurface {
   std::optional<std::size_t> acting;         ///< Which of them acts; none where nothing changes.
   const RefractiveIndex* outside = nullptr;  ///< Of the acting shape's own matter; nullptr is air.
   MediumStack beyond = {};                   ///< What a ray that is let through is in.
@@ -29,8 +29,8 @@ struct Boundary {
 /// Of the surfaces that a ray within `inside` meets together. The first opaque one acts, else that of the
 /// higher priority of the two that bound what was before and what is behind, of equals the later one of the
 /// scene. A shape left that was never entered counts as entered before.
-[[nodiscard]] Boundary boundary_of(const Scene& scene, std::span<const CrossedSurface> surfaces,
-                                   const MediumStack& inside);
+[[nodiscard]] ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
+                                           const MediumStack& inside);
 
 /// The same for a path that meets the scene at `first`.
 struct Interface {

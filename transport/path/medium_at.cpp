@@ -8,7 +8,7 @@ MediumAt medium_at(const Scene& scene, const MediumStack& inside, const SampledS
   const RefractiveIndex* index = interior(material);
   MediumAt medium;
   if (index != nullptr && index->absorbing()) medium = {true, index->absorption_per_m(wavelengths_nm)};
-  const Matter* filling = matter(material);
+  const Medium* filling = abbe::medium(material);
   if (filling == nullptr) return medium;
   medium.attenuating = medium.attenuating || filling->absorbs() || filling->scatters();
   if (filling->absorbs()) medium.extinction_per_m += filling->absorption_per_m(wavelengths_nm);

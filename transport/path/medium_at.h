@@ -10,7 +10,7 @@ namespace abbe {
 struct MediumAt {
   bool attenuating = false;
   SampledSpectrum extinction_per_m;       ///< What is absorbed and scattered together.
-  const Matter* scattering = nullptr;     ///< What scatters, if anything does.
+  const Medium* scattering = nullptr;     ///< What scatters, if anything does.
   SampledSpectrum scattering_per_m = {};  ///< Where something does.
   const PlacedGrid* grid = nullptr;       ///< Multiplies both, only in matter without an interface.
 

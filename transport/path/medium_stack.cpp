@@ -15,7 +15,7 @@ namespace {
 
 bool filled(const Scene& scene, std::uint32_t shape) {
   const Material& material = scene.materials[scene.shapes[shape].material];
-  return interior(material) != nullptr || matter(material) != nullptr;
+  return interior(material) != nullptr || medium(material) != nullptr;
 }
 
 // How often more a ray leaves a shape than it enters it, and where it does so last.

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 #include "scene/shapes/ray.h"
-#include "transport/path/cut.h"
+#include "transport/path/truncated_paths.h"
 
 namespace abbe {
 
@@ -28,8 +28,8 @@ class RayCaster {
 
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
-  [[nodiscard]] const Cut& cut() const { return cut_; }
-  /// Counts a path that is cut while it carries `throughput`; see `Cut`.
+  [[nodiscard]] const TruncatedPaths& cut() const { return cut_; }
+  /// Counts a path that is cut while it carries `throughput`; see `TruncatedPaths`.
   void count_cut(float throughput) { cut_.count(throughput); }
 
   /// The nearest hit of a ray, or of each of many, as many as `hits`.
@@ -66,7 +66,7 @@ class RayCaster {
   const Scene& scene_;
   std::vector<LoggedRay>* log_;
   std::uint64_t rays_ = 0;
-  Cut cut_;
+  TruncatedPaths cut_;
 };
 
 }  // namespace abbe

@@ -66,7 +66,7 @@ std::optional<Turn> turn(const Material& material, const Imath::V3d& wo, const I
 // What a ray meets at once: in scenes of nested matter all surfaces that touch.
 struct Meeting {
   ExactHit acting;
-  Boundary boundary;
+  ActingSurface boundary;
   double spread;  // how far apart the surfaces are, along the normal
 };
 
@@ -89,7 +89,7 @@ Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& fi
   }
   std::vector<CrossedSurface> crossed;
   for (const ExactHit& hit : met) crossed.push_back({hit.shape, hit.hit.normal.dot(ray.direction) < 0});
-  Boundary boundary = boundary_of(scene, crossed, inside);
+  ActingSurface boundary = acting_surface(scene, crossed, inside);
   return {met[boundary.acting.value_or(0)], boundary, spread};
 }
 

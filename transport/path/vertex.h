@@ -53,7 +53,7 @@ struct SurfaceVertex {
 
   /// Where it is, for light to arrive: from both sides where both may be scattered from; which parts a
   /// mixture has is not asked.
-  [[nodiscard]] Place place() const {
+  [[nodiscard]] LightSampleContext place() const {
     if (std::holds_alternative<RoughDielectricBsdf>(bsdf) || std::holds_alternative<MixtureBsdf>(bsdf))
       return {hit.point, std::nullopt};
     return {hit.point, wo.z > 0 ? hit.normal : -hit.normal};

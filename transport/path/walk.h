@@ -12,7 +12,7 @@ namespace abbe {
 
 /// Where light arrives to be scattered: at a point, on the side of a surface that a unit normal says, or from
 /// everywhere.
-struct Place {
+struct LightSampleContext {
   Imath::V3f point{0, 0, 0};
   std::optional<Imath::V3f> side = {};
 
@@ -32,7 +32,7 @@ struct Walk {
   /// What `mis_weight` takes as `connected`, were the path's next vertex its end; 0 where no connection was
   /// possible, as after an event of a single direction.
   float connected = 0;
-  Place last;  ///< The vertex it left.
+  LightSampleContext last;  ///< The vertex it left.
   Surroundings around;
 
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/extent.h"
-#include "transport/plan/light_reach.h"
+#include "transport/plan/light_bounds.h"
 
 namespace abbe {
 namespace {
@@ -29,7 +29,7 @@ struct Target {
 };
 Target target_from_afar(const Scene& scene, bool light_only) {
   const Imath::Box3d box = light_only ? scene.bounds : bounds_where(scene, [](const Material& m) {
-    return lobes(m).delta || encloses_matter(m);
+    return lobes(m).delta || encloses_medium(m);
   });
   return box.isEmpty() ? Target{} : Target{box.center(), box.size().length() / 2};
 }
@@ -79,10 +79,10 @@ constexpr std::ptrdiff_t kMostAims = 128;
 
 }  // namespace
 
-std::optional<FarAway> far_away(const Light& light, const Scene& scene) {
+std::optional<FarLight> far_away(const Light& light, const Scene& scene) {
   if (light.at_infinity() || !scene.is_far(light)) return std::nullopt;
   const Imath::Box3d box = bounds_of(light, scene);
-  return FarAway{box.center(), box.center().length(), box.size().length() / 2};
+  return FarLight{box.center(), box.center().length(), box.size().length() / 2};
 }
 
 std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced, bool light_only) {
@@ -101,7 +101,7 @@ std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced
     const Material& material = scene.materials[shape.material];
     const bool met = lobes(material).delta || (light_only && shape.light < 0);
     const bool far = shape.far && (met || is_boundary(material)) && size > kSmallest * box.center().length();
-    const bool large = !shape.far && (met || encloses_matter(material)) && size > 2 * scene.far_from_m;
+    const bool large = !shape.far && (met || encloses_medium(material)) && size > 2 * scene.far_from_m;
     if (far || large)
       return Error(ErrorCode::scene, shape.name,
                    fmt::format("photons of a light from afar cannot light a shape {:g} m across, {:g} m from "

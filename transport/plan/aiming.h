@@ -11,13 +11,13 @@ namespace abbe {
 
 /// Of a light that is far: the middle of it, how far [m] it is from the middle of the scene, and its radius
 /// [m].
-struct FarAway {
+struct FarLight {
   Imath::V3d center;
   double distance;
   double radius;
 };
 /// Nothing for a light that is near or has no place.
-[[nodiscard]] std::optional<FarAway> far_away(const Light& light, const Scene& scene);
+[[nodiscard]] std::optional<FarLight> far_away(const Light& light, const Scene& scene);
 
 /// Why photons of the lights in `traced` cannot light the scene. They are sent through what is near, so that
 /// they meet nothing that is far, nor lose anything in a cloud there; and they start outside of all that may

@@ -37,7 +37,7 @@ Emissions emissions_of(const Scene& scene) {
     const auto [at, is_new] = known.emplace(emission, 0);
     if (is_new) {
       for (const Channel& channel : scene.channels)
-        at->second = std::max(at->second, weighed(emission.base(), reach(channel)));
+        at->second = std::max(at->second, weighed(emission.base(), envelope(channel)));
       emissions.distinct.push_back(emission.base());
     }
     emissions.seen.push_back(at->second * emission.factor());

@@ -1,34 +1,31 @@
 #pragma once
 
-#include <ImathVec.h>
+#include <ImathBox.h>
 
-#include "transport/plan/light_reach.h"
+#include "scene/scene.h"
+#include "transport/plan/emission_cone.h"
 
 namespace abbe {
 
-/// The reach of lights, ready to be asked at each vertex of a path.
-class LightBounds {
- public:
-  /// With strengths times `scale` [1/unit of them], and `nearest` no less than `least_distance` [m] > 0,
-  /// which keeps the irradiance finite at the place of a lamp.
-  LightBounds(const LightReach& reach, double scale, double least_distance);
-
-  /// Irradiance of a surface at `point` whose side of the unit `normal` alone can be lit, or, without a
-  /// normal, of what takes light from all sides: what the lamps could send there from the most favourable
-  /// place in their sphere, with nothing in between, but for their distance, which is that of the middle. Not
-  /// negative; 0 where they cannot shine. [Conty2018]
-  [[nodiscard]] float irradiance(const Imath::V3f& point, const Imath::V3f* normal) const;
-
- private:
-  Imath::V3f center_;
-  float radius2_;
-  float nearest2_;
-  Imath::V3f axis_;
-  float cos_spread_;
-  float cos_falloff_;
-  float facing_;
-  float all_sides_;
-  bool at_infinity_;
+/// Where light may come from and how much of it: of one light, or of several that are all near or all at
+/// infinity.
+struct LightBounds {
+  Imath::Box3d box;      ///< Around the lamps [m]; at infinity, around the unit vectors to where they are.
+  double radius = 0;     ///< Of a sphere around the lamps, its middle that of the box [m].
+  double nearest = 0;    ///< Distance [m] of the middle within which they are taken to send no more.
+  EmissionCone cone;     ///< Where they emit to; at infinity, the directions they are seen in.
+  double facing = 0;     ///< Intensity [m^2], or irradiance at infinity, of what faces the lights.
+  double all_sides = 0;  ///< The same of what takes light from all sides.
+  bool at_infinity = false;
 };
+
+/// A box around a light that has a place.
+[[nodiscard]] Imath::Box3d bounds_of(const Light& light, const Scene& scene);
+
+/// Of one light, `seen` being what stands for its emission. An area light has the intensity of its area seen
+/// along its axis: the same from all sides for a sphere; for a mesh, a quarter of its area where it is
+/// closed.
+[[nodiscard]] LightBounds light_bounds(const Light& light, const Scene& scene, double seen);
+[[nodiscard]] LightBounds union_of(const LightBounds& a, const LightBounds& b);
 
 }  // namespace abbe

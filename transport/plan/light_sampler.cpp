@@ -20,8 +20,8 @@ using Choice = std::span<const std::uint32_t>;
 
 LightScale scale_of(const std::vector<LightLeaf>& leaves, double scene_radius_m) {
   double most = 0;
-  for (const auto& [light, reach] : leaves)
-    most = std::max(most, reach.facing / (reach.at_infinity ? 1 : scene_radius_m * scene_radius_m));
+  for (const auto& [light, bounds] : leaves)
+    most = std::max(most, bounds.facing / (bounds.at_infinity ? 1 : scene_radius_m * scene_radius_m));
   constexpr double kLeastDistance = 1e-6;  // of the scene's radius
   return {1 / most, kLeastDistance * scene_radius_m};
 }
@@ -36,7 +36,7 @@ std::array<std::uint32_t, 2> children(const Nodes& nodes, std::uint32_t node) {
                              const Imath::V3f* normal, double* shares) {
   double sum = 0;
   for (std::size_t i = 0; i < choice.size(); ++i)
-    sum += shares[i] = static_cast<double>(nodes[choice[i]].bounds.irradiance(point, normal));
+    sum += shares[i] = static_cast<double>(nodes[choice[i]].importance.irradiance(point, normal));
   if (!(sum > 0)) {
     for (std::size_t i = 0; i < choice.size(); ++i) sum += shares[i] = nodes[choice[i]].lights;
   }
@@ -53,12 +53,12 @@ std::array<std::uint32_t, 2> children(const Nodes& nodes, std::uint32_t node) {
 LightSampler::LightSampler(const Scene& scene, const std::vector<double>& seen) : ways_(scene.lights.size()) {
   std::vector<LightLeaf> near;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-    if (seen[i] > 0) near.push_back({i, reach_of(scene.lights[i], scene, seen[i])});
+    if (seen[i] > 0) near.push_back({i, light_bounds(scene.lights[i], scene, seen[i])});
   if (near.empty()) return;
   lights_ = static_cast<std::uint32_t>(near.size());
   const LightScale scale = scale_of(near, scene_radius(scene.bounds));
-  const auto first_far = std::stable_partition(near.begin(), near.end(),
-                                               [](const LightLeaf& leaf) { return !leaf.reach.at_infinity; });
+  const auto first_far = std::stable_partition(
+      near.begin(), near.end(), [](const LightLeaf& leaf) { return !leaf.bounds.at_infinity; });
   std::vector<LightLeaf> far(first_far, near.end());
   near.erase(first_far, near.end());
   nodes_.reserve(2 * lights_);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "transport/plan/light_picker.h"
 #include "transport/plan/light_tree.h"
+#include "transport/plan/power_light_sampler.h"
 
 namespace abbe {
 
@@ -15,7 +15,7 @@ namespace abbe {
 /// lamps and one over the lights at infinity.
 class LightSampler {
  public:
-  using Pick = LightPicker::Pick;
+  using Pick = PowerLightSampler::SampledLight;
 
   /// `seen` stands for each light's emission, as in `Emissions`; lights of 0 are never chosen.
   LightSampler(const Scene& scene, const std::vector<double>& seen);

@@ -13,7 +13,7 @@ constexpr int kMostUneven = 32;  // turns; after them halves are equal, of fewer
 
 Imath::Box3d box_of_middles(std::span<const LightLeaf> leaves) {
   Imath::Box3d box;
-  for (const LightLeaf& leaf : leaves) box.extendBy(leaf.reach.box.center());
+  for (const LightLeaf& leaf : leaves) box.extendBy(leaf.bounds.box.center());
   return box;
 }
 
@@ -24,25 +24,25 @@ struct Buckets {
   double width;
 
   [[nodiscard]] std::size_t of(const LightLeaf& leaf) const {
-    const double share = (leaf.reach.box.center()[axis] - from) / width;
+    const double share = (leaf.bounds.box.center()[axis] - from) / width;
     return std::min(kBuckets - 1, static_cast<std::size_t>(share * kBuckets));
   }
 };
 
-void include(std::optional<LightReach>& sum, const LightReach& more) {
+void include(std::optional<LightBounds>& sum, const LightBounds& more) {
   sum = sum ? union_of(*sum, more) : more;
 }
 
 // How much the choice within a half is likely to be off: the measure of [Conty2018] with the sphere around
 // the lamps for their box, as the irradiance of a node is bounded by that.
-double cost(const std::optional<LightReach>& half) {
+double cost(const std::optional<LightBounds>& half) {
   return half ? half->facing * half->radius * half->radius * measure(half->cone) : 0;
 }
 
 // The number of buckets in the first half of the best split.
-std::size_t best_split(const std::array<std::optional<LightReach>, kBuckets>& in) {
+std::size_t best_split(const std::array<std::optional<LightBounds>, kBuckets>& in) {
   std::array<double, kBuckets> costs{};
-  std::optional<LightReach> sum;
+  std::optional<LightBounds> sum;
   for (std::size_t i = 1; i < kBuckets; ++i) {
     if (in[i - 1]) include(sum, *in[i - 1]);
     costs[i] = cost(sum);
@@ -65,12 +65,12 @@ std::size_t split(std::span<LightLeaf> leaves, int turns) {
   if (turns >= kMostUneven) {
     std::nth_element(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(half), leaves.end(),
                      [axis](const LightLeaf& a, const LightLeaf& b) {
-                       return a.reach.box.center()[axis] < b.reach.box.center()[axis];
+                       return a.bounds.box.center()[axis] < b.bounds.box.center()[axis];
                      });
     return half;
   }
-  std::array<std::optional<LightReach>, kBuckets> in;
-  for (const LightLeaf& leaf : leaves) include(in[buckets.of(leaf)], leaf.reach);
+  std::array<std::optional<LightBounds>, kBuckets> in;
+  for (const LightLeaf& leaf : leaves) include(in[buckets.of(leaf)], leaf.bounds);
   const std::size_t first = best_split(in);
   const auto middle = std::partition(leaves.begin(), leaves.end(),
                                      [&](const LightLeaf& leaf) { return buckets.of(leaf) < first; });
@@ -81,25 +81,25 @@ class Builder {
  public:
   Builder(const LightScale& scale, std::vector<LightNode>& nodes) : scale_(scale), nodes_(nodes) {}
 
-  LightReach append(std::span<LightLeaf> leaves, int turns) {
+  LightBounds append(std::span<LightLeaf> leaves, int turns) {
     const std::size_t at = nodes_.size();
     if (leaves.size() == 1) {
-      nodes_.push_back({bounds(leaves[0].reach), 1, leaves[0].light});
-      return leaves[0].reach;
+      nodes_.push_back({importance(leaves[0].bounds), 1, leaves[0].light});
+      return leaves[0].bounds;
     }
     const std::size_t first = split(leaves, turns);
     // A place is kept: what both halves reach together is known when they are.
-    nodes_.push_back({bounds(leaves[0].reach), static_cast<std::uint32_t>(leaves.size()), 0});
-    const LightReach one = append(leaves.first(first), turns + 1);
+    nodes_.push_back({importance(leaves[0].bounds), static_cast<std::uint32_t>(leaves.size()), 0});
+    const LightBounds one = append(leaves.first(first), turns + 1);
     nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
-    LightReach all = union_of(one, append(leaves.subspan(first), turns + 1));
-    nodes_[at].bounds = bounds(all);
+    LightBounds all = union_of(one, append(leaves.subspan(first), turns + 1));
+    nodes_[at].importance = importance(all);
     return all;
   }
 
  private:
-  [[nodiscard]] LightBounds bounds(const LightReach& reach) const {
-    return {reach, scale_.strength, scale_.least_distance};
+  [[nodiscard]] LightImportance importance(const LightBounds& bounds) const {
+    return {bounds, scale_.strength, scale_.least_distance};
   }
 
   const LightScale& scale_;

@@ -3,24 +3,24 @@
 #include <cstdint>
 #include <vector>
 
-#include "transport/plan/light_bounds.h"
+#include "transport/plan/light_importance.h"
 
 namespace abbe {
 
-/// A light by its index in the scene, and its reach.
+/// A light by its index in the scene, and its bounds.
 struct LightLeaf {
   std::uint32_t light;
-  LightReach reach;
+  LightBounds bounds;
 };
 
 /// A node of a binary tree over lights.
 struct LightNode {
-  LightBounds bounds;
+  LightImportance importance;
   std::uint32_t lights;  ///< Below it; 1 is a leaf.
   std::uint32_t next;    ///< Of a leaf the light, else the second child: the first follows the node itself.
 };
 
-/// What turns a reach into the bounds of a node.
+/// What turns bounds into the importance of a node.
 struct LightScale {
   double strength;        ///< What strengths are multiplied by.
   double least_distance;  ///< [m], > 0.

@@ -57,7 +57,7 @@ std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& 
 
 WavelengthDistribution make_wavelengths(const Scene& scene, const Emissions& emissions) {
   std::vector<Curve> responses;
-  for (const Channel& channel : scene.channels) responses.push_back(reach(channel));
+  for (const Channel& channel : scene.channels) responses.push_back(envelope(channel));
   return {emissions.distinct, responses};
 }
 
@@ -65,7 +65,7 @@ std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, con
   std::vector<WavelengthDistribution> own;
   if (scene.mosaic)
     for (const Channel& channel : scene.channels)
-      own.emplace_back(emissions.distinct, std::span(&reach(channel), 1));
+      own.emplace_back(emissions.distinct, std::span(&envelope(channel), 1));
   return own;
 }
 
@@ -93,7 +93,7 @@ Plan make_plan(const Scene& scene) {
   Plan plan{scene,
             make_wavelengths(scene, emissions),
             LightSampler(scene, emissions.seen),
-            LightPicker(traced_powers),
+            PowerLightSampler(traced_powers),
             traced,
             light_active ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
             !light_only,

@@ -9,8 +9,8 @@
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/medium_stack.h"
 #include "transport/plan/aim.h"
-#include "transport/plan/light_picker.h"
 #include "transport/plan/light_sampler.h"
+#include "transport/plan/power_light_sampler.h"
 
 namespace abbe {
 
@@ -19,10 +19,10 @@ namespace abbe {
 struct Plan {
   const Scene& scene;
   WavelengthDistribution wavelengths;
-  LightSampler path_lights;   ///< For light sampling at path vertices.
-  LightPicker traced_lights;  ///< For starting photons.
-  std::vector<bool> traced;   ///< Per light: the light tracer owns its caustics.
-  std::vector<Aim> aims;      ///< Per light where photons start at all.
+  LightSampler path_lights;         ///< For light sampling at path vertices.
+  PowerLightSampler traced_lights;  ///< For starting photons.
+  std::vector<bool> traced;         ///< Per light: the light tracer owns its caustics.
+  std::vector<Aim> aims;            ///< Per light where photons start at all.
   bool path_active;
   bool light_active;
   std::uint64_t photons;        ///< Of a sample.

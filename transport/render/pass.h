@@ -20,7 +20,7 @@ struct PassCounts {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
   std::uint64_t nonfinite = 0;
-  Cut cut = {};
+  TruncatedPaths cut = {};
 };
 
 /// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
-#include "transport/path/cut.h"
+#include "transport/path/truncated_paths.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
@@ -62,7 +62,7 @@ struct RenderStats {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
   std::uint64_t nonfinite_samples = 0;  ///< Dropped.
-  Cut cut = {};
+  TruncatedPaths cut = {};
   RelativeError error = {};
   double embree_replay_share =
       0;  ///< Time of the logged rays through Embree alone over the time to trace their paths.

@@ -37,7 +37,7 @@ void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit
 bool LightTracer::start(LightPath& path, PhotonStart& start) {
   const std::array<float, 4> a = path.sampler.group(kAimGroup);
   const std::array<float, 4> b = path.sampler.group(kEmissionGroup);
-  const LightPicker::Pick pick = plan_.traced_lights.pick(b[3]);
+  const PowerLightSampler::SampledLight pick = plan_.traced_lights.pick(b[3]);
   const PhotonRay photon = start_photon(plan_, caster_, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2]});
   start = {pick.light, photon.cell};
   if (!(photon.factor > 0)) return false;

@@ -112,10 +112,10 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
       path.at.cos_film);
 }
 
-std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const Place& place,
+std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const LightSampleContext& place,
                                                                 const std::array<float, 4>& u) const {
   if (plan_.path_lights.empty()) return std::nullopt;
-  const LightPicker::Pick pick = plan_.path_lights.pick(place.point, place.normal(), u[0]);
+  const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place.point, place.normal(), u[0]);
   const Light& light = scene_.lights[pick.light];
   const std::optional<LightSample> towards = sample_light(light, scene_.shapes, place.point, {u[1], u[2]});
   if (!towards) return std::nullopt;

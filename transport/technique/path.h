@@ -84,7 +84,7 @@ class PathTracer {
   void trace_together(std::span<const PixelSample> samples);
   // Whether there is more to find than what a meter sees directly.
   bool start(const PixelSample& sample, CameraPath& path);
-  [[nodiscard]] std::optional<ChosenLight> choose_light(const Place& place,
+  [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
                                                         const std::array<float, 4>& u) const;
   [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
                                      const Imath::V3f& normal) const;

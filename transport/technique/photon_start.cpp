@@ -13,7 +13,7 @@ bool shines(const Light& light, const EmissionPoint& from, const Imath::V3f& wi)
   return emits_towards(light, from.normal, wi);
 }
 
-PhotonRay start_near(const Plan& plan, const LightPicker::Pick& pick, const PhotonRandom& u) {
+PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pick, const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start);
   const AimedDirection aimed = plan.aims[pick.light].sample(light, from, u.choice, u.aim);
@@ -29,7 +29,7 @@ Ray arriving(const Aim& aim, const AimedPoint& at, const Imath::V3f& direction) 
   return {at.point - direction * (2 * aim.half_size()), direction};
 }
 
-PhotonRay start_far(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
+PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                     const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const Aim& aim = plan.aims[pick.light];
@@ -49,7 +49,7 @@ PhotonRay start_far(const Plan& plan, RayCaster& caster, const LightPicker::Pick
   return {ray, static_cast<float>(static_cast<double>(cosines) / density), at.cell};
 }
 
-PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
+PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                             const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const Aim& aim = plan.aims[pick.light];
@@ -63,7 +63,7 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const LightPick
 
 }  // namespace
 
-PhotonRay start_photon(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
+PhotonRay start_photon(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                        const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   if (light.at_infinity()) return start_at_infinity(plan, caster, pick, u);

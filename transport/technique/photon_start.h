@@ -30,7 +30,7 @@ struct PhotonRandom {
 ///     L cos(x) cos(y)/(p(x) p(y) d^2) from the point y of a lamp at the distance d,
 ///     I cos(x)/(p(x) d^2)             of a point or spot light.
 /// It starts before all it may be bent by, if nothing stands between there and the light.
-[[nodiscard]] PhotonRay start_photon(const Plan& plan, RayCaster& caster, const LightPicker::Pick& pick,
-                                     const PhotonRandom& u);
+[[nodiscard]] PhotonRay start_photon(const Plan& plan, RayCaster& caster,
+                                     const PowerLightSampler::SampledLight& pick, const PhotonRandom& u);
 
 }  // namespace abbe

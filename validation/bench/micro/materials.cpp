@@ -91,7 +91,7 @@ BENCHMARK_CAPTURE(evaluate_rough, rough_glass_reflecting, rough_flint, 1);
 BENCHMARK_CAPTURE(evaluate_rough, rough_glass_transmitting, rough_flint, -1);
 
 // One film, and the 21 layers of a mirror, on glass and on metal; from a packet of its own each time.
-struct CoatedMatter {
+struct CoatedSurface {
   RefractiveIndex index;
   Coating coating;
 };
@@ -104,7 +104,7 @@ Coating films(int pairs) {
 template <typename Model>
 void sample_coated(benchmark::State& state, std::type_identity<Model> /*model*/, const char* matter,
                    int pairs) {
-  const CoatedMatter coated{index_of(matter), films(pairs)};
+  const CoatedSurface coated{index_of(matter), films(pairs)};
   micro::Stream u;
   for (auto _ : state) {
     const Bsdf bsdf = Model{u.packet(), &coated.index, &coated.coating};
@@ -147,8 +147,8 @@ MaterialModel mirror() {
 }
 MaterialModel mixture() {
   const auto part = [](MaterialModel model) {
-    return MixtureMaterial::Part{Curve(0.5),
-                                 std::make_shared<const Material>(Material{"part", std::move(model)})};
+    return MixtureMaterial::Component{Curve(0.5),
+                                      std::make_shared<const Material>(Material{"part", std::move(model)})};
   };
   return MixtureMaterial{{part(coated_diffuse()), part(mirror())}};
 }

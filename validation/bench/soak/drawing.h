@@ -20,7 +20,7 @@ inline constexpr double kInsideBelow = 1000;
 inline constexpr const char* kOutsideChannel = "outside";
 
 /// A material by name, and which shapes may be made of it.
-struct Matter {
+struct DrawnMaterial {
   std::string name;
   bool mixes = false;             ///< It may be part of a mixture.
   bool entered = false;           ///< Light enters it, so its shapes must be closed.
@@ -37,7 +37,7 @@ struct Drawing {
   double size = 1;  ///< The box reaches from -size to size on each axis, around `middle`.
   std::array<double, 3> middle{0, 0, 0};
   double brightness = 1;  ///< Order of magnitude of radiances.
-  std::vector<Matter> matter;
+  std::vector<DrawnMaterial> matter;
   std::vector<Json> targets;  ///< Where shapes stand, for the camera to look at.
   Json scene;
 };
@@ -61,7 +61,7 @@ struct Drawing {
 [[nodiscard]] std::string draw_mesh_file(Drawing& drawing);
 
 /// Draw one part of the scene each; they build on each other in this order.
-void draw_matter(Drawing& drawing);
+void draw_materials(Drawing& drawing);
 void draw_shapes(Drawing& drawing);
 void draw_sensor(Drawing& drawing);
 void draw_camera(Drawing& drawing);
@@ -69,7 +69,7 @@ void draw_lights(Drawing& drawing);
 void draw_render(Drawing& drawing);
 
 /// One shape of a material without emission, between 1e-4 and once the size of the box large.
-[[nodiscard]] Json draw_shape(Drawing& drawing, const Matter& matter);
+[[nodiscard]] Json draw_shape(Drawing& drawing, const DrawnMaterial& matter);
 /// An emission for something of that kind: "area", "place" (point and spot), "sun", "directional" or
 /// "environment".
 [[nodiscard]] Json draw_emission(Drawing& drawing, const std::string& kind);

@@ -72,7 +72,7 @@ Json area_light(Drawing& drawing) {
   }
   light["emission"] = draw_emission(drawing, "area");
   if (!light.contains("sphere") && chance(random, 0.5)) light["two_sided"] = true;
-  const Matter& matter = one_of(random, drawing.matter);
+  const DrawnMaterial& matter = one_of(random, drawing.matter);
   if (!matter.entered && chance(random, 0.4)) light["material"] = matter.name;
   return light;
 }

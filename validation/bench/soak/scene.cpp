@@ -34,7 +34,7 @@ DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder) {
   drawing.brightness = decades(drawing.random, 1e-15, 1e15);
   drawing.scene["abbe"] = 1;
   draw_place_of_all(drawing);
-  draw_matter(drawing);
+  draw_materials(drawing);
   draw_shapes(drawing);
   draw_sensor(drawing);
   draw_camera(drawing);

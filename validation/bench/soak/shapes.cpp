@@ -110,7 +110,7 @@ Json prism(Drawing& drawing, double half) {
 
 }  // namespace
 
-Json draw_shape(Drawing& drawing, const Matter& matter) {
+Json draw_shape(Drawing& drawing, const DrawnMaterial& matter) {
   Random& random = drawing.random;
   const bool large = chance(random, 0.7);
   const double half = drawing.size * decades(random, large ? 0.05 : matter.entered ? 1e-3 : 1e-4, 1);
@@ -189,8 +189,8 @@ void add_ground(Drawing& drawing) {
 // Matter in matter: balls within each other, or boxes that touch, some of them at the very same places.
 void add_nest(Drawing& drawing) {
   Random& random = drawing.random;
-  std::vector<Matter> entered;
-  for (const Matter& matter : drawing.matter)
+  std::vector<DrawnMaterial> entered;
+  for (const DrawnMaterial& matter : drawing.matter)
     if (matter.entered && !matter.needs_surface_uv) entered.push_back(matter);
   if (entered.empty()) return;
   Json& shapes = drawing.scene["shapes"];
@@ -249,7 +249,7 @@ void add_chart(Drawing& drawing) {
 
 // A ball of matter around camera and all, as fog is; within the walls of a closed box.
 void add_fog(Drawing& drawing) {
-  for (const Matter& matter : drawing.matter) {
+  for (const DrawnMaterial& matter : drawing.matter) {
     if (!matter.name.starts_with("medium")) continue;
     drawing.scene["shapes"].push_back(
         {{"sphere", {{"center", drawing.middle}, {"radius", (drawing.closed ? 1.7 : 4) * drawing.size}}},
@@ -268,7 +268,7 @@ void draw_shapes(Drawing& drawing) {
   else if (chance(random, 0.6))
     add_ground(drawing);
   for (int i = integer(random, 1, 7); i > 0; --i) {
-    const Matter& matter = one_of(random, drawing.matter);
+    const DrawnMaterial& matter = one_of(random, drawing.matter);
     Json shape = draw_shape(drawing, matter);
     if (!matter.entered && chance(random, 0.15)) {
       shape["emission"] = draw_emission(drawing, "area");

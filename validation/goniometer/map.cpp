@@ -1,4 +1,4 @@
-#include "validation/lab/map.h"
+#include "validation/goniometer/map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr int kDisc = 96;  // edge of a disc [pixels]
 // The material at packets of the visible wavelengths, with what each lane adds to XYZ.
 class Eye {
  public:
-  Eye(const Material& material, const LabSettings& settings)
+  Eye(const Material& material, const GoniometerSettings& settings)
       : weights_(tristimulus_weights(settings.illuminant, settings.observer)) {
     const std::vector<double> visible = visible_wavelengths();
     for (std::size_t first = 0; first < visible.size(); first += kLanes)
@@ -67,7 +67,7 @@ std::vector<LinearRgb> column(const Eye& eye, const Imath::V3f& wo) {
 
 }  // namespace
 
-Image lobe_map(const Material& material, const LabSettings& settings) {
+Image lobe_map(const Material& material, const GoniometerSettings& settings) {
   const Eye eye(material, settings);
   const int columns = static_cast<int>(settings.angles_deg.size());
   Image map{columns * kDisc, 2 * kDisc, {}, {}};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "materials/bsdf/bsdf.h"
-#include "validation/lab/sphere_cells.h"
+#include "validation/goniometer/sphere_cells.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {

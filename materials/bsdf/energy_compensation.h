@@ -12,7 +12,7 @@ namespace abbe {
 /// What light that a rough surface has scattered once does not leave with: the share 1 - E(w) of each
 /// direction w above the surface, by a table. Light scattered more often leaves in proportion to it, which
 /// keeps both reciprocity and energy. [Kelemen2001] [Kulla2017]
-class LostEnergy {
+class EnergyCompensation {
  public:
   /// A direction's place in all tables of the same facets.
   struct Place {
@@ -25,8 +25,8 @@ class LostEnergy {
   /// Writes E(w) of some light or other, w.z > 0, into its second argument.
   using Energies = std::function<void(const Imath::V3f& w, std::span<double> energies)>;
   /// As many tables as there are energies, from their values for a few hundred directions.
-  [[nodiscard]] static std::vector<LostEnergy> tabulate(const Microfacets<float>& facets, std::size_t count,
-                                                        const Energies& energies);
+  [[nodiscard]] static std::vector<EnergyCompensation> tabulate(const Microfacets<float>& facets,
+                                                                std::size_t count, const Energies& energies);
 
   /// 1 - E, in [0, 1).
   [[nodiscard]] float at(const Place& place) const;

@@ -1,4 +1,4 @@
-#include "validation/lab/measure.h"
+#include "validation/goniometer/measure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ Spectra spectra(const Material& material, const std::vector<double>& wavelengths
   return all;
 }
 
-LabColor color_of(const std::vector<Estimate>& visible, const LabSettings& settings) {
+ScatteredColor color_of(const std::vector<Estimate>& visible, const GoniometerSettings& settings) {
   std::vector<Knot> knots;
   for (const double nm : visible_wavelengths()) knots.push_back({nm, visible[knots.size()].mean});
   const XYZ xyz = tristimulus(settings.illuminant, Curve(std::move(knots)), settings.observer);
@@ -49,7 +49,8 @@ LabColor color_of(const std::vector<Estimate>& visible, const LabSettings& setti
 }
 
 // A colour is a mean over wavelengths, so that few samples of each are enough.
-void add_colors(const Material& material, const Imath::V3f& wo, const LabSettings& settings, LabAngle& at) {
+void add_colors(const Material& material, const Imath::V3f& wo, const GoniometerSettings& settings,
+                GoniometerAngle& at) {
   constexpr int kShare = 32;
   constexpr int kLeast = 64;
   const Spectra found =
@@ -58,10 +59,11 @@ void add_colors(const Material& material, const Imath::V3f& wo, const LabSetting
   at.transmitted_color = color_of(found.transmitted, settings);
 }
 
-LabAngle measure_angle(const Material& material, const LabSettings& settings, double angle_deg) {
+GoniometerAngle measure_angle(const Material& material, const GoniometerSettings& settings,
+                              double angle_deg) {
   const Imath::V3f wo = incidence(settings, angle_deg);
   Spectra found = spectra(material, settings.wavelengths_nm, wo, settings.samples);
-  LabAngle at{angle_deg, std::move(found.reflected), std::move(found.transmitted), {}, {}, 1, 0};
+  GoniometerAngle at{angle_deg, std::move(found.reflected), std::move(found.transmitted), {}, {}, 1, 0};
   add_colors(material, wo, settings, at);
   const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
   const Bsdf bsdf = make_bsdf(material, {packet});
@@ -76,7 +78,7 @@ LabAngle measure_angle(const Material& material, const LabSettings& settings, do
 
 }  // namespace
 
-Imath::V3f incidence(const LabSettings& settings, double angle_deg) {
+Imath::V3f incidence(const GoniometerSettings& settings, double angle_deg) {
   const double cosine = std::cos(angle_deg * std::numbers::pi / 180);
   return direction_at(settings.from_inside ? -cosine : cosine, std::numbers::pi);
 }
@@ -94,13 +96,13 @@ SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t
   return SampledSpectrum(packet);
 }
 
-LabReport measure(const Material& material, const LabSettings& settings) {
-  LabReport report{lobes(material), is_dispersive(material), {}, {}, 0};
+GoniometerReport measure(const Material& material, const GoniometerSettings& settings) {
+  GoniometerReport report{lobes(material), is_dispersive(material), {}, {}, 0};
   for (const double angle : settings.angles_deg)
     report.angles.push_back(measure_angle(material, settings, angle));
   const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
   report.reciprocity = reciprocity_error(make_bsdf(material, {packet}));
-  for (const LabAngle& at : report.angles)
+  for (const GoniometerAngle& at : report.angles)
     for (std::size_t i = 0; i < at.reflected.size(); ++i)
       report.most_energy = std::max(report.most_energy, at.reflected[i].mean + at.transmitted[i].mean);
   return report;

@@ -71,7 +71,7 @@ Json phase(Random& random) {
 constexpr double kMostScattering = 30;  // optical depths: paths within deeper matter take for ever
 constexpr double kMostAbsorption = 1e6;
 
-Json dielectric(Drawing& drawing, Matter& matter) {
+Json dielectric(Drawing& drawing, DrawnMaterial& matter) {
   Random& random = drawing.random;
   Json glass{{"ior", dielectric_index(random)}};
   if (glass["ior"].is_number() && chance(random, 0.4))
@@ -104,7 +104,7 @@ Json medium(Drawing& drawing) {
   return fog;
 }
 
-Json conductor(Random& random, Matter& matter) {
+Json conductor(Random& random, DrawnMaterial& matter) {
   Json metal{{"ior", metal_index(random)}};
   if (chance(random, 0.2))
     metal["coating"] = layers(random);
@@ -120,7 +120,7 @@ Json thin_glass(Drawing& drawing) {
   return pane;
 }
 
-Json principled(Drawing& drawing, Matter& matter) {
+Json principled(Drawing& drawing, DrawnMaterial& matter) {
   Json paint{{"base_color", draw_reflectance(drawing, matter.needs_surface_uv)}};
   for (const char* key : {"metallic", "roughness", "specular", "sheen", "clearcoat", "clearcoat_gloss"})
     if (chance(drawing.random, 0.6))
@@ -130,7 +130,7 @@ Json principled(Drawing& drawing, Matter& matter) {
 }
 
 // Models that are a reflectance and perhaps one number more.
-Json reflecting(Drawing& drawing, Matter& matter, const std::string& model) {
+Json reflecting(Drawing& drawing, DrawnMaterial& matter, const std::string& model) {
   Random& random = drawing.random;
   Json surface{{"reflectance", draw_reflectance(drawing, matter.needs_surface_uv)}};
   if (model == "oren_nayar") surface["sigma_deg"] = uniform(random, 0, 90);
@@ -142,9 +142,9 @@ Json reflecting(Drawing& drawing, Matter& matter, const std::string& model) {
 }
 
 // Parts side by side, of what there is and light does not enter.
-Json mixture(Drawing& drawing, Matter& matter) {
+Json mixture(Drawing& drawing, DrawnMaterial& matter) {
   Json parts = Json::array();
-  for (const Matter& other : drawing.matter) {
+  for (const DrawnMaterial& other : drawing.matter) {
     if (!other.mixes || parts.size() >= 3) continue;
     parts.push_back({{"material", other.name}, {"weight", draw_curve(drawing, 1.0 / 3)}});
     matter.needs_surface_uv |= other.needs_surface_uv;
@@ -152,7 +152,7 @@ Json mixture(Drawing& drawing, Matter& matter) {
   return parts;
 }
 
-Json model(Drawing& drawing, Matter& matter, const std::string& name) {
+Json model(Drawing& drawing, DrawnMaterial& matter, const std::string& name) {
   if (name == "dielectric") return dielectric(drawing, matter);
   if (name == "medium") return medium(drawing);
   if (name == "conductor") return conductor(drawing.random, matter);
@@ -164,7 +164,7 @@ Json model(Drawing& drawing, Matter& matter, const std::string& name) {
   return reflecting(drawing, matter, name);
 }
 
-void add_relief(Drawing& drawing, Json& material, Matter& matter) {
+void add_relief(Drawing& drawing, Json& material, DrawnMaterial& matter) {
   matter.needs_surface_uv = true;
   if (chance(drawing.random, 0.5))
     material["normal_map"] = {{"image", draw_image(drawing, {"R", "G", "B"}, 0.51, 1)}};
@@ -174,7 +174,7 @@ void add_relief(Drawing& drawing, Json& material, Matter& matter) {
 }
 
 void add(Drawing& drawing, const std::string& name) {
-  Matter matter{fmt::format("{}{}", name, drawing.matter.size())};
+  DrawnMaterial matter{fmt::format("{}{}", name, drawing.matter.size())};
   matter.entered = name == "dielectric" || name == "medium";
   matter.mixes = !matter.entered && name != "film" && name != "mixture";
   Json material;
@@ -191,7 +191,7 @@ void add(Drawing& drawing, const std::string& name) {
 
 }  // namespace
 
-void draw_matter(Drawing& drawing) {
+void draw_materials(Drawing& drawing) {
   add(drawing, "diffuse");  // which a mixture may be made of
   for (int i = integer(drawing.random, 1, 6); i > 0; --i)
     add(drawing, one_of(drawing.random,

@@ -1,4 +1,4 @@
-#include "materials/bsdf/lost_energy.h"
+#include "materials/bsdf/energy_compensation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ Cell cell_of(float coordinate, int cells) {
 
 }  // namespace
 
-LostEnergy::Place LostEnergy::place(const Microfacets<float>& facets, const Imath::V3f& w) {
+EnergyCompensation::Place EnergyCompensation::place(const Microfacets<float>& facets, const Imath::V3f& w) {
   const float z = std::abs(w.z);
   const float tilt = tilt_of(z, tilted_alpha(facets, w));
   const Cell row = cell_of(tilt, kCells);
@@ -86,9 +86,9 @@ LostEnergy::Place LostEnergy::place(const Microfacets<float>& facets, const Imat
   return {row.number, turn.number, row.within, turn.within, cell_of(mean_tilt, kDensityCells).number};
 }
 
-std::vector<LostEnergy> LostEnergy::tabulate(const Microfacets<float>& facets, std::size_t count,
-                                             const Energies& energies) {
-  std::vector<LostEnergy> tables(count);
+std::vector<EnergyCompensation> EnergyCompensation::tabulate(const Microfacets<float>& facets,
+                                                             std::size_t count, const Energies& energies) {
+  std::vector<EnergyCompensation> tables(count);
   std::vector<double> values(count);
   for (std::size_t i = 0; i < kTilts; ++i)
     for (std::size_t j = 0; j < kTurns; ++j) {
@@ -99,11 +99,11 @@ std::vector<LostEnergy> LostEnergy::tabulate(const Microfacets<float>& facets, s
       for (std::size_t k = 0; k < count; ++k)
         tables[k].lost_[i][j] = std::clamp(static_cast<float>(1 - values[k]), 0.0F, kMostLost);
     }
-  for (LostEnergy& table : tables) table.prepare_density(facets);
+  for (EnergyCompensation& table : tables) table.prepare_density(facets);
   return tables;
 }
 
-float LostEnergy::at(const Place& place) const {
+float EnergyCompensation::at(const Place& place) const {
   const auto row = [&](int number) {
     const auto& values = lost_[static_cast<std::size_t>(number)];
     const auto turn = static_cast<std::size_t>(place.turn_cell);
@@ -113,7 +113,7 @@ float LostEnergy::at(const Place& place) const {
   return low + place.tilt * (row(place.tilt_cell + 1) - low);
 }
 
-void LostEnergy::prepare_density(const Microfacets<float>& facets) {
+void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
   constexpr double kLeastDensity = 1e-9;  // all directions can be drawn
   constexpr int kParts = 8;               // of each cell, whose midpoints are looked at
   const int azimuths = isotropic(facets) ? 1 : 8;
@@ -143,7 +143,7 @@ void LostEnergy::prepare_density(const Microfacets<float>& facets) {
   for (float& d : density_) d /= total_;
 }
 
-Imath::V3f LostEnergy::sample(const Imath::V2f& u) const {
+Imath::V3f EnergyCompensation::sample(const Imath::V2f& u) const {
   const auto [cell, within] = invert_cdf(std::span(cumulative_).subspan(1), u.x);
   const float cos2 = cos2_[cell] + within * (cos2_[cell + 1] - cos2_[cell]);
   const float phi = 2 * std::numbers::pi_v<float> * u.y;
@@ -151,7 +151,7 @@ Imath::V3f LostEnergy::sample(const Imath::V2f& u) const {
   return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)};
 }
 
-float LostEnergy::pdf(const Place& place, float cos) const {
+float EnergyCompensation::pdf(const Place& place, float cos) const {
   return density_[static_cast<std::size_t>(place.density_cell)] * cos;
 }
 

@@ -39,19 +39,20 @@ Json each(const std::vector<double>& at_nm, F value) {
 }
 
 template <typename Options>
-int tell_about_matter(const Json& answer, const Options& options) {
+int print_material_answer(const Json& answer, const Options& options) {
   print(options.arrays ? answer : without_lists_of_one(answer), options.json);
   return 0;
 }
 
 template <typename F>
 int answer_angle(const IndexOptions& options, F angle) {
-  const NamedIndex matter = find(options.name, options.at_nm);
+  const NamedIndex material = find(options.name, options.at_nm);
   Json answer;
-  answer["name"] = matter.name;
+  answer["name"] = material.name;
   answer["wavelength_nm"] = options.at_nm;
-  answer["angle_deg"] = each(options.at_nm, [&](double nm) { return angle(matter.index.catalogued_n(nm)); });
-  return tell_about_matter(answer, options);
+  answer["angle_deg"] =
+      each(options.at_nm, [&](double nm) { return angle(material.index.catalogued_n(nm)); });
+  return print_material_answer(answer, options);
 }
 
 // "MATERIAL:NM,..." from outside inwards.
@@ -61,13 +62,13 @@ Coating parse_coating(const std::string& text, const std::vector<double>& at_nm)
   for (const std::string& layer : split(text, ',')) {
     const std::size_t colon = layer.rfind(':');
     const auto thickness = parse_number(colon == std::string::npos ? "" : layer.substr(colon + 1));
-    if (!thickness || !(*thickness > 0) || coating.layers.size() == Coating::kMaxMatters)
-      throw Error(
-          ErrorCode::usage, "--coating",
-          fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES", text, Coating::kMaxMatters));
-    NamedIndex matter = find(layer.substr(0, colon), at_nm);
-    coating.layers.push_back({static_cast<std::uint32_t>(coating.matters.size()), *thickness});
-    coating.matters.push_back({std::move(matter.name), std::move(matter.index)});
+    if (!thickness || !(*thickness > 0) || coating.layers.size() == Coating::kMaxMaterials)
+      throw Error(ErrorCode::usage, "--coating",
+                  fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES", text,
+                              Coating::kMaxMaterials));
+    NamedIndex material = find(layer.substr(0, colon), at_nm);
+    coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), *thickness});
+    coating.materials.push_back({std::move(material.name), std::move(material.index)});
   }
   return coating;
 }
@@ -81,19 +82,19 @@ FresnelPower<double> reflect_from_air(const RefractiveIndex& index, const Coatin
 }  // namespace
 
 int query_ior(const IndexOptions& options) {
-  const NamedIndex matter = find(options.name, options.at_nm);
+  const NamedIndex material = find(options.name, options.at_nm);
   Json answer;
-  answer["name"] = matter.name;
-  answer["source"] = matter.source;
-  answer["medium"] = matter.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
+  answer["name"] = material.name;
+  answer["source"] = material.source;
+  answer["medium"] = material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
   answer["wavelength_nm"] = options.at_nm;
-  answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
-  answer["k"] = each(options.at_nm, [&](double nm) { return matter.index.k(nm); });
+  answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
+  answer["k"] = each(options.at_nm, [&](double nm) { return material.index.k(nm); });
   if (options.thickness_mm)
     answer["internal_transmittance"] = each(options.at_nm, [&](double nm) {
-      return std::exp(-matter.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
+      return std::exp(-material.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
     });
-  return tell_about_matter(answer, options);
+  return print_material_answer(answer, options);
 }
 
 int query_critical(const IndexOptions& options) {
@@ -105,47 +106,47 @@ int query_brewster(const IndexOptions& options) {
 }
 
 int query_reflectance(const ReflectanceOptions& options) {
-  const NamedIndex matter = find(options.name, options.at_nm);
+  const NamedIndex material = find(options.name, options.at_nm);
   const Coating coating = parse_coating(options.coating, options.at_nm);
   const auto rows = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
       Json row = Json::array();
       for (const double angle : options.angles_deg)
-        row.push_back(quantity(reflect_from_air(matter.index, coating, nm, angle)));
+        row.push_back(quantity(reflect_from_air(material.index, coating, nm, angle)));
       return row;
     });
   };
   Json answer;
-  answer["name"] = matter.name;
+  answer["name"] = material.name;
   answer["angle_deg"] = options.angles_deg;
   answer["wavelength_nm"] = options.at_nm;
   answer["Rs"] = rows([](const auto& f) { return f.Rs; });
   answer["Rp"] = rows([](const auto& f) { return f.Rp; });
   answer["R"] = rows([](const auto& f) { return f.R(); });
   if (!coating.layers.empty()) answer["T"] = rows([](const auto& f) { return f.transmitted(); });
-  return tell_about_matter(answer, options);
+  return print_material_answer(answer, options);
 }
 
 int query_prism(const PrismOptions& options) {
-  const NamedIndex matter = find(options.name, options.at_nm);
+  const NamedIndex material = find(options.name, options.at_nm);
   const auto column = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
-      const double n = matter.index.catalogued_n(nm);
+      const double n = material.index.catalogued_n(nm);
       const auto passage = options.incidence_deg ? prism_passage(n, options.apex_deg, *options.incidence_deg)
                                                  : prism_minimum(n, options.apex_deg);
       return passage ? Json(quantity(*passage)) : Json();
     });
   };
   Json answer;
-  answer["name"] = matter.name;
+  answer["name"] = material.name;
   answer["apex_deg"] = options.apex_deg;
   answer["wavelength_nm"] = options.at_nm;
-  answer["n"] = each(options.at_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
+  answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
   answer["deviation_deg"] = column([](const PrismPassage& p) { return p.deviation_deg; });
   answer["incidence_deg"] = column([](const PrismPassage& p) { return p.incidence_deg; });
   answer["Ts"] = column([](const PrismPassage& p) { return p.Ts; });
   answer["Tp"] = column([](const PrismPassage& p) { return p.Tp; });
-  return tell_about_matter(answer, options);
+  return print_material_answer(answer, options);
 }
 
 }  // namespace abbe::cli

@@ -25,7 +25,7 @@ std::string counted(const Counts& counts) {
 }
 
 // Puts right what can be of a mesh around matter, and reports the rest.
-void enclose_matter(Mesh& mesh, const std::string& name, const Material& material,
+void enclose_medium(Mesh& mesh, const std::string& name, const Material& material,
                     const SourcePosition& where, const LoadContext& context) {
   Diagnostics& diagnostics = context.diagnostics;
   const std::string within = fmt::format("{} around matter \"{}\"", name, material.name);
@@ -53,9 +53,9 @@ void enclose_matter(Mesh& mesh, const std::string& name, const Material& materia
 
 }  // namespace
 
-void prepare_for_matter(Mesh& mesh, const std::string& name, const Material& material,
+void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
                         const SourcePosition& where, const LoadContext& context) {
-  if (encloses_matter(material)) enclose_matter(mesh, name, material, where, context);
+  if (encloses_medium(material)) enclose_medium(mesh, name, material, where, context);
   mesh.slivers = {};  // nothing asks for them any more
 }
 

@@ -2,13 +2,13 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
-#include "materials/medium/matter.h"
+#include "materials/medium/medium.h"
 
 namespace abbe {
 
 /// Matter without an interface, such as fog or smoke: light passes the surface as if it were not there.
 struct MediumMaterial {
-  Matter filling;
+  Medium filling;
 
   /// That of an interface between like and like.
   [[nodiscard]] static Bsdf bsdf(const SurfaceLookup& /*at*/) {
@@ -16,7 +16,7 @@ struct MediumMaterial {
   }
   /// Neither: the surface is no event.
   [[nodiscard]] static constexpr Lobes lobes() { return {}; }
-  [[nodiscard]] const Matter* matter() const { return &filling; }
+  [[nodiscard]] const Medium* medium() const { return &filling; }
 };
 
 }  // namespace abbe

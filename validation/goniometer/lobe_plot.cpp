@@ -1,4 +1,4 @@
-#include "validation/lab/lobe_plot.h"
+#include "validation/goniometer/lobe_plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ struct Slice {
   std::vector<std::vector<double>> values;
   double most = 0;
 };
-Slice slice(const Material& material, const LabSettings& settings, const Imath::V3f& wo) {
+Slice slice(const Material& material, const GoniometerSettings& settings, const Imath::V3f& wo) {
   Slice all;
   for (std::size_t i = 0; i < settings.wavelengths_nm.size(); ++i) {
     const SampledSpectrum packet = packet_of(settings.wavelengths_nm, i);
@@ -61,8 +61,8 @@ std::string lobe(const std::vector<double>& line, double most, double x, double 
 }
 
 // The single directions of the first wavelength, as long as the root of their shares.
-std::string arrows(const Material& material, const LabSettings& settings, const Imath::V3f& wo, double x,
-                   double y) {
+std::string arrows(const Material& material, const GoniometerSettings& settings, const Imath::V3f& wo,
+                   double x, double y) {
   const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
   std::string all;
   for (const BsdfSample& event : delta_events(make_bsdf(material, {packet}), wo, 0, TransportMode::power)) {
@@ -73,7 +73,8 @@ std::string arrows(const Material& material, const LabSettings& settings, const 
   return all;
 }
 
-std::string panel(const Material& material, const LabSettings& settings, const LabAngle& at, double left) {
+std::string panel(const Material& material, const GoniometerSettings& settings, const GoniometerAngle& at,
+                  double left) {
   const double x = left + kPanel / 2;
   const double y = kTop + kPanel / 2;
   const Imath::V3f wo = incidence(settings, at.angle_deg);
@@ -100,8 +101,8 @@ std::string panel(const Material& material, const LabSettings& settings, const L
 
 }  // namespace
 
-std::string lobe_plot(const Material& material, const LabSettings& settings, const LabReport& report,
-                      const std::string& title) {
+std::string lobe_plot(const Material& material, const GoniometerSettings& settings,
+                      const GoniometerReport& report, const std::string& title) {
   const double width = kPanel * static_cast<double>(report.angles.size());
   const double height = kTop + kPanel + kSwatch + 50;
   std::string all;

@@ -41,7 +41,7 @@ struct Ior {
 [[nodiscard]] std::optional<Microfacets<float>> read_roughness(const JsonValue* json, const Coating& coating,
                                                                LoadContext& context);
 /// `scattering_per_m` and `phase` of an object, and `absorption_per_m` unless its index tells.
-[[nodiscard]] std::optional<Matter> read_filling(ObjectReader& reader, bool absorbs, LoadContext& context);
+[[nodiscard]] std::optional<Medium> read_filling(ObjectReader& reader, bool absorbs, LoadContext& context);
 
 /// Each material of the list from what stands under its key; none after an error.
 using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, LoadContext& context);

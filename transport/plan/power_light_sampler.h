@@ -6,17 +6,17 @@
 namespace abbe {
 
 /// A discrete distribution over the lights of a scene.
-class LightPicker {
+class PowerLightSampler {
  public:
   /// Proportional to `weights`, nine parts in ten, and uniform over the lights of positive weight for the
   /// rest.
-  explicit LightPicker(const std::vector<double>& weights);
+  explicit PowerLightSampler(const std::vector<double>& weights);
 
-  struct Pick {
+  struct SampledLight {
     std::uint32_t light;
     float probability;
   };
-  [[nodiscard]] Pick pick(float u) const;
+  [[nodiscard]] SampledLight pick(float u) const;
   [[nodiscard]] float probability(std::uint32_t light) const { return probability_[light]; }
   [[nodiscard]] bool empty() const { return cdf_.empty(); }
 

@@ -5,12 +5,12 @@
 
 #include "materials/material.h"
 #include "spectral/colorimetry.h"
-#include "validation/lab/lobes.h"
+#include "validation/goniometer/lobes.h"
 
 namespace abbe {
 
 /// How the bench looks at a material.
-struct LabSettings {
+struct GoniometerSettings {
   std::vector<double> wavelengths_nm{450, 550, 650};
   std::vector<double> angles_deg{0, 15, 30, 45, 60, 75, 85};  ///< Of incidence, in [0, 90).
   bool from_inside = false;                                   ///< Against the normal.
@@ -20,38 +20,38 @@ struct LabSettings {
 };
 
 /// A colour in the light of the bench.
-struct LabColor {
+struct ScatteredColor {
   XYZ xyz;  ///< Y = 100 for what sends on all of the beam.
   Lab lab;  ///< Relative to that.
 };
 
 /// What a beam at one angle turns into.
-struct LabAngle {
+struct GoniometerAngle {
   double angle_deg;
   std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance, by wavelength.
   std::vector<Estimate> transmitted;  ///< The same of what passes.
-  LabColor reflected_color;           ///< Of the hemisphere's light.
-  LabColor transmitted_color;
+  ScatteredColor reflected_color;     ///< Of the hemisphere's light.
+  ScatteredColor transmitted_color;
   double sampling_p;       ///< Of chi-square, sampled against stated density; 1 where nothing spreads.
   double spread_integral;  ///< Of that density: the probability of leaving in no single direction.
 };
 
 /// What the bench found.
-struct LabReport {
+struct GoniometerReport {
   Lobes lobes;
   bool dispersive;
-  std::vector<LabAngle> angles;
+  std::vector<GoniometerAngle> angles;
   Asymmetry reciprocity;  ///< Of f(a, b) and f(b, a), by `reciprocity_error`.
   double most_energy;     ///< Largest R + T over angles and wavelengths.
 };
 
 /// Where the beam of an angle comes from: the side of -x.
-[[nodiscard]] Imath::V3f incidence(const LabSettings& settings, double angle_deg);
+[[nodiscard]] Imath::V3f incidence(const GoniometerSettings& settings, double angle_deg);
 /// The wavelengths of a colorimetric sum.
 [[nodiscard]] std::vector<double> visible_wavelengths();
 /// The packet of up to eight of the wavelengths from the `first` on; the last one fills up.
 [[nodiscard]] SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first);
 
-[[nodiscard]] LabReport measure(const Material& material, const LabSettings& settings);
+[[nodiscard]] GoniometerReport measure(const Material& material, const GoniometerSettings& settings);
 
 }  // namespace abbe

@@ -10,7 +10,7 @@ namespace abbe {
 
 /// What light meets on its way through matter that scatters: per metre it loses the share `absorption_per_m`
 /// for good and turns the share `scattering_per_m` by the phase function.
-struct Matter {
+struct Medium {
   Curve absorption_per_m = Curve(0.0);  ///< 0 or more.
   Curve scattering_per_m = Curve(0.0);  ///< 0 or more.
   PhaseFunction phase = IsotropicPhase{};

@@ -10,7 +10,7 @@ namespace abbe {
 /// Paths that were cut where they would have had one event more than a path may have, while they still
 /// carried something; and the sum of that, each in units of what it had set out with. In fixed point, so that
 /// neither threads nor the parts of a render change a bit of it.
-struct Cut {
+struct TruncatedPaths {
   static constexpr int kUnitExponent = -40;
   static constexpr float kMost = 0x1p40F;  ///< More than this of a path counts as this.
 
@@ -25,7 +25,7 @@ struct Cut {
   }
   [[nodiscard]] double throughput() const { return from_fixed(sum, kUnitExponent); }
 
-  Cut& operator+=(const Cut& other) {
+  TruncatedPaths& operator+=(const TruncatedPaths& other) {
     paths += other.paths;
     sum += other.sum;
     return *this;

@@ -1,4 +1,4 @@
-#include "cli/matter_commands.h"
+#include "cli/material_commands.h"
 
 #include <memory>
 #include <string>
@@ -32,7 +32,7 @@ Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, cons
   return sub;
 }
 
-void add_matter_queries(CLI::App& query, Command& command) {
+void add_material_queries(CLI::App& query, Command& command) {
   const Sub<IndexOptions> ior =
       add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
   add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
@@ -109,7 +109,7 @@ void add_query(CLI::App& app, Command& command) {
           ->expected(0, 1)
           ->type_name("[KIND]");
   query->add_flag("--json", options->json, "Print the list as one JSON object")->needs(list);
-  add_matter_queries(*query, command);
+  add_material_queries(*query, command);
   add_color_queries(*query, command);
   query->callback([query, list, options, &command] {
     if (!query->get_subcommands().empty()) return;

@@ -1,4 +1,4 @@
-#include "validation/lab/sphere_cells.h"
+#include "validation/goniometer/sphere_cells.h"
 
 #include <algorithm>
 #include <array>

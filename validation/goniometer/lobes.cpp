@@ -1,4 +1,4 @@
-#include "validation/lab/lobes.h"
+#include "validation/goniometer/lobes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 /// What a command prints as JSON.
 template <typename Options>
-json ask(int (*command)(const Options&), Options options) {
+json json_output(int (*command)(const Options&), Options options) {
   options.json = true;
   testing::internal::CaptureStdout();
   EXPECT_NO_THROW(EXPECT_EQ(command(options), 0));

@@ -1,4 +1,4 @@
-#include "description/matter.h"
+#include "description/material_readers.h"
 
 #include "description/curve.h"
 #include "description/values.h"
@@ -28,7 +28,7 @@ std::optional<Ior> constant_ior(double n, double k) {
 }
 
 MaterialModel dielectric(Ior ior, Coating coating, const std::optional<Microfacets<float>>& facets,
-                         std::optional<Matter> filling) {
+                         std::optional<Medium> filling) {
   if (facets)
     return RoughDielectricMaterial(std::move(ior.name), std::move(ior.index), *facets, std::move(filling));
   return DielectricMaterial{std::move(ior.name), std::move(ior.index), std::move(coating),

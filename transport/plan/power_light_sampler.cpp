@@ -1,11 +1,12 @@
-#include "transport/plan/light_picker.h"
+#include "transport/plan/power_light_sampler.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace abbe {
 
-LightPicker::LightPicker(const std::vector<double>& weights) : probability_(weights.size(), 0.0F) {
+PowerLightSampler::PowerLightSampler(const std::vector<double>& weights)
+    : probability_(weights.size(), 0.0F) {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   if (!(total > 0)) return;
   const auto positive =
@@ -19,7 +20,7 @@ LightPicker::LightPicker(const std::vector<double>& weights) : probability_(weig
   }
 }
 
-LightPicker::Pick LightPicker::pick(float u) const {
+PowerLightSampler::SampledLight PowerLightSampler::pick(float u) const {
   auto i = static_cast<std::uint32_t>(std::upper_bound(cdf_.begin(), cdf_.end(), u) - cdf_.begin());
   i = std::min(i, static_cast<std::uint32_t>(cdf_.size()) - 1);
   while (probability_[i] == 0.0F) --i;  // u beyond a sum rounded below 1

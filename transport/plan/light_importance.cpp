@@ -1,0 +1,45 @@
+#include "transport/plan/light_importance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abbe {
+namespace {
+
+// cos(max(0, a - b)) of two angles in [0, pi] by their cosines.
+float cos_beyond(float cos_a, float cos_b) {
+  if (cos_a >= cos_b) return 1;
+  return cos_a * cos_b + std::sqrt(std::max(0.0F, (1 - cos_a * cos_a) * (1 - cos_b * cos_b)));
+}
+
+}  // namespace
+
+LightImportance::LightImportance(const LightBounds& bounds, double scale, double least_distance)
+    : center_(bounds.box.center()),
+      radius2_(static_cast<float>(bounds.radius * bounds.radius)),
+      nearest2_(static_cast<float>(std::pow(std::max(bounds.nearest, least_distance), 2))),
+      axis_(bounds.cone.axis),
+      cos_spread_(static_cast<float>(std::cos(bounds.cone.spread))),
+      cos_falloff_(static_cast<float>(std::cos(bounds.cone.falloff))),
+      facing_(static_cast<float>(bounds.facing * scale)),
+      all_sides_(static_cast<float>(bounds.all_sides * scale)),
+      at_infinity_(bounds.at_infinity) {}
+
+float LightImportance::irradiance(const Imath::V3f& point, const Imath::V3f* normal) const {
+  if (at_infinity_)
+    return normal == nullptr ? all_sides_
+                             : facing_ * std::max(0.0F, cos_beyond(normal->dot(axis_), cos_spread_));
+  const Imath::V3f way = center_ - point;
+  const float distance2 = way.length2();
+  const float strength = normal == nullptr ? all_sides_ : facing_;
+  const float nearness = strength / std::max(distance2, nearest2_);
+  if (!(distance2 > radius2_)) return nearness;
+  const Imath::V3f towards = way * (1 / std::sqrt(distance2));
+  const float cos_seen = std::sqrt(1 - radius2_ / distance2);  // half the angle the sphere is seen under
+  const float emitted = cos_beyond(cos_beyond(-axis_.dot(towards), cos_spread_), cos_seen);
+  if (emitted < cos_falloff_) return 0;
+  const float received = normal == nullptr ? 1 : cos_beyond(normal->dot(towards), cos_seen);
+  return nearness * std::max(0.0F, emitted) * std::max(0.0F, received);
+}
+
+}  // namespace abbe
