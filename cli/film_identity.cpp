@@ -28,13 +28,6 @@ std::string single(double x) {
   return fmt::format("{}", static_cast<float>(x));
 }
 
-std::optional<double> f_number(const Camera& camera) {
-  const auto* lens = std::get_if<LensCamera>(&camera.kind);
-  if (lens == nullptr) return std::nullopt;
-  const double focal_length = 1 / (1 / lens->image_distance + 1 / lens->focus_distance);
-  return focal_length / (2 * lens->aperture_radius);
-}
-
 // The sensor's exposure where a channel has it, else that of all channels; nothing where each has its own, as
 // behind a filter wheel.
 std::optional<double> standard_exposure(const Scene& scene) {
@@ -78,7 +71,7 @@ FilmIdentity sensor_identity(const Scene& scene) {
                         {"exposure_s", fmt::format("{}", scene.exposure_s)},
                         {"gathering_area_m2", fmt::format("{}", area_m2)}};
   if (const auto seconds = standard_exposure(scene)) identity["expTime"] = single(*seconds);
-  if (const auto n = f_number(scene.camera)) identity["aperture"] = single(*n);
+  if (const auto n = traits(scene.camera).f_number) identity["aperture"] = single(*n);
   const std::vector<std::string> names = scene.channel_names();
   for (const Channel& channel : scene.channels) {
     if (channel.exposure_ratio != 1)

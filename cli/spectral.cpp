@@ -21,13 +21,13 @@ constexpr const char* kRadiance = "radiance, W per m^2 and sr of the band";
 
 double axis_weight(const Camera& camera) {
   const Imath::V2f center(static_cast<float>(camera.width) / 2, static_cast<float>(camera.height) / 2);
-  return static_cast<double>(sample_ray(camera, center, {0.5F, 0.5F}).weight);
+  return central_weight(camera, center);
 }
 
 // Lens to film in pixels, by which light falls off towards the corners; nothing for a probe.
 std::optional<double> image_distance(const Camera& camera) {
-  const auto* lens = std::get_if<LensCamera>(&camera.kind);
-  return lens ? std::optional(lens->image_distance / camera.pixel_pitch) : std::nullopt;
+  const std::optional<double> distance = traits(camera).image_distance;
+  return distance ? std::optional(*distance / camera.pixel_pitch) : std::nullopt;
 }
 
 // A camera that weighs radiance as the one that made a film did.
@@ -35,7 +35,7 @@ Camera camera_of(const Image& film) {
   const double axis = parse_number(film.metadata.at(kAxisKey)).value();
   Camera camera{IrradianceProbe{}, film.width, film.height, 1};
   if (const auto distance = film.metadata.find(kDistanceKey); distance != film.metadata.end()) {
-    LensCamera lens;
+    Pinhole lens;
     lens.image_distance = parse_number(distance->second).value();
     lens.aperture_radius = lens.image_distance * std::sqrt(axis / std::numbers::pi);
     camera.kind = lens;
@@ -48,7 +48,7 @@ std::vector<double> exposure_per_radiance(const Camera& camera, double exposure_
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
       const Imath::V2f center(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      factors.push_back(exposure_s * static_cast<double>(sample_ray(camera, center, {0.5F, 0.5F}).weight));
+      factors.push_back(exposure_s * central_weight(camera, center));
     }
   return factors;
 }

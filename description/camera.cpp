@@ -71,8 +71,8 @@ std::optional<Placed> read_frame(ObjectReader& reader, const LoadContext& contex
   return Placed{{*from, unit_right, unit_right.cross(forward), forward}, sight.length()};
 }
 
-std::optional<LensCamera> read_pinhole(const JsonValue& json, const Placed* placed, const Sensor& sensor,
-                                       const LoadContext& context) {
+std::optional<Pinhole> read_pinhole(const JsonValue& json, const Placed* placed, const Sensor& sensor,
+                                    const LoadContext& context) {
   ObjectReader reader(json, context.diagnostics);
   const auto key = reader.exactly_one({"focal_length", "fov_deg"});
   std::optional<double> image_distance;
@@ -86,12 +86,8 @@ std::optional<LensCamera> read_pinhole(const JsonValue& json, const Placed* plac
   const auto aperture = read_aperture(reader, kDefaultFNumber, context);
   reader.finish();
   if (!placed || !image_distance || !aperture) return std::nullopt;
-  return LensCamera{placed->frame,
-                    *image_distance,
-                    std::numeric_limits<double>::infinity(),
-                    *image_distance / (2 * aperture->f_number),
-                    true,
-                    aperture->transmittance};
+  return Pinhole{placed->frame, *image_distance, *image_distance / (2 * aperture->f_number),
+                 aperture->transmittance};
 }
 
 // The distance in focus: a length, the word "infinity", or that of what the camera looks at [m].
@@ -104,8 +100,8 @@ std::optional<double> read_focus(ObjectReader& reader, const Placed* placed, con
   return distance ? std::optional(*distance * context.unit_m) : std::nullopt;
 }
 
-std::optional<LensCamera> read_thin_lens(const JsonValue& json, const Placed* placed,
-                                         const LoadContext& context) {
+std::optional<ThinLens> read_thin_lens(const JsonValue& json, const Placed* placed,
+                                       const LoadContext& context) {
   ObjectReader reader(json, context.diagnostics);
   const auto length = reader.require_number("focal_length", kLength);
   const auto aperture = read_aperture(reader, std::nullopt, context);
@@ -121,8 +117,8 @@ std::optional<LensCamera> read_thin_lens(const JsonValue& json, const Placed* pl
     return std::nullopt;
   }
   // 1/v = 1/f - 1/s, in the form that holds for s = infinity.
-  return LensCamera{placed->frame, f / (1 - f / *focus),   *focus, f / (2 * aperture->f_number),
-                    false,         aperture->transmittance};
+  return ThinLens{placed->frame, f / (1 - f / *focus), *focus, f / (2 * aperture->f_number),
+                  aperture->transmittance};
 }
 
 std::optional<IrradianceProbe> read_probe(const JsonValue& json, const LoadContext& context) {
@@ -155,8 +151,10 @@ std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor, L
   } else {
     const std::optional<Placed> placed = read_frame(reader, context);
     const Placed* where = placed ? &*placed : nullptr;
-    kind = *key == "pinhole" ? read_pinhole(model, where, sensor, context)
-                             : read_thin_lens(model, where, context);
+    if (*key == "pinhole")
+      kind = read_pinhole(model, where, sensor, context);
+    else
+      kind = read_thin_lens(model, where, context);
   }
   reader.finish();
   if (!kind) return std::nullopt;

@@ -118,7 +118,7 @@ void recentre(Scene& scene, LoadContext& context) {
       medium->filling.grid->from -= scene.origin_m;
       medium->filling.grid->to -= scene.origin_m;
     }
-  position(scene.camera) -= scene.origin_m;
+  translate(scene.camera, -scene.origin_m);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Imath::V3f at(light_positions[i] - scene.origin_m);
     if (auto* point = std::get_if<PointLight>(&scene.lights[i].kind)) point->position = at;

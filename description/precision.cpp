@@ -49,10 +49,10 @@ void check_shapes(const LoadContext& context, const Scene& scene) {
 
 void check_precision(const JsonValue& root, const LoadContext& context, const Scene& scene) {
   check_shapes(context, scene);
-  const auto* lens = std::get_if<LensCamera>(&scene.camera.kind);
-  if (lens == nullptr) return;
+  const std::optional<double> image_distance = traits(scene.camera).image_distance;
+  if (!image_distance) return;
   const SourcePosition& where = root.find("camera")->where;
-  const double pixel = scene.camera.pixel_pitch / lens->image_distance;
+  const double pixel = scene.camera.pixel_pitch / *image_distance;
   if (pixel < kLeastPixelSteps * kDirectionStep)
     context.diagnostics.error(
         where,
@@ -61,7 +61,7 @@ void check_precision(const JsonValue& root, const LoadContext& context, const Sc
                     pixel, kDirectionStep, pixel / kDirectionStep, kLeastPixelSteps));
   const Imath::Box3d near = extent_of(scene.camera, scene.shapes).near;
   if (near.isEmpty()) return;
-  const double distance = distance_to(near, lens->frame.position);
+  const double distance = distance_to(near, position(scene.camera));
   const double steps = near.size().length() / (distance * kDirectionStep);
   if (steps < kLeastSteps)
     context.diagnostics.error(

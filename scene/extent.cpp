@@ -32,13 +32,12 @@ Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes) {
     by_reach.emplace_back(furthest(box, from), box);
   }
   std::sort(by_reach.begin(), by_reach.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const bool meter = traits(camera).surface_normal.has_value();
   Extent extent;
   double reach = 0;
   double nearest = 0;
   for (const auto& [furthest_point, box] : by_reach) {
-    const double scale = !extent.near.isEmpty() ? reach
-                         : camera.is_probe()    ? box.size().length()
-                                                : furthest_point;
+    const double scale = !extent.near.isEmpty() ? reach : meter ? box.size().length() : furthest_point;
     if (furthest_point > Extent::kGap * scale) continue;
     if (extent.near.isEmpty()) nearest = furthest_point;
     extent.near.extendBy(box);

@@ -120,8 +120,8 @@ std::optional<Imath::V3d> flat_normal(const Shape& shape) {
 bool seen_along_normals(const Scene& scene) {
   constexpr double kSteepest = 10 * std::numbers::pi / 180;
   constexpr double kParallel = 1 - 1e-9;
-  const auto* lens = std::get_if<LensCamera>(&scene.camera.kind);
-  if (lens == nullptr) return false;
+  const std::optional<Imath::V3d> axis = traits(scene.camera).axis;
+  if (!axis) return false;
   std::optional<Imath::V3d> common;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
@@ -132,7 +132,7 @@ bool seen_along_normals(const Scene& scene) {
     const std::optional<Imath::V3d> normal = flat_normal(instance.shape);
     if (!normal || std::abs(normal->dot(common.value_or(*normal))) < kParallel) return false;
     common = normal;
-    const double along = std::min(1.0, std::abs(normal->dot(lens->frame.forward)));
+    const double along = std::min(1.0, std::abs(normal->dot(*axis)));
     if (std::acos(along) + std::acos(least_film_cosine(scene.camera)) > kSteepest) return false;
   }
   return true;
@@ -215,7 +215,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
 }
 
 void analyse_lights(const Scene& scene, Needs& needs) {
-  const bool connectable = !scene.camera.is_probe();
+  const bool connectable = !traits(scene.camera).surface_normal;
   const std::vector<SpecularCenter> centers = specular_centers(scene);
   std::set<const Curve*> examined;  // which many lights may share
   for (const Light& light : scene.lights) {
@@ -288,8 +288,7 @@ Needs analyse(const Scene& scene) {
     require(needs, &Needs::narrow_bands, has_narrow_feature(channel.weight), "channel", channel.name);
     require(needs, &Needs::angular_response, channel.angular.has_value(), "channel", channel.name);
   }
-  const bool lens = !scene.camera.is_probe() && !scene.camera.is_pinhole();
-  require(needs, &Needs::depth_of_field, lens, "camera", "");
+  require(needs, &Needs::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return needs;
 }
 

@@ -12,6 +12,7 @@ namespace {
 // Of a patch's edges; what is nearer to its rim may be blurred by the lens.
 constexpr double kMiddle = 0.7;
 constexpr Imath::V2f kLensCentre{0.5F, 0.5F};
+constexpr float kMiddleNm = 550;  // at which a patch is looked for
 
 using Outline = std::array<Imath::V2f, 4>;
 
@@ -24,7 +25,7 @@ std::optional<Outline> project(const Camera& camera, const Quad& quad) {
   Outline outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Imath::V3d point = quad.corner + quad.edge_u * kCorners[i][0] + quad.edge_v * kCorners[i][1];
-    const auto seen = sample_towards(camera, Imath::V3f(point), kLensCentre);
+    const auto seen = sample_towards(camera, Imath::V3f(point), kLensCentre, SampledSpectrum(kMiddleNm), 0);
     if (!seen) return std::nullopt;
     outline[i] = seen->film;
   }

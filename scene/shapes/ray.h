@@ -8,12 +8,14 @@
 
 namespace abbe {
 
-/// A half line, or its first `t_max`; lengths in metres, `direction` of unit length.
+/// A half line, or its first `t_max`; lengths in metres, `direction` of unit length. Light runs along it at
+/// `time`, the share of the exposure that has gone by: 0 when the shutter opens, 1 when it closes.
 template <typename T>
 struct BasicRay {
   Imath::Vec3<T> origin;
   Imath::Vec3<T> direction;
   T t_max = std::numeric_limits<T>::infinity();
+  float time = 0;
 };
 using Ray = BasicRay<float>;
 

@@ -126,7 +126,7 @@ TEST_F(SchemaTest, CornellBoxIsSeenAsMeasured) {
   Diagnostics diagnostics;
   const auto scene = load_scene(data_directory() / "scenes" / "cornell.json", {}, diagnostics);
   ASSERT_TRUE(scene) << diagnostics.text();
-  const auto& lens = std::get<LensCamera>(scene->camera.kind);
+  const auto& lens = std::get<Pinhole>(scene->camera.kind);
   const double half = scene->camera.width * scene->camera.pixel_pitch / 2;
   EXPECT_NEAR(2 * std::atan(half / lens.image_distance) * 180 / std::numbers::pi, 39.3077, 1e-4);
   EXPECT_NEAR(photometric(scene->lights.at(0).emission.curve()), kLuminousEfficacy * 20, 1e-6);

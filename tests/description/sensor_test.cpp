@@ -122,17 +122,18 @@ TEST_F(SensorTest, ATStopExposesAsALensWithoutLosses) {
     const Loaded loaded = load(fmt::format(
         R"({{"camera": {{{}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}}}})", members));
     EXPECT_TRUE(loaded.scene) << loaded.text();
-    return std::get<LensCamera>(loaded->camera.kind);
+    return loaded->camera.kind;
   };
-  const LensCamera both = lens(R"("thin_lens": {"focal_length": 0.05, "f_number": 2, "t_stop": 2.5})");
+  const auto both =
+      std::get<ThinLens>(lens(R"("thin_lens": {"focal_length": 0.05, "f_number": 2, "t_stop": 2.5})"));
   EXPECT_DOUBLE_EQ(both.aperture_radius, 0.0125);
   EXPECT_DOUBLE_EQ(both.transmittance, 0.64);
-  const LensCamera alone = lens(R"("thin_lens": {"focal_length": 0.05, "t_stop": 2.5})");
+  const auto alone = std::get<ThinLens>(lens(R"("thin_lens": {"focal_length": 0.05, "t_stop": 2.5})"));
   EXPECT_DOUBLE_EQ(alone.aperture_radius, 0.01);
   EXPECT_EQ(alone.transmittance, 1);
-  const LensCamera pinhole = lens(R"("pinhole": {"focal_length": 0.05, "t_stop": 2.5})");
+  const auto pinhole = std::get<Pinhole>(lens(R"("pinhole": {"focal_length": 0.05, "t_stop": 2.5})"));
   EXPECT_DOUBLE_EQ(pinhole.aperture_radius, 0.01);
-  EXPECT_EQ(lens(R"("pinhole": {"focal_length": 0.05})").aperture_radius, 0.05 / 8);
+  EXPECT_EQ(std::get<Pinhole>(lens(R"("pinhole": {"focal_length": 0.05})")).aperture_radius, 0.05 / 8);
 }
 
 TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {

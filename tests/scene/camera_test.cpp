@@ -18,34 +18,56 @@ CameraFrame frame() {
 }
 
 Camera pinhole() {
-  return {LensCamera{frame(), 0.05, INFINITY, 0.00625, true}, 6, 4, 0.005};
+  return {Pinhole{frame(), 0.05, 0.00625}, 6, 4, 0.005};
+}
+// The corners of its film are at 75 degrees.
+Camera wide_pinhole() {
+  return {Pinhole{frame(), 0.005, 0.001, 0.7}, 6, 4, 0.005};
 }
 // Focal length 50 mm in focus at 0.5 m, f/2.
 Camera lens() {
-  return {LensCamera{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125, false}, 6, 4, 0.005};
+  return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125}, 6, 4, 0.005};
+}
+Camera wide_lens() {
+  return {ThinLens{frame(), 0.006, 0.03, 0.002, 0.7}, 6, 4, 0.005};
+}
+// The parallelogram meter's pixels are skew.
+Camera meter() {
+  return {IrradianceProbe{{1, 1, 1}, {2, 0, 0}, {1, 4, 0}, {0, 0, -1}}, 2, 4, 1};
+}
+Camera point_meter() {
+  return {IrradianceProbe{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, -1}}, 2, 4, 1};
+}
+
+const SampledSpectrum kWavelengths(550);
+CameraRay ray_of(const Camera& camera, V2f film, V2f u) {
+  return sample_ray(camera, film, u, kWavelengths, 0.25F);
+}
+std::optional<CameraConnection> connection(const Camera& camera, const V3f& point, V2f u) {
+  return sample_towards(camera, point, u, kWavelengths, 0.25F);
 }
 
 TEST(Camera, ImageIsUpright) {
-  const CameraRay center = sample_ray(pinhole(), {3, 2}, {0, 0});
+  const CameraRay center = ray_of(pinhole(), {3, 2}, {0, 0});
   EXPECT_EQ(center.ray.origin, V3f(1, 2, 3));
   EXPECT_EQ(center.ray.direction, V3f(0, -1, 0));
   EXPECT_EQ(center.cos_film, 1);
-  const V3f right_edge = sample_ray(pinhole(), {6, 2}, {0, 0}).ray.direction;
+  const V3f right_edge = ray_of(pinhole(), {6, 2}, {0, 0}).ray.direction;
   EXPECT_NEAR(right_edge.x / right_edge.y, 0.015 / 0.05, 1e-6) << "3 pixels of 5 mm at 50 mm, to the right";
-  const V3f top_edge = sample_ray(pinhole(), {3, 0}, {0, 0}).ray.direction;
+  const V3f top_edge = ray_of(pinhole(), {3, 0}, {0, 0}).ray.direction;
   EXPECT_NEAR(top_edge.z / -top_edge.y, 0.010 / 0.05, 1e-6) << "upwards";
 }
 
 TEST(Camera, ExposureIsThatOfTheLensFormula) {
   // In focus at infinity: E = pi L cos^4 / (4 N^2).
   const double n = 4;
-  const Camera camera{LensCamera{frame(), 0.05, INFINITY, 0.05 / (2 * n), false}, 6, 4, 0.005};
-  EXPECT_NEAR(static_cast<double>(sample_ray(camera, {3, 2}, {0.3F, 0.9F}).weight), kPi / (4 * n * n), 1e-8);
+  const Camera camera{ThinLens{frame(), 0.05, INFINITY, 0.05 / (2 * n)}, 6, 4, 0.005};
+  EXPECT_NEAR(static_cast<double>(ray_of(camera, {3, 2}, {0.3F, 0.9F}).weight[0]), kPi / (4 * n * n), 1e-8);
   const double cosine = 1 / std::hypot(1, 0.015 / 0.05);
-  const CameraRay edge = sample_ray(camera, {6, 2}, {0.5F, 0.5F});
-  EXPECT_NEAR(static_cast<double>(edge.weight), kPi / (4 * n * n) * std::pow(cosine, 4), 1e-8);
+  const CameraRay edge = ray_of(camera, {6, 2}, {0.5F, 0.5F});
+  EXPECT_NEAR(static_cast<double>(edge.weight[0]), kPi / (4 * n * n) * std::pow(cosine, 4), 1e-8);
   EXPECT_NEAR(static_cast<double>(edge.cos_film), cosine, 1e-6);
-  EXPECT_NEAR(static_cast<double>(sample_ray(pinhole(), {6, 2}, {0, 0}).weight),
+  EXPECT_NEAR(static_cast<double>(ray_of(pinhole(), {6, 2}, {0, 0}).weight[0]),
               kPi / 64 * std::pow(cosine, 4), 1e-7)
       << "a pinhole exposes as its nominal aperture would";
 }
@@ -55,7 +77,7 @@ TEST(Camera, RaysOfAFilmPointMeetInThePlaneInFocus) {
   for (int i = 0; i < 100; ++i) {
     const V2f film(6 * random.uniform(), 4 * random.uniform());
     const auto at_focus = [&](V2f u) {
-      const Ray ray = sample_ray(lens(), film, u).ray;
+      const Ray ray = ray_of(lens(), film, u).ray;
       return V3d(ray.origin) + V3d(ray.direction) * ((1.5 - static_cast<double>(ray.origin.y)) /
                                                      static_cast<double>(ray.direction.y));
     };
@@ -67,11 +89,10 @@ TEST(Camera, RaysOfAFilmPointMeetInThePlaneInFocus) {
 
 TEST(Camera, FilmCosineIsThatOfTheRayInsideTheCamera) {
   // The right edge of the picture is on the left of the film, which lies behind the lens.
-  const V3d film_point =
-      V3d(1, 2, 3) + V3d(1, 0, 0) * 0.015 + V3d(0, 1, 0) * std::get<LensCamera>(lens().kind).image_distance;
+  const V3d film_point = V3d(1, 2, 3) + V3d(1, 0, 0) * 0.015 + V3d(0, 1, 0) * *traits(lens()).image_distance;
   Random random(6);
   for (int i = 0; i < 100; ++i) {
-    const CameraRay start = sample_ray(lens(), {6, 2}, random.pair());
+    const CameraRay start = ray_of(lens(), {6, 2}, random.pair());
     const V3d inside = (V3d(start.ray.origin) - film_point).normalized();
     EXPECT_NEAR(static_cast<double>(start.cos_film), -inside.y, 1e-6);
   }
@@ -82,7 +103,7 @@ TEST(Camera, LensPointsFillTheAperture) {
   double mean_square = 0;
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {
-    const double r = (V3d(sample_ray(lens(), {3, 2}, random.pair()).ray.origin) - V3d(1, 2, 3)).length();
+    const double r = (V3d(ray_of(lens(), {3, 2}, random.pair()).ray.origin) - V3d(1, 2, 3)).length();
     EXPECT_LE(r, 0.0125 * 1.0001);
     mean_square += r * r / kCount;
   }
@@ -95,9 +116,9 @@ TEST(Camera, ConnectionsAreTheReverseOfRays) {
     for (int i = 0; i < 10000; ++i) {
       const V2f film(6 * random.uniform(), 4 * random.uniform());
       const V2f u = random.pair();
-      const CameraRay start = sample_ray(camera, film, u);
+      const CameraRay start = ray_of(camera, film, u);
       const auto d = static_cast<float>(random.between(0.1, 5));
-      const auto back = sample_towards(camera, start.ray.origin + start.ray.direction * d, u);
+      const auto back = connection(camera, start.ray.origin + start.ray.direction * d, u);
       if (!back) {
         EXPECT_LT(std::min({film.x, film.y, 6 - film.x, 4 - film.y}), 1e-3F);
         continue;
@@ -106,22 +127,21 @@ TEST(Camera, ConnectionsAreTheReverseOfRays) {
       EXPECT_LT((back->lens_point - start.ray.origin).length(), 1e-6F);
       EXPECT_NEAR(back->cos_film, start.cos_film, 1e-5);
       // Both weights are of the same lens element and the same pixel: one per film area, one per solid angle.
-      const auto& lens_camera = std::get<LensCamera>(camera.kind);
       const double cosine = -static_cast<double>(start.ray.direction.y);
-      const double film_per_sr = std::pow(lens_camera.image_distance, 2) / std::pow(cosine, 3);
-      EXPECT_NEAR(static_cast<double>(back->weight) * d * d * camera.pixel_pitch * camera.pixel_pitch /
-                      (static_cast<double>(start.weight) * film_per_sr),
+      const double film_per_sr = std::pow(*traits(camera).image_distance, 2) / std::pow(cosine, 3);
+      EXPECT_NEAR(static_cast<double>(back->weight[0]) * d * d * camera.pixel_pitch * camera.pixel_pitch /
+                      (static_cast<double>(start.weight[0]) * film_per_sr),
                   1, 1e-4);
     }
 }
 
 TEST(Camera, NothingBehindOrBesideIsImaged) {
-  EXPECT_FALSE(sample_towards(pinhole(), {1, 3, 3}, {0, 0})) << "behind";
-  EXPECT_FALSE(sample_towards(pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
-  EXPECT_FALSE(sample_towards(pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
-  EXPECT_TRUE(sample_towards(pinhole(), {0.75F, 1, 3}, {0, 0}));
+  EXPECT_FALSE(connection(pinhole(), {1, 3, 3}, {0, 0})) << "behind";
+  EXPECT_FALSE(connection(pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
+  EXPECT_FALSE(connection(pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
+  EXPECT_TRUE(connection(pinhole(), {0.75F, 1, 3}, {0, 0}));
   const Camera probe{IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 1, 1};
-  EXPECT_FALSE(sample_towards(probe, {0, 0, 1}, {0, 0}));
+  EXPECT_FALSE(connection(probe, {0, 0, 1}, {0, 0}));
 }
 
 // Irradiance of each pixel by a Lambertian patch of radiance 1, from the film and from the patch.
@@ -144,18 +164,18 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
     Estimate patch_to_film;
     for (int i = 0; i < kCount; ++i) {
       const V2f film(6 * random.uniform(), 4 * random.uniform());
-      const CameraRay start = sample_ray(camera, film, random.pair());
+      const CameraRay start = ray_of(camera, film, random.pair());
       const std::size_t pixel = static_cast<std::size_t>(film.y) * 6 + static_cast<std::size_t>(film.x);
       if (intersect<float>(patch, start.ray, 0))
-        film_to_patch.add(pixel, 24 * static_cast<double>(start.weight));
+        film_to_patch.add(pixel, 24 * static_cast<double>(start.weight[0]));
 
       const SurfacePoint at = sample_area(patch, {}, random.pair());
-      const auto back = sample_towards(camera, at.point, random.pair());
+      const auto back = connection(camera, at.point, random.pair());
       if (!back) continue;
       const double cosine =
           std::max(0.0, static_cast<double>(at.normal.dot((back->lens_point - at.point).normalized())));
       patch_to_film.add(static_cast<std::size_t>(back->film.y) * 6 + static_cast<std::size_t>(back->film.x),
-                        static_cast<double>(back->weight) * cosine * area(patch));
+                        static_cast<double>(back->weight[0]) * cosine * area(patch));
     }
     int lit = 0;
     for (std::size_t p = 0; p < 24; ++p) {
@@ -169,14 +189,106 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
   }
 }
 
+// Of a ray that leaves at this angle with the axis, or the normal.
+double cosine(const Camera& camera, const Ray& ray) {
+  const CameraTraits of = traits(camera);
+  return V3d(ray.direction).dot(of.axis ? *of.axis : *of.surface_normal);
+}
+
+TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
+  Random random(7);
+  for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), wide_lens(), meter(), point_meter()})
+    for (int i = 0; i < 10000; ++i) {
+      const V2f film(static_cast<float>(camera.width) * random.uniform(),
+                     static_cast<float>(camera.height) * random.uniform());
+      const V2f u = random.pair();
+      const CameraRay start = ray_of(camera, film, u);
+      const auto of = density(camera, start.ray, kWavelengths);
+      if (!of) {
+        const V2f last(static_cast<float>(camera.width), static_cast<float>(camera.height));
+        EXPECT_LT(std::min({film.x, film.y, last.x - film.x, last.y - film.y}), 1e-3F);
+        continue;
+      }
+      const double cos_theta = cosine(camera, start.ray);
+      const double flux = static_cast<double>(of->importance[3] / of->pdf_position) * cos_theta;
+      EXPECT_NEAR(flux / static_cast<double>(of->pdf_direction[3] * start.weight[3]), 1, 1e-5);
+      if (camera.kind.index() != point_meter().kind.index()) {
+        const auto d = static_cast<float>(random.between(0.1, 5));
+        const auto back = connection(camera, start.ray.origin + start.ray.direction * d, u);
+        EXPECT_LT((of->film - film).length(), 2e-3F);
+        ASSERT_TRUE(back);
+        EXPECT_NEAR(flux / (d * d) / static_cast<double>(back->weight[3]), 1, 1e-4);
+      } else if (of->pdf_position != 1) {
+        EXPECT_LT((of->film - film).length(), 2e-3F);
+      }
+    }
+}
+
+TEST(Camera, DensitiesCountPointsByAreaUnlessThereIsOne) {
+  const auto pdf_position = [](const Camera& camera) {
+    return static_cast<double>(
+        density(camera, ray_of(camera, {1, 1}, {0.5F, 0.5F}).ray, kWavelengths)->pdf_position);
+  };
+  EXPECT_EQ(pdf_position(pinhole()), 1);
+  EXPECT_EQ(pdf_position(point_meter()), 1);
+  EXPECT_NEAR(pdf_position(lens()) * kPi * 0.0125 * 0.0125, 1, 1e-6);
+  EXPECT_NEAR(pdf_position(meter()), 1, 1e-6) << "8 m^2 of 8 pixels";
+  EXPECT_EQ(ray_of(lens(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
+  EXPECT_EQ(ray_of(wide_pinhole(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
+  EXPECT_EQ(ray_of(meter(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
+}
+
+// Solid angle of a triangle of unit vectors. [VanOosterom1983]
+double solid_angle(const V3d& a, const V3d& b, const V3d& c) {
+  return 2 * std::atan2(std::abs(a.dot(b.cross(c))), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+// Through one point of the lens, in focus and out, near the axis and in the corner: a part of the pixel sees
+// a solid angle that holds the part's share of the directions.
+TEST(Camera, DirectionsThroughAPixelIntegrateToOne) {
+  constexpr int kParts = 64;
+  const V2f u(0.9F, 0.3F);
+  for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), wide_lens()})
+    for (const V2f& pixel : {V2f(3, 2), V2f(0, 0)}) {
+      const auto ray = [&](double x, double y) {
+        return ray_of(camera, pixel + V2f(static_cast<float>(x / kParts), static_cast<float>(y / kParts)), u)
+            .ray;
+      };
+      const auto towards = [&](double x, double y) { return V3d(ray(x, y).direction).normalized(); };
+      double all = 0;
+      for (int i = 0; i < kParts; ++i)
+        for (int j = 0; j < kParts; ++j) {
+          const double seen = solid_angle(towards(i, j), towards(i + 1, j), towards(i + 1, j + 1)) +
+                              solid_angle(towards(i, j), towards(i, j + 1), towards(i + 1, j + 1));
+          const auto of = density(camera, ray(i + 0.5, j + 0.5), kWavelengths);
+          ASSERT_TRUE(of);
+          const double share = seen * static_cast<double>(of->pdf_direction[0]);
+          EXPECT_NEAR(share * kParts * kParts, 1, 2e-2);
+          all += share;
+        }
+      EXPECT_NEAR(all, 1, 1e-4) << "camera " << camera.kind.index() << ", pixel " << pixel;
+    }
+}
+
+TEST(Camera, NothingIsSeenBackwardsOrBesideTheFilm) {
+  for (const Camera& camera : {wide_pinhole(), wide_lens(), meter()}) {
+    Ray ray = ray_of(camera, {1, 1}, {0.5F, 0.5F}).ray;
+    EXPECT_TRUE(density(camera, ray, kWavelengths));
+    ray.direction = -ray.direction;
+    EXPECT_FALSE(density(camera, ray, kWavelengths));
+  }
+  for (const Camera& camera : {pinhole(), lens()})
+    EXPECT_FALSE(density(camera, {{1, 2, 3}, V3f(1, -1, 0).normalized()}, kWavelengths));
+}
+
 TEST(IrradianceProbe, MeasuresTheHemisphere) {
   const Camera probe{IrradianceProbe{{1, 1, 1}, {2, 0, 0}, {0, 4, 0}, {0, 0, -1}}, 2, 4, 1};
   Random random(5);
   double mean_cosine = 0;
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {
-    const CameraRay start = sample_ray(probe, {1.5F, 3.5F}, random.pair());
-    EXPECT_FLOAT_EQ(start.weight, static_cast<float>(kPi));
+    const CameraRay start = ray_of(probe, {1.5F, 3.5F}, random.pair());
+    EXPECT_FLOAT_EQ(start.weight[0], static_cast<float>(kPi));
     EXPECT_NEAR(start.ray.origin.x, 2.5, 1e-6);
     EXPECT_NEAR(start.ray.origin.y, 4.5, 1e-6);
     EXPECT_LT(start.ray.origin.z, 1) << "on the side it looks to";

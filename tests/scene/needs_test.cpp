@@ -68,7 +68,7 @@ TEST(Needs, EachNamesWhatAsksForIt) {
   add_ball(scene, kGlass);
   scene.materials[kGlass].model = DielectricMaterial{"ink", RefractiveIndex(1.5, 1e-6)};
   scene.channels.push_back(energy_channel("line", Curve({{500, 0}, {501, 1}, {502, 0}})));
-  std::get<LensCamera>(scene.camera.kind).pinhole = false;
+  scene.camera.kind = ThinLens{{}, 0.05, INFINITY, 0.005};
   scene.commit();
   EXPECT_EQ(scene.needs.because,
             (std::map<std::string, std::string>{{"media", "shape \"ball\""},
@@ -227,7 +227,7 @@ TEST(Needs, CausticsFallOnSomething) {
 
 TEST(Needs, DepthOfField) {
   Scene scene = floor_scene();
-  std::get<LensCamera>(scene.camera.kind).pinhole = false;
+  scene.camera.kind = ThinLens{{}, 0.05, INFINITY, 0.005};
   scene.commit();
   EXPECT_TRUE(scene.needs.depth_of_field);
 }

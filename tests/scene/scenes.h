@@ -51,7 +51,7 @@ inline Material glass() {
 
 /// A pinhole camera at the origin looking along +z.
 inline Camera pinhole() {
-  return {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true}, 4, 4, 0.01};
+  return {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 4, 4, 0.01};
 }
 
 /// A scene of shapes, all of one material; committed.

@@ -139,7 +139,7 @@ Scene card(const char* integrator, int samples) {
 
 // Mean wavelength in the pixel: over its area and the opening.
 Centroid of_pixel(const Scene& scene, int x, int y) {
-  const auto& lens = std::get<LensCamera>(scene.camera.kind);
+  const auto& lens = std::get<ThinLens>(scene.camera.kind);
   constexpr int kSteps = 6;
   constexpr int kRings = 8;
   Centroid mean;

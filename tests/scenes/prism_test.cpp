@@ -29,7 +29,8 @@ double chief_column(const Scene& scene, double lambda_nm) {
     const auto hit = intersect_exact(scene, ray, 1e-9);
     const V3d& normal = hit->hit.normal;
     if (event == 2) {
-      const CameraConnection c = *sample_towards(scene.camera, Imath::V3f(hit->hit.point), {0.5F, 0.5F});
+      const CameraConnection c =
+          *sample_towards(scene.camera, Imath::V3f(hit->hit.point), {0.5F, 0.5F}, SampledSpectrum(550), 0);
       return c.film.x;
     }
     const bool entering = normal.dot(ray.direction) < 0;

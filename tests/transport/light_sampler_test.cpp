@@ -45,8 +45,7 @@ struct Hall {
 
 Hall empty_hall() {
   Hall hall;
-  hall.scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true},
-                       4, 4, 0.01};
+  hall.scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 4, 4, 0.01};
   hall.scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}}};
   hall.scene.channels = {energy_channel("all", Curve(1.0))};
   hall.scene.shapes.push_back({"floor", Quad{{-20, -20, 0}, {40, 0, 0}, {0, 40, 0}}, 0});

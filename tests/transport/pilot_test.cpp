@@ -12,8 +12,7 @@ namespace {
 // A white card that fills the left half of the view, lit by a lamp at the camera.
 Scene card(int width, int height) {
   Scene scene{};
-  scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true},
-                  width, height, 0.01};
+  scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, width, height, 0.01};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}}};
   scene.channels = {energy_channel("all", Curve(1.0))};
   scene.shapes.push_back({"card", Quad{{-5, -5, 5}, {0, 10, 0}, {5, 0, 0}}, 0});

@@ -10,8 +10,7 @@ namespace {
 
 Scene lamps_over_glass(std::size_t count) {
   Scene scene{};
-  scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true}, 4, 4,
-                  0.01};
+  scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 4, 4, 0.01};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
                      {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
   scene.channels = {energy_channel("all", Curve(1.0))};

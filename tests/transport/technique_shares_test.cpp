@@ -13,8 +13,7 @@ constexpr std::uint64_t kPixels = 32 * 32;
 // A card seen from in front, a ball of glass and a lamp; what photons bring comes through the ball.
 Scene card_with(const Imath::V3d& ball, const Imath::V3f& lamp) {
   Scene scene{};
-  scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true}, 32,
-                  32, 0.001};
+  scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 32, 32, 0.001};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
                      {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
   scene.channels = {energy_channel("all", Curve(1.0))};

@@ -22,8 +22,7 @@ const Curve& blue() {
 // A card before a camera with the channels all over the spectrum, X, Y, Z.
 Scene card(std::vector<Light> lights) {
   Scene scene{};
-  scene.camera = {LensCamera{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, INFINITY, 0.005, true}, 24,
-                  16, 0.001};
+  scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 24, 16, 0.001};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
                      {"glass", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
   scene.channels = {energy_channel("R", Curve(1.0)), energy_channel("G", Curve(1.0)),

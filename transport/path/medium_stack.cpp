@@ -97,9 +97,9 @@ MediumStack enclosing(const Scene& scene, const Imath::V3f& point) {
 
 MediumStack around_camera(const Scene& scene) {
   const Imath::V3f at(middle(scene.camera));
-  const auto* probe = std::get_if<IrradianceProbe>(&scene.camera.kind);
-  if (probe == nullptr) return enclosing(scene, at);
-  const Imath::V3f normal(probe->normal);
+  const std::optional<Imath::V3d> surface = traits(scene.camera).surface_normal;
+  if (!surface) return enclosing(scene, at);
+  const Imath::V3f normal(*surface);
   return enclosing(scene, offset_point(at, normal, normal));
 }
 

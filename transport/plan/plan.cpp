@@ -33,8 +33,7 @@ double strength(const Scene& scene, const Light& light) {
 double nominal_value(const Scene& scene, const Emissions& emissions) {
   const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
                           static_cast<float>(scene.camera.height) / 2);
-  const double weight =
-      static_cast<double>(sample_ray(scene.camera, center, {0.5F, 0.5F}).weight) * scene.exposure_s;
+  const double weight = central_weight(scene.camera, center) * scene.exposure_s;
   double nominal = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     nominal = std::max(nominal, emissions.seen[i] * strength(scene, scene.lights[i]));

@@ -52,7 +52,8 @@ bool LightTracer::start(LightPath& path, PhotonStart& start) {
 
 void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
   if (!owned(path)) return;
-  const std::optional<CameraConnection> lens = sample_towards(scene_.camera, vertex.hit.point, {u[0], u[1]});
+  const std::optional<CameraConnection> lens =
+      sample_towards(scene_.camera, vertex.hit.point, {u[0], u[1]}, path.lambda_nm(), path.ray.time);
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - vertex.hit.point).normalized();
   const Imath::V3f wi = vertex.frame.to_local(towards);
@@ -65,7 +66,8 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
 }
 
 void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
-  const std::optional<CameraConnection> lens = sample_towards(scene_.camera, path.ray.origin, {u[0], u[1]});
+  const std::optional<CameraConnection> lens =
+      sample_towards(scene_.camera, path.ray.origin, {u[0], u[1]}, path.lambda_nm(), path.ray.time);
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - path.ray.origin).normalized();
   connect_to(path, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),

@@ -18,6 +18,7 @@ BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
 PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
     : plan_(plan),
       scene_(plan.scene),
+      camera_(traits(plan.scene.camera)),
       caster_(caster),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
@@ -54,18 +55,17 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   const std::array<float, 4> film = sample.sampler.group(kFilmGroup);
   const Camera& camera = scene_.camera;
   const std::array<float, 4> lens =
-      camera.is_pinhole() ? std::array<float, 4>{} : sample.sampler.group(kLensGroup);
+      camera_.depth_of_field ? sample.sampler.group(kLensGroup) : std::array<float, 4>{};
+  path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
   const CameraRay ray =
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                 {lens[0], lens[1]});
-  path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
+                 {lens[0], lens[1]}, path.lambda_nm(), film[3]);
   path.ray = ray.ray;
   path.at = {sample.x, sample.y, ray.cos_film};
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s);
   if (!plan_.camera_inside.empty()) path.around.enter(scene_, plan_.camera_inside, path.lambda_nm());
-  const auto* meter = std::get_if<IrradianceProbe>(&camera.kind);
-  if (meter == nullptr) return true;
-  const Imath::V3f normal(meter->normal);
+  if (!camera_.surface_normal) return true;
+  const Imath::V3f normal(*camera_.surface_normal);
   path.events = kMeterEvent;
   const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(path.ray.origin, normal));
   path.at.cos_film = path.ray.direction.dot(normal);

@@ -17,7 +17,7 @@ namespace abbe {
 struct CameraPath : Walk {
   using Walk::Walk;
   FilmPoint at;
-  float scale = 1;           ///< What radiance along its first ray exposes, times the exposure time.
+  SampledSpectrum scale;     ///< What radiance along its first ray exposes, times the exposure time.
   SampledSpectrum found;     ///< Light it has found so far, balanced over lanes and techniques.
   float eta_scale = 1;       ///< What refraction has taken off radiance.
   bool first_delta = false;  ///< The event next to the camera was of a single direction.
@@ -96,6 +96,7 @@ class PathTracer {
 
   const Plan& plan_;
   const Scene& scene_;
+  CameraTraits camera_;
   RayCaster& caster_;
   FilmResponse response_;
   RandomWalks<PathTracer> walks_;

@@ -9,7 +9,7 @@ namespace abbe {
 namespace {
 
 Camera pinhole() {
-  LensCamera lens;
+  Pinhole lens;
   lens.image_distance = 0.035;
   lens.aperture_radius = 0.004;
   return {lens, 256, 256, 1e-4};
@@ -18,7 +18,8 @@ Camera pinhole() {
 void sample_camera_ray(benchmark::State& state) {
   const Camera camera = pinhole();
   micro::Stream u;
-  for (auto _ : state) benchmark::DoNotOptimize(sample_ray(camera, u.pair() * 256.0F, {0, 0}));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(sample_ray(camera, u.pair() * 256.0F, {0, 0}, SampledSpectrum(550), 0));
 }
 BENCHMARK(sample_camera_ray);
 

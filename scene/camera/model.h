@@ -1,0 +1,87 @@
+#pragma once
+
+#include <concepts>
+#include <optional>
+
+#include <ImathVec.h>
+
+#include "scene/shapes/ray.h"
+#include "spectral/packet.h"
+
+namespace abbe {
+
+/// The pixels of a film. Positions on it are in pixels from the top left corner of the upright image.
+struct FilmGrid {
+  int width = 1;
+  int height = 1;
+  double pixel_pitch = 1;  ///< [m]
+};
+
+/// A ray into the scene, at the time asked for. Radiance L along it adds `weight` L to the spectral
+/// irradiance at its film position.
+struct CameraRay {
+  Ray ray;
+  SampledSpectrum weight;  ///< [sr], lane by lane.
+  float cos_film;          ///< Cosine of the angle of incidence on the film, for responses that depend on it.
+};
+
+/// A connection from a scene point through the lens to the film. Intensity I [W/sr] leaving the point towards
+/// `lens_point` adds `weight` I to the irradiance of the pixel at `film`.
+struct CameraConnection {
+  Imath::V2f film;
+  Imath::V3f lens_point;
+  SampledSpectrum weight;  ///< [1/m^2], lane by lane.
+  float cos_film;
+};
+
+/// What a camera sees along a ray that leaves it at an angle theta with its axis or normal, and how densely
+/// `sample_ray` draws the ray for a film position uniform over one pixel [Veach1997, sec. 8.3.2]:
+///     weight of `sample_ray`     = importance cos(theta) / (pdf_position pdf_direction),
+///     weight of `sample_towards` = importance cos(theta) / (pdf_position d^2),
+/// d being the distance to the point. A ray that can leave a single point only has all of its importance
+/// there: `pdf_position` is 1, and both it and `importance` count as per point instead of per area.
+struct CameraDensity {
+  Imath::V2f film;                ///< Where the ray comes from.
+  SampledSpectrum importance;     ///< Irradiance of the pixel per flux along the ray [1/m^2].
+  float pdf_position;             ///< Of the point where it leaves the lens or the meter [1/m^2].
+  SampledSpectrum pdf_direction;  ///< Of its direction from there [1/sr].
+};
+
+/// What can be told of a camera without a ray.
+struct CameraTraits {
+  /// Rays leave an opening all over, so that a lens point has to be drawn, and what is out of focus is
+  /// blurred.
+  bool depth_of_field = false;
+  std::optional<double> image_distance = {};  ///< Film behind a lens, to it [m].
+  std::optional<double> f_number = {};        ///< Of the opening, without the losses of the lens.
+  std::optional<Imath::V3d> axis = {};        ///< Unit direction in which a lens looks.
+  /// Outward unit normal of what takes light from a hemisphere itself. Light is then connected to it as to a
+  /// surface, and `sample_towards` connects nothing; every other camera connects.
+  std::optional<Imath::V3d> surface_normal = {};
+};
+
+/// What a kind of camera has to answer, all of it. Film positions lie within [0, width] x [0, height], the
+/// two numbers in [0, 1) pick the lens point (or a meter's direction) uniformly by area, and the time is the
+/// share of the exposure that has gone by; see `BasicRay`.
+template <typename Model>
+concept CameraModel = requires(const Model& camera, Model& movable, const FilmGrid& film, Imath::V2f u,
+                               const Ray& ray, const SampledSpectrum& wavelengths_nm, float time) {
+  /// The ray of a film position.
+  { camera.sample_ray(film, u, u, wavelengths_nm, time) } -> std::same_as<CameraRay>;
+  /// From a point to the film; nothing if the point is behind the lens or its image beyond the film.
+  {
+    camera.sample_towards(film, ray.origin, u, wavelengths_nm, time)
+    } -> std::same_as<std::optional<CameraConnection>>;
+  /// Of a ray that starts on the lens or the meter; nothing if it comes from beyond the film.
+  { camera.density(film, ray, wavelengths_nm) } -> std::same_as<std::optional<CameraDensity>>;
+  /// The least cosine of an angle of incidence on the film that rays and connections may report.
+  { camera.least_film_cosine(film) } -> std::same_as<double>;
+  { camera.traits() } -> std::same_as<CameraTraits>;
+  /// Where a lens has its centre or a meter its corner, and where either has its centre.
+  { camera.position() } -> std::same_as<const Imath::V3d&>;
+  { camera.middle() } -> std::same_as<Imath::V3d>;
+  /// Moves it by a vector [m].
+  movable.translate(Imath::V3d());
+};
+
+}  // namespace abbe

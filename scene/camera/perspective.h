@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+
+#include "scene/camera/frame.h"
+#include "scene/camera/model.h"
+
+namespace abbe {
+
+/// Coordinates [m] along right and up: on the film as it is seen through the centre of the lens, upright, or
+/// on the lens; or the tangent of a direction, per unit of depth.
+using PlanePoint = Imath::V2d;
+
+[[nodiscard]] PlanePoint film_plane(const FilmGrid& grid, Imath::V2f film);
+/// The film position of a point of the plane; nothing beyond the film.
+[[nodiscard]] std::optional<Imath::V2f> film_position(const FilmGrid& grid, const PlanePoint& point);
+
+/// Cosine with the axis of the direction of that tangent.
+[[nodiscard]] double cosine(const PlanePoint& tangent);
+/// The least of them to a film through an opening of that radius [m].
+[[nodiscard]] double least_cosine(const FilmGrid& grid, double opening, double image_distance);
+
+/// What images a plane without distortion: the film behind an opening.
+struct Perspective {
+  const CameraFrame& frame;
+  double image_distance;  ///< [m]
+  double exposing_area;   ///< Of an opening without losses that exposes as much [m^2].
+};
+[[nodiscard]] double exposing_area(double aperture_radius, double transmittance);
+
+/// Where a ray crosses the lens, in which direction of the scene, and its angle with the film behind.
+struct LensCrossing {
+  PlanePoint on_lens;
+  PlanePoint tangent;
+  double cos_film;
+};
+
+/// A film element dA sees through the lens element the solid angle dA cos^3/v^2 of the scene, v the image
+/// distance; the lens element presents a share cos of its area. Hence the cos^4 law, with the angle on the
+/// side of the scene.
+[[nodiscard]] CameraRay ray_through(const Perspective& view, const LensCrossing& at, float time);
+
+/// A point as a camera sees it: coordinates along right and up, from the centre of the lens, and its depth.
+struct SeenPoint {
+  PlanePoint across;
+  double depth;
+};
+[[nodiscard]] SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point);
+
+[[nodiscard]] CameraConnection connection_through(const Perspective& view, const FilmGrid& grid,
+                                                  Imath::V2f film, const LensCrossing& at, double depth);
+
+/// The tangent of a direction of the scene; nothing backwards.
+[[nodiscard]] std::optional<PlanePoint> tangent_of(const CameraFrame& frame, const Imath::V3f& direction);
+
+/// That of a ray with such a tangent, from a point of the lens drawn with `pdf_position`: its weight, a pixel
+/// of area p^2 and the density v^2/(p^2 cos^3) of directions through it leave the importance of a share of
+/// the flux, by the pixel's area.
+[[nodiscard]] CameraDensity density_through(const Perspective& view, const FilmGrid& grid, Imath::V2f film,
+                                            const PlanePoint& tangent, double pdf_position);
+
+}  // namespace abbe

@@ -1,0 +1,55 @@
+#include "scene/camera/pinhole.h"
+
+#include "scene/camera/perspective.h"
+
+namespace abbe {
+namespace {
+
+Perspective view_of(const Pinhole& camera) {
+  return {camera.frame, camera.image_distance, exposing_area(camera.aperture_radius, camera.transmittance)};
+}
+
+// Light goes straight on through a pinhole.
+LensCrossing crossing(const PlanePoint& tangent) {
+  return {{0, 0}, tangent, cosine(tangent)};
+}
+
+}  // namespace
+
+CameraRay Pinhole::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f /*lens*/,
+                              const SampledSpectrum& /*wavelengths_nm*/, float time) const {
+  return ray_through(view_of(*this), crossing(film_plane(grid, film) / image_distance), time);
+}
+
+std::optional<CameraConnection> Pinhole::sample_towards(const FilmGrid& grid, const Imath::V3f& point,
+                                                        Imath::V2f /*lens*/,
+                                                        const SampledSpectrum& /*wavelengths_nm*/,
+                                                        float /*time*/) const {
+  const SeenPoint seen = seen_from(frame, point);
+  if (!(seen.depth > 0)) return std::nullopt;
+  const PlanePoint tangent = seen.across / seen.depth;
+  const std::optional<Imath::V2f> film = film_position(grid, tangent * image_distance);
+  if (!film) return std::nullopt;
+  return connection_through(view_of(*this), grid, *film, crossing(tangent), seen.depth);
+}
+
+std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& ray,
+                                              const SampledSpectrum& /*wavelengths_nm*/) const {
+  const std::optional<PlanePoint> tangent = tangent_of(frame, ray.direction);
+  if (!tangent) return std::nullopt;
+  const std::optional<Imath::V2f> film = film_position(grid, *tangent * image_distance);
+  if (!film) return std::nullopt;
+  return density_through(view_of(*this), grid, *film, *tangent, 1);
+}
+
+double Pinhole::least_film_cosine(const FilmGrid& grid) const {
+  return least_cosine(grid, 0, image_distance);
+}
+
+CameraTraits Pinhole::traits() const {
+  return {.image_distance = image_distance,
+          .f_number = image_distance / (2 * aperture_radius),
+          .axis = frame.forward};
+}
+
+}  // namespace abbe

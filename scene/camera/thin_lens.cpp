@@ -1,0 +1,82 @@
+#include "scene/camera/thin_lens.h"
+
+#include <numbers>
+
+#include "materials/bsdf/warp.h"
+#include "scene/camera/perspective.h"
+
+namespace abbe {
+namespace {
+
+Perspective view_of(const ThinLens& camera) {
+  return {camera.frame, camera.image_distance, exposing_area(camera.aperture_radius, camera.transmittance)};
+}
+
+PlanePoint lens_plane(const ThinLens& camera, Imath::V2f lens) {
+  return PlanePoint(concentric_disc(lens)) * camera.aperture_radius;
+}
+
+// The real image is upside down, so a ray in the camera runs from -film to the lens.
+double film_cosine(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens) {
+  return cosine((film + lens) / camera.image_distance);
+}
+
+// Through any lens point the scene ray aims at the point in focus that the ray through the centre of the lens
+// shows; and back, where on the film that centre ray comes from.
+PlanePoint tangent_from(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens) {
+  return film / camera.image_distance - lens / camera.focus_distance;
+}
+PlanePoint film_from(const ThinLens& camera, const PlanePoint& tangent, const PlanePoint& lens) {
+  return (tangent + lens / camera.focus_distance) * camera.image_distance;
+}
+
+}  // namespace
+
+CameraRay ThinLens::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
+                               const SampledSpectrum& /*wavelengths_nm*/, float time) const {
+  const PlanePoint on_film = film_plane(grid, film);
+  const PlanePoint on_lens = lens_plane(*this, lens);
+  return ray_through(view_of(*this),
+                     {on_lens, tangent_from(*this, on_film, on_lens), film_cosine(*this, on_film, on_lens)},
+                     time);
+}
+
+std::optional<CameraConnection> ThinLens::sample_towards(const FilmGrid& grid, const Imath::V3f& point,
+                                                         Imath::V2f lens,
+                                                         const SampledSpectrum& /*wavelengths_nm*/,
+                                                         float /*time*/) const {
+  const SeenPoint seen = seen_from(frame, point);
+  if (!(seen.depth > 0)) return std::nullopt;
+  const PlanePoint on_lens = lens_plane(*this, lens);
+  const PlanePoint tangent = (seen.across - on_lens) / seen.depth;
+  const PlanePoint on_film = film_from(*this, tangent, on_lens);
+  const std::optional<Imath::V2f> film = film_position(grid, on_film);
+  if (!film) return std::nullopt;
+  return connection_through(view_of(*this), grid, *film,
+                            {on_lens, tangent, film_cosine(*this, on_film, on_lens)}, seen.depth);
+}
+
+std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& ray,
+                                               const SampledSpectrum& /*wavelengths_nm*/) const {
+  const std::optional<PlanePoint> tangent = tangent_of(frame, ray.direction);
+  if (!tangent) return std::nullopt;
+  const PlanePoint on_lens = seen_from(frame, ray.origin).across;
+  const std::optional<Imath::V2f> film = film_position(grid, film_from(*this, *tangent, on_lens));
+  if (!film) return std::nullopt;
+  return density_through(view_of(*this), grid, *film, *tangent,
+                         1 / (std::numbers::pi * aperture_radius * aperture_radius));
+}
+
+double ThinLens::least_film_cosine(const FilmGrid& grid) const {
+  return least_cosine(grid, aperture_radius, image_distance);
+}
+
+CameraTraits ThinLens::traits() const {
+  const double focal_length = 1 / (1 / image_distance + 1 / focus_distance);
+  return {.depth_of_field = true,
+          .image_distance = image_distance,
+          .f_number = focal_length / (2 * aperture_radius),
+          .axis = frame.forward};
+}
+
+}  // namespace abbe
