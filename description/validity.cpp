@@ -38,14 +38,7 @@ void check_validity(const JsonValue& json, const LoadContext& context, const Sce
                     name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
   };
   for (const Material& material : scene.materials)
-    std::visit(
-        [&](const auto& model) {
-          if constexpr (requires { model.index_name; }) check(material, model.index_name, model.index);
-          if constexpr (requires { model.coating; })
-            for (const Coating::Material& film : model.coating.materials)
-              check(material, film.index_name, film.index);
-        },
-        material.model);
+    for (const IndexUse& use : indices(material)) check(material, *use.name, *use.index);
 }
 
 void check_lamps(const LoadContext& context, const Scene& scene) {

@@ -11,15 +11,8 @@ Lobes lobes(const Material& material) {
 }
 
 bool needs_coordinates(const Material& material) {
-  if (material.relief) return true;
-  return std::visit(
-      [](const auto& model) {
-        if constexpr (requires { model.needs_coordinates(); })
-          return model.needs_coordinates();
-        else
-          return false;
-      },
-      material.model);
+  return material.relief ||
+         std::visit([](const auto& model) { return model.needs_coordinates(); }, material.model);
 }
 
 bool is_dispersive(const Material& material) {
@@ -28,38 +21,30 @@ bool is_dispersive(const Material& material) {
 }
 
 bool depends_on_outside(const Material& material) {
-  return std::visit(
-      [](const auto& model) {
-        if constexpr (requires { model.depends_on_outside(); })
-          return model.depends_on_outside();
-        else
-          return requires {
-            model.index;
-          };
-      },
-      material.model);
+  return std::visit([](const auto& model) { return model.depends_on_outside(); }, material.model);
+}
+
+bool opaque(const Material& material) {
+  return std::visit([](const auto& model) { return model.opaque(); }, material.model);
 }
 
 const RefractiveIndex* interior(const Material& material) {
-  return std::visit(
-      [](const auto& model) -> const RefractiveIndex* {
-        if constexpr (requires { model.interior(); })
-          return model.interior();
-        else
-          return nullptr;
-      },
-      material.model);
+  return std::visit([](const auto& model) { return model.interior(); }, material.model);
 }
 
 const Medium* medium(const Material& material) {
-  return std::visit(
-      [](const auto& model) -> const Medium* {
-        if constexpr (requires { model.medium(); })
-          return model.medium();
-        else
-          return nullptr;
-      },
-      material.model);
+  return std::visit([](const auto& model) { return model.medium(); }, material.model);
+}
+
+std::vector<IndexUse> indices(const Material& material) {
+  return std::visit([](const auto& model) { return model.indices(); }, material.model);
+}
+
+std::size_t texture_bytes(const Material& material) {
+  std::size_t bytes = std::visit([](const auto& model) { return model.texture_bytes(); }, material.model);
+  if (material.relief)
+    bytes += std::visit([](const auto& map) { return map.image.memory_bytes(); }, *material.relief);
+  return bytes;
 }
 
 bool encloses_medium(const Material& material) {

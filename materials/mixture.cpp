@@ -26,4 +26,9 @@ bool MixtureMaterial::depends_on_outside() const {
   });
 }
 
+bool MixtureMaterial::opaque() const {
+  return std::all_of(components.begin(), components.end(),
+                     [](const Component& component) { return abbe::opaque(*component.material); });
+}
+
 }  // namespace abbe

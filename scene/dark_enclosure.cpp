@@ -7,12 +7,6 @@
 namespace abbe {
 namespace {
 
-bool opaque(const Material& material) {
-  return interior(material) == nullptr && medium(material) == nullptr &&
-         !std::holds_alternative<ThinGlassMaterial>(material.model) &&
-         !std::holds_alternative<MixtureMaterial>(material.model);
-}
-
 // How often more a ray leaves a shape than it enters it.
 int exits(const Shape& shape, const Imath::V3d& from, const Imath::V3d& direction, double apart) {
   int count = 0;

@@ -12,20 +12,6 @@
 namespace abbe {
 namespace {
 
-// Of the images a material looks up.
-std::size_t texture_bytes(const Material& material) {
-  std::size_t bytes = 0;
-  if (material.relief)
-    bytes += std::visit([](const auto& map) { return map.image.memory_bytes(); }, *material.relief);
-  std::visit(
-      [&bytes](const auto& model) {
-        if constexpr (requires { model.reflectance.memory_bytes(); })
-          bytes += model.reflectance.memory_bytes();
-      },
-      material.model);
-  return bytes;
-}
-
 // Vertices are off the plane they belong to by up to a float step, a point spawned on a surface is up to six
 // from it: what is nearer than these is met together, what is further by the ray that leaves.
 double touching_at(double size) {

@@ -20,14 +20,33 @@
 
 namespace abbe {
 
-/// The closed list of scattering models, evaluated at one packet of wavelengths. Each has `sample`; those
-/// that send light in more than single directions have `eval` and `pdf` as well. A new model is a file pair
+/// What every scattering model has: `sample`; `index_inside`, of the matter behind a surface that lets light
+/// in, relative to what is outside, at one lane, 1 for the others; and whether it `kScatters`, in more than
+/// single directions, for which it then has `eval` and `pdf`.
+template <typename Model>
+concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const BsdfRandom& u) {
+  { model.sample(w, u, 0, TransportMode::radiance) } -> std::same_as<std::optional<BsdfSample>>;
+  { model.index_inside(0) } -> std::same_as<float>;
+  { Model::kScatters } -> std::same_as<const bool&>;
+}
+&&(!Model::kScatters || requires(const Model& model, const Imath::V3f& w) {
+  { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
+  { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
+});
+
+/// The closed list of scattering models, evaluated at one packet of wavelengths. A new model is a file pair
 /// and an entry here; the statistical tests iterate the list.
 using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf,
                           CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf, CoatedDiffuseBsdf,
                           ThinGlassBsdf, MixtureBsdf, MirrorBsdf, SchlickBsdf, OrenNayarBsdf, PrincipledBsdf,
                           CosinePowerBsdf<false>, CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every vertex of a path holds one
+
+template <typename List>
+inline constexpr bool kAllBsdfModels = false;
+template <typename... Models>
+inline constexpr bool kAllBsdfModels<std::variant<Models...>> = (BsdfModel<Models> && ...);
+static_assert(kAllBsdfModels<Bsdf>);
 
 /// What `visitor` makes of the model, the commonest being asked for first, in line.
 template <typename Visitor>
@@ -36,14 +55,7 @@ template <typename Visitor>
   return std::visit(std::forward<Visitor>(visitor), bsdf);
 }
 
-/// A model that sends light in more than single directions.
-template <typename Model>
-concept Scattering = requires(const Model& model, const Imath::V3f& w) {
-  { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
-  { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
-};
-
-/// Nothing where no light leaves.
+/// Draws a direction in which light leaves (radiance mode: from which it comes); nothing where none does.
 [[nodiscard]] inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo,
                                                       const BsdfRandom& u, int hero, TransportMode mode) {
   return visit_model([&](const auto& model) { return model.sample(wo, u, hero, mode); }, bsdf);
@@ -54,7 +66,7 @@ concept Scattering = requires(const Model& model, const Imath::V3f& w) {
                                           TransportMode mode) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (Scattering<Model>)
+        if constexpr (Model::kScatters)
           return model.eval(wo, wi, mode);
         else
           return SampledSpectrum();
@@ -66,7 +78,7 @@ concept Scattering = requires(const Model& model, const Imath::V3f& w) {
 [[nodiscard]] inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (Scattering<Model>)
+        if constexpr (Model::kScatters)
           return model.pdf(wo, wi);
         else
           return SampledSpectrum();
@@ -76,20 +88,13 @@ concept Scattering = requires(const Model& model, const Imath::V3f& w) {
 
 /// Whether light may leave in more than single directions, so that connecting to lights pays.
 [[nodiscard]] inline bool scatters(const Bsdf& bsdf) {
-  return visit_model([]<typename Model>(const Model&) { return Scattering<Model>; }, bsdf);
+  return visit_model([]<typename Model>(const Model&) { return Model::kScatters; }, bsdf);
 }
 
 /// Index of the matter behind a surface that lets light in, relative to what is outside, at one lane; 1 for
 /// the others.
 [[nodiscard]] inline float index_inside(const Bsdf& bsdf, int lane) {
-  return visit_model(
-      [lane](const auto& model) {
-        if constexpr (requires { model.index_inside(lane); })
-          return model.index_inside(lane);
-        else
-          return 1.0F;
-      },
-      bsdf);
+  return visit_model([lane](const auto& model) { return model.index_inside(lane); }, bsdf);
 }
 
 /// Whether nothing leaves, whatever arrives.

@@ -11,6 +11,8 @@ namespace abbe {
 /// Smooth dielectric interface under thin films, which may absorb; it refers to the material and sees the
 /// packet `wavelengths_nm`.
 struct CoatedDielectricBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
   const Coating* coating;
@@ -25,6 +27,8 @@ struct CoatedDielectricBsdf {
 
 /// Smooth conductor under thin films.
 struct CoatedConductorBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
   const Coating* coating;
@@ -32,6 +36,7 @@ struct CoatedConductorBsdf {
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 }  // namespace abbe

@@ -15,6 +15,8 @@ namespace abbe {
 /// T being what Fresnel's equations let pass, rho the reflectance of the ground, r that of the coat for
 /// diffuse light from within. Energy is kept for rho = 1. [Saunderson1942]
 struct CoatedDiffuseBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum n;       ///< Of the coat, relative to the outside, 1 or more.
   SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).
   bool dispersive;
@@ -23,10 +25,11 @@ struct CoatedDiffuseBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// From the index of the coat, the ground's reflectance and `inner`, the coat's for diffuse light from
-/// within.
+/// The model at one packet, from the index `n` of the coat, the ground's reflectance `rho` and `inner`, the
+/// coat's reflectance for diffuse light from within.
 [[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
                                                       const SampledSpectrum& inner, bool dispersive) {
   return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};

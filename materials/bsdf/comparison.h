@@ -13,6 +13,8 @@ namespace abbe {
 
 /// The ideal mirror R/cos delta, of the same reflectance at every angle. [Marschner2021, sec. 14.1]
 struct MirrorBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum reflectance;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
@@ -20,10 +22,13 @@ struct MirrorBsdf {
     if (wo.z == 0) return std::nullopt;
     return BsdfSample{.wi = mirrored(wo), .weight = reflectance, .pdf = 1, .delta = true};
   }
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// A smooth surface by Schlick's approximation in place of Fresnel's equations. [Schlick1994]
 struct SchlickBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum r0;  ///< Reflectance along the normal.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
@@ -33,6 +38,7 @@ struct SchlickBsdf {
     return BsdfSample{
         .wi = mirrored(wo), .weight = SampledSpectrum::map(r0, reflectance), .pdf = 1, .delta = true};
   }
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 }  // namespace abbe

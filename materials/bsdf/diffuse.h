@@ -11,12 +11,15 @@ namespace abbe {
 
 /// Lambertian reflection on the side of the normal `wo` is on; both sides alike.
 struct DiffuseBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum reflectance;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 // In line, as scattering off the commonest matter costs less than the calls would.

@@ -24,13 +24,13 @@ class EnergyCompensation {
 
   /// Writes E(w) of some light or other, w.z > 0, into its second argument.
   using Energies = std::function<void(const Imath::V3f& w, std::span<double> energies)>;
-  /// As many tables as there are energies, from their values for a few hundred directions.
+  /// Makes `count` tables, one for each of the energies, from their values for a few hundred directions.
   [[nodiscard]] static std::vector<EnergyCompensation> tabulate(const Microfacets<float>& facets,
                                                                 std::size_t count, const Energies& energies);
 
   /// 1 - E, in [0, 1).
   [[nodiscard]] float at(const Place& place) const;
-  /// Its integral over projected solid angle [sr], positive.
+  /// The integral of the table over projected solid angle [sr], positive.
   [[nodiscard]] float total() const { return total_; }
   /// A direction w, w.z > 0, drawn nearly in proportion to (1 - E) w.z, and the density of that [1/sr].
   [[nodiscard]] Imath::V3f sample(const Imath::V2f& u) const;

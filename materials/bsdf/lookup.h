@@ -14,7 +14,7 @@ struct SurfaceLookup {
   const RefractiveIndex* outside = nullptr;  ///< Of the matter the surface's own is in; nullptr is air.
 };
 
-/// In which ways a material sends light on; black matter in none.
+/// Tells in which ways a material sends light on; black matter in none.
 struct Lobes {
   bool delta = false;   ///< In single directions, as mirrors and smooth glass do: light may be focused.
   bool spread = false;  ///< In all directions of some range: connecting to lights pays.

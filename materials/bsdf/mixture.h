@@ -14,6 +14,8 @@ struct MixtureMaterial;
 /// single directions do so each for itself, the others' densities add up.
 class MixtureBsdf {
  public:
+  static constexpr bool kScatters = true;
+
   MixtureBsdf(const MixtureMaterial& material, const SurfaceLookup& at)
       : material_(&material), wavelengths_nm_(at.wavelengths_nm), uv_(at.uv), outside_(at.outside) {}
 
@@ -21,6 +23,7 @@ class MixtureBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 
  private:
   [[nodiscard]] SurfaceLookup at() const { return {wavelengths_nm_, uv_, outside_}; }

@@ -14,6 +14,7 @@ namespace abbe {
 /// [Marschner2021, ch. 14, exercises]
 template <bool BothWays>
 struct CosinePowerBsdf {
+  static constexpr bool kScatters = true;
   static constexpr bool kReciprocal = BothWays;
 
   SampledSpectrum reflectance;
@@ -23,12 +24,14 @@ struct CosinePowerBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// Phong's highlight as a scattering function, C cos^n alpha/cos theta_i with alpha between k_o and the
 /// mirror's direction of k_i and C = rho (n + 1)/(2 pi). It cannot be reversed, and at grazing incidence more
 /// leaves than arrives, without bound. [Phong1975]
 struct PhongBsdf {
+  static constexpr bool kScatters = true;
   static constexpr bool kReciprocal = false;
   static constexpr bool kConserving = false;
 
@@ -39,12 +42,15 @@ struct PhongBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// A retroreflector, C (k_i . k_o)^n where that is positive. The directional-hemispherical reflectance is the
 /// largest along the normal, as a convolution of two functions that fall away from their middles is where
 /// these meet: C (n + 2)/(2 pi) makes it rho there. [Marschner2021, ch. 14, exercises]
 struct RetroreflectorBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum reflectance;
   float exponent;  ///< In [0, 1e4].
 
@@ -52,6 +58,7 @@ struct RetroreflectorBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 }  // namespace abbe

@@ -30,13 +30,13 @@ class Principled {
 
   explicit Principled(const PrincipledLook& look);
 
-  /// As Burley has them, where directions are on the side z > 0.
+  /// The scattering function as Burley has it, not limited to what arrives; directions are on the side z > 0.
   [[nodiscard]] Terms unlimited(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  /// Of what arrives at an angle, before it is limited; to 3e-3.
+  /// Share of what arrives at an angle of that cosine which leaves, before it is limited; to 3e-3.
   [[nodiscard]] Terms albedo(float cosine) const;
   /// Density of the directions drawn [1/sr], the same for all lanes.
   [[nodiscard]] float density(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  /// Nothing where that leads below the surface.
+  /// Draws a direction with that density; nothing where it leads below the surface.
   [[nodiscard]] std::optional<Imath::V3f> draw(const Imath::V3f& wo, const BsdfRandom& u) const;
 
  private:
@@ -65,6 +65,8 @@ class Principled {
 /// max(1, E(o), E(i)), E being the albedo of a direction in a lane, a little more than known, which leaves it
 /// as it is where both directions conserve energy, makes all do so, and keeps it reciprocal.
 struct PrincipledBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum base;  ///< In [0, 1].
   const Principled* look;
 
@@ -72,6 +74,7 @@ struct PrincipledBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 }  // namespace abbe

@@ -36,6 +36,8 @@ struct RoughInterface {
 /// [Heitz2014, eq. 99], and what they scatter more than once [Kulla2017], coloured by the conductor's
 /// reflectance averaged over the hemisphere. Reciprocal.
 struct RoughConductorBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
   const RefractiveIndex* outside;  ///< nullptr is air.
@@ -46,6 +48,7 @@ struct RoughConductorBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// Rough dielectric interface with the normal towards the outside; `n` is the inside index relative to the
@@ -55,6 +58,8 @@ struct RoughConductorBsdf {
 /// came, which is the split that keeps reciprocity (radiance over n^2 reverses) and energy together. Towards
 /// n = 1 single transmission keeps its masking: the surface does not fade away as a real one does.
 struct RoughDielectricBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum n;
   const RoughInterface* surface;
   /// Whether n is what the surface is tabulated for, against air; else what is scattered more than once is

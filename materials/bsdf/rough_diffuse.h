@@ -10,6 +10,8 @@ namespace abbe {
 /// it, which reflects less than arrives, and a lobe for the light scattered on among the facets that makes up
 /// for it: white matter returns all. [Portsmouth2025]
 struct OrenNayarBsdf {
+  static constexpr bool kScatters = true;
+
   SampledSpectrum reflectance;
   float roughness;  ///< In [0, 1]; 0 is Lambert's.
 
@@ -17,6 +19,7 @@ struct OrenNayarBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// The roughness for facets whose slopes have the standard deviation `sigma_deg`: what B is to A in the

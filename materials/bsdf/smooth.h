@@ -9,6 +9,8 @@ namespace abbe {
 /// Smooth dielectric interface with the normal towards the outside; `n` is the inside index relative to the
 /// outside.
 struct DielectricBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum n;
   bool dispersive;
 
@@ -19,11 +21,14 @@ struct DielectricBsdf {
 
 /// Smooth conductor, opaque, reflecting on both sides.
 struct ConductorBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum n;
   SampledSpectrum k;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 }  // namespace abbe

@@ -14,11 +14,14 @@ namespace abbe {
 /// with r + t = 1 of one face and a what is left after one passage inside. All wavelengths go the same ways.
 /// [Stokes1862]
 struct ThinGlassBsdf {
+  static constexpr bool kScatters = false;
+
   SampledSpectrum n;      ///< Relative to the outside.
   SampledSpectrum depth;  ///< -ln a of the passage along the normal.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 }  // namespace abbe

@@ -4,7 +4,8 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
-#include "materials/index/refractive_index.h"
+#include "materials/medium/medium.h"
+#include "materials/model/index_use.h"
 #include "materials/texture/spectral_texture.h"
 
 namespace abbe {
@@ -22,6 +23,12 @@ struct CoatedDiffuseMaterial {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true, .spread = true}; }
   [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return true; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
+  [[nodiscard]] std::size_t texture_bytes() const { return reflectance.memory_bytes(); }
 };
 
 /// A pane of glass modelled as one surface, which light crosses without being bent.
@@ -32,6 +39,13 @@ struct ThinGlassMaterial {
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return false; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
 
 }  // namespace abbe

@@ -5,6 +5,8 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
+#include "materials/medium/medium.h"
+#include "materials/model/index_use.h"
 #include "spectral/curve.h"
 
 namespace abbe {
@@ -24,6 +26,12 @@ struct MixtureMaterial {
   [[nodiscard]] Lobes lobes() const;
   [[nodiscard]] bool needs_coordinates() const;
   [[nodiscard]] bool depends_on_outside() const;
+  [[nodiscard]] bool opaque() const;
+  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
+  /// None, and no textures: the scene lists the components as materials of their own.
+  [[nodiscard]] static std::vector<IndexUse> indices() { return {}; }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
 
 }  // namespace abbe

@@ -6,8 +6,8 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
-#include "materials/index/refractive_index.h"
 #include "materials/medium/medium.h"
+#include "materials/model/index_use.h"
 
 namespace abbe {
 
@@ -23,8 +23,12 @@ class RoughDielectricMaterial {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
   [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return false; }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
   [[nodiscard]] const Medium* medium() const { return filling ? &*filling : nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 
   std::string index_name;
   RefractiveIndex index;
@@ -40,6 +44,12 @@ class RoughConductorMaterial {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
   [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return true; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 
   std::string index_name;
   RefractiveIndex index;

@@ -5,19 +5,17 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
-#include "materials/index/refractive_index.h"
-#include "materials/medium/medium.h"
-#include "materials/texture/spectral_texture.h"
+#include "materials/model/index_use.h"
+#include "materials/model/opaque.h"
 
 namespace abbe {
 
-struct DiffuseMaterial {
-  SpectralTexture reflectance;
-
+/// Lambert's surface.
+struct DiffuseMaterial : OpaqueSurface {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
-  [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
 };
+/// A smooth interface to clear or tinted matter, perhaps under thin films.
 struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -26,9 +24,15 @@ struct DielectricMaterial {
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return false; }
   [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
   [[nodiscard]] const Medium* medium() const { return filling ? &*filling : nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(index_name, index, coating); }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
+/// A smooth metal, perhaps under thin films.
 struct ConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -36,6 +40,13 @@ struct ConductorMaterial {
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return true; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(index_name, index, coating); }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
 
 }  // namespace abbe

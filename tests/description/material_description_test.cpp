@@ -77,7 +77,8 @@ TEST_F(DescriptionTest, ReadsScatteringModels) {
   const auto& pane = std::get<ThinGlassMaterial>(model(2));
   EXPECT_NEAR(pane.thickness * pane.index.absorption_per_m(550), 0.04, 1e-6);
   EXPECT_NEAR(std::get<CoatedDiffuseMaterial>(model(3)).index.n(587.5618), 1.516800, 1e-6);
-  EXPECT_NEAR(std::get<SchlickMaterial>(model(4)).r0.curve()(550), (0.8 * 0.8 + 9) / (1.2 * 1.2 + 9), 1e-9);
+  EXPECT_NEAR(std::get<SchlickMaterial>(model(4)).reflectance.curve()(550), (0.8 * 0.8 + 9) / (1.2 * 1.2 + 9),
+              1e-9);
   EXPECT_NEAR(std::get<PrincipledMaterial>(model(5)).look.albedo(1).coloured, 0.984, 0.003);
   EXPECT_FALSE(std::get<CosinePowerMaterial>(model(6)).reciprocal);
   EXPECT_TRUE(std::get<CosinePowerMaterial>(model(7)).reciprocal);

@@ -89,7 +89,26 @@ TEST_F(TextureTest, ImagesAreCountedAsMemory) {
   const auto bytes = [&](const std::string& reflectance) {
     return load(painted(reflectance))->memory_bytes();
   };
-  EXPECT_EQ(bytes(R"({"image": "paint.exr", "weights": {"a": 1, "b": 0}})") - bytes("1"), 4 * sizeof(float));
+  const std::string paint = R"({"image": "paint.exr", "weights": {"a": 1, "b": 0}})";
+  EXPECT_EQ(bytes(paint) - bytes("1"), 4 * sizeof(float));
+  const std::vector<std::string> others{R"("mirror": {{"reflectance": {0}}})",
+                                        R"("schlick": {{"reflectance": {0}}})",
+                                        R"("oren_nayar": {{"reflectance": {0}, "sigma_deg": 20}})",
+                                        R"("principled": {{"base_color": {0}}})",
+                                        R"("cosine_power": {{"reflectance": {0}, "exponent": 2}})",
+                                        R"("phong": {{"reflectance": {0}, "exponent": 2}})",
+                                        R"("retroreflector": {{"reflectance": {0}, "exponent": 2}})",
+                                        R"("coated_diffuse": {{"ior": 1.5, "reflectance": {0}}})"};
+  for (const std::string& model : others) {
+    const auto made_of = [&](const std::string& reflectance) {
+      const Loaded loaded = load(fmt::format(
+          R"({{"materials": {{"m": {{{}}}}}, "shapes": [{{"disc": {{"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}}, "material": "m"}}]}})",
+          fmt::format(fmt::runtime(model), reflectance)));
+      EXPECT_TRUE(loaded.scene) << loaded.text();
+      return loaded.scene ? loaded->memory_bytes() : 0;
+    };
+    EXPECT_EQ(made_of(paint) - made_of("0.5"), 4 * sizeof(float)) << model;
+  }
 }
 
 TEST_F(TextureTest, SlightExcessIsCut) {
