@@ -27,7 +27,7 @@ struct CalibrationCase {
 [[nodiscard]] std::string csv_of(const std::vector<ChannelResponse>& responses, const std::string& source);
 
 [[nodiscard]] Json json_of(const CalibrationCase& one);
-/// The same for reading: responses, then CIEDE2000 of every patch.
+/// A calibration as tables for reading: responses, then CIEDE2000 of every patch.
 [[nodiscard]] std::string table_of(const CalibrationCase& one);
 
 [[nodiscard]] Json json_of(const std::vector<CameraQuality>& all);

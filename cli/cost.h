@@ -27,7 +27,7 @@ class CostMeter {
   double cpu_start_ = process_cpu_seconds();
 };
 
-/// The same work, whose cost is added to `sum`.
+/// Returns work that does `work` and adds its cost to `sum`.
 [[nodiscard]] inline std::function<void()> metered(Cost& sum, std::function<void()> work) {
   return [&sum, work = std::move(work)] {
     const CostMeter meter;

@@ -8,10 +8,10 @@
 
 namespace abbe::cli {
 
-/// Of the files that hold exact sums.
+/// The extension of files that hold exact sums.
 inline constexpr const char* kPartExtension = ".abbepart";
 
-/// As the scene file has it.
+/// The name of an integrator, as scene files write it.
 [[nodiscard]] const char* integrator_name(Integrator integrator);
 
 /// What tells the film of this scene from any other, from its scene file's name to its crop.

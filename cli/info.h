@@ -18,7 +18,7 @@ struct InfoOptions {
 /// Prints what a scene contains, needs and skips. Returns the exit code.
 int info(const InfoOptions& options);
 
-/// The same for reading, in lines.
+/// What `abbe info` tells of a scene, in lines for reading.
 [[nodiscard]] std::string describe(const Scene& scene);
 
 }  // namespace abbe::cli

@@ -21,7 +21,8 @@ struct IndexOptions {
   std::optional<double> thickness_mm = {};  ///< Of `query ior`: of the piece whose inside is asked about.
   bool arrays = false;                      ///< Lists of wavelengths stay lists where they hold only one.
 };
-/// With a thickness, what of the light between two faces reaches the second: exp(-4 pi k d / lambda).
+/// Prints the index n + ik as catalogued. With a thickness d, also the share of the light between two faces
+/// that reaches the second: exp(-4 pi k d / lambda).
 int query_ior(const IndexOptions& options);
 /// Angle of total reflection against an index of 1 outside; null where n <= 1.
 int query_critical(const IndexOptions& options);

@@ -46,8 +46,8 @@ Scene load(const RenderOptions& options, Inputs& inputs) {
 struct Outputs {
   fs::path film;
   fs::path display;  ///< Empty when no picture is wanted.
-  fs::path gamut;    ///< Likewise.
-  fs::path stats;    ///< Likewise.
+  fs::path gamut;    ///< Empty when no gamut is wanted.
+  fs::path stats;    ///< Empty when no statistics are wanted.
 };
 
 std::array<fs::path, 5> files_of(const Outputs& outputs, const RenderOptions& options) {

@@ -61,7 +61,7 @@ using MaterialReader = std::optional<MaterialModel> (*)(const JsonValue& json, L
 [[nodiscard]] std::optional<MaterialModel> read_phong(const JsonValue& json, LoadContext& context);
 [[nodiscard]] std::optional<MaterialModel> read_retroreflector(const JsonValue& json, LoadContext& context);
 [[nodiscard]] std::optional<MaterialModel> read_principled(const JsonValue& json, LoadContext& context);
-/// Of materials of `scene` that are no mixtures.
+/// Reads a mixture, whose components are materials of `scene` that are no mixtures.
 [[nodiscard]] std::optional<MixtureMaterial> read_mixture(const JsonValue& json, LoadContext& context,
                                                           const Scene& scene);
 

@@ -39,7 +39,7 @@ void shift(Mesh& mesh, const Imath::V3d& by);
 void shift(Sphere& sphere, const Imath::V3d& by);
 void shift(Disc& disc, const Imath::V3d& by);
 void shift(Quad& quad, const Imath::V3d& by);
-/// Nothing: instances may share their placements, which are moved once each.
+/// Leaves a placed shape where it is: instances may share their placements, which are moved once each.
 void shift(PlacedShape& placed, const Imath::V3d& by);
 
 }  // namespace abbe::description

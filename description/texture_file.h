@@ -32,12 +32,13 @@ struct TextureFile {
 /// or is too large is reported.
 [[nodiscard]] std::optional<TextureFile> read_texture_file(ObjectReader& reader, LoadContext& context);
 
-/// Those channels, texel by texel; a channel that is not there and a value that is not finite are reported.
+/// Reads `channels` of the image texel by texel; a channel that is not there and a value that is not finite
+/// are reported.
 [[nodiscard]] std::optional<std::vector<float>> read_texels(const TextureFile& file,
                                                             std::span<const std::string> channels,
                                                             Encoding encoding, LoadContext& context);
 
-/// Those texels, laid as the file says.
+/// Makes an image of texels with so many channels each, laid on surfaces as the file says.
 [[nodiscard]] TextureImage texture_image(const TextureFile& file, std::size_t channels,
                                          std::vector<float> texels);
 

@@ -16,7 +16,8 @@ struct Transform {
 };
 /// Steps of uniform scale, rotation and translation.
 [[nodiscard]] Transform read_similarity(const JsonValue& json, const LoadContext& context);
-/// Those, scales along the axes and matrices; a map without an inverse is reported.
+/// Reads an affine map: what `read_similarity` reads, scales along the axes, and matrices; a map without an
+/// inverse is reported.
 [[nodiscard]] std::optional<Imath::M44d> read_affine(const JsonValue& json, const LoadContext& context);
 
 }  // namespace abbe::description

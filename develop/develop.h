@@ -32,10 +32,10 @@ struct DevelopedFilm {
 struct PlaneFigures {
   double mean = 0;
   std::optional<double> render_error;  ///< Nothing for planes without variance.
-  TemporalNoise noise{};               ///< That of the sensor at the mean; none without a read-out.
+  TemporalNoise noise{};               ///< The sensor's noise at the mean; none without a read-out.
   double saturated_share = 0;
 };
-/// Those of each plane.
+/// The figures of each plane of a developed film, in the order of its planes.
 [[nodiscard]] std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor,
                                                       const DevelopedFilm& developed);
 

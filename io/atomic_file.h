@@ -17,8 +17,8 @@ void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write,
                       const std::function<bool(const std::filesystem::path& temporary)>& verify);
 
-/// The same for text or bytes already in memory, written one piece after the other and verified by reading
-/// them back.
+/// Writes text or bytes already in memory to a file, one piece after the other, which appears once reading it
+/// back has verified them. Throws Error{output}.
 void write_atomically(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 

@@ -20,15 +20,16 @@ struct ExrPart {
 /// names that OpenEXR defines so (EV, aperture, expTime, isoSpeed, whiteLuminance) as 32-bit float;
 /// atomically, and re-read before it appears. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, const Image& image);
-/// The same for several images of one size, each under a name of its own.
+/// Writes several images of one size as the parts of one file, each under a name of its own, as `write_exr`
+/// writes one. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, std::span<const ExrPart> parts);
 
 /// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes and those numbers as
 /// metadata. Throws Error{input} for a missing, truncated or malformed file and Error{resource} for one
 /// beyond the limits of `io/image.h`, or beyond the memory that `inputs` has left, told by its header.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path, Inputs* inputs = nullptr);
-/// The same for a file of one part or more, which together keep within the limits; a single part may have no
-/// name.
+/// Reads an EXR of one part or more, which together keep within the limits that `read_exr` has for one, with
+/// the same errors; a single part may have no name.
 [[nodiscard]] std::vector<ExrPart> read_exr_parts(const std::filesystem::path& path,
                                                   Inputs* inputs = nullptr);
 

@@ -29,7 +29,7 @@ struct Image {
       if (channel.name == name) return &channel;
     return nullptr;
   }
-  /// Of the channels that there are.
+  /// Bytes that the values of all channels take.
   [[nodiscard]] std::size_t memory_bytes() const { return pixels() * channels.size() * sizeof(float); }
   [[nodiscard]] std::size_t pixels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -14,7 +14,7 @@ struct NumberArray {
   std::vector<float> values;
 };
 
-/// At most so many values are read from one file.
+/// The most values that are read from one file.
 inline constexpr std::size_t kMaxArrayValues = std::size_t{1} << 28U;
 
 /// Reads a file that NumPy's `save` wrote: format 1 or 2, little-endian floats of 4 or 8 bytes in C order.

@@ -32,8 +32,8 @@ struct SpectralName {
   char kind;         ///< '0' to '3' for the Stokes component S0 (radiance) to S3, 'T' for a reflectance.
   double center_nm;  ///< Of a frequency, its wavelength c/f.
 };
-/// Nothing for names of other channels. Throws Error{input} with `where` for a name that begins as a spectral
-/// one and is none, such as one without a number.
+/// Reads the name of a spectral channel; nothing for names of other channels. Throws Error{input} with
+/// `where` for a name that begins as a spectral one and is none, such as one without a number.
 [[nodiscard]] std::optional<SpectralName> parse_spectral_channel(std::string_view name,
                                                                  const std::string& where);
 

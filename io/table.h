@@ -36,7 +36,7 @@ struct Table {
 
   /// Index of the column of that name, if there is one.
   [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const;
-  /// That column as numbers; an empty or malformed cell is reported.
+  /// The values of a column as numbers; an empty or malformed cell is reported.
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::size_t column,
                                                            Diagnostics& diagnostics) const;
   /// Place of a row, for complaints about it.

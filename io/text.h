@@ -20,7 +20,8 @@ inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
                                                           Diagnostics& diagnostics,
                                                           ErrorCode code = ErrorCode::input,
                                                           std::size_t limit_bytes = kMaxTextBytes);
-/// The same of standard input, of any kind, under the name "<stdin>".
+/// Reads standard input, whatever kind of file it is, under the name "<stdin>", with the limits and errors of
+/// a file.
 [[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
 
 /// Whether `path` is a regular file; another is reported at `where`, as what names it.

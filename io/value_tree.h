@@ -31,7 +31,7 @@ class ValueTree {
 
   /// Complains; gives false.
   bool refuse(std::size_t offset, std::string message, std::string pointer);
-  /// The same at the next value.
+  /// Refuses the document at the next value, as the other does at `pointer`.
   bool refuse(std::size_t offset, std::string message);
 
   /// Where the parser stands, as a JSON pointer.

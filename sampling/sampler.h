@@ -19,7 +19,7 @@ class Sampler {
 
   /// Four numbers in [0, 1).
   [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
-  /// Those of two groups that follow each other, at the cost of one.
+  /// The numbers of two groups that follow each other, at the cost of one.
   [[nodiscard]] std::array<std::array<float, 4>, 2> two_groups(std::uint32_t first) const;
 
  private:

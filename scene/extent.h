@@ -29,8 +29,9 @@ struct Extent {
   Imath::V3d origin{0, 0, 0};
   double far_from = 0;  ///< What lies wholly beyond this distance from the camera [m] is far.
 };
-/// For a camera of a lens the shapes it comes to first are near, however far it stands; for a meter, which is
-/// lit where it is, they are so only if it sees them larger than 1/`kGap`.
+/// Finds what is near, far and large to a camera. To a camera of a lens the shapes it comes to first are
+/// near, however far it stands; to a meter, which is lit where it is, only if it sees them larger than
+/// 1/`kGap`.
 [[nodiscard]] Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes);
 
 /// Radius [m] of a scene of these bounds: half their diagonal, 1 of an empty scene, and more than 0.
@@ -38,7 +39,7 @@ struct Extent {
   return bounds.isEmpty() ? 1.0 : std::max(bounds.size().length() / 2, 1e-12);
 }
 
-/// From a point to the nearest point of a box, 0 within it.
+/// Distance from a point to the nearest point of a box, 0 within it.
 [[nodiscard]] double distance_to(const Imath::Box3d& box, const Imath::V3d& point);
 
 [[nodiscard]] inline double largest_coordinate(const Imath::V3d& point) {

@@ -46,20 +46,20 @@ class Geometry {
   Geometry& operator=(const Geometry&) = delete;
 
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
-  /// The same of each of the rays, as many as `hits`, whichever travel together.
+  /// Finds the nearest hit of each of the rays, as many as `hits`, as if each were alone.
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
-  /// As `Scene::touching`, of the scene whose shapes these are.
+  /// What `Scene::touching` tells, of the scene whose shapes these are.
   [[nodiscard]] TouchingSurfaces touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
   /// Whether anything but a boundary of matter is met at t in (0, ray.t_max).
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
-  /// The same of each of the rays, as many as `blocked`: 1 where something is met, else 0.
+  /// Tells of each of the rays, as many as `blocked`, whether something is met: 1 or 0.
   void occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const;
   /// Every ray through Embree, the answers dropped.
   void replay(std::span<const LoggedRay> rays) const;
 
-  /// Of every instance.
+  /// Number of triangles, those of every instance counted.
   [[nodiscard]] std::size_t triangle_count() const;
-  /// Prototypes once each, however many instances they have.
+  /// Bytes held, of a prototype once, however many instances it has.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

@@ -139,8 +139,8 @@ class Scene {
   [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// Of many rays at once, as many as answers, each as if it were alone: nearest hits, and whether (1 or 0)
-  /// anything but boundaries of matter stands on each of the ways.
+  /// Answers many rays at once, as many as answers, each as if it were alone: nearest hits, and whether (1 or
+  /// 0) anything but boundaries of matter stands on each of the ways.
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
   void occluded(std::span<const BasicRay<double>> ways, std::span<std::uint8_t> blocked) const;
 

@@ -15,9 +15,9 @@ struct SurfacePlace {
   bool relief = false;  ///< z may differ from the normal of the shape.
 };
 
-/// Of a hit; asked for where a scene has `needs.textures`, for without it the normal says all. A relief turns
-/// the normal that vertex normals give. Where the material needs coordinates they are worked out, and the
-/// frame's x runs along dp/du; elsewhere they are (0, 0).
+/// The place of a hit, where a scene has `needs.textures`; without it the normal says all. A relief turns the
+/// normal that vertex normals give. Where the material needs coordinates they are worked out, and the frame's
+/// x runs along dp/du; elsewhere they are (0, 0).
 [[nodiscard]] SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit);
 
 }  // namespace abbe

@@ -16,7 +16,7 @@ struct White {
   std::optional<Curve> spectrum = {};  ///< Of the light; nothing for what lights nothing.
 };
 
-/// That of a light: of its mean emission.
+/// The white of a light: the chromaticity of its mean emission.
 [[nodiscard]] White white_of(const Light& light, std::string reason);
 
 }  // namespace abbe

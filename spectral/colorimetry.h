@@ -51,7 +51,7 @@ using Chromaticity = std::array<double, 2>;
 
 /// Chromaticity coordinates x, y; {0, 0} for black.
 [[nodiscard]] Chromaticity chromaticity(const XYZ& xyz);
-/// Those of a light for the CIE 1931 observer; no numbers for one that nobody sees.
+/// Chromaticity of a light for the CIE 1931 observer; not finite for a light that nobody sees.
 [[nodiscard]] Chromaticity chromaticity(const Curve& light);
 
 /// CIE 1976 L*a*b* relative to `white`, both in the same scale [CIE15, sec. 8.2.1].

@@ -46,7 +46,7 @@ void append(std::vector<Knot>& knots, double wavelength_nm, double left, double 
   if (right != left) knots.push_back({wavelength_nm, right});
 }
 
-/// The same function on exactly [300, 1100] nm.
+/// The function on exactly [300, 1100] nm.
 std::vector<Knot> cut_to_range(std::span<const Knot> knots) {
   std::vector<Knot> cut;
   cut.reserve(knots.size() + 2);

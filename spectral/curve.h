@@ -35,7 +35,7 @@ class Curve {
 
   /// Value at a wavelength [nm]; a wavelength outside [300, 1100] takes the value at the nearer end.
   [[nodiscard]] double operator()(double wavelength_nm) const;
-  /// The same to a few float steps of the larger end of a cell.
+  /// Values at the lanes of a packet [nm], to a few float steps of the larger end of a cell.
   [[nodiscard]] SampledSpectrum operator()(const SampledSpectrum& wavelengths_nm) const;
 
   [[nodiscard]] std::span<const Knot> knots() const { return knots_; }

@@ -50,7 +50,7 @@ struct TableSamples {
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});
 
-/// The same for a column of a table already read, called `name`.
+/// Reads a column of a table already read, called `name`, with the checks of `load_curve`.
 [[nodiscard]] std::optional<NamedCurve> curve_of(const Table& table, const std::string& column,
                                                  const std::string& name, Diagnostics& diagnostics,
                                                  NeededRange needed = {});

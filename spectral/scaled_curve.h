@@ -25,7 +25,7 @@ class ScaledCurve {
   [[nodiscard]] const Curve& base() const { return *base_; }
   [[nodiscard]] double factor() const { return factor_; }
   [[nodiscard]] double max() const { return factor_ * base_->max(); }
-  /// As a curve of its own.
+  /// The product as a curve of its own.
   [[nodiscard]] Curve curve() const { return scaled(*base_, factor_); }
 
  private:

@@ -20,7 +20,7 @@ using Matrix3 = Imath::M33d;
   return y;
 }
 
-/// Its elements, row by row, as the attributes of films hold them.
+/// The elements of the matrix row by row, as the attributes of films hold them.
 [[nodiscard]] std::string to_text(const Matrix3& m);
 /// Reads that; nothing unless `text` is nine numbers with a blank between them.
 [[nodiscard]] std::optional<Matrix3> parse_matrix3(std::string_view text);

@@ -25,7 +25,7 @@ enum class CorrectionModel {
 /// The terms of white-balanced raw values; the root of a negative product is zero.
 [[nodiscard]] std::vector<double> correction_terms(CorrectionModel model, const Raw& raw);
 
-/// From white-balanced raw values to XYZ, Y = 1 for the perfect diffuser.
+/// What turns white-balanced raw values into XYZ, Y = 1 for the perfect diffuser.
 struct ColorCorrection {
   CorrectionModel model = CorrectionModel::linear;
   std::vector<XYZ> columns;  ///< What each term adds, in the order of `correction_terms`.

@@ -21,7 +21,8 @@ enum class Objective {
 /// the patches. Throws Error{input} when the patches do not span three dimensions.
 [[nodiscard]] Matrix3 least_squares_matrix(const PatchColors& colors);
 
-/// The same for a correction of any model, under the constraint that (1, 1, 1) maps to the white exactly.
+/// The correction of any model with the least sum of squared XYZ errors, under the constraint that raw values
+/// (1, 1, 1) map to the white exactly.
 [[nodiscard]] ColorCorrection white_preserving_least_squares(const PatchColors& colors,
                                                              CorrectionModel model = CorrectionModel::linear);
 
@@ -53,8 +54,8 @@ struct CorrectionOptions {
   int starts = 16;      ///< The least-squares start and jittered copies of it.
   double jitter = 0.1;  ///< Standard deviation of the jitter of each coefficient.
   std::uint64_t seed = 1;
-  /// Of each start. A sum of absolute errors approaches its minimum by a nearly constant factor per step, as
-  /// slowly as 0.97 for ideal filters, so a fit may need hundreds of them.
+  /// The most iterations made from each start. A sum of absolute errors approaches its minimum by a nearly
+  /// constant factor per step, as slowly as 0.97 for ideal filters, so a fit may need hundreds of them.
   int max_iterations = 2000;
 };
 

@@ -33,7 +33,7 @@ class ResponseModel {
     return sum;
   }
 
-  /// Its derivative by the code.
+  /// The derivative of the response by the code.
   [[nodiscard]] T slope(double code) const {
     using std::exp;
     const double x = position(code);

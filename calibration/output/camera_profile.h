@@ -26,7 +26,7 @@ struct CameraProfile {
   return multiply(profile.adaptation, profile.correction(multiply(diagonal(profile.gains), linear)));
 }
 
-/// The same as a matrix, of a profile with a linear correction.
+/// The matrix from white-balanced raw values to XYZ under D65, of a profile whose correction is linear.
 [[nodiscard]] inline Matrix3 matrix_to_xyz_d65(const CameraProfile& profile) {
   return profile.adaptation * linear_part(profile.correction) * diagonal(profile.gains);
 }

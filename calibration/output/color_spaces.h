@@ -37,8 +37,8 @@ inline constexpr RgbSpace kP3D65{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060},
 /// Cone spaces in which white is adapted, by a gain for each cone.
 enum class Adaptation {
   bradford,  ///< Sharpened Bradford cones, linear [Lam1985].
-  cat02,     ///< Those of CIECAM02 [CIE159].
-  cat16,     ///< Those of CAM16 [Li2017].
+  cat02,     ///< The cones of CIECAM02 [CIE159].
+  cat16,     ///< The cones of CAM16 [Li2017].
 };
 
 /// Chromatic adaptation of XYZ from one white to another, complete. Nothing for a white without a positive

@@ -35,7 +35,7 @@ struct ViewOptions {
 /// The configuration that $OCIO names; empty when it names none.
 [[nodiscard]] std::filesystem::path users_configuration();
 
-/// From the linear values of one sensor to the code values of a display, through OpenColorIO.
+/// Takes the linear values of one sensor to the code values of a display, through OpenColorIO.
 class DisplayTransform {
  public:
   /// `channels` names the film channels in order, one or three of them; `to_xyz_d65` takes their values to

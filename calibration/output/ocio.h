@@ -18,7 +18,8 @@ inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
 
 /// The colour space of a profile, e.g. "Camera D65".
 [[nodiscard]] std::string camera_space(const CameraProfile& profile);
-/// Its files: `camera_D65` and an extension; characters a file name should not have become '_'.
+/// The name of a file of the camera's space: `camera_D65` and an extension; characters a file name should not
+/// have become '_'.
 [[nodiscard]] std::string camera_file(const CameraProfile& profile, const std::string& extension);
 
 /// An OpenColorIO version 2 configuration. Reference space: linear XYZ, white D65. Colour spaces: one for

@@ -131,7 +131,8 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
 /// What nodes have put together so far, by material.
 using MeshesByMaterial = std::map<std::optional<std::size_t>, Mesh>;
 
-/// Those of a primitive's vertices: none when it has none, or nobody wants them. False after a fault.
+/// Reads the texture coordinates of a primitive's vertices: none when it has none, or nobody wants them.
+/// False after a fault.
 bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       std::vector<Imath::V2f>& coordinates, MeshReading& reading) {
   const auto named = primitive.attributes.find("TEXCOORD_0");
@@ -150,7 +151,8 @@ bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& p
   return true;
 }
 
-/// Those of a primitive's vertices, moved as these are: none when it has none. False after a fault.
+/// Reads the normals of a primitive's vertices, moved as these are: none when it has none. False after a
+/// fault.
 bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                   std::vector<Imath::V3f>& normals, MeshReading& reading) {
   const auto named = primitive.attributes.find("NORMAL");

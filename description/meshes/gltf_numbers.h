@@ -21,8 +21,8 @@ struct GltfNumbers {
   int component_type;
 };
 
-/// Those of an accessor of `type`; nothing, after a fault, for one that does not exist, is of another type or
-/// leaves its buffer.
+/// The numbers of an accessor of `type`; nothing, after a fault, for one that does not exist, is of another
+/// type or leaves its buffer.
 [[nodiscard]] std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int accessor, int type,
                                                     MeshReading& reading);
 

@@ -33,7 +33,8 @@ struct MeshFile {
 };
 
 enum class FileMaterials { ignored, wanted };
-/// Of textures, at the corners of triangles. v runs upwards, so that of glTF is turned round.
+/// Whether texture coordinates at the corners of triangles are read. v runs upwards, so that of glTF is
+/// turned round.
 enum class FileCoordinates { ignored, wanted };
 
 /// Whether files of this extension may bring materials along.

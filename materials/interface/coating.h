@@ -33,14 +33,14 @@ struct Coating {
 [[nodiscard]] FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n,
                                                 double k, double cos_i, bool inside, double outside = 1);
 
-/// The same at the lanes of a packet: the coating's indices are looked up once for all of them, relative to
-/// the matter `outside`, air if nullptr.
+/// A coating at the lanes of a packet: its indices are looked up once for all of them, relative to the matter
+/// `outside`, air if nullptr.
 class CoatingAt {
  public:
   CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
             const RefractiveIndex* outside = nullptr);
 
-  /// Of matter of index n + ik relative to what is outside.
+  /// Reflectance and transmittance at one lane of matter of index n + ik, relative to what is outside.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
 
  private:

@@ -7,9 +7,9 @@ namespace abbe {
 /// the thinner. To 1e-7. [Judd1942]
 [[nodiscard]] double diffuse_reflectance_outside(double eta);
 
-/// The same from inside matter of any index eta relative to the outside, what is totally reflected included:
-/// the passages of a diffuse light either way are as 1 to eta^2, so that 1 - r_inside = (1 -
-/// r_outside)/eta^2. [Judd1942]
+/// Reflectance of diffuse light from inside matter of any index eta relative to the outside, what is totally
+/// reflected included: the passages of a diffuse light either way are as 1 to eta^2, so that 1 - r_inside =
+/// (1 - r_outside)/eta^2. [Judd1942]
 [[nodiscard]] double diffuse_reflectance_inside(double eta);
 
 }  // namespace abbe

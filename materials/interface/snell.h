@@ -49,7 +49,8 @@ template <typename T>
   return (e - W(1)) * (e + W(1)) + c * c;
 }
 
-/// The same for doubles, whose squares do not fit a long double: cut in heads of 24 bits and tails.
+/// The radicand of the cosine of refraction for doubles, whose squares do not fit a long double: cut in heads
+/// of 24 bits and tails.
 [[nodiscard]] inline long double refraction_radicand(double cos_i, double eta) {
   const long double c = static_cast<float>(cos_i);
   const long double e = static_cast<float>(eta);

@@ -28,8 +28,9 @@ struct PlacedGrid {
   Imath::V3d from;
   Imath::V3d to;
 
-  /// Along a ray of unit `direction`, until the integral is `column` or the way `distance`; both may be
-  /// infinite. Exact: within a cell the density along a line is a cubic, whose integral Simpson's rule gives.
+  /// Goes along a ray of unit `direction` until the integral of density is `column` [m] or the way `distance`
+  /// [m]; both may be infinite. Exact: within a cell the density along a line is a cubic, whose integral
+  /// Simpson's rule gives.
   [[nodiscard]] GridStretch march(const Imath::V3f& origin, const Imath::V3f& direction, float distance,
                                   float column) const;
 };

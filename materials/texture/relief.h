@@ -13,7 +13,7 @@ namespace abbe {
 struct NormalMap {
   TextureImage image;
 
-  /// Of unit length, in those axes.
+  /// The unit normal at `uv`, in the axes dp/du, dp/dv and outward normal.
   [[nodiscard]] Imath::V3d normal(const Imath::V2f& uv) const;
 };
 

@@ -15,7 +15,7 @@ namespace abbe {
 /// weights are the channels of an image.
 class SpectralTexture {
  public:
-  /// The same everywhere.
+  /// A quantity that is the same everywhere.
   SpectralTexture(Curve curve) : curve_(std::move(curve)) {}
   /// The sum over channels c of (value of c) * spectra[c]. Throws Error{internal} unless there is a spectrum
   /// for each.
@@ -30,7 +30,7 @@ class SpectralTexture {
   [[nodiscard]] bool textured() const { return image_ != nullptr; }
   /// What it is everywhere; zero if it is `textured`.
   [[nodiscard]] const Curve& curve() const { return curve_; }
-  /// Of the image, if any.
+  /// Bytes of the image, 0 if there is none.
   [[nodiscard]] std::size_t memory_bytes() const { return image_ ? image_->image.memory_bytes() : 0; }
 
  private:

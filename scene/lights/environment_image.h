@@ -36,7 +36,7 @@ class EnvironmentImage {
 
   /// Spectral radiance arriving from the unit direction `wi`, in the emission's unit.
   [[nodiscard]] SampledSpectrum radiance(const Imath::V3f& wi, const SampledSpectrum& wavelengths_nm) const;
-  /// Nothing when no texel exposes any channel.
+  /// Draws the unit direction that light comes from; nothing when no texel exposes any channel.
   [[nodiscard]] std::optional<Imath::V3f> sample(Imath::V2f u) const;
   /// Density [1/sr] of `sample`, constant within a texel.
   [[nodiscard]] float pdf(const Imath::V3f& wi) const;

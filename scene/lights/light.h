@@ -143,18 +143,20 @@ struct EmissionPoint {
 };
 [[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
                                                   const std::vector<ShapeInstance>& shapes, Imath::V2f u);
-/// Numbers for it that are spread over a light, its middle first: where all of a light is to be looked at.
+/// Numbers for `sample_emission_point` that are spread over a light, its middle first: where all of a light
+/// is to be looked at.
 inline constexpr std::array<std::array<float, 2>, 5> kSpreadOverLight{
     {{0.5F, 0.5F}, {0.05F, 0.05F}, {0.95F, 0.05F}, {0.05F, 0.95F}, {0.95F, 0.95F}}};
 
-/// What its mean emission is multiplied by to give its power: [m^2 sr], [sr] for point and spot lights, [m^2]
-/// for directional ones; of lights at infinity, through the sphere of radius `scene_radius_m`.
+/// What the mean emission of a light is multiplied by to give its power: [m^2 sr], [sr] for point and spot
+/// lights, [m^2] for directional ones; of lights at infinity, through the sphere of radius `scene_radius_m`
+/// [m].
 [[nodiscard]] double etendue(const Light& light, double scene_radius_m);
 /// Emission averaged over directions: that of the light, or of the mean texel of an environment image.
 [[nodiscard]] ScaledCurve mean_emission(const Light& light);
-/// Spectral power [W/nm]: the product of the two.
+/// Spectral power of a light [W/nm]: its mean emission times its `etendue`.
 [[nodiscard]] Curve power(const Light& light, double scene_radius_m);
-/// Of the light itself and all it holds, but for its emission, which others may share.
+/// Bytes of the light itself and all it holds, but for its emission, which others may share.
 [[nodiscard]] std::size_t memory_bytes(const Light& light);
 
 }  // namespace abbe

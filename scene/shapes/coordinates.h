@@ -16,8 +16,8 @@ struct SurfaceCoordinates {
   Imath::V3d dp_dv{0, 0, 0};
 };
 
-/// Of a point on the shape, on triangle number `triangle` of a mesh. Pictures stand upright and are not
-/// mirrored when seen from outside:
+/// The coordinates of a point on the shape, on triangle number `triangle` of a mesh. Pictures stand upright
+/// and are not mirrored when seen from outside:
 /// - a quad's u and v run along its edges;
 /// - the square around a disc is [0, 1]^2; v runs along the part of +z in its plane, or of +y where the
 ///   normal is within 26 degrees of z, and u is perpendicular to both, to the right as seen from the front;

@@ -6,8 +6,8 @@
 
 namespace abbe {
 
-/// By trying every triangle, edges included: exact but slow, for single rays. Triangles without area are
-/// never hit.
+/// The nearest hit by trying every triangle, edges included: exact but slow, for single rays. Triangles
+/// without area are never hit.
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Mesh& mesh, const BasicRay<T>& ray, T t_min);
 

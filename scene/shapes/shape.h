@@ -28,9 +28,9 @@ struct ShapeHit {
 struct Mesh {
   std::vector<Imath::V3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Of the corners of each triangle; none, or as many as triangles.
+  /// Texture coordinates of the corners of each triangle; none, or as many as triangles.
   std::vector<std::array<Imath::V2f, 3>> coordinates = {};
-  /// Of the corners of each triangle, of unit length: what a smooth surface would have there, of which the
+  /// Unit normals at the corners of each triangle: what a smooth surface would have there, of which the
   /// triangle is a piece. None, or as many as triangles.
   std::vector<std::array<Imath::V3f, 3>> normals = {};
   /// Triangles of no area: nothing meets them, but those beside them meet along their edges.
@@ -96,7 +96,8 @@ template <typename T>
 
 /// A box around the shape; of an instance, that around its prototype's box.
 [[nodiscard]] Imath::Box3d bounds(const Shape& shape);
-/// Of the outer side [m^2]. Instances do not emit and have no use for it: Error{internal}, here and below.
+/// Area of the outer side of a shape [m^2]. Instances do not emit and have no use for it: Error{internal},
+/// here and below.
 [[nodiscard]] double area(const Shape& shape);
 
 /// A point drawn uniformly by area, on the surface as the render holds it: corners rounded to float, curves
@@ -105,7 +106,8 @@ struct SurfacePoint {
   Imath::V3f point;
   Imath::V3f normal;
 };
-/// `triangle_cdf` is that of the shape, from the function below.
+/// Draws a point of the shape by two numbers in [0, 1); `triangle_cdf` is what the function below makes of
+/// the shape.
 [[nodiscard]] SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_cdf,
                                        Imath::V2f u);
 

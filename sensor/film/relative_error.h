@@ -26,7 +26,7 @@ struct RelativeError {
 /// that the film has no light in counts as infinitely far off.
 [[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> lit);
 
-/// That of the mean over the whole film alone.
+/// Relative error of the mean over the whole film alone.
 [[nodiscard]] double frame_mean_error(const Film& film);
 
 /// Quantiles, at ascending `probabilities`, of standard deviations of which there are only estimates: each is

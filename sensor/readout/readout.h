@@ -38,8 +38,8 @@ struct Readout {
   double prnu_percent = 0;   ///< Standard deviation of the pixels' sensitivity, relative to its mean.
   double dsnu_e = 0;         ///< Standard deviation of the pixels' offsets.
   std::uint64_t serial = 0;  ///< Which specimen of the sensor: each has its own fixed patterns.
-  /// From signal to code, both as shares of the codes above the offset; linear when absent. Goes from (0, 0)
-  /// to (1, 1).
+  /// The curve from signal to code, both as shares of the codes above the offset; linear when absent. Goes
+  /// from (0, 0) to (1, 1).
   std::optional<MonotoneCurve> response_curve = {};
 
   [[nodiscard]] double highest_code() const { return static_cast<double>((1U << bits) - 1); }
@@ -83,7 +83,8 @@ struct TemporalNoise {
   double quantisation_e;  ///< K/sqrt(12)
   double total_e;
 };
-/// Of a pixel that expects `mean_e` electrons from light; exact for a linear response below saturation.
+/// Temporal noise of a pixel that expects `mean_e` electrons from light; exact for a linear response below
+/// saturation.
 [[nodiscard]] TemporalNoise temporal_noise(const Readout& readout, double mean_e, double exposure_s);
 
 }  // namespace abbe

@@ -15,11 +15,11 @@ inline constexpr std::uint32_t kEmissionGroup = 1;
 /// Number of the event at a meter, where camera paths scatter before they meet the first surface.
 inline constexpr int kMeterEvent = -1;
 
-/// For the scattering of an event, and, next to it, for the connection made there.
+/// The group for the scattering of an event; the next one is for the connection made there.
 [[nodiscard]] constexpr std::uint32_t scattering_group(int event) {
   return 2 + 2 * static_cast<std::uint32_t>(event - kMeterEvent);
 }
-/// For how far a path comes in matter that scatters, before an event.
+/// The group for how far a path comes in matter that scatters, before an event.
 [[nodiscard]] constexpr std::uint32_t free_path_group(int event) {
   return 0x80000000 + static_cast<std::uint32_t>(event);
 }

@@ -75,7 +75,7 @@ class FilmResponse {
   bool angular_;
 };
 
-/// That of the scene's sensor.
+/// The response of the scene's sensor; refers to the scene, which must outlive it.
 [[nodiscard]] inline FilmResponse film_response_of(const Scene& scene) {
   return FilmResponse(scene.channels, scene.mosaic ? &*scene.mosaic : nullptr);
 }

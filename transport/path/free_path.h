@@ -30,7 +30,7 @@ struct Transmission {
   SampledSpectrum transmittance{1.0F};
   SampledSpectrum density{1.0F};
 };
-/// Along the first `distance` [m], perhaps infinite, of a ray that sets out within `around`.
+/// Follows the first `distance` [m], perhaps infinite, of a ray that sets out within `around`.
 [[nodiscard]] Transmission transmission(const Scene& scene, RayCaster& caster, Ray ray, Surroundings around,
                                         const SampledSpectrum& wavelengths_nm, float distance);
 

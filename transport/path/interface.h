@@ -19,20 +19,20 @@ struct CrossedSurface {
   bool entering;
 };
 
-/// What surfaces that touch are to a ray.
+/// Which of several surfaces that touch acts on a ray, and what lies around it there.
 struct ActingSurface {
   std::optional<std::size_t> acting;         ///< Which of them acts; none where nothing changes.
   const RefractiveIndex* outside = nullptr;  ///< Of the acting shape's own matter; nullptr is air.
   MediumStack beyond = {};                   ///< What a ray that is let through is in.
 };
 
-/// Of the surfaces that a ray within `inside` meets together. The first opaque one acts, else that of the
-/// higher priority of the two that bound what was before and what is behind, of equals the later one of the
-/// scene. A shape left that was never entered counts as entered before.
+/// Tells which of the surfaces that a ray within `inside` meets together acts on it. The first opaque one
+/// acts, else that of the higher priority of the two that bound what was before and what is behind, of equals
+/// the later one of the scene. A shape left that was never entered counts as entered before.
 [[nodiscard]] ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
                                            const MediumStack& inside);
 
-/// The same for a path that meets the scene at `first`.
+/// The interface at which a path that meets the scene at `first` meets it.
 struct Interface {
   SurfaceHit hit;  ///< With the acting surface.
   bool passes;     ///< Nothing changes.

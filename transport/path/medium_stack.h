@@ -13,11 +13,11 @@ namespace abbe {
 /// from the outermost. What is around the point is the last one's matter, or air where there is none.
 class MediumStack {
  public:
-  /// Of more than this many the first are forgotten.
+  /// The most shapes held; of more than these the first are forgotten.
   static constexpr std::size_t kMost = 16;
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  /// Not of air.
+  /// The shape whose matter is around the point; not of an empty stack, which is air.
   [[nodiscard]] std::uint32_t innermost() const { return shapes_[count_ - 1]; }
   [[nodiscard]] std::span<const std::uint32_t> shapes() const { return {shapes_.data(), count_}; }
 
@@ -42,12 +42,12 @@ class MediumStack {
   std::size_t count_ = 0;
 };
 
-/// Those around a point in the scene, found along a ray from there and its opposite: a shape encloses the
-/// point if both leave it more often than they enter.
+/// Finds the shapes around a point in the scene, along a ray from there and its opposite: a shape encloses
+/// the point if both leave it more often than they enter.
 [[nodiscard]] MediumStack enclosing(const Scene& scene, const Imath::V3f& point);
-/// Around where a scene's camera stands, its lens or the middle of its probe, and around where a light does:
-/// neither may stand in two matters at once. A light that is far, or at infinity, stands outside of them all.
-/// Throws Error{scene} for a lamp whose corners do.
+/// Finds the shapes around a scene's camera, its lens or the middle of its probe, and around a light: neither
+/// may stand in two matters at once. A light that is far, or at infinity, stands outside of them all. Throws
+/// Error{scene} for a lamp whose corners do.
 [[nodiscard]] MediumStack around_camera(const Scene& scene);
 [[nodiscard]] MediumStack around_light(const Scene& scene, const Light& light);
 

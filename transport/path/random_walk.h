@@ -55,7 +55,7 @@ class RandomWalks {
         has_free_paths_(abbe::has_free_paths(scene)),
         most_events_(most_events(scene.render)) {}
 
-  /// All paths, and the indices of those that go on.
+  /// The paths of the batch, and below the indices of those that go on.
   [[nodiscard]] std::vector<Path>& paths() { return paths_; }
   [[nodiscard]] std::vector<std::uint32_t>& going() { return going_; }
   [[nodiscard]] bool has_free_paths() const { return has_free_paths_; }

@@ -17,7 +17,7 @@ struct TruncatedPaths {
   std::uint64_t paths = 0;
   Int128 sum = 0;  ///< In units of 2^kUnitExponent.
 
-  /// Nothing is counted of a path that carries nothing.
+  /// Counts a path cut while it carried `throughput`; one that carries nothing is not counted.
   void count(float throughput) {
     if (!(throughput > 0)) return;
     ++paths;

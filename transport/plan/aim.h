@@ -34,10 +34,11 @@ class Aim {
 
   /// Emission alone, where there is no target or the light is too close to it.
   Aim() = default;
-  /// At the bounding sphere of `targets`, seen from `light_center`; all parts of it alike.
+  /// Aims at the bounding sphere of the targets, seen from `light_center`; all parts of it alike.
   Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius);
-  /// Of a light so far that its rays all run within an angle of cosine `least_cosine` to the unit direction
-  /// `axis`: `point` covers the whole sphere for each of them, evenly until `guide` lets it learn.
+  /// Makes the aim of a light so far that its rays all run within an angle of cosine `least_cosine` to the
+  /// unit direction `axis`: `point` covers the whole sphere for each of them, evenly until `guide` lets it
+  /// learn.
   [[nodiscard]] static Aim from_afar(const Imath::V3f& axis, double least_cosine,
                                      const Imath::V3f& target_center, double target_radius);
   void guide();

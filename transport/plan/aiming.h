@@ -9,14 +9,14 @@
 
 namespace abbe {
 
-/// Of a light that is far: the middle of it, how far [m] it is from the middle of the scene, and its radius
-/// [m].
+/// What a light that is far looks like from the scene: its middle, how far [m] that is from the middle of the
+/// scene, and its radius [m].
 struct FarLight {
   Imath::V3d center;
   double distance;
   double radius;
 };
-/// Nothing for a light that is near or has no place.
+/// Tells how a light that is far looks; nothing for one that is near or has no place.
 [[nodiscard]] std::optional<FarLight> far_away(const Light& light, const Scene& scene);
 
 /// Why photons of the lights in `traced` cannot light the scene. They are sent through what is near, so that

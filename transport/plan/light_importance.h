@@ -6,11 +6,11 @@
 
 namespace abbe {
 
-/// The bounds of lights, ready to be asked at each vertex of a path.
+/// The bounds of lights, made ready to be evaluated at each vertex of a path.
 class LightImportance {
  public:
-  /// With strengths times `scale` [1/unit of them], and `nearest` no less than `least_distance` [m] > 0,
-  /// which keeps the irradiance finite at the place of a lamp.
+  /// Takes the strengths of `bounds` times `scale` [1/unit of them], and `nearest` no less than
+  /// `least_distance` [m] > 0, which keeps the irradiance finite at the place of a lamp.
   LightImportance(const LightBounds& bounds, double scale, double least_distance);
 
   /// Irradiance of a surface at `point` whose side of the unit `normal` alone can be lit, or, without a

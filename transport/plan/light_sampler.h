@@ -30,7 +30,7 @@ class LightSampler {
   /// without one light may come from everywhere. `u` is in [0, 1); the lights follow each other along it,
   /// neighbours in space mostly near.
   [[nodiscard]] Pick pick(const Imath::V3f& point, const Imath::V3f* normal, float u) const;
-  /// With which `pick` chooses that light for that place: the same number to the bit.
+  /// Probability with which `pick` chooses that light for that place: the same number to the bit.
   [[nodiscard]] float probability(std::uint32_t light, const Imath::V3f& point,
                                   const Imath::V3f* normal) const;
 

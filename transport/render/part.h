@@ -26,7 +26,7 @@ void write_part(const std::filesystem::path& path, const FilmIdentity& identity,
 
 /// Throws Error{input} for a file that is missing, torn, damaged, no part, or saved amid a pass.
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
-/// The same, for a render to go on with: it may have been saved amid a pass.
+/// Reads a part for a render to go on with, as `read_part` does, but it may have been saved amid a pass.
 [[nodiscard]] RenderPart read_checkpoint(const std::filesystem::path& path);
 
 /// Throws Error{input} naming `path` and the first thing in which its film differs from the one wanted.

@@ -29,7 +29,8 @@ struct PassCounts {
 /// ones.
 class Pass {
  public:
-  /// Of which the film has the first `done` items already. `seed` is that of the random numbers.
+  /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random
+  /// numbers.
   Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples, std::uint32_t done,
        std::uint64_t seed);
 

@@ -11,7 +11,7 @@
 
 namespace abbe {
 
-/// Of the random numbers of pilots: scene files have none so large.
+/// Seed of the random numbers of pilots: scene files have none so large.
 inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
 
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,

@@ -30,7 +30,7 @@ using SampleRanges = std::vector<SampleRange>;
 [[nodiscard]] std::uint64_t count(const SampleRanges& ranges);
 [[nodiscard]] std::vector<std::uint64_t> count_per_replicate(const SampleRanges& ranges, int replicates);
 
-/// As "0:16,32:64", and back; nothing for any other text.
+/// Ranges as text such as "0:16,32:64", and back; nothing for any other text.
 [[nodiscard]] std::string to_text(const SampleRanges& ranges);
 [[nodiscard]] std::optional<SampleRanges> parse_sample_ranges(std::string_view text);
 

@@ -39,7 +39,7 @@ class LightTracer {
 
   /// Traces a photon for each of the samplers, and deposits what its connections bring, by its number.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
-  /// How those of the last call set out.
+  /// Tells how the photons of the last call set out.
   [[nodiscard]] std::span<const PhotonStart> starts() const { return starts_; }
 
   // What RandomWalks asks.

@@ -43,7 +43,7 @@ class PathTracer {
 
   PathTracer(const Plan& plan, RayCaster& caster);
 
-  /// From now on also adds up what each light deposits.
+  /// Lets the tracer, from now on, also add up what each light deposits.
   void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
 
   /// Traces a path for each of some samples, and deposits what they find by their numbers, at least once

@@ -27,7 +27,8 @@ struct BenchReport {
 /// One JSON object, every digit kept.
 [[nodiscard]] std::string json_text(const BenchReport& report);
 
-/// For reading: per suite the means over seeds, then the times at the rivals' errors, then the changes.
+/// The report for reading: per suite the means over seeds, then the times at the rivals' errors, then the
+/// changes.
 [[nodiscard]] std::string readable_text(const BenchReport& report);
 
 /// relRMSE against CPU time of one suite, with its rivals.

@@ -54,7 +54,7 @@ struct EqualError {
   [[nodiscard]] double ratio() const { return rival.cpu_s / abbe.cpu_s; }
 };
 
-/// Of all rivals of the run's suite.
+/// Compares the run with all rivals of its suite at their errors.
 [[nodiscard]] std::vector<EqualError> equal_errors(const SuiteRun& run, std::span<const Rival> rivals);
 
 }  // namespace abbe

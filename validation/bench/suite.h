@@ -18,7 +18,7 @@ struct Suite {
   bool makes_meshes = false;            ///< The scene's meshes are made first.
 };
 
-/// All of them, in the order they run.
+/// All suites, in the order they run.
 [[nodiscard]] const std::vector<Suite>& bench_suites();
 
 /// The suites of those names, all for none. Throws Error{usage} for another name.

@@ -19,7 +19,7 @@ struct Margin {
   double value;
   Kind kind = Kind::absolute;
 
-  /// For one reference value, in its unit.
+  /// The largest deviation that passes for one reference value, in its unit.
   [[nodiscard]] double of(double reference) const;
 };
 

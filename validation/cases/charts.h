@@ -16,7 +16,7 @@ struct ChartColors {
   std::vector<XYZ> xyz;
   std::vector<Lab> lab;  ///< Relative to the illuminant's white.
 };
-/// From a shipped table of spectra, by 1 nm sums.
+/// Colours of a chart from a shipped table of spectra, by 1 nm sums.
 [[nodiscard]] ChartColors chart_colors(const std::string& spectra, const std::string& illuminant);
 
 /// CIEDE2000 patch by patch.

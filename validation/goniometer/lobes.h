@@ -15,7 +15,7 @@ namespace abbe {
 /// Scattering seen from one direction, as sampling gives it.
 using LobeSampler = std::function<std::optional<BsdfSample>(const BsdfRandom& u, int hero)>;
 
-/// That of a model.
+/// The sampler of a scattering model, for light seen from `wo`.
 [[nodiscard]] LobeSampler sampler_of(const Bsdf& bsdf, const Imath::V3f& wo, TransportMode mode);
 
 /// How well samples follow a density.
@@ -53,10 +53,11 @@ struct Asymmetry {
   double largest;  ///< Of |f(a, b) - f(b, a)| / max(f(a, b), f(b, a)), counting only pairs that matter.
   double mean;     ///< Of |f(a, b) - f(b, a)| over that of f(a, b) + f(b, a) halved.
 };
-/// Of Helmholtz's reciprocity: f(a, b) = f(b, a), and f/n^2 of the side light leaves to, across the surface.
+/// How far a model is from Helmholtz's reciprocity: f(a, b) = f(b, a), and f/n^2 of the side light leaves to,
+/// across the surface.
 [[nodiscard]] Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
-/// Of what camera paths see, f(a, b) of radiance, and what photons do on the same way, f(b, a) of power: 0
-/// for every model, reciprocal or not.
+/// How far what camera paths see, f(a, b) of radiance, is from what photons do on the same way, f(b, a) of
+/// power: 0 for every model, reciprocal or not.
 [[nodiscard]] Asymmetry adjoint_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
 
 }  // namespace abbe

@@ -29,7 +29,7 @@ struct ScatteredColor {
 struct GoniometerAngle {
   double angle_deg;
   std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance, by wavelength.
-  std::vector<Estimate> transmitted;  ///< The same of what passes.
+  std::vector<Estimate> transmitted;  ///< Directional-hemispherical transmittance, by wavelength.
   ScatteredColor reflected_color;     ///< Of the hemisphere's light.
   ScatteredColor transmitted_color;
   double sampling_p;       ///< Of chi-square, sampled against stated density; 1 where nothing spreads.

@@ -19,7 +19,7 @@ using DisplayColor = std::array<double, 3>;
 /// Code values of linear Rec.709, clamped to what displays show, by the transfer function of IEC 61966-2-1.
 [[nodiscard]] DisplayColor display_code(const LinearRgb& linear);
 
-/// As SVG and HTML name it: "#rrggbb".
+/// The colour as SVG and HTML name it: "#rrggbb".
 [[nodiscard]] std::string css_color(const DisplayColor& color);
 
 }  // namespace abbe

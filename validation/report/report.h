@@ -48,7 +48,7 @@ struct ValidationSettings {
 /// Runs the cases of the suites, in their order. Throws as `run_case`.
 [[nodiscard]] ValidationReport validate(const ValidationSettings& settings);
 
-/// For reading: a line per case, its figure furthest from the reference, then what is not covered.
+/// The report for reading: a line per case, its figure furthest from the reference, then what is not covered.
 [[nodiscard]] std::string readable_text(const ValidationReport& report);
 
 /// One JSON object with every figure, every digit kept.

@@ -11,7 +11,7 @@ namespace abbe {
 
 /// Formulas of colour difference, as `calibration/chart/delta_e.h` has them.
 enum class DeltaE { cie2000, cie94, cie76 };
-/// By one of them; `standard` is the reference of the one that is not symmetric.
+/// Colour difference by one of the formulas; `standard` is the reference of the one that is not symmetric.
 [[nodiscard]] double delta_e(DeltaE formula, const Lab& standard, const Lab& sample);
 
 /// Colour differences over the pixels of two images.
@@ -33,11 +33,11 @@ struct Comparison {
 [[nodiscard]] Comparison compare_images(const Image& image, const Image& reference,
                                         std::optional<Chromaticity> white = {});
 
-/// For images with X, Y, Z or R, G, B, each read as `film_colors` has it: both scaled so that the 99th
-/// percentile of the reference's Y is 100, and seen against a D65 white of Y = 100, to which `white` is
-/// adapted: in images that tell a white the reference's or else the image's, or in both that which is given.
-/// Nothing for images whose colours are not known, and for a black reference. Throws Error{input} for a white
-/// given to a camera's film that tells none.
+/// Colour differences of images with X, Y, Z or R, G, B, each read as `film_colors` has it: both scaled so
+/// that the 99th percentile of the reference's Y is 100, and seen against a D65 white of Y = 100, to which
+/// `white` is adapted: in images that tell a white the reference's or else the image's, or in both that which
+/// is given. Nothing for images whose colours are not known, and for a black reference. Throws Error{input}
+/// for a white given to a camera's film that tells none.
 [[nodiscard]] std::optional<ColorDifference> color_difference(const Image& image, const Image& reference,
                                                               DeltaE formula = DeltaE::cie2000,
                                                               std::optional<Chromaticity> white = {});

@@ -4,7 +4,7 @@
 
 namespace abbe::soak {
 
-/// From now on counts the floating-point exceptions (invalid, division by zero, overflow) that this thread
+/// Counts, from now on, the floating-point exceptions (invalid, division by zero, overflow) that this thread
 /// and those it starts raise, for the life of the process: by unmasking them and letting the processor step
 /// over each. Those within Embree do not count, since its tests of boxes and balls rely on them; nor do those
 /// of instructions on half of a vector register, whose unused lanes hold what is no number: the compiler
