@@ -5,7 +5,9 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 
+#include "sampling/discrete.h"
 #include "scene/shapes/basis.h"
 
 namespace abbe {
@@ -37,17 +39,6 @@ float emission_pdf(const Light& light, const EmissionPoint& from, const Imath::V
   if (const auto* spot = std::get_if<SpotLight>(&light.kind))
     return spot->lights(wi) ? cone_pdf(spot->cap) : 0.0F;
   return 1 / (4 * kPi);
-}
-
-// Index of the first cumulative value above u, and how far u lies between the ends of that step.
-struct Step {
-  int index;
-  float within;
-};
-Step find_step(const float* cdf, int count, float u) {
-  const int index = std::min(static_cast<int>(std::upper_bound(cdf, cdf + count, u) - cdf), count - 1);
-  const float low = index > 0 ? cdf[index - 1] : 0.0F;
-  return {index, std::clamp((u - low) / (cdf[index] - low), 0.0F, kBelowOne)};
 }
 
 }  // namespace
@@ -152,12 +143,13 @@ AimedPoint Aim::point(Imath::V2f u) const {
     return center_ + side_ * ((2 * a - 1) * half_size_) + top_ * ((2 * b - 1) * half_size_);
   };
   if (!guided_) return {on_target(u.x, u.y), even, -1};
-  const Step row = find_step(row_cdf_.data(), kCells, u.y);
-  const Step column = find_step(&column_cdf_[static_cast<std::size_t>(row.index * kCells)], kCells, u.x);
+  const std::span<const float> columns(column_cdf_);
+  const CdfStep<float> row = invert_cdf(std::span<const float>(row_cdf_), u.y);
+  const CdfStep<float> column = invert_cdf(columns.subspan(row.index * kCells, kCells), u.x);
   const float a = (static_cast<float>(column.index) + column.within) / kCells;
   const float b = (static_cast<float>(row.index) + row.within) / kCells;
-  const int cell = row.index * kCells + column.index;
-  return {on_target(a, b), density_[static_cast<std::size_t>(cell)] * even, cell};
+  const std::size_t cell = row.index * kCells + column.index;
+  return {on_target(a, b), density_[cell] * even, static_cast<int>(cell)};
 }
 
 AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u) const {

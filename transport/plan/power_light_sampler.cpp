@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
+
+#include "sampling/discrete.h"
 
 namespace abbe {
 
@@ -21,10 +24,8 @@ PowerLightSampler::PowerLightSampler(const std::vector<double>& weights)
 }
 
 PowerLightSampler::SampledLight PowerLightSampler::pick(float u) const {
-  auto i = static_cast<std::uint32_t>(std::upper_bound(cdf_.begin(), cdf_.end(), u) - cdf_.begin());
-  i = std::min(i, static_cast<std::uint32_t>(cdf_.size()) - 1);
-  while (probability_[i] == 0.0F) --i;  // u beyond a sum rounded below 1
-  return {i, probability_[i]};
+  const auto light = static_cast<std::uint32_t>(invert_cdf(std::span<const float>(cdf_), u).index);
+  return {light, probability_[light]};
 }
 
 }  // namespace abbe
