@@ -67,19 +67,10 @@ const ImageChannel& channel_of(const Image& film, const std::string& name) {
   throw Error(ErrorCode::input, "", fmt::format("the film has no channel {}", name));
 }
 
-void add_channel(PatchReading& reading, const Image& film, const std::string& name,
-                 const std::vector<std::size_t>& pixels) {
-  const ImageChannel& channel = channel_of(film, name);
-  const ImageChannel* variance = film.find("Variance." + name);
+double mean_over(const std::vector<std::size_t>& pixels, const ImageChannel& channel) {
   double sum = 0;
-  double sum_of_variances = 0;
-  for (const std::size_t pixel : pixels) {
-    sum += channel.values[pixel];
-    if (variance != nullptr) sum_of_variances += variance->values[pixel];
-  }
-  const auto n = static_cast<double>(pixels.size());
-  reading.mean.push_back(sum / n);
-  reading.variance.push_back(sum_of_variances / (n * n));
+  for (const std::size_t pixel : pixels) sum += channel.values[pixel];
+  return sum / static_cast<double>(pixels.size());
 }
 
 }  // namespace
@@ -100,8 +91,9 @@ std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& 
       throw Error(ErrorCode::input, shape.name, "its middle holds no whole pixel: the film is too coarse");
     const auto& diffuse = std::get<DiffuseMaterial>(scene.materials[shape.material].model);
     PatchReading reading{
-        shape.name.substr(chart.name.size() + 1), pixels.size(), {}, {}, &diffuse.reflectance.curve()};
-    for (const std::string& name : channels) add_channel(reading, film, name, pixels);
+        shape.name.substr(chart.name.size() + 1), pixels.size(), {}, &diffuse.reflectance.curve()};
+    for (const std::string& name : channels)
+      reading.mean.push_back(mean_over(pixels, channel_of(film, name)));
     readings.push_back(std::move(reading));
   }
   return readings;

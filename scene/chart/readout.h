@@ -14,9 +14,8 @@ namespace abbe {
 struct PatchReading {
   std::string name;
   std::size_t pixels;
-  std::vector<double> mean;      ///< Channel by channel, in the order asked for.
-  std::vector<double> variance;  ///< Of those means, from `Variance.*`; 0 where the film has none.
-  const Curve* reflectance;      ///< Of the patch, owned by the scene.
+  std::vector<double> mean;  ///< Channel by channel, in the order asked for.
+  const Curve* reflectance;  ///< Of the patch, owned by the scene.
 };
 
 /// Reads every patch of a chart from a film of the scene, whether anything hides it or not. Throws
