@@ -1,6 +1,7 @@
 #include "cli/info.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,7 +11,9 @@
 #include "cli/warnings.h"
 #include "cli/white.h"
 #include "description/load.h"
-#include "transport/plan/plan.h"
+#include "transport/render/learn_aims.h"
+#include "transport/render/technique_shares.h"
+#include "transport/render/threads.h"
 
 namespace abbe::cli {
 namespace {
@@ -23,19 +26,34 @@ std::string pattern(const Scene& scene) {
 }
 
 /// What a render would do, of which only its techniques are told where no plan can be made.
-struct Course {
+struct PlannedRender {
   bool path_active;
   bool light_active;
-  std::optional<std::array<double, 2>> wavelengths_nm;  // from and to
+  std::optional<std::array<double, 2>> wavelengths_nm = {};  ///< From and to.
+  Json shares = nullptr;                                     ///< Of the techniques, where there are two.
 };
-Course course_of(const Scene& scene) {
-  if (refusal(scene)) return {scene.render.integrator != Integrator::light, traces_light(scene), {}};
-  const Plan plan = make_plan(scene);
-  return {plan.path_active, plan.light_active, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
+
+Json json_of(const TechniqueCost& cost) {
+  return {{"relative_variance", cost.relative_variance}, {"rays", cost.rays}};
+}
+
+PlannedRender planned(const Scene& scene) {
+  if (refusal(scene)) return {scene.render.integrator != Integrator::light, traces_light(scene)};
+  const int threads = thread_count(0);
+  Plan plan = make_learnt_plan(scene, threads, scene.render.seed);
+  const std::optional<TechniqueCosts> costs = set_technique_shares(plan, threads);
+  PlannedRender render{
+      plan.path_active, plan.light_active, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
+  if (costs)
+    render.shares = {{"photons_per_sample", plan.photons},
+                     {"path_interval", plan.path_interval},
+                     {"camera_paths", json_of(costs->camera_paths)},
+                     {"photons", json_of(costs->photons)}};
+  return render;
 }
 
 Json answer_for(const Scene& scene) {
-  const Course course = course_of(scene);
+  const PlannedRender render = planned(scene);
   Json answer;
   answer["shapes"] = scene.shapes.size();
   answer["triangles"] = scene.triangle_count();
@@ -44,21 +62,36 @@ Json answer_for(const Scene& scene) {
   for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
   answer["because"] = scene.needs.because;
   answer["techniques"] = Json::array();
-  if (course.path_active) answer["techniques"].push_back("path");
-  if (course.light_active) answer["techniques"].push_back("light");
-  answer["unreached"] = unreached(scene, scene.needs, course.light_active);
+  if (render.path_active) answer["techniques"].push_back("path");
+  if (render.light_active) answer["techniques"].push_back("light");
+  answer["shares"] = render.shares;
+  answer["unreached"] = unreached(scene, scene.needs, render.light_active);
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
   if (scene.output.white)
     answer["white"] = {{"name", scene.output.white->name},
                        {"xy", scene.output.white->xy},
                        {"because", scene.output.white->reason}};
-  if (course.wavelengths_nm) answer["wavelength_range_nm"] = *course.wavelengths_nm;
+  if (render.wavelengths_nm) answer["wavelength_range_nm"] = *render.wavelengths_nm;
   answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene);
   return answer;
 }
 
 std::string joined(const Json& words) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words.get<std::vector<std::string>>(), ", "));
+}
+
+// How many photons and camera paths a sample has, and what the pilots found that made it so.
+std::string shares_line(const Json& shares) {
+  const auto cost = [&shares](const char* technique) {
+    const Json& found = shares[technique];
+    return fmt::format("{:.3g} at {:.3g} rays", found["relative_variance"].get<double>(),
+                       found["rays"].get<double>());
+  };
+  return fmt::format(
+      "shares       {} photons a sample, a camera path of a pixel in 1 of {} samples: relative variance of a "
+      "camera path {}, of a photon for each pixel {}\n",
+      shares["photons_per_sample"].get<std::uint64_t>(), shares["path_interval"].get<std::uint32_t>(),
+      cost("camera_paths"), cost("photons"));
 }
 
 }  // namespace
@@ -79,6 +112,7 @@ std::string describe(const Scene& scene) {
   for (const NeedName& need : need_names())
     if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
   lines += fmt::format("techniques   {}\n", joined(answer["techniques"]));
+  if (!answer["shares"].is_null()) lines += shares_line(answer["shares"]);
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
   if (answer.contains("wavelength_range_nm"))
     lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 
 #include <fmt/format.h>
@@ -273,6 +274,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["needs"].size(), 14U);
   EXPECT_EQ(found["because"]["dispersion"], "shape \"prism\"");
   EXPECT_EQ(found["techniques"][0], "path");
+  EXPECT_TRUE(found["shares"].is_null());
   EXPECT_TRUE(found["unreached"].is_array());
   EXPECT_GE(found["wavelength_range_nm"][0], 300);
   EXPECT_LE(found["wavelength_range_nm"][1], 1100);
@@ -281,6 +283,31 @@ TEST(Info, KeysOfTheContract) {
   const Outcome readable = abbe("info " + path);
   EXPECT_NE(readable.out.find("dispersion"), std::string::npos);
   EXPECT_EQ(abbe("info " + scratch().write("ball.json", ball_scene()).string()).err, "");
+}
+
+TEST(Info, TellsTheSharesOfTechniquesThatARenderHas) {
+  std::string scene =
+      scene_text(R"("glass": {"dielectric": {"ior": 1.5}}, "card": {"diffuse": {"reflectance": 0.5}})",
+                 R"({"sphere": {"center": [0, 0, 0], "radius": 30}, "material": "glass"},
+         {"quad": {"corner": [-200, 100, -200], "edge_u": [400, 0, 0], "edge_v": [0, 0, 400]}, "material": "card"})");
+  const std::string sky = R"({"environment": {}, "emission": {"illuminant": "D65", "radiance": 1}})";
+  scene.replace(
+      scene.find(sky), sky.size(),
+      R"({"point": {"at": [0, -100, 80]}, "emission": {"illuminant": "D65", "radiant_flux_W": 1}})");
+  const std::string path = scratch().write("lens.json", scene).string();
+  const nlohmann::json shares = abbe("info " + path + " --json").json()["shares"];
+  ASSERT_TRUE(shares.is_object());
+  ASSERT_EQ(
+      abbe("render " + path + " --quiet -o " + file("lens.exr") + " --stats " + file("lens.json.stats")).code,
+      0);
+  const auto stats = nlohmann::json::parse(std::ifstream(file("lens.json.stats")));
+  EXPECT_EQ(shares["photons_per_sample"], stats["photons_per_sample"]);
+  EXPECT_EQ(shares["path_interval"], stats["path_interval"]);
+  for (const char* technique : {"camera_paths", "photons"}) {
+    EXPECT_GT(shares[technique]["relative_variance"], 0) << technique;
+    EXPECT_GT(shares[technique]["rays"], 1) << technique;
+  }
+  EXPECT_NE(abbe("info " + path).out.find("shares       "), std::string::npos);
 }
 
 TEST(Info, TellsTheMosaicAndHoldsOnePlaneForIt) {

@@ -122,8 +122,8 @@ Findings try_all(const Plan& plan, int threads) {
   return all;
 }
 
-// Of the film, relative: variance and mean square of a camera path per pixel, and variance of as many
-// photons.
+// Relative, summed over the pixels: variance and mean square of a camera path per pixel, and variance of as
+// many photons as pixels.
 struct Errors {
   double path_variance = 0;
   double path_square = 0;
@@ -162,16 +162,19 @@ int halvings(double wanted, double whole) {
 
 }  // namespace
 
-void set_technique_shares(Plan& plan, int threads) {
-  if (!plan.light_active || !plan.path_active) return;
+std::optional<TechniqueCosts> set_technique_shares(Plan& plan, int threads) {
+  if (!plan.light_active || !plan.path_active) return std::nullopt;
+  const auto pixels = static_cast<double>(plan.photons);
   const Findings found = try_all(plan, threads);
-  const Errors errors = errors_of(found, static_cast<double>(plan.photons));
+  const Errors errors = errors_of(found, pixels);
   const double path_cost = static_cast<double>(found.path_rays) / (kPixels * kPathsPerPixel);
   const double photon_cost = static_cast<double>(found.photon_rays) / kPhotons;
   const int fewer_photons = halvings(errors.photon_variance * path_cost, errors.path_variance * photon_cost);
   const int fewer_paths = halvings(errors.path_square * photon_cost, errors.photon_variance * path_cost);
   plan.photons = std::max<std::uint64_t>(1, plan.photons >> fewer_photons);
   plan.path_interval = 1U << fewer_paths;
+  return TechniqueCosts{{errors.path_variance / pixels, path_cost},
+                        {errors.photon_variance / pixels, photon_cost}};
 }
 
 }  // namespace abbe

@@ -1,8 +1,23 @@
 #pragma once
 
+#include <optional>
+
 #include "transport/plan/plan.h"
 
 namespace abbe {
+
+/// What pilots find of one technique.
+struct TechniqueCost {
+  double relative_variance;  ///< Of a pixel by one sample of it, over the squared mean around.
+  double rays;               ///< Of one path.
+};
+
+/// Why the samples of a plan have so many camera paths and photons: what pilots found of a camera path for
+/// each pixel, and of as many photons as pixels.
+struct TechniqueCosts {
+  TechniqueCost camera_paths;
+  TechniqueCost photons;
+};
 
 /// Sets how many photons and camera paths the samples of a plan that traces both have, which make its error
 /// least for what they cost: as many photons as pixels and a path through each, or of one of the two a half,
@@ -14,7 +29,7 @@ namespace abbe {
 /// the samples of a range. Both are relative to the squared mean of a sixteenth of the film's edges around,
 /// as relMSE takes them; they and the costs, which are rays counted, come from 32768 camera paths, eight to a
 /// pixel, and 65536 photons, and depend on nothing but the plan. What finds nothing there keeps an eighth,
-/// since it may yet.
-void set_technique_shares(Plan& plan, int threads);
+/// since it may yet. Returns what was found; nothing where one technique alone renders, whose plan stays.
+std::optional<TechniqueCosts> set_technique_shares(Plan& plan, int threads);
 
 }  // namespace abbe
