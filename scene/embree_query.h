@@ -16,6 +16,7 @@ namespace abbe {
   r.dir_y = static_cast<float>(ray.direction.y);
   r.dir_z = static_cast<float>(ray.direction.z);
   r.tfar = static_cast<float>(ray.t_max);
+  r.time = ray.time;
   r.mask = ~0U;
   return r;
 }

@@ -75,7 +75,7 @@ RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
 }
 
 BasicRay<double> exact(const Ray& ray) {
-  return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)};
+  return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
 
 // The rays of a context as a packet; places beyond `count` are left idle by `valid`.
@@ -94,7 +94,7 @@ struct alignas(32) Packet {
       query.ray.dir_y[i] = ray.dir_y;
       query.ray.dir_z[i] = ray.dir_z;
       query.ray.tnear[i] = 0;
-      query.ray.time[i] = 0;
+      query.ray.time[i] = ray.time;
       query.ray.tfar[i] = ray.tfar;
       query.ray.mask[i] = mask;
       query.ray.id[i] = static_cast<unsigned>(i);

@@ -73,9 +73,9 @@ struct SurfaceHit {
 };
 
 /// A ray that leaves the surface into `direction`, clear of those that count as one with it.
-[[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& direction) {
+[[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& direction, float time) {
   const float clear = std::copysign(hit.spread, hit.normal.dot(direction));
-  return spawn(hit.point + hit.normal * clear, hit.normal, direction);
+  return spawn(hit.point + hit.normal * clear, hit.normal, direction, time);
 }
 
 /// Surfaces met together.

@@ -19,6 +19,11 @@ struct BasicRay {
 };
 using Ray = BasicRay<float>;
 
+/// The half line from `origin`, at that time of the exposure.
+[[nodiscard]] inline Ray ray_at(const Imath::V3f& origin, const Imath::V3f& direction, float time) {
+  return {origin, direction, std::numeric_limits<float>::infinity(), time};
+}
+
 /// A direction that no face of a scene is likely to lie along: where a ray is to tell how often it leaves a
 /// shape.
 template <typename T>
@@ -48,10 +53,10 @@ struct LoggedRay {
   return point + normal * std::copysign(distance, normal.dot(direction));
 }
 
-/// A ray that starts there into `direction`.
-[[nodiscard]] inline Ray spawn(const Imath::V3f& point, const Imath::V3f& normal,
-                               const Imath::V3f& direction) {
-  return {offset_point(point, normal, direction), direction};
+/// A ray that starts there into `direction`, at that time of the exposure.
+[[nodiscard]] inline Ray spawn(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction,
+                               float time) {
+  return ray_at(offset_point(point, normal, direction), direction, time);
 }
 
 }  // namespace abbe

@@ -156,9 +156,9 @@ TEST(Instance, RaysLeavingItNeverMeetItAgain) {
       if (out.dot(hit->normal) < 0) out = -out;
       if (out.dot(hit->normal) < 1e-6F) continue;  // which side is rounding's choice
       ++rays;
-      const Ray outward = spawn(hit->point, hit->normal, out);
+      const Ray outward = spawn(hit->point, hit->normal, out, 0);
       acne += scene.intersect(outward).has_value() + scene.occluded(outward);
-      lost[k % 2] += !scene.intersect(spawn(hit->point, hit->normal, -out)).has_value();
+      lost[k % 2] += !scene.intersect(spawn(hit->point, hit->normal, -out, 0)).has_value();
     }
   }
   EXPECT_GT(rays, 40000);

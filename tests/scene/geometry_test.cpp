@@ -234,9 +234,9 @@ TEST(SceneIntersection, RaysLeavingASphereNeverMeetItAgain) {
         if (out.dot(hit->normal) < 0) out = -out;
         if (out.dot(hit->normal) < 1e-7F) continue;  // which side is rounding's choice
         rays += 2;
-        acne += scene.intersect(spawn(hit->point, hit->normal, out)).has_value();
-        acne += scene.occluded(spawn(hit->point, hit->normal, out));
-        const Ray inward = spawn(hit->point, hit->normal, -out);
+        acne += scene.intersect(spawn(hit->point, hit->normal, out, 0)).has_value();
+        acne += scene.occluded(spawn(hit->point, hit->normal, out, 0));
+        const Ray inward = spawn(hit->point, hit->normal, -out, 0);
         lost += !scene.intersect(inward).has_value();
       }
     }
@@ -264,7 +264,7 @@ TEST(SceneIntersection, RaysLeavingATriangleNeverMeetItAgain) {
       if (!hit) continue;
       V3f out(random.direction());
       if (i % 2 == 0) out = grazing(out, hit->normal);
-      const Ray ray = spawn(hit->point, hit->normal, out);
+      const Ray ray = spawn(hit->point, hit->normal, out, 0);
       rays += 2;
       acne += scene.intersect(ray).has_value();
       acne += scene.occluded(ray);
@@ -331,7 +331,7 @@ TEST(SceneIntersection, NothingEscapesWhileBouncing) {
       }
       V3f in(random.direction());
       if (in.dot(hit->normal) > 0) in = -in;
-      ray = spawn(hit->point, hit->normal, in);
+      ray = spawn(hit->point, hit->normal, in, 0);
     }
   }
   EXPECT_LE(escaped, 1);

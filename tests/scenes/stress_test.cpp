@@ -133,7 +133,7 @@ TEST(Stress, PrismAtLeastDeviationOfTwentyWavelengths) {
       const auto s = sample(make_bsdf(glass, {wavelengths}), frame.to_local(-ray.direction),
                             {0x1.fffffep-1F, {}}, 0, TransportMode::radiance);
       ASSERT_TRUE(s && s->transmitted) << nm;
-      ray = spawn(hit->point, hit->normal, frame.to_world(s->wi));
+      ray = spawn(hit->point, hit->normal, frame.to_world(s->wi), 0);
     }
     const Imath::V3d a(start_direction);
     const Imath::V3d b(ray.direction);

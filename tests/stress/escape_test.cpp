@@ -79,7 +79,7 @@ TEST(Stress, NoPathLeavesABox) {
         V3f in(random.direction());
         if (in.dot(hit->normal) > 0) in = -in;
         if (in.dot(hit->normal) > -1e-6F) in -= hit->normal;  // along the wall there is no side to be on
-        ray = spawn(*hit, in.normalized());
+        ray = spawn(*hit, in.normalized(), 0);
       }
     }
     EXPECT_EQ(escaped, 0);

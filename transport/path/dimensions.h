@@ -1,16 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace abbe {
 
 /// Which group of four random numbers a path uses for what. The film position shares its group with the
 /// wavelength, since a spectrum on the film is a function of both; a photon's target shares its with the
-/// same. The third number of the lens is kept for the time within the exposure.
+/// same. The time within the exposure is the fourth number there, `kTimeNumber`, of either.
 inline constexpr std::uint32_t kFilmGroup = 0;
 inline constexpr std::uint32_t kLensGroup = 1;
 inline constexpr std::uint32_t kAimGroup = 0;
 inline constexpr std::uint32_t kEmissionGroup = 1;
+inline constexpr std::size_t kTimeNumber = 3;
 
 /// Number of the event at a meter, where camera paths scatter before they meet the first surface.
 inline constexpr int kMeterEvent = -1;

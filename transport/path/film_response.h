@@ -24,11 +24,13 @@ struct ExposureByLight {
   }
 };
 
-/// Where light meets the film: the pixel, and the cosine of the angle of incidence.
+/// Where and when light meets the film: the pixel, the cosine of the angle of incidence, and the time as the
+/// share of the exposure that has gone by.
 struct FilmPoint {
   int x = 0;
   int y = 0;
   float cos_film = 1;
+  float time = 0;
 };
 
 /// Receives the film values, one per plane, that the path of that number adds to a pixel.

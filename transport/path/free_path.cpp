@@ -48,7 +48,7 @@ Ray pass_boundaries(const Scene& scene, Surroundings& around, const SampledSpect
   around.enter(scene, beyond, wavelengths_nm);
   for (const SurfaceHit& one : met.all())
     hit.spread = std::max(hit.spread, std::abs((one.point - hit.point).dot(hit.normal)));
-  return spawn(hit, ray.direction);
+  return spawn(hit, ray.direction, ray.time);
 }
 
 // Of the surfaces that touch where a boundary is met, one that is more than that: light meets it in the

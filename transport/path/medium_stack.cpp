@@ -39,7 +39,7 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
       of.exits += leaves ? 1 : -1;
       if (leaves) of.last_exit = (met.point - from).length();
     }
-    ray = spawn(last, direction);
+    ray = spawn(last, direction, ray.time);
   }
   return found;
 }

@@ -76,7 +76,7 @@ class RandomWalks {
     advance(path.packet, *event);
     if (event->transmitted)
       path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-    path.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi));
+    path.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi), path.ray.time);
     return survives(path, technique.kept(path, vertex, *event), u[3]);
   }
 

@@ -13,12 +13,12 @@ namespace abbe {
 
 /// A straight way that light may be blocked on: between two points that `offset_point` put beside their
 /// surfaces, or from such a point to infinity.
-[[nodiscard]] inline BasicRay<double> way_between(const Imath::V3f& from, const Imath::V3f& to) {
+[[nodiscard]] inline BasicRay<double> way_between(const Imath::V3f& from, const Imath::V3f& to, float time) {
   const Imath::V3d start(from);
-  return {start, Imath::V3d(to) - start, 1.0};
+  return {start, Imath::V3d(to) - start, 1.0, time};
 }
 [[nodiscard]] inline BasicRay<double> way_along(const Ray& ray) {
-  return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)};
+  return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
 
 /// Asks the scene on behalf of one thread, counting, and logging where a log is given.
@@ -52,7 +52,8 @@ class RayCaster {
     if (log_ != nullptr)
       for (const BasicRay<double>& way : ways)
         log_->push_back(
-            {{Imath::V3f(way.origin), Imath::V3f(way.direction), static_cast<float>(way.t_max)}, true});
+            {{Imath::V3f(way.origin), Imath::V3f(way.direction), static_cast<float>(way.t_max), way.time},
+             true});
     scene_.occluded(ways, blocked);
   }
 

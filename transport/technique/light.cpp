@@ -38,7 +38,8 @@ bool LightTracer::start(LightPath& path, PhotonStart& start) {
   const std::array<float, 4> a = path.sampler.group(kAimGroup);
   const std::array<float, 4> b = path.sampler.group(kEmissionGroup);
   const PowerLightSampler::SampledLight pick = plan_.traced_lights.pick(b[3]);
-  const PhotonRay photon = start_photon(plan_, caster_, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2]});
+  const PhotonRay photon =
+      start_photon(plan_, caster_, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2], a[kTimeNumber]});
   start = {pick.light, photon.cell};
   if (!(photon.factor > 0)) return false;
   path.packet = draw_packet(plan_.wavelengths, a[2]);
@@ -62,7 +63,8 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
   Surroundings crossed;
   const bool crosses = wi.z * vertex.wo.z < 0;
   if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-  connect_to(path, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards), crosses ? crossed : path.around);
+  connect_to(path, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
+             crosses ? crossed : path.around);
 }
 
 void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
@@ -71,13 +73,13 @@ void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, co
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - path.ray.origin).normalized();
   connect_to(path, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
-             {path.ray.origin, towards}, path.around);
+             ray_at(path.ray.origin, towards, path.ray.time), path.around);
 }
 
 // `scattered` is the share of the photon's power that leaves along `ray`, towards the lens [1/sr].
 void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens,
                              const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around) {
-  const BasicRay<double> way = way_between(ray.origin, lens.lens_point);
+  const BasicRay<double> way = way_between(ray.origin, lens.lens_point, ray.time);
   SampledSpectrum contribution =
       scattered * (path.packet.throughput * (lens.weight * mis_weight(path.packet.lane_pdf, 0, 0)));
   const float distance = (lens.lens_point - ray.origin).length();
@@ -87,9 +89,10 @@ void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens
   } else {
     around.medium.attenuate(contribution, distance);
   }
-  connections_.push_back({path.path,
-                          contribution,
-                          {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film}});
+  connections_.push_back(
+      {path.path,
+       contribution,
+       {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
   ways_.push_back(way);
 }
 

@@ -10,7 +10,7 @@ namespace abbe {
 namespace {
 
 BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
-  return std::isfinite(light.distance) ? way_between(ray.origin, light.end) : way_along(ray);
+  return std::isfinite(light.distance) ? way_between(ray.origin, light.end, ray.time) : way_along(ray);
 }
 
 }  // namespace
@@ -59,9 +59,9 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
   const CameraRay ray =
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                 {lens[0], lens[1]}, path.lambda_nm(), film[3]);
+                 {lens[0], lens[1]}, path.lambda_nm(), film[kTimeNumber]);
   path.ray = ray.ray;
-  path.at = {sample.x, sample.y, ray.cos_film};
+  path.at = {sample.x, sample.y, ray.cos_film, ray.ray.time};
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s);
   if (!plan_.camera_inside.empty()) path.around.enter(scene_, plan_.camera_inside, path.lambda_nm());
   if (!camera_.surface_normal) return true;
@@ -134,7 +134,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
            (std::abs(wi.z) * chosen->towards.factor));
   const SampledSpectrum scattering_pdf =
       chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
-  const Ray ray = spawn(vertex.hit, world);
+  const Ray ray = spawn(vertex.hit, world, path.ray.time);
   const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
   const bool crosses = wi.z * vertex.wo.z < 0;
   if (walks_.has_free_paths()) {
@@ -164,8 +164,8 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
       turned *
       (path.packet.throughput * emission_from(chosen->light, wi, path.lambda_nm()) * chosen->towards.factor);
   connect_through_media(path, *chosen, contribution,
-                        chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned, {path.ray.origin, wi},
-                        path.around, path.at.cos_film);
+                        chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned,
+                        ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film);
 }
 
 // Adds what is left of the light that comes along `ray`, the direction of which scattering would have drawn
@@ -214,7 +214,7 @@ void PathTracer::add(CameraPath& path, std::uint32_t light, const SampledSpectru
     path.found += contribution;
     return;
   }
-  const FilmPoint at{path.at.x, path.at.y, cos_film};
+  const FilmPoint at{path.at.x, path.at.y, cos_film, path.at.time};
   std::fill(values_.begin(), values_.end(), 0.0);
   response_.add(at, path.packet.wavelengths, contribution * path.scale, values_);
   if (by_light_ != nullptr) by_light_->add(light, values_);

@@ -20,13 +20,13 @@ PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pi
   if (!shines(light, from, aimed.wi)) return {{}, 0, aimed.cell};
   const bool area = light.is<AreaLight>();
   const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
-  return {area ? spawn(from.point, from.normal, aimed.wi) : Ray{from.point, aimed.wi},
+  return {area ? spawn(from.point, from.normal, aimed.wi, u.time) : ray_at(from.point, aimed.wi, u.time),
           cosine / (pick.probability * from.pdf_area * aimed.pdf), aimed.cell};
 }
 
 // The way through a point of the target, from outside of the sphere it stands for.
-Ray arriving(const Aim& aim, const AimedPoint& at, const Imath::V3f& direction) {
-  return {at.point - direction * (2 * aim.half_size()), direction};
+Ray arriving(const Aim& aim, const AimedPoint& at, const Imath::V3f& direction, float time) {
+  return ray_at(at.point - direction * (2 * aim.half_size()), direction, time);
 }
 
 PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
@@ -38,10 +38,11 @@ PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler
   const Imath::V3d way = Imath::V3d(at.point) - Imath::V3d(from.point);
   const double distance = way.length();
   const Imath::V3f wi(way * (1 / distance));
-  const Ray ray = arriving(aim, at, wi);
+  const Ray ray = arriving(aim, at, wi, u.time);
   if (!shines(light, from, wi)) return {ray, 0, at.cell};
   const bool area = light.is<AreaLight>();
-  if (caster.occluded(way_between(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point)))
+  if (caster.occluded(
+          way_between(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point, u.time)))
     return {ray, 0, at.cell};
   const float cosines = (area ? std::abs(from.normal.dot(wi)) : 1.0F) * std::abs(aim.axis().dot(wi));
   const double density = static_cast<double>(pick.probability * from.pdf_area) * static_cast<double>(at.pdf) *
@@ -55,8 +56,8 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLigh
   const Aim& aim = plan.aims[pick.light];
   const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start);
   const AimedPoint at = aim.point(u.aim);
-  const Ray ray = arriving(aim, at, -from.wi);
-  if (caster.occluded(way_along({ray.origin, from.wi}))) return {ray, 0, at.cell};
+  const Ray ray = arriving(aim, at, -from.wi, u.time);
+  if (caster.occluded(way_along(ray_at(ray.origin, from.wi, u.time)))) return {ray, 0, at.cell};
   const float cosine = std::abs(aim.axis().dot(from.wi));
   return {ray, cosine / (pick.probability * at.pdf * from.pdf), at.cell};
 }

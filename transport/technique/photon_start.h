@@ -17,6 +17,7 @@ struct PhotonRandom {
   Imath::V2f aim;    ///< A direction, or a point aimed at.
   Imath::V2f start;  ///< A point of the light, or of a sun.
   float choice;      ///< Between target and emission.
+  float time;        ///< Within the exposure.
 };
 
 /// Starts a photon of the light that was picked.
