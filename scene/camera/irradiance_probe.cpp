@@ -35,9 +35,8 @@ CameraRay IrradianceProbe::sample_ray(const FilmGrid& grid, Imath::V2f film, Ima
                            edge_v * (static_cast<double>(film.y) / grid.height);
   const Imath::V3f local = cosine_hemisphere(direction);
   const Imath::V3f outward(normal);
-  Ray ray{offset_point(Imath::V3f(point), outward, outward), Basis<float>(outward).to_world(local)};
-  ray.time = time;
-  return {ray, SampledSpectrum(std::numbers::pi_v<float>), local.z};
+  return {spawn(Imath::V3f(point), outward, Basis<float>(outward).to_world(local), time),
+          SampledSpectrum(std::numbers::pi_v<float>), local.z};
 }
 
 std::optional<CameraConnection> IrradianceProbe::sample_towards(const FilmGrid& /*grid*/,
@@ -54,9 +53,10 @@ std::optional<CameraDensity> IrradianceProbe::density(const FilmGrid& grid, cons
   if (!(cos_theta > 0)) return std::nullopt;
   const double patch_area = edge_u.cross(edge_v).length() / (static_cast<double>(grid.width) * grid.height);
   const double pdf_position = patch_area > 0 ? 1 / patch_area : 1;
-  return CameraDensity{film_at(*this, grid, ray.origin), SampledSpectrum(static_cast<float>(pdf_position)),
-                       static_cast<float>(pdf_position),
-                       SampledSpectrum(static_cast<float>(cos_theta / std::numbers::pi))};
+  return CameraDensity{
+      film_at(*this, grid, ray.origin), SampledSpectrum(static_cast<float>(pdf_position)),
+      static_cast<float>(pdf_position), SampledSpectrum(static_cast<float>(cos_theta / std::numbers::pi)),
+      static_cast<float>(cos_theta),    static_cast<float>(cos_theta)};
 }
 
 double IrradianceProbe::least_film_cosine(const FilmGrid& /*grid*/) const {

@@ -45,6 +45,8 @@ struct CameraDensity {
   SampledSpectrum importance;     ///< Irradiance of the pixel per flux along the ray [1/m^2].
   float pdf_position;             ///< Of the point where it leaves the lens or the meter [1/m^2].
   SampledSpectrum pdf_direction;  ///< Of its direction from there [1/sr].
+  float cos_theta;
+  float cos_film;  ///< Of the angle of incidence on the film.
 };
 
 /// What can be told of a camera without a ray.

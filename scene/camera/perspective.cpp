@@ -1,8 +1,5 @@
 #include "scene/camera/perspective.h"
 
-#include <cmath>
-#include <numbers>
-
 namespace abbe {
 namespace {
 
@@ -11,11 +8,6 @@ Imath::V3d in_scene(const CameraFrame& frame, const PlanePoint& p) {
 }
 
 }  // namespace
-
-PlanePoint film_plane(const FilmGrid& grid, Imath::V2f film) {
-  return {(static_cast<double>(film.x) - grid.width * 0.5) * grid.pixel_pitch,
-          (grid.height * 0.5 - static_cast<double>(film.y)) * grid.pixel_pitch};
-}
 
 std::optional<Imath::V2f> film_position(const FilmGrid& grid, const PlanePoint& point) {
   const double pitch = grid.pixel_pitch;
@@ -27,28 +19,20 @@ std::optional<Imath::V2f> film_position(const FilmGrid& grid, const PlanePoint& 
   return film;
 }
 
-double cosine(const PlanePoint& tangent) {
-  return 1 / std::sqrt(1 + tangent.dot(tangent));
-}
-
 double least_cosine(const FilmGrid& grid, double opening, double image_distance) {
   constexpr double kRounding = 1e-6;  // of cosines kept as floats
   const double corner = std::hypot(grid.width, grid.height) / 2 * grid.pixel_pitch;
   return cosine(PlanePoint((corner + opening) / image_distance, 0)) * (1 - kRounding);
 }
 
-double exposing_area(double aperture_radius, double transmittance) {
-  return std::numbers::pi * aperture_radius * aperture_radius * transmittance;
-}
-
 CameraRay ray_through(const Perspective& view, const LensCrossing& at, float time) {
-  const double cos_theta = cosine(at.tangent);
+  const double cos_theta = at.cos_theta;
   const double v = view.image_distance;
   const double weight = view.exposing_area * cos_theta * cos_theta * cos_theta * cos_theta / (v * v);
   const Imath::V3d direction = (view.frame.forward + in_scene(view.frame, at.tangent)) * cos_theta;
-  Ray ray{Imath::V3f(view.frame.position + in_scene(view.frame, at.on_lens)), Imath::V3f(direction)};
-  ray.time = time;
-  return {ray, SampledSpectrum(static_cast<float>(weight)), static_cast<float>(at.cos_film)};
+  const Imath::V3f on_lens(view.frame.position + in_scene(view.frame, at.on_lens));
+  return {ray_at(on_lens, Imath::V3f(direction), time), SampledSpectrum(static_cast<float>(weight)),
+          static_cast<float>(at.cos_film)};
 }
 
 SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point) {
@@ -58,7 +42,7 @@ SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point) {
 
 CameraConnection connection_through(const Perspective& view, const FilmGrid& grid, Imath::V2f film,
                                     const LensCrossing& at, double depth) {
-  const double cos_theta = cosine(at.tangent);
+  const double cos_theta = at.cos_theta;
   const double distance = depth / cos_theta;
   const double pitch = grid.pixel_pitch;
   const double weight = view.exposing_area * cos_theta / (distance * distance * pitch * pitch);
@@ -74,13 +58,17 @@ std::optional<PlanePoint> tangent_of(const CameraFrame& frame, const Imath::V3f&
 }
 
 CameraDensity density_through(const Perspective& view, const FilmGrid& grid, Imath::V2f film,
-                              const PlanePoint& tangent, double pdf_position) {
+                              const LensCrossing& at, double pdf_position) {
   const double pixel_area = grid.pixel_pitch * grid.pixel_pitch;
-  const double cos_theta = cosine(tangent);
+  const double cos_theta = at.cos_theta;
   const double v = view.image_distance;
   const double pdf_direction = v * v / (pixel_area * cos_theta * cos_theta * cos_theta);
-  return {film, SampledSpectrum(static_cast<float>(view.exposing_area * pdf_position / pixel_area)),
-          static_cast<float>(pdf_position), SampledSpectrum(static_cast<float>(pdf_direction))};
+  return {film,
+          SampledSpectrum(static_cast<float>(view.exposing_area * pdf_position / pixel_area)),
+          static_cast<float>(pdf_position),
+          SampledSpectrum(static_cast<float>(pdf_direction)),
+          static_cast<float>(cos_theta),
+          static_cast<float>(at.cos_film)};
 }
 
 }  // namespace abbe

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "scene/camera/frame.h"
@@ -11,12 +13,17 @@ namespace abbe {
 /// on the lens; or the tangent of a direction, per unit of depth.
 using PlanePoint = Imath::V2d;
 
-[[nodiscard]] PlanePoint film_plane(const FilmGrid& grid, Imath::V2f film);
+[[nodiscard]] inline PlanePoint film_plane(const FilmGrid& grid, Imath::V2f film) {
+  return {(static_cast<double>(film.x) - grid.width * 0.5) * grid.pixel_pitch,
+          (grid.height * 0.5 - static_cast<double>(film.y)) * grid.pixel_pitch};
+}
 /// The film position of a point of the plane; nothing beyond the film.
 [[nodiscard]] std::optional<Imath::V2f> film_position(const FilmGrid& grid, const PlanePoint& point);
 
 /// Cosine with the axis of the direction of that tangent.
-[[nodiscard]] double cosine(const PlanePoint& tangent);
+[[nodiscard]] inline double cosine(const PlanePoint& tangent) {
+  return 1 / std::sqrt(1 + tangent.dot(tangent));
+}
 /// The least of them to a film through an opening of that radius [m].
 [[nodiscard]] double least_cosine(const FilmGrid& grid, double opening, double image_distance);
 
@@ -26,12 +33,15 @@ struct Perspective {
   double image_distance;  ///< [m]
   double exposing_area;   ///< Of an opening without losses that exposes as much [m^2].
 };
-[[nodiscard]] double exposing_area(double aperture_radius, double transmittance);
+[[nodiscard]] inline double exposing_area(double aperture_radius, double transmittance) {
+  return std::numbers::pi * aperture_radius * aperture_radius * transmittance;
+}
 
-/// Where a ray crosses the lens, in which direction of the scene, and its angle with the film behind.
+/// Where a ray crosses the lens, in which direction of the scene, and its angles there and with the film.
 struct LensCrossing {
   PlanePoint on_lens;
   PlanePoint tangent;
+  double cos_theta;  ///< That of the tangent.
   double cos_film;
 };
 
@@ -53,10 +63,9 @@ struct SeenPoint {
 /// The tangent of a direction of the scene; nothing backwards.
 [[nodiscard]] std::optional<PlanePoint> tangent_of(const CameraFrame& frame, const Imath::V3f& direction);
 
-/// That of a ray with such a tangent, from a point of the lens drawn with `pdf_position`: its weight, a pixel
-/// of area p^2 and the density v^2/(p^2 cos^3) of directions through it leave the importance of a share of
-/// the flux, by the pixel's area.
+/// Of a ray there, its lens point being drawn with `pdf_position`: a pixel of area p^2 is seen with the
+/// density v^2/(p^2 cos^3) of directions, and takes all flux that comes to it, over its area.
 [[nodiscard]] CameraDensity density_through(const Perspective& view, const FilmGrid& grid, Imath::V2f film,
-                                            const PlanePoint& tangent, double pdf_position);
+                                            const LensCrossing& at, double pdf_position);
 
 }  // namespace abbe

@@ -11,7 +11,8 @@ Perspective view_of(const Pinhole& camera) {
 
 // Light goes straight on through a pinhole.
 LensCrossing crossing(const PlanePoint& tangent) {
-  return {{0, 0}, tangent, cosine(tangent)};
+  const double cos_theta = cosine(tangent);
+  return {{0, 0}, tangent, cos_theta, cos_theta};
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& r
   if (!tangent) return std::nullopt;
   const std::optional<Imath::V2f> film = film_position(grid, *tangent * image_distance);
   if (!film) return std::nullopt;
-  return density_through(view_of(*this), grid, *film, *tangent, 1);
+  return density_through(view_of(*this), grid, *film, crossing(*tangent), 1);
 }
 
 double Pinhole::least_film_cosine(const FilmGrid& grid) const {

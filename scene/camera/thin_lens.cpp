@@ -16,11 +16,6 @@ PlanePoint lens_plane(const ThinLens& camera, Imath::V2f lens) {
   return PlanePoint(concentric_disc(lens)) * camera.aperture_radius;
 }
 
-// The real image is upside down, so a ray in the camera runs from -film to the lens.
-double film_cosine(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens) {
-  return cosine((film + lens) / camera.image_distance);
-}
-
 // Through any lens point the scene ray aims at the point in focus that the ray through the centre of the lens
 // shows; and back, where on the film that centre ray comes from.
 PlanePoint tangent_from(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens) {
@@ -30,14 +25,19 @@ PlanePoint film_from(const ThinLens& camera, const PlanePoint& tangent, const Pl
   return (tangent + lens / camera.focus_distance) * camera.image_distance;
 }
 
+// The real image is upside down, so a ray in the camera runs from -film to the lens.
+LensCrossing crossing(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens,
+                      const PlanePoint& tangent) {
+  return {lens, tangent, cosine(tangent), cosine((film + lens) / camera.image_distance)};
+}
+
 }  // namespace
 
 CameraRay ThinLens::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
                                const SampledSpectrum& /*wavelengths_nm*/, float time) const {
   const PlanePoint on_film = film_plane(grid, film);
   const PlanePoint on_lens = lens_plane(*this, lens);
-  return ray_through(view_of(*this),
-                     {on_lens, tangent_from(*this, on_film, on_lens), film_cosine(*this, on_film, on_lens)},
+  return ray_through(view_of(*this), crossing(*this, on_film, on_lens, tangent_from(*this, on_film, on_lens)),
                      time);
 }
 
@@ -52,8 +52,8 @@ std::optional<CameraConnection> ThinLens::sample_towards(const FilmGrid& grid, c
   const PlanePoint on_film = film_from(*this, tangent, on_lens);
   const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
-  return connection_through(view_of(*this), grid, *film,
-                            {on_lens, tangent, film_cosine(*this, on_film, on_lens)}, seen.depth);
+  return connection_through(view_of(*this), grid, *film, crossing(*this, on_film, on_lens, tangent),
+                            seen.depth);
 }
 
 std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& ray,
@@ -61,9 +61,10 @@ std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& 
   const std::optional<PlanePoint> tangent = tangent_of(frame, ray.direction);
   if (!tangent) return std::nullopt;
   const PlanePoint on_lens = seen_from(frame, ray.origin).across;
-  const std::optional<Imath::V2f> film = film_position(grid, film_from(*this, *tangent, on_lens));
+  const PlanePoint on_film = film_from(*this, *tangent, on_lens);
+  const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
-  return density_through(view_of(*this), grid, *film, *tangent,
+  return density_through(view_of(*this), grid, *film, crossing(*this, on_film, on_lens, *tangent),
                          1 / (std::numbers::pi * aperture_radius * aperture_radius));
 }
 

@@ -189,12 +189,6 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
   }
 }
 
-// Of a ray that leaves at this angle with the axis, or the normal.
-double cosine(const Camera& camera, const Ray& ray) {
-  const CameraTraits of = traits(camera);
-  return V3d(ray.direction).dot(of.axis ? *of.axis : *of.surface_normal);
-}
-
 TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
   Random random(7);
   for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), wide_lens(), meter(), point_meter()})
@@ -209,8 +203,8 @@ TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
         EXPECT_LT(std::min({film.x, film.y, last.x - film.x, last.y - film.y}), 1e-3F);
         continue;
       }
-      const double cos_theta = cosine(camera, start.ray);
-      const double flux = static_cast<double>(of->importance[3] / of->pdf_position) * cos_theta;
+      EXPECT_NEAR(of->cos_film, start.cos_film, 1e-5);
+      const double flux = static_cast<double>(of->importance[3] / of->pdf_position * of->cos_theta);
       EXPECT_NEAR(flux / static_cast<double>(of->pdf_direction[3] * start.weight[3]), 1, 1e-5);
       if (camera.kind.index() != point_meter().kind.index()) {
         const auto d = static_cast<float>(random.between(0.1, 5));

@@ -138,6 +138,28 @@ TYPED_TEST(BsdfLaws, WeightsAndDensitiesAgreeWithEvaluation) {
   });
 }
 
+// What a bidirectional technique asks at a vertex that it came to from the other end: with which density,
+// were each lane the hero, the model would have sent a path that comes along wi to where this one came from.
+TYPED_TEST(BsdfLaws, ReverseDensityIsThatOfSamplingFromTheOtherSide) {
+  Uniform random(7);
+  this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
+    for (int i = 0; i < 200; ++i) {
+      const int hero = i % kLanes;
+      const auto there = sample(bsdf, wo, random.event(), hero, TransportMode::radiance);
+      if (!there || there->delta) continue;
+      const SampledSpectrum reverse = pdf(bsdf, there->wi, wo);
+      const SampledSpectrum f = eval(bsdf, there->wi, wo, TransportMode::power);
+      for (int j = 0; j < kLanes; ++j)
+        EXPECT_TRUE(reverse[j] > 0 || !(f[j] > 0)) << "light goes where the other way never looks";
+      const auto back = sample(bsdf, there->wi, random.event(), hero, TransportMode::power);
+      if (!back || back->delta) continue;
+      const SampledSpectrum drawn = pdf(bsdf, there->wi, back->wi);
+      for (int j = 0; j < kLanes; ++j)
+        EXPECT_NEAR(back->lane_pdf[j] * back->pdf, drawn[j], 2e-3F * drawn[j] + 1e-6F * back->pdf);
+    }
+  });
+}
+
 TYPED_TEST(BsdfLaws, SamplesFollowTheirDensity) {
   // Sidak over the whole suite.
   const double checks = static_cast<double>(AsTypes<Bsdf>::examples_in_all() * outgoing().size());

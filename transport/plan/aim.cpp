@@ -2,44 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
 
 #include "sampling/discrete.h"
+#include "scene/lights/emission.h"
 #include "scene/shapes/basis.h"
 
 namespace abbe {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kEmissionShare = 0.05F;
-constexpr float kBelowOne = 0x1.fffffep-1F;
-
-// A direction by the light's own emission: cosine-distributed on the emitting side or sides, uniform for
-// point and spot lights.
-Imath::V3f emission_direction(const Light& light, const EmissionPoint& from, Imath::V2f u) {
-  const float phi = 2 * kPi * u.y;
-  if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
-    const bool flip = area->two_sided && u.x >= 0.5F;
-    const float v = area->two_sided ? std::min(2 * (u.x - (flip ? 0.5F : 0.0F)), kBelowOne) : u.x;
-    return direction_about(flip ? -from.normal : from.normal, 1 - std::sqrt(1 - v), phi);
-  }
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return direction_about(spot->axis, u.x * spot->cap, phi);
-  return direction_about({0, 0, 1}, 2 * u.x, phi);
-}
-
-float emission_pdf(const Light& light, const EmissionPoint& from, const Imath::V3f& wi) {
-  if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
-    const float cos_theta = from.normal.dot(wi);
-    return area->two_sided ? std::abs(cos_theta) / (2 * kPi) : std::max(0.0F, cos_theta) / kPi;
-  }
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return spot->lights(wi) ? cone_pdf(spot->cap) : 0.0F;
-  return 1 / (4 * kPi);
-}
+constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
 
 }  // namespace
 
@@ -155,13 +130,13 @@ AimedPoint Aim::point(Imath::V2f u) const {
 AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u) const {
   AimedDirection aimed;
   if (!guided_ || choice < kEmissionShare) {
-    aimed.wi = emission_direction(light, from, u);
+    aimed.wi = emission_direction(light, from.normal, u);
   } else {
     const AimedPoint target = point(u);
     aimed.wi = (target.point - from.point).normalized();
     aimed.cell = target.cell;
   }
-  const float by_emission = emission_pdf(light, from, aimed.wi);
+  const float by_emission = emission_density(light, from.normal, aimed.wi, kAnyRadius).pdf_direction;
   // A direction drawn through a cell counts as through that cell: rounded, it may meet the next one.
   const int cell = aimed.cell >= 0 ? aimed.cell : cell_met(from.point, aimed.wi);
   aimed.pdf =

@@ -1,0 +1,78 @@
+#include "scene/lights/emission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/error.h"
+#include "scene/shapes/basis.h"
+
+namespace abbe {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kBelowOne = 0x1.fffffep-1F;
+
+// What is asked about; see `emission_density`.
+struct Leaving {
+  const Imath::V3f& normal;
+  const Imath::V3f& wo;
+  float scene_radius_m;
+};
+
+EmissionDensity density_of(const AreaLight& light, const Leaving& at) {
+  const float cos_theta = at.normal.dot(at.wo);
+  const float pdf = light.two_sided ? std::abs(cos_theta) / (2 * kPi) : std::max(0.0F, cos_theta) / kPi;
+  return {static_cast<float>(1 / light.area), pdf};
+}
+
+EmissionDensity density_of(const PointLight& /*light*/, const Leaving& /*at*/) {
+  return {1, 1 / (4 * kPi)};
+}
+
+EmissionDensity density_of(const SpotLight& light, const Leaving& at) {
+  return {1, light.lights(at.wo) ? cone_pdf(light.cap) : 0.0F};
+}
+
+// Over the disc that the scene fills, seen from there.
+float across(const Leaving& at) {
+  return 1 / (kPi * at.scene_radius_m * at.scene_radius_m);
+}
+
+EmissionDensity density_of(const EnvironmentLight& light, const Leaving& at) {
+  return {across(at), light.image ? light.image->pdf(-at.wo) : 1 / (4 * kPi)};
+}
+
+EmissionDensity density_of(const DirectionalLight& /*light*/, const Leaving& at) {
+  return {across(at), 1};
+}
+
+EmissionDensity density_of(const SunLight& light, const Leaving& at) {
+  return {across(at), light.shows(-at.wo) ? cone_pdf(light.cap) : 0.0F};
+}
+
+}  // namespace
+
+EmissionDensity emission_density(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo,
+                                 float scene_radius_m) {
+  return std::visit(
+      [&](const auto& kind) {
+        return density_of(kind, {normal, wo, scene_radius_m});
+      },
+      light.kind);
+}
+
+Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u) {
+  const float phi = 2 * kPi * u.y;
+  if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
+    const bool flip = area->two_sided && u.x >= 0.5F;
+    const float v = area->two_sided ? std::min(2 * (u.x - (flip ? 0.5F : 0.0F)), kBelowOne) : u.x;
+    return direction_about(flip ? -normal : normal, 1 - std::sqrt(1 - v), phi);
+  }
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
+    return direction_about(spot->axis, u.x * spot->cap, phi);
+  if (light.is<PointLight>()) return direction_about({0, 0, 1}, 2 * u.x, phi);
+  throw Error(ErrorCode::internal, "light \"" + light.name + "\"", "a light at infinity has no place");
+}
+
+}  // namespace abbe
