@@ -1,6 +1,7 @@
 #include "materials/medium/phase.h"
 
 #include <cmath>
+#include <concepts>
 #include <numbers>
 
 namespace abbe {
@@ -43,9 +44,32 @@ float draw_versine(const RayleighPhase& /*phase*/, float u) {
   return 1 - 2 * std::sinh(std::asinh(2 - 4 * u) / 3);
 }
 
+bool turns_back(const IsotropicPhase& /*phase*/) {
+  return false;
+}
+bool turns_back(const HenyeyGreensteinPhase& phase) {
+  return phase.g < 0;
+}
+bool turns_back(const RayleighPhase& /*phase*/) {
+  return false;
+}
+
+// What each phase function has: a density and the distribution solved for 1 - cos, and whether both count
+// from the opposite direction.
+template <typename Phase>
+concept PhaseModel = requires(const Phase& phase, float x) {
+  { density(phase, x) } -> std::same_as<float>;
+  { draw_versine(phase, x) } -> std::same_as<float>;
+  { turns_back(phase) } -> std::same_as<bool>;
+};
+template <typename List>
+constexpr bool kAllPhaseModels = false;
+template <typename... Phases>
+constexpr bool kAllPhaseModels<std::variant<Phases...>> = (PhaseModel<Phases> && ...);
+static_assert(kAllPhaseModels<PhaseFunction>);
+
 bool turns_back(const PhaseFunction& phase) {
-  const auto* peaked = std::get_if<HenyeyGreensteinPhase>(&phase);
-  return peaked != nullptr && peaked->g < 0;
+  return std::visit([](const auto& p) { return turns_back(p); }, phase);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <numbers>
 
@@ -144,6 +145,73 @@ std::optional<LightSample> sample_kind(const Light&, const SunLight& sun, const 
                      point};
 }
 
+// Light that arrives at `point` from the unit direction `wi`, of a light hit at `hit` with that normal.
+struct Arrival {
+  const Imath::V3f& point;
+  const Imath::V3f& wi;
+  const Imath::V3f& hit;
+  const Imath::V3f& normal;
+};
+
+float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const Arrival& at) {
+  const Imath::V3d from(at.point);
+  if (const auto height = wide_cone(shapes[emitter.shape].shape, from))
+    return static_cast<float>(1 / (2 * kPi * *height));
+  if (const auto rectangle = wide_rectangle(emitter, from))
+    return static_cast<float>(1 / rectangle->solid_angle());
+  const Imath::V3d d = Imath::V3d(at.hit) - from;
+  return static_cast<float>(density_by_area(emitter, d, d.length(), Imath::V3d(at.normal)));
+}
+float pdf_of(const PointLight&, const std::vector<ShapeInstance>&, const Arrival&) {
+  return 0;
+}
+float pdf_of(const SpotLight&, const std::vector<ShapeInstance>&, const Arrival&) {
+  return 0;
+}
+float pdf_of(const EnvironmentLight& environment, const std::vector<ShapeInstance>&, const Arrival& at) {
+  return environment.image ? environment.image->pdf(at.wi) : static_cast<float>(1 / (4 * kPi));
+}
+float pdf_of(const DirectionalLight&, const std::vector<ShapeInstance>&, const Arrival&) {
+  return 0;
+}
+float pdf_of(const SunLight& sun, const std::vector<ShapeInstance>&, const Arrival& at) {
+  return sun.shows(at.wi) ? cone_pdf(sun.cap) : 0.0F;
+}
+
+// `across` is the area [m^2] that light from infinity comes through.
+double etendue_of(const AreaLight& emitter, double /*across*/) {
+  return kPi * emitter.area * (emitter.two_sided ? 2 : 1);
+}
+double etendue_of(const PointLight& /*lamp*/, double /*across*/) {
+  return 4 * kPi;
+}
+double etendue_of(const SpotLight& lamp, double /*across*/) {
+  return 2 * kPi * static_cast<double>(lamp.cap);
+}
+double etendue_of(const EnvironmentLight& /*environment*/, double across) {
+  return 4 * kPi * across;
+}
+double etendue_of(const DirectionalLight& /*beam*/, double across) {
+  return across;
+}
+double etendue_of(const SunLight& sun, double across) {
+  return sun.projected_solid_angle() * across;
+}
+
+// What each kind of light answers.
+template <typename Kind>
+concept LightKind = requires(const Light& light, const Kind& kind, const std::vector<ShapeInstance>& shapes,
+                             const Imath::V3f& point, Imath::V2f u, const Arrival& at) {
+  { sample_kind(light, kind, shapes, point, u) } -> std::same_as<std::optional<LightSample>>;
+  { pdf_of(kind, shapes, at) } -> std::same_as<float>;
+  { etendue_of(kind, 1.0) } -> std::same_as<double>;
+};
+template <typename List>
+constexpr bool kAllLightKinds = false;
+template <typename... Kinds>
+constexpr bool kAllLightKinds<std::variant<Kinds...>> = (LightKind<Kinds> && ...);
+static_assert(kAllLightKinds<decltype(Light::kind)>);
+
 }  // namespace
 
 void AreaLight::measure(const Shape& of) {
@@ -178,18 +246,12 @@ std::optional<LightSample> sample_light(const Light& light, const std::vector<Sh
 
 float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
                 const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal) {
-  if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind))
-    return environment->image ? environment->image->pdf(wi) : static_cast<float>(1 / (4 * kPi));
-  if (const auto* sun = std::get_if<SunLight>(&light.kind)) return sun->shows(wi) ? cone_pdf(sun->cap) : 0.0F;
-  if (light.is_delta() || !emits_towards(light, hit_normal, -wi)) return 0;
-  const auto& emitter = std::get<AreaLight>(light.kind);
-  const Shape& shape = shapes[emitter.shape].shape;
-  const Imath::V3d from(point);
-  if (const auto height = wide_cone(shape, from)) return static_cast<float>(1 / (2 * kPi * *height));
-  if (const auto rectangle = wide_rectangle(emitter, from))
-    return static_cast<float>(1 / rectangle->solid_angle());
-  const Imath::V3d d = Imath::V3d(hit_point) - from;
-  return static_cast<float>(density_by_area(emitter, d, d.length(), Imath::V3d(hit_normal)));
+  if (!emits_towards(light, hit_normal, -wi)) return 0;
+  return std::visit(
+      [&](const auto& kind) {
+        return pdf_of(kind, shapes, {point, wi, hit_point, hit_normal});
+      },
+      light.kind);
 }
 
 bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo) {
@@ -209,14 +271,8 @@ EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeI
 }
 
 double etendue(const Light& light, double scene_radius_m) {
-  if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
-    return kPi * emitter->area * (emitter->two_sided ? 2 : 1);
-  if (std::holds_alternative<PointLight>(light.kind)) return 4 * kPi;
-  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return 2 * kPi * static_cast<double>(lamp->cap);
   const double across = kPi * scene_radius_m * scene_radius_m;
-  if (std::holds_alternative<DirectionalLight>(light.kind)) return across;
-  if (const auto* sun = std::get_if<SunLight>(&light.kind)) return sun->projected_solid_angle() * across;
-  return 4 * kPi * across;
+  return std::visit([across](const auto& kind) { return etendue_of(kind, across); }, light.kind);
 }
 
 ScaledCurve mean_emission(const Light& light) {
