@@ -125,4 +125,12 @@ Transmission transmission(const Scene& scene, RayCaster& caster, Ray ray, Surrou
   }
 }
 
+std::optional<Transmission> unblocked_transmission(const Scene& scene, RayCaster& caster,
+                                                   const BasicRay<double>& way, const Ray& ray,
+                                                   const Surroundings& around,
+                                                   const SampledSpectrum& wavelengths_nm, float distance) {
+  if (caster.occluded(way)) return std::nullopt;
+  return transmission(scene, caster, ray, around, wavelengths_nm, distance);
+}
+
 }  // namespace abbe

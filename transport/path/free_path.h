@@ -33,5 +33,11 @@ struct Transmission {
 /// Follows the first `distance` [m], perhaps infinite, of a ray that sets out within `around`.
 [[nodiscard]] Transmission transmission(const Scene& scene, RayCaster& caster, Ray ray, Surroundings around,
                                         const SampledSpectrum& wavelengths_nm, float distance);
+/// That of a ray along a way that may be blocked; nothing where it is.
+[[nodiscard]] std::optional<Transmission> unblocked_transmission(const Scene& scene, RayCaster& caster,
+                                                                 const BasicRay<double>& way, const Ray& ray,
+                                                                 const Surroundings& around,
+                                                                 const SampledSpectrum& wavelengths_nm,
+                                                                 float distance);
 
 }  // namespace abbe

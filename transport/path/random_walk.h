@@ -27,6 +27,8 @@ concept WalkingTechnique = requires(T technique, typename T::Path& path, const S
   // A path leaves the scene, or comes to a surface.
   technique.escape(path);
   technique.meet(path, hit);
+  // It has come to where it may scatter.
+  technique.reach(path, vertex);
   // It may be connected to the end of another, from a surface or from within matter.
   technique.connect(path, vertex, u);
   technique.connect_within(path, phase, u);
@@ -67,6 +69,7 @@ class RandomWalks {
 
   /// Scatters a path at a vertex; connects it first, where that pays. Whether it goes on.
   bool leave(Technique& technique, Path& path, const SurfaceVertex& vertex) {
+    technique.reach(path, vertex);
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
     if (scatters(vertex.bsdf)) technique.connect(path, vertex, v);
     const auto event = vertex.scatter({u[2], {u[0], u[1]}}, path.packet.hero, Technique::kMode);

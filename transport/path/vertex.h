@@ -75,6 +75,17 @@ struct SurfaceVertex {
     return f;
   }
 
+  /// What goes on towards a direction of the world.
+  struct Departure {
+    Imath::V3f wi;      ///< The direction, local.
+    SampledSpectrum f;  ///< See `f`; what goes on is this times |wi.z|.
+    bool crosses;       ///< To the other side of the surface than the path came from.
+  };
+  [[nodiscard]] Departure towards(const Imath::V3f& world, TransportMode mode) const {
+    const Imath::V3f wi = frame.to_local(world);
+    return {wi, f(world, wi, mode), wi.z * wo.z < 0};
+  }
+
  private:
   // What scattering towards a direction counts on a relief, over what the model says. It is 0 for
   // directions that the model and the shape see on different sides, so that no light leaks through. Power,

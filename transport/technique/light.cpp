@@ -57,11 +57,9 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
       sample_towards(scene_.camera, vertex.hit.point, {u[0], u[1]}, path.lambda_nm(), path.ray.time);
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - vertex.hit.point).normalized();
-  const Imath::V3f wi = vertex.frame.to_local(towards);
-  const SampledSpectrum f = vertex.f(towards, wi, kMode);
+  const auto [wi, f, crosses] = vertex.towards(towards, kMode);
   if (f.is_zero()) return;
   Surroundings crossed;
-  const bool crosses = wi.z * vertex.wo.z < 0;
   if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
   connect_to(path, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
              crosses ? crossed : path.around);
@@ -84,8 +82,10 @@ void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens
       scattered * (path.packet.throughput * (lens.weight * mis_weight(path.packet.lane_pdf, 0, 0)));
   const float distance = (lens.lens_point - ray.origin).length();
   if (walks_.has_free_paths()) {
-    if (caster_.occluded(way)) return;
-    contribution *= transmission(scene_, caster_, ray, around, path.lambda_nm(), distance).transmittance;
+    const std::optional<Transmission> through =
+        unblocked_transmission(scene_, caster_, way, ray, around, path.lambda_nm(), distance);
+    if (!through) return;
+    contribution *= through->transmittance;
   } else {
     around.medium.attenuate(contribution, distance);
   }

@@ -45,6 +45,7 @@ class LightTracer {
   // What RandomWalks asks.
   void escape(LightPath& /*path*/) {}
   void meet(LightPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  void reach(LightPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
   // Whether paths that scatter at their first vertex in more than a single direction go on.

@@ -126,8 +126,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   const std::optional<ChosenLight> chosen = choose_light(vertex.place(), u);
   if (!chosen) return;
   const Imath::V3f& world = chosen->towards.wi;
-  const Imath::V3f wi = vertex.frame.to_local(world);
-  const SampledSpectrum f = vertex.f(world, wi, kMode);
+  const auto [wi, f, crosses] = vertex.towards(world, kMode);
   if (f.is_zero()) return;
   SampledSpectrum contribution =
       f * (path.packet.throughput * emission_from(chosen->light, world, path.lambda_nm()) *
@@ -136,7 +135,6 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
       chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
   const Ray ray = spawn(vertex.hit, world, path.ray.time);
   const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
-  const bool crosses = wi.z * vertex.wo.z < 0;
   if (walks_.has_free_paths()) {
     Surroundings around = path.around;
     if (crosses) around.enter(scene_, vertex.behind(scene_, around.inside), path.lambda_nm());
@@ -175,12 +173,12 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
                                                          const SampledSpectrum& scattering_pdf,
                                                          const Ray& ray, const Surroundings& around,
                                                          float cos_film) {
-  if (caster_.occluded(way_to(ray, chosen.towards))) return;
-  const Transmission way =
-      transmission(scene_, caster_, ray, around, path.lambda_nm(), chosen.towards.distance);
-  const float weight =
-      mis_weight(path.packet.lane_pdf * scattering_pdf * way.density, chosen.pdf, path.packet.lane_pdf.sum());
-  if (std::isfinite(weight)) add(path, chosen.index, contribution * way.transmittance * weight, cos_film);
+  const std::optional<Transmission> way = unblocked_transmission(
+      scene_, caster_, way_to(ray, chosen.towards), ray, around, path.lambda_nm(), chosen.towards.distance);
+  if (!way) return;
+  const float weight = mis_weight(path.packet.lane_pdf * scattering_pdf * way->density, chosen.pdf,
+                                  path.packet.lane_pdf.sum());
+  if (std::isfinite(weight)) add(path, chosen.index, contribution * way->transmittance * weight, cos_film);
 }
 
 bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {

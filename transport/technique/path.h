@@ -53,6 +53,7 @@ class PathTracer {
   // What RandomWalks asks.
   void escape(CameraPath& path);
   void meet(CameraPath& path, const SurfaceHit& hit);
+  void reach(CameraPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
   [[nodiscard]] bool follows(CameraPath& path, const BsdfSample& event) const;

@@ -1,0 +1,121 @@
+#include "transport/path/path_vertex.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/lights/emission.h"
+#include "tests/scene/light_kinds.h"
+#include "transport/path/path_recorder.h"
+#include "transport/plan/plan.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V2f;
+using Imath::V3f;
+using testing::all_light_kinds;
+using testing::Random;
+
+PathPacket packet() {
+  PathPacket drawn;
+  drawn.wavelengths.lambda_nm = SampledSpectrum({420, 450, 480, 510, 540, 570, 600, 630});
+  drawn.wavelengths.pdf = SampledSpectrum(1.0F);
+  return drawn;
+}
+
+// A vertex at a point of a surface, come to from `from`.
+PathVertex surface_vertex(const V3f& point, const V3f& normal, const V3f& from, Bsdf bsdf,
+                          std::uint32_t shape = 0) {
+  const Basis<float> frame(normal);
+  PathVertex vertex{.at = SurfaceVertex({point, normal, 0, shape}, frame,
+                                        frame.to_local((from - point).normalized()), std::move(bsdf)),
+                    .packet = packet()};
+  return vertex;
+}
+
+PathVertex medium_vertex(const V3f& point, const V3f& along, const PhaseFunction& phase) {
+  return {.at = MediumVertex{point, along, phase}, .packet = packet()};
+}
+
+SampledSpectrum uneven(float low) {
+  return SampledSpectrum(
+      {low, low + 0.05F, low + 0.1F, low + 0.2F, low + 0.25F, low + 0.3F, low + 0.35F, low + 0.4F});
+}
+
+// A vertex of the light at a point drawn for `from`, and the density of the draw in the measure of vertices.
+struct DrawnLight {
+  PathVertex vertex;
+  double pdf;
+};
+std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u) {
+  const Light& light = scene.lights[0];
+  const auto sample = sample_light(light, scene.shapes, from, u);
+  if (!sample) return std::nullopt;
+  PathVertex vertex{.at = LightVertex{0, sample->wi, V3f(0), true}, .packet = packet()};
+  if (light.at_infinity()) return DrawnLight{vertex, static_cast<double>(sample->pdf)};
+  if (const V3f* at = place(light)) {
+    vertex.at = LightVertex{0, *at};
+    return DrawnLight{vertex, 1};
+  }
+  const auto hit = scene.intersect({from, sample->wi});
+  if (!hit || scene.shapes[hit->shape].light != 0) return std::nullopt;
+  vertex.at = LightVertex{0, hit->point, hit->normal};
+  const double cosine = std::abs(static_cast<double>(hit->normal.dot(sample->wi)));
+  if (cosine < 0.02) return std::nullopt;
+  return DrawnLight{vertex,
+                    static_cast<double>(sample->pdf) * cosine / std::pow(static_cast<double>(hit->t), 2)};
+}
+
+// As the path tracer adds it: f |cos| L factor/p for the direction drawn, for each kind of light.
+TEST(Connect, ToALightIsWhatPathTracingAdds) {
+  for (const auto& [name, scene] : all_light_kinds()) {
+    RayCaster caster(scene);
+    Random random(1);
+    int connected = 0;
+    for (int i = 0; i < 300; ++i) {
+      const V3f point(random.uniform() - 0.5F, random.uniform() - 0.5F, 0.05F);
+      const V2f u = random.pair();
+      const PathVertex x = surface_vertex(point, {0, 0, 1}, {0.3F, 0.4F, 2}, DiffuseBsdf{uneven(0.2F)});
+      const auto sample = sample_light(scene.lights[0], scene.shapes, point, u);
+      const auto light = draw_light(scene, point, u);
+      if (!sample || !light || sample->wi.z < 0.01F) continue;
+      const auto joined = connect(scene, caster, x, light->vertex);
+      ASSERT_TRUE(joined) << name;
+      ++connected;
+      for (int j = 0; j < kLanes; ++j) {
+        const double added = static_cast<double>(uneven(0.2F)[j]) / std::numbers::pi *
+                             static_cast<double>(sample->wi.z * sample->factor / sample->pdf);
+        EXPECT_NEAR(static_cast<double>(joined->contribution[j]) / light->pdf / added, 1, 2e-3) << name;
+      }
+    }
+    EXPECT_GT(connected, 50) << name;
+  }
+}
+
+// f of both ends, G and what fog leaves: the same both ways between what is reciprocal.
+TEST(Connect, IsSymmetric) {
+  const Scene scene = testing::lit_by(PointLight{{0, 0, 9}});
+  RayCaster caster(scene);
+  Random random(2);
+  for (int i = 0; i < 200; ++i) {
+    const V3f p(random.uniform(), random.uniform(), 0.2F + random.uniform());
+    const V3f q(random.uniform() - 2, random.uniform(), 0.2F + random.uniform());
+    const std::vector<PathVertex> ends{
+        surface_vertex(p, V3f(-0.6F, 0, 0.8F), p + V3f(-1, 0.2F, 1), DiffuseBsdf{uneven(0.1F)}),
+        surface_vertex(q, V3f(0.6F, 0, 0.8F), q + V3f(1, 0.2F, 1), DiffuseBsdf{uneven(0.4F)}),
+        medium_vertex(q, V3f(0, 0.6F, 0.8F), HenyeyGreensteinPhase{0.5F}),
+        medium_vertex(p, V3f(1, 0, 0), RayleighPhase{})};
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 3), std::pair(2, 3)}) {
+      const PathVertex& x = ends[static_cast<std::size_t>(a)];
+      const PathVertex& y = ends[static_cast<std::size_t>(b)];
+      const auto there = connect(scene, caster, x, y);
+      const auto back = connect(scene, caster, y, x);
+      ASSERT_EQ(there.has_value(), back.has_value()) << a << " to " << b;
+      if (!there) continue;
+      for (int j = 0; j < kLanes; ++j)
+        EXPECT_NEAR(there->contribution[j] / back->contribution[j], 1, 1e-5) << a << " to " << b;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace abbe
