@@ -16,12 +16,6 @@ namespace {
 [[noreturn]] void refuse_to_emit() {
   throw Error(ErrorCode::internal, "instance", "an instance has no area to emit from");
 }
-double area(const PlacedShape& /*placed*/) {
-  refuse_to_emit();
-}
-SurfacePoint sample_area(const PlacedShape& /*placed*/, Imath::V2f /*u*/) {
-  refuse_to_emit();
-}
 
 // Of all shapes, meshes alone are drawn from by a table.
 SurfacePoint sample_shape(const Mesh& mesh, const std::vector<float>& triangle_cdf, Imath::V2f u) {
@@ -32,23 +26,33 @@ SurfacePoint sample_shape(const S& shape, const std::vector<float>& /*triangle_c
   return sample_area(shape, u);
 }
 
-// What each shape answers.
+}  // namespace
+
+static double area(const PlacedShape& /*placed*/) {
+  refuse_to_emit();
+}
+static SurfacePoint sample_area(const PlacedShape& /*placed*/, Imath::V2f /*u*/) {
+  refuse_to_emit();
+}
+
 template <typename S>
-concept ShapeModel = requires(const S& shape, const BasicRay<float>& ray, const BasicRay<double>& exact,
-                              const std::vector<float>& cdf, Imath::V2f u) {
-  { intersect(shape, ray, 0.0F) } -> std::same_as<std::optional<ShapeHit<float>>>;
-  { intersect(shape, exact, 0.0) } -> std::same_as<std::optional<ShapeHit<double>>>;
-  { bounds(shape) } -> std::same_as<Imath::Box3d>;
-  { area(shape) } -> std::same_as<double>;
-  { sample_shape(shape, cdf, u) } -> std::same_as<SurfacePoint>;
+concept SampledByArea = std::same_as<S, Mesh> || requires {
+  static_cast<SurfacePoint (*)(const S&, Imath::V2f)>(sample_area);
+};
+// What each shape answers, by functions of its own and exactly that type: a shape turns into the variant by
+// itself, whose functions would ask it in vain.
+template <typename S>
+concept ShapeModel = SampledByArea<S> && requires {
+  static_cast<std::optional<ShapeHit<float>> (*)(const S&, const BasicRay<float>&, float)>(intersect);
+  static_cast<std::optional<ShapeHit<double>> (*)(const S&, const BasicRay<double>&, double)>(intersect);
+  static_cast<Imath::Box3d (*)(const S&)>(bounds);
+  static_cast<double (*)(const S&)>(area);
 };
 template <typename List>
 constexpr bool kAllShapeModels = false;
 template <typename... Shapes>
 constexpr bool kAllShapeModels<std::variant<Shapes...>> = (ShapeModel<Shapes> && ...);
 static_assert(kAllShapeModels<Shape>);
-
-}  // namespace
 
 template <typename T>
 std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min) {
