@@ -117,5 +117,33 @@ TEST(Connect, IsSymmetric) {
   }
 }
 
+// From the wall of a ball of rough glass that absorbs: inwards through it, outwards through air.
+TEST(Connect, RunsThroughWhatLiesOnTheSideItLeavesTo) {
+  Scene scene{};
+  scene.camera = testing::pinhole();
+  Medium dark;
+  dark.absorption_per_m = Curve(2.0);
+  scene.materials = {
+      {"glass", RoughDielectricMaterial("glass", RefractiveIndex(1.5),
+                                        Microfacets<float>{FacetShape::ggx, 0.6F, 0.6F}, dark)}};
+  scene.shapes.push_back({"ball", Sphere{{0, 0, 3}, 1}, 0});
+  scene.commit();
+  RayCaster caster(scene);
+  const V3f wall(0, 0, 2);
+  PathVertex x =
+      surface_vertex(wall, {0, 0, -1}, {0.2F, 0, 0},
+                     make_bsdf(scene.materials[0], {packet().wavelengths.lambda_nm, {0, 0}, nullptr}));
+  PathVertex clear = x;
+  x.beyond.cross(scene, 0, true);
+  for (const auto& [end, distance] :
+       {std::pair(V3f(0, 0.1F, 2.8F), std::hypot(0.1, 0.8)), {V3f(0, 0.1F, 1), 0.0}}) {
+    const PathVertex y = medium_vertex(end, {1, 0, 0}, IsotropicPhase{});
+    const auto through = connect(scene, caster, x, y);
+    const auto without = connect(scene, caster, clear, y);
+    ASSERT_TRUE(through && without);
+    EXPECT_NEAR(through->contribution[2] / without->contribution[2], std::exp(-2 * distance), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace abbe

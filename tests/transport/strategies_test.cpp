@@ -259,6 +259,14 @@ TEST(Strategies, AddUpBalanced) {
     }
 }
 
+// The solid angle of a scattering vertex per its area, or per its volume, as another one sees it.
+float seen_size(const PathVertex& from, const PathVertex& to) {
+  const V3f d = point_of(to) - point_of(from);
+  const auto* surface = std::get_if<SurfaceVertex>(&to.at);
+  const float cosine = surface != nullptr ? std::abs(surface->hit.normal.dot(d.normalized())) : 1.0F;
+  return cosine / d.length2();
+}
+
 // From one vertex to the next a recorded path has gone with the product of the densities of its pieces.
 TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
   for (const bool fog : {false, true}) {
@@ -279,8 +287,7 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
         const PathVertex& from = path.vertices[i];
         const PathVertex& to = path.vertices[i + 1];
         const Way way = way_from(from, to);
-        flux *= sent_towards(scene, from, way.direction, TransportMode::radiance) *
-                solid_angle_per_area(scene, from, to) *
+        flux *= sent_towards(scene, from, way.direction, TransportMode::radiance) * seen_size(from, to) *
                 transmission_along(scene, caster, from, way).transmittance;
         if (std::holds_alternative<MediumVertex>(to.at)) {
           ++within;
@@ -298,8 +305,7 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
         const Way back = way_from(from, to);
         const SampledSpectrum expected =
             direction_pdf(scene, from, way_from(from, path.vertices[i + 2]).direction, back.direction) *
-            solid_angle_per_area(scene, from, to) * transmission_along(scene, caster, from, back).density *
-            to.event_pdf;
+            seen_size(from, to) * transmission_along(scene, caster, from, back).density * to.event_pdf;
         for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(to.pdf_reverse[j] / expected[j], 1, 2e-3);
       }
     }
