@@ -14,9 +14,9 @@
 namespace abbe {
 namespace {
 
-using test::json_output;
 using test::fault;
 using test::json;
+using test::json_output;
 using test::scratch;
 
 cli::LabOptions about(const std::string& material) {
