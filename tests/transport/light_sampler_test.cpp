@@ -1,6 +1,6 @@
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <numeric>
 
@@ -262,9 +262,9 @@ TEST(LightSampler, ManyLampsCostLittleMoreThanTheIdealChoice) {
 TEST(LightSampler, IsBuiltInNoTime) {
   Hall hall = mixed_hall(100000);
   hall.scene.commit();
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // of this process alone: others may keep the machine busy
   const LightSampler sampler(hall.scene, hall.seen);
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2);
 }
 
 }  // namespace

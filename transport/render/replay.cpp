@@ -39,7 +39,8 @@ void trace_some(const Plan& plan, RayCaster& caster) {
                          Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels)});
       photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
     }
-    if (plan.path_active) path_tracer.trace(samples, dropped);
+    if (plan.path_active)
+      path_tracer.trace(samples, Sampler(scene.render.seed, Purpose::palette, 0, 0, first), dropped);
     if (plan.light_active) light_tracer.trace(photons, dropped);
   }
 }
