@@ -1,5 +1,9 @@
 include(GoogleTest)
 
+# The tests labelled unit, and the program that some of them run: what sanitizers need built.
+add_custom_target(unit_tests)
+add_dependencies(unit_tests abbe)
+
 # abbe_test(<name> SOURCES ... LINKS ... [LABEL unit|scenes|nightly] [TIMEOUT seconds])
 #
 # One GoogleTest executable, each of its tests registered with CTest under the tier's label.
@@ -14,6 +18,9 @@ function(abbe_test name)
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${TEST_LINKS} GTest::gtest_main)
   abbe_compile_options(test_${name})
+  if(TEST_LABEL STREQUAL "unit")
+    add_dependencies(unit_tests test_${name})
+  endif()
   gtest_discover_tests(test_${name}
     TEST_PREFIX ${name}.
     DISCOVERY_TIMEOUT 60
