@@ -27,8 +27,7 @@ std::string pattern(const Scene& scene) {
 
 /// What a render would do, of which only its techniques are told where no plan can be made.
 struct PlannedRender {
-  bool path_active;
-  bool light_active;
+  std::vector<Technique> techniques;
   std::optional<std::array<double, 2>> wavelengths_nm = {};  ///< From and to.
   Json shares = nullptr;                                     ///< Of the techniques, where there are two.
 };
@@ -38,12 +37,11 @@ Json json_of(const TechniqueCost& cost) {
 }
 
 PlannedRender planned(const Scene& scene) {
-  if (refusal(scene)) return {scene.render.integrator != Integrator::light, traces_light(scene)};
+  if (refusal(scene)) return {chosen_techniques(scene)};
   const int threads = thread_count(0);
   Plan plan = make_learnt_plan(scene, threads, scene.render.seed);
   const std::optional<TechniqueCosts> costs = set_technique_shares(plan, threads);
-  PlannedRender render{
-      plan.path_active, plan.light_active, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
+  PlannedRender render{plan.techniques, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
   if (costs)
     render.shares = {{"photons_per_sample", plan.photons},
                      {"path_interval", plan.path_interval},
@@ -62,10 +60,13 @@ Json answer_for(const Scene& scene) {
   for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
   answer["because"] = scene.needs.because;
   answer["techniques"] = Json::array();
-  if (render.path_active) answer["techniques"].push_back("path");
-  if (render.light_active) answer["techniques"].push_back("light");
+  answer["owned"] = Json::object();
+  for (const Technique technique : render.techniques) {
+    answer["techniques"].push_back(name_of(technique));
+    answer["owned"][name_of(technique)] = owned_paths(technique, render.techniques);
+  }
   answer["shares"] = render.shares;
-  answer["unreached"] = unreached(scene, scene.needs, render.light_active);
+  answer["unreached"] = unreached(scene, scene.needs, uses(render.techniques, Technique::light));
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
   if (scene.output.white)
     answer["white"] = {{"name", scene.output.white->name},
@@ -111,7 +112,9 @@ std::string describe(const Scene& scene) {
   lines += "skips\n";
   for (const NeedName& need : need_names())
     if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
-  lines += fmt::format("techniques   {}\n", joined(answer["techniques"]));
+  lines += "techniques\n";
+  for (const auto& [technique, paths] : answer["owned"].items())
+    lines += fmt::format("  {:<10} {}\n", technique, paths.get<std::string>());
   if (!answer["shares"].is_null()) lines += shares_line(answer["shares"]);
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
   if (answer.contains("wavelength_range_nm"))

@@ -21,7 +21,7 @@ void warn(const std::string& message, bool is_error) {
 }  // namespace
 
 void warn_of_lost_light(const Scene& scene, bool strict) {
-  const auto lost = unreached(scene, scene.needs, traces_light(scene));
+  const auto lost = unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
   if (lost.empty()) return;
   const bool chosen = scene.render.integrator != Integrator::automatic;
   const std::string by =

@@ -273,7 +273,8 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["needs"]["delta_lights"], false);
   EXPECT_EQ(found["needs"].size(), 14U);
   EXPECT_EQ(found["because"]["dispersion"], "shape \"prism\"");
-  EXPECT_EQ(found["techniques"][0], "path");
+  EXPECT_EQ(found["techniques"], nlohmann::json::parse(R"(["path"])"));
+  EXPECT_EQ(found["owned"], nlohmann::json::parse(R"({"path": "E (S|D)* L"})"));
   EXPECT_TRUE(found["shares"].is_null());
   EXPECT_TRUE(found["unreached"].is_array());
   EXPECT_GE(found["wavelength_range_nm"][0], 300);
@@ -295,7 +296,10 @@ TEST(Info, TellsTheSharesOfTechniquesThatARenderHas) {
       scene.find(sky), sky.size(),
       R"({"point": {"at": [0, -100, 80]}, "emission": {"illuminant": "D65", "radiant_flux_W": 1}})");
   const std::string path = scratch().write("lens.json", scene).string();
-  const nlohmann::json shares = abbe("info " + path + " --json").json()["shares"];
+  const nlohmann::json found = abbe("info " + path + " --json").json();
+  EXPECT_EQ(found["owned"]["path"], "E (S|D)* L but those of light");
+  EXPECT_EQ(found["owned"]["light"], "E D (S|D)* S L of traced lights");
+  const nlohmann::json& shares = found["shares"];
   ASSERT_TRUE(shares.is_object());
   ASSERT_EQ(
       abbe("render " + path + " --quiet -o " + file("lens.exr") + " --stats " + file("lens.json.stats")).code,

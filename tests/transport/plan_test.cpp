@@ -23,6 +23,23 @@ Scene lamps_over_glass(std::size_t count) {
   return scene;
 }
 
+TEST(Plan, ChoosesTechniquesByIntegratorAndNeed) {
+  const auto techniques = [](Integrator integrator, std::size_t lamps, double power) {
+    Scene scene = lamps_over_glass(lamps);
+    scene.render.integrator = integrator;
+    for (Light& light : scene.lights) light.emission = Curve(power);
+    scene.commit();
+    return make_plan(scene).techniques;
+  };
+  using List = std::vector<Technique>;
+  EXPECT_EQ(techniques(Integrator::automatic, 1, 1), (List{Technique::path, Technique::light}));
+  EXPECT_EQ(techniques(Integrator::automatic, 0, 1), List{Technique::path});
+  EXPECT_EQ(techniques(Integrator::automatic, 1, 0), List{Technique::path});
+  EXPECT_EQ(techniques(Integrator::path, 1, 1), List{Technique::path});
+  EXPECT_EQ(techniques(Integrator::light, 1, 1), List{Technique::light});
+  EXPECT_EQ(techniques(Integrator::light, 1, 0), List{}) << "a lamp without power";
+}
+
 TEST(Plan, AimsTheStrongestOfManyLamps) {
   const Scene scene = lamps_over_glass(300);
   const Plan plan = make_plan(scene);

@@ -13,8 +13,9 @@ namespace {
 // Per light, whether photons start there at all.
 std::vector<bool> traced_lights(const Scene& scene) {
   std::vector<bool> traced(scene.lights.size(), false);
-  if (!traces_light(scene)) return traced;
-  const bool light_only = scene.render.integrator == Integrator::light;
+  const std::vector<Technique> techniques = chosen_techniques(scene);
+  if (!uses(techniques, Technique::light)) return traced;
+  const bool light_only = techniques.size() == 1;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     traced[i] = !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
   return traced;
@@ -70,18 +71,14 @@ std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, con
 
 }  // namespace
 
-bool traces_light(const Scene& scene) {
-  return scene.render.integrator == Integrator::light ||
-         (scene.render.integrator == Integrator::automatic && scene.needs.light_tracing);
-}
-
 std::optional<Error> refusal(const Scene& scene) {
   return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
 }
 
 Plan make_plan(const Scene& scene) {
   const bool light_only = scene.render.integrator == Integrator::light;
-  const bool light_active = traces_light(scene);
+  const std::vector<Technique> techniques = chosen_techniques(scene);
+  const bool traces_light = uses(techniques, Technique::light);
   const Emissions emissions = emissions_of(scene);
   const std::vector<double> powers = sensor_weighted_powers(scene, emissions);
   const std::vector<bool> traced = traced_lights(scene);
@@ -94,9 +91,8 @@ Plan make_plan(const Scene& scene) {
             LightSampler(scene, emissions.seen),
             PowerLightSampler(traced_powers),
             traced,
-            light_active ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
-            !light_only,
-            light_active,
+            traces_light ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
+            techniques,
             static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
             1,
             light_only,
@@ -104,11 +100,13 @@ Plan make_plan(const Scene& scene) {
             make_own_wavelengths(scene, emissions),
             !scene.needs.dispersion,
             around_camera(scene),
-            std::vector<MediumStack>(light_active ? scene.lights.size() : 0)};
+            std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
-  plan.light_active = light_active && !plan.traced_lights.empty();
-  if (!plan.light_active) plan.traced.assign(scene.lights.size(), false);
+  if (traces_light && plan.traced_lights.empty()) {
+    plan.techniques.pop_back();
+    plan.traced.assign(scene.lights.size(), false);
+  }
   return plan;
 }
 

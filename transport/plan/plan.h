@@ -11,6 +11,7 @@
 #include "transport/plan/aim.h"
 #include "transport/plan/light_sampler.h"
 #include "transport/plan/power_light_sampler.h"
+#include "transport/plan/techniques.h"
 
 namespace abbe {
 
@@ -19,16 +20,15 @@ namespace abbe {
 struct Plan {
   const Scene& scene;
   WavelengthDistribution wavelengths;
-  LightSampler path_lights;         ///< For light sampling at path vertices.
-  PowerLightSampler traced_lights;  ///< For starting photons.
-  std::vector<bool> traced;         ///< Per light: the light tracer owns its caustics.
-  std::vector<Aim> aims;            ///< Per light where photons start at all.
-  bool path_active;
-  bool light_active;
-  std::uint64_t photons;        ///< Of a sample.
-  std::uint32_t path_interval;  ///< A pixel has a camera path in one of so many samples.
-  bool light_owns_all;          ///< The light tracer alone renders the scene.
-  double nominal_value;         ///< Order of magnitude of a film value.
+  LightSampler path_lights;           ///< For light sampling at path vertices.
+  PowerLightSampler traced_lights;    ///< For starting photons.
+  std::vector<bool> traced;           ///< Per light: the light tracer owns its caustics.
+  std::vector<Aim> aims;              ///< Per light where photons start at all.
+  std::vector<Technique> techniques;  ///< In the order of their list; those that own some path.
+  std::uint64_t photons;              ///< Of a sample.
+  std::uint32_t path_interval;        ///< A pixel has a camera path in one of so many samples.
+  bool light_owns_all;                ///< The light tracer alone renders the scene.
+  double nominal_value;               ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
   bool shares_packets;        ///< Camera paths share wavelengths, by a palette: nothing parts them.
   MediumStack camera_inside;  ///< Where camera paths start,
@@ -41,9 +41,6 @@ struct Plan {
                                    : own_wavelengths[static_cast<std::size_t>(scene.mosaic->at(x, y))];
   }
 };
-
-/// Whether photons are traced: the integrator allows it, and the scene asks for it or there is no other way.
-[[nodiscard]] bool traces_light(const Scene& scene);
 
 /// Why photons cannot light a scene that would have them: a shape that light from afar meets is too large or
 /// too far for them, or a far lamp too large; Error{scene} with its name. Nothing where a plan can be made.

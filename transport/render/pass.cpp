@@ -33,10 +33,13 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
   const auto width = static_cast<std::uint32_t>(film.width());
   const auto height = static_cast<std::uint32_t>(film.height());
   tiles_x_ = pieces(width, kTile);
-  tiles_ = plan.path_active ? tiles_x_ * pieces(height, kTile) : 0;
   photons_ = plan.photons;
   path_interval_ = plan.path_interval;
-  batches_ = plan.light_active ? pieces(photons_, kPhotonBatch) : 0;
+  for (const Technique technique : plan.techniques)
+    stages_.push_back(technique == Technique::path
+                          ? Stage{tiles_x_ * pieces(height, kTile), &Pass::render_tile}
+                          : Stage{pieces(photons_, kPhotonBatch), &Pass::trace_batch});
+  for (const Stage& stage : stages_) items_ += stage.items;
 }
 
 PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
@@ -57,17 +60,20 @@ PassCounts Pass::work(const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
   Worker worker(plan_);
-  const std::uint32_t items = tiles_ + batches_;
-  for (std::uint32_t item = next_++; item < items; item = next_++) {
-    if (item < tiles_)
-      render_tile(item, worker);
-    else
-      trace_batch(item - tiles_, worker);
+  for (std::uint32_t item = next_++; item < items_; item = next_++) {
+    do_item(item, worker);
     if (pause()) break;
   }
   worker.counts.rays = worker.caster.rays();
   worker.counts.cut = worker.caster.cut();
   return worker.counts;
+}
+
+void Pass::do_item(std::uint32_t item, Worker& worker) {
+  for (const Stage& stage : stages_) {
+    if (item < stage.items) return (this->*stage.work)(item, worker);
+    item -= stage.items;
+  }
 }
 
 std::uint32_t Pass::replicate(std::uint64_t sample) const {

@@ -24,9 +24,9 @@ struct PassCounts {
 };
 
 /// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.
-/// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Work items are
-/// tiles, then batches of photons, taken by threads from one counter, so that those done are always the first
-/// ones.
+/// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Each
+/// technique of the plan has a stage of work items, tiles or batches of photons, that threads take from one
+/// counter, so that those done are always the first ones. No stage waits for the one before.
 class Pass {
  public:
   /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random
@@ -39,8 +39,8 @@ class Pass {
   PassCounts run(int threads, const std::function<bool()>& pause);
 
   /// How many items are done, and whether these are all. Not while it runs.
-  [[nodiscard]] std::uint32_t done() const { return std::min(next_.load(), tiles_ + batches_); }
-  [[nodiscard]] bool finished() const { return done() == tiles_ + batches_; }
+  [[nodiscard]] std::uint32_t done() const { return std::min(next_.load(), items_); }
+  [[nodiscard]] bool finished() const { return done() == items_; }
 
  private:
   // What one thread keeps between items.
@@ -61,7 +61,14 @@ class Pass {
     PassCounts counts;
   };
 
+  // What a technique does: `work` for each of so many items.
+  struct Stage {
+    std::uint32_t items;
+    void (Pass::*work)(std::uint32_t item, Worker& worker);
+  };
+
   PassCounts work(const std::function<bool()>& pause);
+  void do_item(std::uint32_t item, Worker& worker);
   void render_tile(std::uint32_t tile, Worker& worker);
   void sample_tile(int x0, int y0, std::uint32_t tile, std::uint64_t sample, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
@@ -79,8 +86,8 @@ class Pass {
   std::uint64_t last_;
   std::uint64_t seed_;
   std::uint32_t tiles_x_;
-  std::uint32_t tiles_;
-  std::uint32_t batches_;
+  std::vector<Stage> stages_;
+  std::uint32_t items_ = 0;  // of all stages
   std::uint64_t photons_;
   std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;

@@ -75,8 +75,8 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     for (std::uint32_t batch = next++; batch < kBatches; batch = next++) {
-      if (plan.path_active) expose_batch(plan, batch, caster, batches[batch]);
-      if (plan.light_active) expose_photons(plan, batch, caster, batches[batch]);
+      if (uses(plan.techniques, Technique::path)) expose_batch(plan, batch, caster, batches[batch]);
+      if (uses(plan.techniques, Technique::light)) expose_photons(plan, batch, caster, batches[batch]);
     }
   });
   // In their order, whichever threads traced them.

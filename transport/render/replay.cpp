@@ -39,9 +39,9 @@ void trace_some(const Plan& plan, RayCaster& caster) {
                          Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels)});
       photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
     }
-    if (plan.path_active)
+    if (uses(plan.techniques, Technique::path))
       path_tracer.trace(samples, Sampler(scene.render.seed, Purpose::palette, 0, 0, first), dropped);
-    if (plan.light_active) light_tracer.trace(photons, dropped);
+    if (uses(plan.techniques, Technique::light)) light_tracer.trace(photons, dropped);
   }
 }
 

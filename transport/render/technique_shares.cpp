@@ -164,7 +164,7 @@ int halvings(double wanted, double whole) {
 }  // namespace
 
 std::optional<TechniqueCosts> set_technique_shares(Plan& plan, int threads) {
-  if (!plan.light_active || !plan.path_active) return std::nullopt;
+  if (plan.techniques.size() < 2) return std::nullopt;
   const auto pixels = static_cast<double>(plan.photons);
   const Findings found = try_all(plan, threads);
   const Errors errors = errors_of(found, pixels);
