@@ -6,7 +6,7 @@
 namespace abbe {
 
 /// What a sequence of random numbers is for; sequences of different purposes are independent.
-enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3, palette = 4 };
+enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3 };
 
 /// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, replicate,
 /// stream (a pixel, say), sample index and group: nothing is consumed, so no path depends on what another

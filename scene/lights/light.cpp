@@ -234,8 +234,9 @@ const Imath::V3f* place(const Light& light) {
 
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                               const SampledSpectrum& wavelengths_nm) {
-  if (!light.is_image()) return light.emission(wavelengths_nm);
-  return std::get<EnvironmentLight>(light.kind).image->radiance(wi, wavelengths_nm);
+  const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
+  if (environment == nullptr || !environment->image) return light.emission(wavelengths_nm);
+  return environment->image->radiance(wi, wavelengths_nm);
 }
 
 std::optional<LightSample> sample_light(const Light& light, const std::vector<ShapeInstance>& shapes,
@@ -275,8 +276,9 @@ double etendue(const Light& light, double scene_radius_m) {
 }
 
 ScaledCurve mean_emission(const Light& light) {
-  if (!light.is_image()) return light.emission;
-  return std::get<EnvironmentLight>(light.kind).image->mean_radiance();
+  const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
+  if (environment == nullptr || !environment->image) return light.emission;
+  return environment->image->mean_radiance();
 }
 
 Curve power(const Light& light, double scene_radius_m) {

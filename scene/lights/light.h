@@ -90,11 +90,6 @@ struct Light {
   /// Comes from a single direction at every point, so that no scattering finds it.
   [[nodiscard]] bool is_delta() const { return is<PointLight, SpotLight, DirectionalLight>(); }
   [[nodiscard]] bool is_environment() const { return is<EnvironmentLight>(); }
-  /// An environment whose radiance depends on the direction.
-  [[nodiscard]] bool is_image() const {
-    const auto* environment = std::get_if<EnvironmentLight>(&kind);
-    return environment != nullptr && environment->image != nullptr;
-  }
   /// Has no place.
   [[nodiscard]] bool at_infinity() const { return is<EnvironmentLight, DirectionalLight, SunLight>(); }
 };

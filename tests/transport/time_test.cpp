@@ -56,7 +56,7 @@ TEST(Time, IsOneFromTheFirstRayToTheDeposit) {
       const Sampler camera(3, Purpose::camera, 0, 5, i);
       expect_time(camera.group(kFilmGroup)[kTimeNumber], scene,
                   [&](RayCaster& caster, const Deposit& deposit) {
-                    PathTracer(plan, caster).trace(std::vector<PixelSample>{{1, 1, camera}}, camera, deposit);
+                    PathTracer(plan, caster).trace(std::vector<PixelSample>{{1, 1, camera}}, deposit);
                   });
       const Sampler photon(3, Purpose::light, 0, 5, i);
       expect_time(photon.group(kAimGroup)[kTimeNumber], scene,

@@ -9,7 +9,6 @@
 
 #include "scene/scene.h"
 #include "spectral/packet.h"
-#include "transport/path/spectra.h"
 
 namespace abbe {
 
@@ -54,21 +53,19 @@ class FilmResponse {
   [[nodiscard]] bool angular() const { return angular_; }
 
   /// Adds to `values`, as many as `planes`, what `contribution` exposes, already divided by its balance over
-  /// lanes and techniques. `spectra`, if any, are what is known at its wavelengths.
+  /// lanes and techniques.
   void add(const FilmPoint& at, const SampledWavelengths& wavelengths, const SampledSpectrum& contribution,
-           std::span<double> values, SharedSpectra* spectra = nullptr) const {
-    const auto first = static_cast<std::uint32_t>(mosaic_ == nullptr ? 0 : mosaic_->at(at.x, at.y));
-    for (std::uint32_t k = 0; k < values.size(); ++k)
-      values[k] += static_cast<double>((contribution * share(first + k, at, wavelengths, spectra)).sum());
+           std::span<double> values) const {
+    const SampledSpectrum share = contribution / wavelengths.pdf;
+    const std::size_t first = mosaic_ == nullptr ? 0 : static_cast<std::size_t>(mosaic_->at(at.x, at.y));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] += static_cast<double>((share * weight(sensor_[first + k], at, wavelengths.lambda_nm)).sum());
   }
 
  private:
-  [[nodiscard]] SampledSpectrum share(std::uint32_t channel, const FilmPoint& at,
-                                      const SampledWavelengths& wavelengths, SharedSpectra* spectra) const {
-    if (angular_)
-      return weight_by_angle(sensor_[channel], at.cos_film, wavelengths.lambda_nm) / wavelengths.pdf;
-    if (spectra != nullptr) return spectra->channel_share(channel);
-    return sensor_[channel].weight(wavelengths.lambda_nm) / wavelengths.pdf;
+  [[nodiscard]] SampledSpectrum weight(const Channel& channel, const FilmPoint& at,
+                                       const SampledSpectrum& wavelengths_nm) const {
+    return angular_ ? weight_by_angle(channel, at.cos_film, wavelengths_nm) : channel.weight(wavelengths_nm);
   }
   [[gnu::noinline]] static SampledSpectrum weight_by_angle(const Channel& channel, float cos_film,
                                                            const SampledSpectrum& wavelengths_nm) {

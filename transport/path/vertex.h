@@ -101,12 +101,8 @@ struct SurfaceVertex {
   [[nodiscard]] Bsdf scattering(const Scene& scene, const std::optional<Interface>& met, const Walk& walk,
                                 const Imath::V2f& uv) const {
     if (met && met->passes) return DielectricBsdf{SampledSpectrum(1), false};
-    const std::uint32_t material = scene.shapes[hit.shape].material;
-    const RefractiveIndex* outside = met ? met->outside : nullptr;
-    const bool shared = walk.spectra != nullptr && outside == nullptr &&
-                        !(scene.needs.textures && needs_coordinates(scene.materials[material]));
-    if (shared) return walk.spectra->bsdf(material);
-    return make_bsdf(scene.materials[material], {walk.lambda_nm(), uv, outside});
+    return make_bsdf(scene.materials[scene.shapes[hit.shape].material],
+                     {walk.lambda_nm(), uv, met ? met->outside : nullptr});
   }
 
   // The scattering where the material may need more than a normal: turns what has been made so far. Out of

@@ -7,7 +7,6 @@
 #include "scene/shapes/ray.h"
 #include "transport/path/medium_at.h"
 #include "transport/path/packet.h"
-#include "transport/path/spectra.h"
 
 namespace abbe {
 
@@ -35,7 +34,6 @@ struct Walk {
   float connected = 0;
   LightSampleContext last;  ///< The vertex it left.
   Surroundings around;
-  SharedSpectra* spectra = nullptr;  ///< At its packet, where it shares that with others.
 
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
 };

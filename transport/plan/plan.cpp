@@ -98,7 +98,6 @@ Plan make_plan(const Scene& scene) {
             light_only,
             nominal_value(scene, emissions),
             make_own_wavelengths(scene, emissions),
-            !scene.needs.dispersion,
             around_camera(scene),
             std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)

@@ -30,9 +30,8 @@ struct Plan {
   bool light_owns_all;                ///< The light tracer alone renders the scene.
   double nominal_value;               ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
-  bool shares_packets;        ///< Camera paths share wavelengths, by a palette: nothing parts them.
-  MediumStack camera_inside;  ///< Where camera paths start,
-  std::vector<MediumStack> light_inside;  ///< and photons, likewise.
+  MediumStack camera_inside;                            ///< Where camera paths start,
+  std::vector<MediumStack> light_inside;                ///< and photons, likewise.
 
   /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
   /// `wavelengths`.

@@ -89,7 +89,7 @@ bool Pass::keeps(std::span<const double> values, Worker& worker) const {
 void Pass::render_tile(std::uint32_t tile, Worker& worker) {
   const auto x0 = static_cast<int>(tile % tiles_x_ * kTile);
   const auto y0 = static_cast<int>(tile / tiles_x_ * kTile);
-  for (std::uint64_t s = first_; s < last_; ++s) sample_tile(x0, y0, tile, s, worker);
+  for (std::uint64_t s = first_; s < last_; ++s) sample_tile(x0, y0, s, worker);
 }
 
 // Of the replicate's sequence at a pixel, that of a sample; nothing where the pixel skips it. Which samples
@@ -104,9 +104,8 @@ std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t p
   return at / path_interval_;
 }
 
-// One sample of each pixel of a tile: they share a palette, which so depends on tile and sample alone, and
-// lies within one replicate.
-void Pass::sample_tile(int x0, int y0, std::uint32_t tile, std::uint64_t sample, Worker& worker) {
+// One sample of each pixel of a tile.
+void Pass::sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker) {
   constexpr int kEdge = kTile;
   const auto pixel_at = [this](int x, int y) { return static_cast<std::uint32_t>(y * film_.width() + x); };
   worker.pixels.clear();
@@ -122,9 +121,7 @@ void Pass::sample_tile(int x0, int y0, std::uint32_t tile, std::uint64_t sample,
     if (keeps(worker.values, worker))
       film_.add(pixel_at(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
   };
-  const auto index = static_cast<std::uint32_t>(sample / static_cast<std::uint64_t>(film_.replicates()));
-  worker.path_tracer.trace(worker.pixels, Sampler(seed_, Purpose::palette, replicate(sample), tile, index),
-                           deposit);
+  worker.path_tracer.trace(worker.pixels, deposit);
 }
 
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {

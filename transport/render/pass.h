@@ -70,7 +70,7 @@ class Pass {
   PassCounts work(const std::function<bool()>& pause);
   void do_item(std::uint32_t item, Worker& worker);
   void render_tile(std::uint32_t tile, Worker& worker);
-  void sample_tile(int x0, int y0, std::uint32_t tile, std::uint64_t sample, Worker& worker);
+  void sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
   void trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
                      const Deposit& deposit) const;

@@ -33,8 +33,7 @@ void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, Expo
   }
   PathTracer tracer(plan, caster);
   tracer.tell_lights_apart(sums);
-  tracer.trace(samples, Sampler(kSeedOfPilots, Purpose::palette, 0, 0, batch),
-               [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  tracer.trace(samples, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
   for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kAll;
 }
 

@@ -39,8 +39,7 @@ void trace_some(const Plan& plan, RayCaster& caster) {
                          Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels)});
       photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
     }
-    if (uses(plan.techniques, Technique::path))
-      path_tracer.trace(samples, Sampler(scene.render.seed, Purpose::palette, 0, 0, first), dropped);
+    if (uses(plan.techniques, Technique::path)) path_tracer.trace(samples, dropped);
     if (uses(plan.techniques, Technique::light)) light_tracer.trace(photons, dropped);
   }
 }

@@ -68,10 +68,9 @@ void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pixel, Fi
   for (std::uint32_t i = 0; i < kPathsPerPixel; ++i)
     samples.push_back({x, y, Sampler(kSeedOfPilots, Purpose::pilot, 1, pixel, i)});
   std::array<double, kPathsPerPixel> values{};
-  tracer.trace(samples, Sampler(kSeedOfPilots, Purpose::palette, 1, pixel, 0),
-               [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
-                 values[path] += strength(more);
-               });
+  tracer.trace(samples, [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
+    values[path] += strength(more);
+  });
   double sum = 0;
   double squares = 0;
   for (const double value : values) {

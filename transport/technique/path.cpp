@@ -21,7 +21,6 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
       camera_(traits(plan.scene.camera)),
       caster_(caster),
       response_(film_response_of(plan.scene)),
-      palette_(plan.scene, plan.shares_packets ? std::max<std::size_t>(1, plan.own_wavelengths.size()) : 0),
       walks_(plan.scene, caster),
       values_(response_.planes()) {}
 
@@ -30,9 +29,8 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
 // T_n being the throughput up to x_n and P_n its density: light met by scattering, and light connected to,
 // each weighed by `mis_weight` over both ways and all lanes. The sums over n are kept in `found`, one value
 // per lane, and exposed at the end of a path at once.
-void PathTracer::trace(std::span<const PixelSample> samples, const Sampler& block, const Deposit& deposit) {
+void PathTracer::trace(std::span<const PixelSample> samples, const Deposit& deposit) {
   deposit_ = &deposit;
-  if (plan_.shares_packets) begin_block(block);
   for (first_ = 0; first_ < samples.size(); first_ += kTogether)
     trace_together(samples.subspan(first_, std::min<std::size_t>(kTogether, samples.size() - first_)));
 }
@@ -48,16 +46,9 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
   walks_.run(*this);
   for (const CameraPath& path : paths) {
     std::fill(values_.begin(), values_.end(), 0.0);
-    response_.add(path.at, path.packet.wavelengths, path.found * path.scale, values_, path.spectra);
+    response_.add(path.at, path.packet.wavelengths, path.found * path.scale, values_);
     (*deposit_)(first_ + path.path, path.at, values_);
   }
-}
-
-void PathTracer::begin_block(const Sampler& block) {
-  const std::size_t own = plan_.own_wavelengths.size();
-  for (std::size_t i = 0; i < std::max<std::size_t>(1, own); ++i)
-    palette_.begin(i, own == 0 ? plan_.wavelengths : plan_.own_wavelengths[i],
-                   block.group(static_cast<std::uint32_t>(i / 4))[i % 4]);
 }
 
 bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
@@ -65,15 +56,7 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   const Camera& camera = scene_.camera;
   const std::array<float, 4> lens =
       camera_.depth_of_field ? sample.sampler.group(kLensGroup) : std::array<float, 4>{};
-  if (plan_.shares_packets) {
-    const std::size_t own =
-        scene_.mosaic ? static_cast<std::size_t>(scene_.mosaic->at(sample.x, sample.y)) : 0;
-    const Palette::Pick pick = palette_.pick(own, film[2]);
-    path.packet = pick.packet;
-    path.spectra = pick.spectra;
-  } else {
-    path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
-  }
+  path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
   const CameraRay ray =
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
                  {lens[0], lens[1]}, path.lambda_nm(), film[kTimeNumber]);
@@ -87,13 +70,6 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(path.ray.origin, normal));
   path.at.cos_film = path.ray.direction.dot(normal);
   return leaves;
-}
-
-SampledSpectrum PathTracer::emission(const CameraPath& path, std::uint32_t light,
-                                     const Imath::V3f& wi) const {
-  const Light& of = scene_.lights[light];
-  if (path.spectra != nullptr && !of.is_image()) return path.spectra->emission(light);
-  return emission_from(of, wi, path.lambda_nm());
 }
 
 // Whether photons bring what a light that the path has met sends along it.
@@ -117,7 +93,7 @@ void PathTracer::escape(CameraPath& path) {
     if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_photons(path, light)) continue;
     const float pdf = connection_pdf(path, light, Imath::V3f(0), Imath::V3f(0));
     add(path, light,
-        path.packet.throughput * emission(path, light, path.ray.direction) *
+        path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm()) *
             mis_weight(path.packet.lane_pdf, pdf, path.connected),
         path.at.cos_film);
   }
@@ -131,7 +107,7 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
     return;
   const float pdf = connection_pdf(path, light, hit.point, hit.normal);
   add(path, light,
-      path.packet.throughput * emission(path, light, path.ray.direction) *
+      path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm()) *
           mis_weight(path.packet.lane_pdf, pdf, path.connected),
       path.at.cos_film);
 }
@@ -152,8 +128,9 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   const Imath::V3f& world = chosen->towards.wi;
   const auto [wi, f, crosses] = vertex.towards(world, kMode);
   if (f.is_zero()) return;
-  SampledSpectrum contribution = f * (path.packet.throughput * emission(path, chosen->index, world) *
-                                      (std::abs(wi.z) * chosen->towards.factor));
+  SampledSpectrum contribution =
+      f * (path.packet.throughput * emission_from(chosen->light, world, path.lambda_nm()) *
+           (std::abs(wi.z) * chosen->towards.factor));
   const SampledSpectrum scattering_pdf =
       chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
   const Ray ray = spawn(vertex.hit, world, path.ray.time);
@@ -182,7 +159,8 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
   const Imath::V3f& wi = chosen->towards.wi;
   const SampledSpectrum turned(pdf(phase, path.ray.direction, wi));
   const SampledSpectrum contribution =
-      turned * (path.packet.throughput * emission(path, chosen->index, wi) * chosen->towards.factor);
+      turned *
+      (path.packet.throughput * emission_from(chosen->light, wi, path.lambda_nm()) * chosen->towards.factor);
   connect_through_media(path, *chosen, contribution,
                         chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned,
                         ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film);
@@ -236,7 +214,7 @@ void PathTracer::add(CameraPath& path, std::uint32_t light, const SampledSpectru
   }
   const FilmPoint at{path.at.x, path.at.y, cos_film, path.at.time};
   std::fill(values_.begin(), values_.end(), 0.0);
-  response_.add(at, path.packet.wavelengths, contribution * path.scale, values_, path.spectra);
+  response_.add(at, path.packet.wavelengths, contribution * path.scale, values_);
   if (by_light_ != nullptr) by_light_->add(light, values_);
   (*deposit_)(first_ + path.path, at, values_);
 }

@@ -7,7 +7,6 @@
 
 #include "sampling/sampler.h"
 #include "transport/path/film_response.h"
-#include "transport/path/palette.h"
 #include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
@@ -47,9 +46,9 @@ class PathTracer {
   /// Lets the tracer, from now on, also add up what each light deposits.
   void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
 
-  /// Traces a path for each of some samples, one block of a palette whose offsets `block` draws, and deposits
-  /// what they find by their numbers, at least once each.
-  void trace(std::span<const PixelSample> samples, const Sampler& block, const Deposit& deposit);
+  /// Traces a path for each of some samples, and deposits what they find by their numbers, at least once
+  /// each.
+  void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
   // What RandomWalks asks.
   void escape(CameraPath& path);
@@ -83,14 +82,11 @@ class PathTracer {
     float cos_film;
   };
 
-  void begin_block(const Sampler& block);
   void trace_together(std::span<const PixelSample> samples);
   // Whether there is more to find than what a meter sees directly.
   bool start(const PixelSample& sample, CameraPath& path);
   [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
                                                         const std::array<float, 4>& u) const;
-  [[nodiscard]] SampledSpectrum emission(const CameraPath& path, std::uint32_t light,
-                                         const Imath::V3f& wi) const;
   [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
                                      const Imath::V3f& normal) const;
   [[nodiscard]] bool owned_by_photons(const CameraPath& path, std::uint32_t light) const;
@@ -104,7 +100,6 @@ class PathTracer {
   CameraTraits camera_;
   RayCaster& caster_;
   FilmResponse response_;
-  Palette palette_;
   RandomWalks<PathTracer> walks_;
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;  // number of the first of the paths under way

@@ -31,8 +31,7 @@ void camera_paths(benchmark::State& state) {
       samples.push_back({static_cast<int>(pixel % width), static_cast<int>(pixel / width),
                          Sampler(1, Purpose::camera, 0, pixel, 0)});
     }
-    tracer.trace(samples, Sampler(1, Purpose::palette, 0, 0, i),
-                 [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+    tracer.trace(samples, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
   }
   state.counters["rays/s"] =
       benchmark::Counter(static_cast<double>(caster.rays()), benchmark::Counter::kIsRate);
