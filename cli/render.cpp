@@ -177,7 +177,24 @@ Json json_of(const Cost& cost) {
   return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
 }
 
-std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs) {
+// Of the planes over what was rendered.
+Json film_figures(const Scene& scene, const Film& film, const std::optional<Crop>& crop) {
+  const Crop whole{0, 0, film.width(), film.height()};
+  const Crop& of = crop ? *crop : whole;
+  const std::vector<std::string> planes = scene.film_planes();
+  Json figures;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Film::Average average = film.average(static_cast<int>(i), of.x0, of.y0, of.x1, of.y1);
+    const bool known = average.degrees_of_freedom > 0;
+    figures[planes[i]] = {{"mean", average.mean},
+                          {"standard_error", known ? Json(average.standard_error) : Json()},
+                          {"degrees_of_freedom", average.degrees_of_freedom}};
+  }
+  return figures;
+}
+
+std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
+                       const std::optional<Crop>& crop) {
   const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
@@ -198,13 +215,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["nonfinite_samples"] = stats.nonfinite_samples;
   answer["cut_paths"] = stats.cut.paths;
   answer["cut_throughput"] = stats.cut.throughput();
-  const std::vector<std::string> planes = scene.film_planes();
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const Film::Average average = result.film.average(static_cast<int>(i));
-    answer["film"][planes[i]] = {{"mean", average.mean},
-                                 {"standard_error", average.standard_error},
-                                 {"degrees_of_freedom", average.degrees_of_freedom}};
-  }
+  answer["film"] = film_figures(scene, result.film, crop);
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;
@@ -273,7 +284,8 @@ int render(const RenderOptions& options) {
   writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
   if (display) writers.emplace_back(metered(costs.display, write_display));
   if (!options.stats.empty())
-    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
+    writers.emplace_back(
+        [&] { write_stats(outputs.stats, stats_text(scene, part.result, costs, options.crop)); });
   write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),

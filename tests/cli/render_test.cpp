@@ -156,6 +156,22 @@ TEST(Render, CropLeavesTheRestBlack) {
   EXPECT_EQ(image.metadata.at("crop"), "4,2,20,14");
 }
 
+TEST(Render, StatsAreOfWhatWasRendered) {
+  const auto figures = [](const std::string& options) {
+    const std::string stats = file("figures.json");
+    EXPECT_EQ(abbe("render " + ball() + " --quiet -o " + file("f.exr") + " --stats " + stats + options).code,
+              0);
+    return nlohmann::json::parse(std::ifstream(stats))["film"]["Y"];
+  };
+  const nlohmann::json found = figures(" --crop 4,2,20,14");
+  const Image image = read_exr(file("f.exr"));
+  double sum = 0;
+  for (const float y : image.find("Y")->values) sum += static_cast<double>(y);
+  EXPECT_NEAR(found["mean"].get<double>(), sum / (16 * 12), 1e-6 * sum);
+  EXPECT_GT(found["standard_error"], 0);
+  EXPECT_TRUE(figures(" --spp 1")["standard_error"].is_null());
+}
+
 TEST(Render, TimeAndErrorStopTheRender) {
   const std::string measured =
       "render " + ball() + " --quiet --stats " + file("error.json") + " -o " + file("error.exr");

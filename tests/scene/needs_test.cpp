@@ -49,6 +49,15 @@ std::vector<std::string> unreached_expressions(const Scene& scene, bool light_tr
 }
 using Expressions = std::vector<std::string>;
 
+TEST(Needs, PhotonsAloneDoNotReachAMeter) {
+  Scene scene{};
+  scene.camera = {IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 1, 0.01};
+  scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, Curve(1.0)});
+  scene.render.integrator = Integrator::light;
+  scene.commit();
+  EXPECT_EQ(unreached_expressions(scene, true), Expressions{"E (S|D)* L"});
+}
+
 TEST(Needs, OfAPlainScene) {
   Scene scene = floor_scene();
   add_bulb(scene);

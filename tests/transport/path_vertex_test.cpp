@@ -91,6 +91,41 @@ TEST(Connect, ToALightIsWhatPathTracingAdds) {
   }
 }
 
+// A path that comes from infinity through a ball of fog to a card: its first vertex has the density of the
+// light's direction per area of the card, and of coming through the fog in each lane.
+TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
+  Scene scene = testing::lit_by(DirectionalLight{{0, 0, -1}});
+  MediumMaterial fog;
+  fog.filling.scattering_per_m = Curve({{300, 0.2}, {1100, 0.6}});
+  fog.filling.absorption_per_m = Curve(0.1);
+  scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}}, {"fog", fog}};
+  scene.shapes = {{"card", Quad{{-5, -5, 3}, {10, 0, 0}, {0, 10, 1}}, 0}, {"ball", Sphere{{0, 0, 0}, 1}, 1}};
+  scene.render.max_depth = 1;
+  scene.commit();
+  RayCaster caster(scene);
+  PathRecorder<TransportMode::power> recorder(scene, caster);
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    RecordedPath& path = recorder.paths().emplace_back(Sampler(1, Purpose::light, 0, 0, i), i);
+    path.packet = packet();
+    path.ray = ray_at({0, 0, -4}, {0, 0, 1}, 0);
+    path.vertices = {{.at = LightVertex{0, {0, 0, -1}, V3f(0), true}, .packet = path.packet}};
+  }
+  recorder.run();
+  int through = 0;
+  for (const RecordedPath& path : recorder.paths()) {
+    const PathVertex& first = path.vertices.at(1);
+    if (!std::holds_alternative<SurfaceVertex>(first.at)) continue;
+    ++through;
+    const double cosine = 10 / std::hypot(10, 1);
+    for (int j = 0; j < kLanes; ++j) {
+      const double per_m = 0.1 + 0.2 + 0.4 * (static_cast<double>(first.lambda_nm()[j]) - 300) / 800;
+      EXPECT_NEAR(static_cast<double>(first.pdf_forward[j]) / (cosine * std::exp(-2 * per_m)), 1, 1e-4);
+    }
+  }
+  EXPECT_GT(through, 10);
+  EXPECT_LT(through, 54);
+}
+
 // f of both ends, G and what fog leaves: the same both ways between what is reciprocal.
 TEST(Connect, IsSymmetric) {
   const Scene scene = testing::lit_by(PointLight{{0, 0, 9}});

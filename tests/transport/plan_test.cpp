@@ -40,6 +40,20 @@ TEST(Plan, ChoosesTechniquesByIntegratorAndNeed) {
   EXPECT_EQ(techniques(Integrator::light, 1, 0), List{}) << "a lamp without power";
 }
 
+TEST(Plan, RefusesWhatFloatsCannotTellFromNothing) {
+  const auto refused = [](double power, double exposure_s) {
+    Scene scene = lamps_over_glass(1);
+    scene.lights[0].emission = Curve(power);
+    scene.exposure_s = exposure_s;
+    scene.commit();
+    return refusal(scene).has_value();
+  };
+  EXPECT_FALSE(refused(1, 1e-15));
+  EXPECT_FALSE(refused(0, 1));
+  EXPECT_TRUE(refused(1, 1e-30));
+  EXPECT_TRUE(refused(1e-30, 1));
+}
+
 TEST(Plan, AimsTheStrongestOfManyLamps) {
   const Scene scene = lamps_over_glass(300);
   const Plan plan = make_plan(scene);

@@ -52,5 +52,23 @@ TEST(TechniqueShares, AreWholeWhereThereIsNoChoice) {
   EXPECT_EQ(shares(scene), Shares(kPixels, 1));
 }
 
+// The variance of a path is that of the light, on a film of one pixel as of many that see the same.
+TEST(TechniqueShares, TellTheVarianceOfAPathOnFilmsOfAnySize) {
+  const auto variance = [](int width, int height) {
+    Scene scene = card_with({0, 0, -20}, {0, 0, 1});
+    scene.camera.width = width;
+    scene.camera.height = height;
+    scene.camera.pixel_pitch = 0.0001;
+    scene.lights[0].emission = Curve({{400, 0}, {500, 1}, {600, 0}});
+    Plan plan = make_learnt_plan(scene, 2, 0);
+    const auto costs = set_technique_shares(plan, 2);
+    return costs ? costs->camera_paths.relative_variance : 0;
+  };
+  const double many = variance(32, 32);
+  EXPECT_GT(many, 0);
+  for (const auto& [width, height] : {std::pair(1, 1), {4, 4}, {64, 1}, {17, 5}})
+    EXPECT_NEAR(variance(width, height) / many, 1, 0.3) << width << " x " << height;
+}
+
 }  // namespace
 }  // namespace abbe

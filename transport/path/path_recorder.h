@@ -72,7 +72,8 @@ class PathRecorder {
  private:
   // Of coming from one vertex to the next, whatever stands between them.
   [[nodiscard]] SampledSpectrum passing(const PathVertex& from, const PathVertex& to) {
-    if (!walks_.has_free_paths() || from.at_infinity()) return SampledSpectrum(1.0F);
+    if (!walks_.has_free_paths()) return SampledSpectrum(1.0F);
+    if (from.at_infinity()) return passing(to, from);  // both ways alike; none can start there
     const Way way = way_from(from, to);
     return transmission_along(scene_, caster_, from, way).density;
   }

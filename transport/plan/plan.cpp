@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "scene/extent.h"
 #include "transport/plan/aiming.h"
 #include "transport/plan/emissions.h"
@@ -41,6 +43,16 @@ double nominal_value(const Scene& scene, const Emissions& emissions) {
   return nominal * weight;
 }
 
+// Why floats cannot tell so weak an exposure from none: what paths carry is less than the least of them.
+std::optional<Error> too_faint(double nominal) {
+  constexpr double kFaintest = 1e-25;  // a float's least is 1e-38; paths may carry far less than a bright one
+  if (!(nominal > 0 && nominal < kFaintest)) return std::nullopt;
+  return Error(ErrorCode::scene, "",
+               fmt::format("exposure and lights give the film less than floats can tell from nothing (got "
+                           "about {:.2g} where it is bright, allowed {:g} or more)",
+                           nominal, kFaintest));
+}
+
 // The share of a light's power that comes to the scene.
 double arriving_share(const Scene& scene, const Light& light) {
   const auto lamp = far_away(light, scene);
@@ -72,6 +84,7 @@ std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, con
 }  // namespace
 
 std::optional<Error> refusal(const Scene& scene) {
+  if (auto faint = too_faint(nominal_value(scene, emissions_of(scene)))) return faint;
   return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
 }
 
@@ -86,6 +99,8 @@ Plan make_plan(const Scene& scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) traced_powers[i] = powers[i];
   if (const std::optional<Error> refused = refusal(scene, traced, light_only)) throw Error(*refused);
+  const double nominal = nominal_value(scene, emissions);
+  if (const std::optional<Error> faint = too_faint(nominal)) throw Error(*faint);
   Plan plan{scene,
             make_wavelengths(scene, emissions),
             LightSampler(scene, emissions.seen),
@@ -96,7 +111,7 @@ Plan make_plan(const Scene& scene) {
             static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
             1,
             light_only,
-            nominal_value(scene, emissions),
+            nominal,
             make_own_wavelengths(scene, emissions),
             around_camera(scene),
             std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};

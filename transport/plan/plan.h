@@ -41,8 +41,9 @@ struct Plan {
   }
 };
 
-/// Why photons cannot light a scene that would have them: a shape that light from afar meets is too large or
-/// too far for them, or a far lamp too large; Error{scene} with its name. Nothing where a plan can be made.
+/// Why a scene cannot be rendered, as Error{scene}; nothing where a plan can be made. Photons cannot light it
+/// though it would have them, since a shape that light from afar meets is too large or too far for them, or a
+/// far lamp too large: the error names it. Or exposure and lights are so weak that floats hold nothing of it.
 [[nodiscard]] std::optional<Error> refusal(const Scene& scene);
 
 /// What can be told without tracing a path: photons are aimed at all of their targets alike. Throws what

@@ -122,6 +122,17 @@ Findings try_all(const Plan& plan, int threads) {
   return all;
 }
 
+// How many pixels each region has: none, where the film has fewer along an edge than there are regions.
+std::vector<double> region_sizes(const Camera& camera) {
+  const auto cut = [](int film, int region) { return (region * film + kGrid - 1) / kGrid; };
+  std::vector<double> sizes;
+  for (int y = 0; y < kGrid; ++y)
+    for (int x = 0; x < kGrid; ++x)
+      sizes.push_back(static_cast<double>(cut(camera.width, x + 1) - cut(camera.width, x)) *
+                      (cut(camera.height, y + 1) - cut(camera.height, y)));
+  return sizes;
+}
+
 // Relative, summed over the pixels: variance and mean square of a camera path per pixel, and variance of as
 // many photons as pixels.
 struct Errors {
@@ -129,24 +140,26 @@ struct Errors {
   double path_square = 0;
   double photon_variance = 0;
 };
-Errors errors_of(const Findings& found, double pixels) {
-  const double region_pixels = pixels / static_cast<double>(found.regions.size());
-  const auto mean = [&](const Region& region) {
-    return (region.pixels > 0 ? region.mean / region.pixels : 0) +
-           region.photons / (kPhotons * region_pixels);
+Errors errors_of(const Findings& found, const Camera& camera) {
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  const auto mean = [&](const Region& region, double size) {
+    return (region.pixels > 0 ? region.mean / region.pixels : 0) + region.photons / (kPhotons * size);
   };
+  const std::vector<double> sizes = region_sizes(camera);
   double film_mean = 0;
-  for (const Region& region : found.regions)
-    film_mean += mean(region) / static_cast<double>(found.regions.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (sizes[i] > 0) film_mean += mean(found.regions.at(i), sizes[i]) * sizes[i] / pixels;
   constexpr double kFloor = 0.01;  // of the film's mean, squared
   Errors errors;
-  for (const Region& region : found.regions) {
-    const double scale = std::pow(mean(region), 2) + kFloor * film_mean * film_mean;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const Region& region = found.regions.at(i);
+    const double scale =
+        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kFloor * film_mean * film_mean : 0;
     if (!(scale > 0)) continue;
     errors.photon_variance += region.squares / (kPhotons * pixels) / scale;
     if (!(region.pixels > 0)) continue;
-    errors.path_variance += region_pixels * region.variance / region.pixels / scale;
-    errors.path_square += region_pixels * region.path_squares / region.pixels / scale;
+    errors.path_variance += sizes[i] * region.variance / region.pixels / scale;
+    errors.path_square += sizes[i] * region.path_squares / region.pixels / scale;
   }
   return errors;
 }
@@ -166,7 +179,7 @@ std::optional<TechniqueCosts> set_technique_shares(Plan& plan, int threads) {
   if (plan.techniques.size() < 2) return std::nullopt;
   const auto pixels = static_cast<double>(plan.photons);
   const Findings found = try_all(plan, threads);
-  const Errors errors = errors_of(found, pixels);
+  const Errors errors = errors_of(found, plan.scene.camera);
   const double path_cost = static_cast<double>(found.path_rays) / (kPixels * kPathsPerPixel);
   const double photon_cost = static_cast<double>(found.photon_rays) / kPhotons;
   const int fewer_photons = halvings(errors.photon_variance * path_cost, errors.path_variance * photon_cost);
