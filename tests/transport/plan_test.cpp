@@ -48,10 +48,10 @@ TEST(Plan, RefusesWhatFloatsCannotTellFromNothing) {
     scene.commit();
     return refusal(scene).has_value();
   };
-  EXPECT_FALSE(refused(1, 1e-15));
+  EXPECT_FALSE(refused(1e-10, 1e-15));
   EXPECT_FALSE(refused(0, 1));
-  EXPECT_TRUE(refused(1, 1e-30));
-  EXPECT_TRUE(refused(1e-30, 1));
+  EXPECT_TRUE(refused(1, 1e-36));
+  EXPECT_TRUE(refused(1e-36, 1));
 }
 
 TEST(Plan, AimsTheStrongestOfManyLamps) {

@@ -45,7 +45,7 @@ double nominal_value(const Scene& scene, const Emissions& emissions) {
 
 // Why floats cannot tell so weak an exposure from none: what paths carry is less than the least of them.
 std::optional<Error> too_faint(double nominal) {
-  constexpr double kFaintest = 1e-25;  // a float's least is 1e-38; paths may carry far less than a bright one
+  constexpr double kFaintest = 1e-32;  // a float's least is 1e-38, and paths may carry less than a bright one
   if (!(nominal > 0 && nominal < kFaintest)) return std::nullopt;
   return Error(ErrorCode::scene, "",
                fmt::format("exposure and lights give the film less than floats can tell from nothing (got "
