@@ -10,8 +10,8 @@ namespace abbe {
 /// P_k being the density of the path up to its last vertex, were lane k the hero, s_k that of scattering from
 /// there into the direction, and c that of drawing it as a connection, the same for all lanes.
 ///
-/// What comes by scattering is to be multiplied by this. What comes by a connection, estimated as f/c over the
-/// throughput so far, is multiplied by it instead of being divided by c: the c of w f/(P_hero c) cancels.
+/// What comes by scattering is to be multiplied by this. What comes by a connection, estimated as f/c over
+/// the throughput so far, is multiplied by it instead of being divided by c: the c of w f/(P_hero c) cancels.
 ///
 /// `scattered` is P_k s_k and `connected` the sum of P_k, both in one unit, the one that the path's
 /// throughput is measured in: of P_hero before it scatters, of P_hero s_hero after.

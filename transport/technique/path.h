@@ -34,8 +34,8 @@ struct PixelSample {
 /// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Serves one
 /// thread.
 ///
-/// Owned: every path that ends on an area, environment or sun light or by a connection, except those whose vertex
-/// next to the camera is not specular while the one next to a traced light is.
+/// Owned: every path that ends on an area, environment or sun light or by a connection, except those whose
+/// vertex next to the camera is not specular while the one next to a traced light is.
 class PathTracer {
  public:
   using Path = CameraPath;
