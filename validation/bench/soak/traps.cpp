@@ -60,7 +60,7 @@ void record(const std::uint8_t* at, int code) {
 // Lets the instruction do as it would have, and comes back after it.
 void step_over(int, siginfo_t* info, void* context) {
   auto& machine = static_cast<ucontext_t*>(context)->uc_mcontext;
-  record(reinterpret_cast<const std::uint8_t*>(machine.gregs[REG_RIP]), info->si_code);
+  record(static_cast<const std::uint8_t*>(info->si_addr), info->si_code);
   std::uint32_t& control = machine.fpregs->mxcsr;
   control = (control | (static_cast<std::uint32_t>(kWatched) << kMasksAbove)) & ~kFlags;
   if (++steps < kMostSteps) machine.gregs[REG_EFL] |= static_cast<greg_t>(kSingleStep);
