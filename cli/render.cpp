@@ -179,8 +179,7 @@ Json json_of(const Cost& cost) {
 
 // Of the planes over what was rendered.
 Json film_figures(const Scene& scene, const Film& film, const std::optional<Crop>& crop) {
-  const Crop whole{0, 0, film.width(), film.height()};
-  const Crop& of = crop ? *crop : whole;
+  const Crop of = crop.value_or(Crop{0, 0, film.width(), film.height()});
   const std::vector<std::string> planes = scene.film_planes();
   Json figures;
   for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -304,12 +304,12 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
     if (!lights.empty()) classes.push_back(fmt::format("{}: {} ({})", expression, words, lights));
   };
   const auto& lights = scene.lights;
-  if (scene.render.integrator == Integrator::light && traits(scene.camera).surface_normal) {
-    add(names_of(scene, [](std::size_t) { return true; }), "E (S|D)* L",
-        "everything: photons are not connected to a meter");
-    return classes;
-  }
   if (scene.render.integrator == Integrator::light) {
+    if (traits(scene.camera).surface_normal) {
+      add(names_of(scene, [](std::size_t) { return true; }), "E (S|D)* L",
+          "everything: photons are not connected to a meter");
+      return classes;
+    }
     add(names_of(scene, [&](std::size_t i) { return lights[i].is_environment(); }), "E (S|D)* L",
         "all light of an environment");
     add(names_of(scene, [&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }), "E L",

@@ -110,7 +110,6 @@ Plan make_plan(const Scene& scene) {
             techniques,
             static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
             1,
-            light_only,
             nominal,
             make_own_wavelengths(scene, emissions),
             around_camera(scene),

@@ -27,7 +27,6 @@ struct Plan {
   std::vector<Technique> techniques;  ///< In the order of their list; those that own some path.
   std::uint64_t photons;              ///< Of a sample.
   std::uint32_t path_interval;        ///< A pixel has a camera path in one of so many samples.
-  bool light_owns_all;                ///< The light tracer alone renders the scene.
   double nominal_value;               ///< Order of magnitude of a film value.
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
   MediumStack camera_inside;                            ///< Where camera paths start,

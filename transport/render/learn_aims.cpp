@@ -66,7 +66,7 @@ void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
 
 Plan make_learnt_plan(const Scene& scene, int threads, std::uint64_t seed) {
   Plan plan = make_plan(scene);
-  if (uses(plan.techniques, Technique::light) && !plan.light_owns_all) learn_aims(plan, seed, threads);
+  if (plan.techniques.size() > 1) learn_aims(plan, seed, threads);
   return plan;
 }
 

@@ -24,9 +24,9 @@ struct PassCounts {
 };
 
 /// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.
-/// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Each
-/// technique of the plan has a stage of work items, tiles or batches of photons, that threads take from one
-/// counter, so that those done are always the first ones. No stage waits for the one before.
+/// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Each technique of
+/// the plan has a stage of work items, tiles or batches of photons, that threads take from one counter, so
+/// that those done are always the first ones. No stage waits for the one before.
 class Pass {
  public:
   /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random

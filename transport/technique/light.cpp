@@ -14,6 +14,7 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
       scene_(plan.scene),
       caster_(caster),
       scale_(static_cast<float>(share * plan.scene.exposure_s)),
+      alone_(!uses(plan.techniques, Technique::path)),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
       values_(response_.planes()) {}

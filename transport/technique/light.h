@@ -27,7 +27,7 @@ struct LightPath : Walk {
 
 /// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
 /// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
-/// it, unless the plan says that this technique owns all. Serves one thread.
+/// it, unless no other technique is in the plan. Serves one thread.
 class LightTracer {
  public:
   using Path = LightPath;
@@ -72,7 +72,7 @@ class LightTracer {
 
   // Whether the photon goes anywhere at all.
   bool start(LightPath& path, PhotonStart& start);
-  [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || plan_.light_owns_all; }
+  [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || alone_; }
   void connect_to(const LightPath& path, const CameraConnection& lens, const SampledSpectrum& scattered,
                   const Ray& ray, const Surroundings& around);
 
@@ -80,6 +80,7 @@ class LightTracer {
   const Scene& scene_;
   RayCaster& caster_;
   float scale_;
+  bool alone_;  // owns all that photons bring
   FilmResponse response_;
   RandomWalks<LightTracer> walks_;
   const Deposit* deposit_ = nullptr;
