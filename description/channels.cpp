@@ -61,7 +61,7 @@ bool read_filter(const JsonValue& json, FilterStack& stack, LoadContext& context
 }
 
 std::optional<FilterStack> read_filters(const JsonValue& json, LoadContext& context) {
-  const JsonValue::Array* list = read_array(json, "filters", 0, context);
+  const JsonValue::Array* list = read_array(json, "filters", 0, context.diagnostics);
   if (!list) return std::nullopt;
   FilterStack stack;
   bool complete = true;

@@ -35,7 +35,7 @@ std::optional<std::uint32_t> film_material(const JsonValue& json, Coating& coati
 
 // Layers and repeated groups of them, from the outside inwards.
 void read_layers(const JsonValue& json, Coating& coating, LoadContext& context) {
-  const JsonValue::Array* entries = read_array(json, "layers", 1, context);
+  const JsonValue::Array* entries = read_array(json, "layers", 1, context.diagnostics);
   if (!entries) return;
   for (const JsonValue& entry : *entries) {
     ObjectReader reader(entry, context.diagnostics);

@@ -77,7 +77,7 @@ std::optional<Curve> read_gaussian(const JsonValue& json, LoadContext& context) 
 }
 
 std::optional<Curve> read_lines(const JsonValue& json, LoadContext& context) {
-  const JsonValue::Array* list = read_array(json, "lines", 1, context);
+  const JsonValue::Array* list = read_array(json, "lines", 1, context.diagnostics);
   if (!list) return std::nullopt;
   std::vector<SpectralLine> found;
   for (const JsonValue& entry : *list) {
@@ -96,7 +96,7 @@ std::optional<Curve> read_lines(const JsonValue& json, LoadContext& context) {
 template <typename Combine>
 std::optional<Curve> read_list(const JsonValue& json, std::string_view folder, LoadContext& context,
                                Combine combine) {
-  const JsonValue::Array* list = read_array(json, "curves", 1, context);
+  const JsonValue::Array* list = read_array(json, "curves", 1, context.diagnostics);
   if (!list) return std::nullopt;
   std::optional<Curve> all;
   bool complete = true;

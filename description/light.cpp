@@ -357,7 +357,7 @@ void add_area_light(const JsonValue& emission, bool two_sided, std::uint32_t sha
 }
 
 void read_lights(const JsonValue& json, LoadContext& context, Scene& scene) {
-  const JsonValue::Array* list = read_array(json, "lights", 0, context);
+  const JsonValue::Array* list = read_array(json, "lights", 0, context.diagnostics);
   if (!list) return;
   for (std::size_t i = 0; i < list->size(); ++i) {
     read_light((*list)[i], i, context, scene);

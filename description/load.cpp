@@ -175,17 +175,6 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
 
 }  // namespace
 
-const JsonValue::Array* read_array(const JsonValue& json, std::string_view what, std::size_t least,
-                                   const LoadContext& context) {
-  const auto* array = std::get_if<JsonValue::Array>(&json.value);
-  if (array && array->size() >= least) return array;
-  context.diagnostics.error(
-      json.where, fmt::format("expected an array of {} (got {})", what,
-                              array ? fmt::format("{} of them, allowed [{}, inf)", array->size(), least)
-                                    : std::string(json.kind())));
-  return nullptr;
-}
-
 std::optional<std::filesystem::path> LoadContext::file(const std::string& name, const SourcePosition& where) {
   if (name.find("://") != std::string::npos) {
     diagnostics.error(where, fmt::format("expected a file (got the URL \"{}\")", name), ErrorCode::input);

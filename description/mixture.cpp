@@ -46,7 +46,7 @@ std::optional<MixtureMaterial::Component> read_component(const JsonValue& json, 
 }  // namespace
 
 std::optional<MixtureMaterial> read_mixture(const JsonValue& json, LoadContext& context, const Scene& scene) {
-  const JsonValue::Array* entries = read_array(json, "parts", 1, context);
+  const JsonValue::Array* entries = read_array(json, "parts", 1, context.diagnostics);
   if (!entries) return std::nullopt;
   MixtureMaterial mixture;
   Curve total(0.0);

@@ -56,7 +56,7 @@ void read_objects(const JsonValue& json, LoadContext& context, Scene& scene) {
     const JsonValue* list = reader.require("shapes");
     reader.finish();
     std::vector<NamedShape> parts;
-    const JsonValue::Array* shapes = list ? read_array(*list, "shapes", 1, context) : nullptr;
+    const JsonValue::Array* shapes = list ? read_array(*list, "shapes", 1, context.diagnostics) : nullptr;
     for (std::size_t i = 0; shapes && i < shapes->size(); ++i)
       read_object_shape((*shapes)[i], i, context, scene, parts);
     context.objects.emplace(name, centred(std::move(parts)));

@@ -51,13 +51,13 @@ std::optional<int> read_place(const JsonValue& json, const std::vector<std::stri
 
 std::optional<Mosaic> read_mosaic(const JsonValue& json, const std::vector<Channel>& channels,
                                   LoadContext& context) {
-  const JsonValue::Array* rows = read_array(json, "rows", 1, context);
+  const JsonValue::Array* rows = read_array(json, "rows", 1, context.diagnostics);
   if (!rows || channels.empty()) return std::nullopt;  // what is wrong with the channels is told
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   Mosaic mosaic{0, static_cast<int>(rows->size()), {}};
   for (const JsonValue& row : *rows) {
-    const JsonValue::Array* places = read_array(row, "channels' names", 1, context);
+    const JsonValue::Array* places = read_array(row, "channels' names", 1, context.diagnostics);
     if (!places) return std::nullopt;
     if (mosaic.width == 0) mosaic.width = static_cast<int>(places->size());
     if (places->size() != static_cast<std::size_t>(mosaic.width)) {

@@ -48,7 +48,7 @@ std::optional<std::vector<std::array<T, N>>> read_rows(ObjectReader& reader, std
                                                        Range allowed, const LoadContext& context) {
   const JsonValue* json = reader.require(key);
   if (!json) return std::nullopt;
-  const JsonValue::Array* list = read_array(*json, "rows", 1, context);
+  const JsonValue::Array* list = read_array(*json, "rows", 1, context.diagnostics);
   if (!list) return std::nullopt;
   std::vector<std::array<T, N>> rows;
   for (const JsonValue& entry : *list) {
@@ -296,7 +296,7 @@ std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view
 }
 
 void read_shapes(const JsonValue& json, LoadContext& context, Scene& scene) {
-  const JsonValue::Array* list = read_array(json, "shapes", 0, context);
+  const JsonValue::Array* list = read_array(json, "shapes", 0, context.diagnostics);
   if (!list) return;
   for (std::size_t i = 0; i < list->size(); ++i) {
     read_shape((*list)[i], i, context, scene);

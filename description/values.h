@@ -22,9 +22,6 @@ inline constexpr Range kPower{0, 1e30};
 inline constexpr Range kExposure{0, 1e9, true, false};  ///< [s]
 inline constexpr Range kWavelength{kMinWavelengthNm, kMaxWavelengthNm};
 
-/// The `least` or more elements of an array; anything else is reported, `what` naming them.
-[[nodiscard]] const JsonValue::Array* read_array(const JsonValue& json, std::string_view what,
-                                                 std::size_t least, const LoadContext& context);
 /// A position or edge [m].
 [[nodiscard]] std::optional<Imath::V3d> read_point(ObjectReader& reader, std::string_view key,
                                                    const LoadContext& context);

@@ -8,9 +8,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kLargestFloat = std::numeric_limits<float>::max();
-constexpr double kLargestInteger = 9007199254740992;  // 2^53: beyond it a double skips integers
-
 std::string bound(double x) {
   if (std::abs(x) == std::numeric_limits<double>::max()) return x < 0 ? "-inf" : "inf";
   return fmt::format("{}", x);
@@ -69,14 +66,19 @@ std::optional<std::string> read_string(const JsonValue& value, Diagnostics& diag
 }
 
 std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
-                                       std::initializer_list<const char*> names, Diagnostics& diagnostics) {
+                                       std::span<const char* const> names, Diagnostics& diagnostics) {
   const std::optional<std::string> word = read_string(value, diagnostics);
   if (!word) return std::nullopt;
-  const auto* const found = std::find(names.begin(), names.end(), *word);
+  const auto found = std::find(names.begin(), names.end(), *word);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   diagnostics.error(value.where,
                     unknown_name(kind, *word, std::vector<std::string>(names.begin(), names.end())));
   return std::nullopt;
+}
+
+std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
+                                       std::initializer_list<const char*> names, Diagnostics& diagnostics) {
+  return read_choice(value, kind, std::span(names.begin(), names.size()), diagnostics);
 }
 
 std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics) {
@@ -100,10 +102,55 @@ std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::siz
   return numbers;
 }
 
+const JsonValue::Array* read_array(const JsonValue& value, std::string_view what, std::size_t least,
+                                   Diagnostics& diagnostics) {
+  const auto* array = std::get_if<JsonValue::Array>(&value.value);
+  if (array && array->size() >= least) return array;
+  diagnostics.error(value.where,
+                    fmt::format("expected an array of {} (got {})", what,
+                                array ? fmt::format("{} of them, allowed [{}, inf)", array->size(), least)
+                                      : std::string(value.kind())));
+  return nullptr;
+}
+
+const JsonValue::Object* read_object(const JsonValue& value, Diagnostics& diagnostics) {
+  const auto* object = std::get_if<JsonValue::Object>(&value.value);
+  if (!object) mismatch(value, "an object", "{...}", diagnostics);
+  return object;
+}
+
+std::optional<std::string_view> choose_key(const JsonValue& object, std::span<const std::string_view> keys,
+                                           Diagnostics& diagnostics) {
+  std::vector<std::string_view> present;
+  for (const std::string_view key : keys)
+    if (object.find(key)) present.push_back(key);
+  if (present.size() == 1) return present.front();
+  const auto* members = std::get_if<JsonValue::Object>(&object.value);
+  if (!members) return std::nullopt;
+  const std::vector<std::string> names(keys.begin(), keys.end());
+  if (present.empty())  // a misspelt one tells more than that none is there
+    for (const auto& [key, member] : *members)
+      if (nearest_name(key, names)) {
+        diagnostics.error(member.key_position(), unknown_name("key", key, names));
+        return std::nullopt;
+      }
+  diagnostics.error(object.where,
+                    fmt::format("expected exactly one key (got {}, allowed {})",
+                                present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
+                                fmt::join(names, ", ")));
+  return std::nullopt;
+}
+
+void report_unknown_keys(const JsonValue::Object& object, std::span<const std::string> known,
+                         Diagnostics& diagnostics) {
+  for (const auto& [key, member] : object)
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      diagnostics.error(member.key_position(), unknown_name("key", key, known));
+}
+
 ObjectReader::ObjectReader(const JsonValue& value, Diagnostics& diagnostics)
     : value_(value), diagnostics_(diagnostics), known_{"$schema"} {
-  if (!std::holds_alternative<JsonValue::Object>(value.value))
-    mismatch(value, "an object", "{...}", diagnostics);
+  (void)read_object(value, diagnostics);
 }
 
 const JsonValue* ObjectReader::find(std::string_view key) {
@@ -162,32 +209,14 @@ std::optional<std::vector<double>> ObjectReader::require_numbers(std::string_vie
 }
 
 std::optional<std::string> ObjectReader::exactly_one(const std::vector<std::string_view>& keys) {
-  std::vector<std::string> present;
-  for (const std::string_view key : keys)
-    if (find(key)) present.emplace_back(key);
-  if (present.size() == 1) return present.front();
-  const auto* object = std::get_if<JsonValue::Object>(&value_.value);
-  if (!object) return std::nullopt;
-  const std::vector<std::string> names(keys.begin(), keys.end());
-  if (present.empty())  // a misspelt one tells more than that none is there
-    for (const auto& [key, member] : *object)
-      if (nearest_name(key, names)) {
-        diagnostics_.error(member.key_position(), unknown_name("key", key, names));
-        return std::nullopt;
-      }
-  diagnostics_.error(value_.where,
-                     fmt::format("expected exactly one key (got {}, allowed {})",
-                                 present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
-                                 fmt::join(names, ", ")));
-  return std::nullopt;
+  for (const std::string_view key : keys) (void)find(key);
+  const auto key = choose_key(value_, keys, diagnostics_);
+  return key ? std::optional<std::string>(*key) : std::nullopt;
 }
 
 void ObjectReader::finish() {
-  const auto* object = std::get_if<JsonValue::Object>(&value_.value);
-  if (!object) return;
-  for (const auto& [key, member] : *object)
-    if (std::find(known_.begin(), known_.end(), key) == known_.end())
-      diagnostics_.error(member.key_position(), unknown_name("key", key, known_));
+  if (const auto* object = std::get_if<JsonValue::Object>(&value_.value))
+    report_unknown_keys(*object, known_, diagnostics_);
 }
 
 }  // namespace abbe

@@ -13,6 +13,10 @@
 
 namespace abbe {
 
+/// The largest magnitude of a number, and of an integer: 2^53, beyond which a double skips some.
+inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
+inline constexpr double kLargestInteger = 9007199254740992;
+
 /// The numbers a field accepts. `text()` is how an error names them, e.g. "(0, 180)" or "[0, inf)".
 struct Range {
   double low = -std::numeric_limits<double>::max();
@@ -38,12 +42,28 @@ struct Range {
 [[nodiscard]] std::optional<std::string> read_string(const JsonValue& value, Diagnostics& diagnostics);
 /// The number of a string among `names`; another one is reported as an unknown `kind`.
 [[nodiscard]] std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
+                                                     std::span<const char* const> names,
+                                                     Diagnostics& diagnostics);
+[[nodiscard]] std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
                                                      std::initializer_list<const char*> names,
                                                      Diagnostics& diagnostics);
 [[nodiscard]] std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics);
 /// An array of numbers, each in `allowed`; of exactly `count` of them unless `count` is 0.
 [[nodiscard]] std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::size_t count,
                                                               Range allowed, Diagnostics& diagnostics);
+
+/// The elements of an array of `least` or more; anything else is reported, `what` naming them.
+[[nodiscard]] const JsonValue::Array* read_array(const JsonValue& value, std::string_view what,
+                                                 std::size_t least, Diagnostics& diagnostics);
+/// The members of an object; anything else is reported.
+[[nodiscard]] const JsonValue::Object* read_object(const JsonValue& value, Diagnostics& diagnostics);
+/// The one of `keys` that an object has; none (or a misspelt one), or more than one, is reported.
+[[nodiscard]] std::optional<std::string_view> choose_key(const JsonValue& object,
+                                                         std::span<const std::string_view> keys,
+                                                         Diagnostics& diagnostics);
+/// Reports the keys of an object that are not `known`, each with the nearest that is.
+void report_unknown_keys(const JsonValue::Object& object, std::span<const std::string> known,
+                         Diagnostics& diagnostics);
 
 /// Reads the members of one JSON object. Every key asked for is a known key; `finish` reports the others,
 /// each with the nearest known name. "$schema" is known everywhere. Getters return nothing for an absent key

@@ -1,0 +1,275 @@
+#include "io/schema/json_schema.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "io/schema/write.h"
+
+namespace abbe::schema {
+namespace {
+
+using Object = JsonValue::Object;
+using Array = JsonValue::Array;
+
+JsonValue json(decltype(JsonValue::value) value) {
+  return {std::move(value), {}};
+}
+JsonValue string(std::string_view text) {
+  return json(std::string(text));
+}
+void add(Object& object, std::string_view key, JsonValue value) {
+  object.push_back({std::string(key), std::move(value)});
+}
+JsonValue object_of(std::string_view key, JsonValue value) {
+  Object object;
+  add(object, key, std::move(value));
+  return json(std::move(object));
+}
+// {"required": [key]}.
+JsonValue has(std::string_view key) {
+  return object_of("required", json(Array{string(key)}));
+}
+
+/// What an object must satisfy.
+struct Part {
+  Object properties;
+  Array required;
+  Array clauses;
+};
+
+/// The definitions that have been referred to, by name.
+using Definitions = std::map<std::string, JsonValue>;
+
+JsonValue schema_of(const Kind& kind, Definitions& definitions);
+void add_fields(const Fields& fields, Part& part, Definitions& definitions);
+
+// Writes a part: one clause as it is, several as "allOf".
+void write_part(Part part, Object& into) {
+  if (!part.properties.empty()) add(into, "properties", json(std::move(part.properties)));
+  if (!part.required.empty()) add(into, "required", json(std::move(part.required)));
+  if (part.clauses.size() == 1) {
+    for (auto& member : std::get<Object>(part.clauses.front().value)) into.push_back(std::move(member));
+  } else if (part.clauses.size() > 1) {
+    add(into, "allOf", json(std::move(part.clauses)));
+  }
+}
+
+void describe_as(JsonValue& schema, std::string_view text) {
+  if (!text.empty()) add(std::get<Object>(schema.value), "description", string(text));
+}
+
+// Whether a default is worth telling: no infinity, and no list of nothing.
+bool says_something(const JsonValue& value) {
+  if (const auto* number = std::get_if<double>(&value.value)) return std::isfinite(*number);
+  if (const auto* array = std::get_if<Array>(&value.value)) return !array->empty();
+  const auto* object = std::get_if<Object>(&value.value);
+  return object == nullptr || !object->empty();
+}
+
+JsonValue field_schema(const Field& field, const void* defaults, Definitions& definitions) {
+  const Kind& kind = std::get<Kind>(field.what);
+  JsonValue schema = schema_of(kind, definitions);
+  describe_as(schema, field.text);
+  const void* otherwise = field.presence == Presence::optional ? field.look(defaults) : nullptr;
+  if (otherwise == nullptr) return schema;
+  JsonValue value = write(kind, otherwise);
+  if (says_something(value)) add(std::get<Object>(schema.value), "default", std::move(value));
+  return schema;
+}
+
+/// What stands beside the key of each choice of a group.
+std::vector<Part> branches_of(const OneOf& group, Definitions& definitions) {
+  std::vector<Part> branches;
+  for (const Choice& choice : group.choices) {
+    Part& branch = branches.emplace_back();
+    if (choice.inside) {
+      JsonValue schema = schema_of(*choice.alternative.kind, definitions);
+      describe_as(schema, choice.text);
+      add(branch.properties, choice.key, std::move(schema));
+    } else {
+      add_fields(std::get<Thing>(choice.alternative.kind->of).fields(), branch, definitions);
+    }
+  }
+  return branches;
+}
+
+bool same_everywhere(const std::vector<Part>& branches, const std::string& key, const JsonValue& schema) {
+  const std::string text = to_text(schema);
+  return std::all_of(branches.begin(), branches.end(), [&](const Part& branch) {
+    const auto found = std::find_if(branch.properties.begin(), branch.properties.end(),
+                                    [&](const auto& member) { return member.first == key; });
+    return found == branch.properties.end() || to_text(found->second) == text;
+  });
+}
+
+// The properties of all branches: said once where they agree, else left to each branch.
+void share_properties(std::vector<Part>& branches, Object& properties) {
+  const std::vector<Part> all = branches;
+  for (Part& branch : branches)
+    std::erase_if(branch.properties, [&](const JsonValue::Member& member) {
+      const bool same = same_everywhere(all, member.first, member.second);
+      const bool known = std::any_of(properties.begin(), properties.end(),
+                                     [&](const auto& other) { return other.first == member.first; });
+      if (!known) add(properties, member.first, same ? member.second : json(true));
+      return same;
+    });
+}
+
+// For each key that stands beside some choices only, that one of these is there.
+void tie_companions(const OneOf& group, const std::vector<Part>& branches, Object& dependent) {
+  std::map<std::string, Array> owners;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    for (const auto& member : branches[i].properties)
+      if (member.first != group.choices[i].key) owners[member.first].push_back(has(group.choices[i].key));
+  for (auto& [key, choices] : owners)
+    if (choices.size() < branches.size() || !group.required)
+      add(dependent, key, object_of("anyOf", json(std::move(choices))));
+}
+
+void add_group(const OneOf& group, Part& part, Definitions& definitions) {
+  std::vector<Part> branches = branches_of(group, definitions);
+  Object dependent;
+  tie_companions(group, branches, dependent);
+  share_properties(branches, part.properties);
+  Array choices;
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    const std::string_view key = group.choices[i].key;
+    choices.push_back(has(key));
+    std::erase_if(branches[i].required,
+                  [&](const JsonValue& other) { return std::get<std::string>(other.value) == key; });
+    Object schema;
+    write_part(std::move(branches[i]), schema);
+    if (!schema.empty()) add(dependent, key, json(std::move(schema)));
+  }
+  if (!group.required) {
+    JsonValue none = object_of("not", object_of("anyOf", json(choices)));
+    choices.push_back(std::move(none));
+  }
+  Object clause;
+  add(clause, "oneOf", json(std::move(choices)));
+  if (!dependent.empty()) add(clause, "dependentSchemas", json(std::move(dependent)));
+  part.clauses.push_back(json(std::move(clause)));
+}
+
+void add_fields(const Fields& fields, Part& part, Definitions& definitions) {
+  for (const Field& field : fields.fields) {
+    if (const auto* group = std::get_if<OneOf>(&field.what)) {
+      add_group(*group, part, definitions);
+    } else if (const auto* lent = std::get_if<Lent>(&field.what)) {
+      add_fields(lent->fields(), part, definitions);
+    } else {
+      add(part.properties, field.key, field_schema(field, fields.defaults, definitions));
+      if (field.presence == Presence::required) part.required.push_back(string(field.key));
+    }
+  }
+  if (fields.any_of.empty()) return;
+  Array keys;
+  for (const std::string_view key : fields.any_of) keys.push_back(has(key));
+  part.clauses.push_back(object_of("anyOf", json(std::move(keys))));
+}
+
+void write_object(const Fields& fields, Object& into, Definitions& definitions) {
+  Part part;
+  add_fields(fields, part, definitions);
+  add(into, "type", string("object"));
+  write_part(std::move(part), into);
+  add(into, "additionalProperties", json(false));
+}
+
+JsonValue of_type(std::string_view type) {
+  return object_of("type", string(type));
+}
+
+JsonValue bounded(std::string_view type, const Range& range, double largest) {
+  JsonValue schema = of_type(type);
+  auto& object = std::get<Object>(schema.value);
+  add(object, range.open_low ? "exclusiveMinimum" : "minimum", json(std::max(range.low, -largest)));
+  add(object, range.open_high ? "exclusiveMaximum" : "maximum", json(std::min(range.high, largest)));
+  return schema;
+}
+
+JsonValue array_of(JsonValue items, std::size_t least, std::size_t most) {
+  JsonValue schema = of_type("array");
+  auto& object = std::get<Object>(schema.value);
+  add(object, "items", std::move(items));
+  if (least > 0) add(object, "minItems", json(static_cast<double>(least)));
+  if (most > 0) add(object, "maxItems", json(static_cast<double>(most)));
+  return schema;
+}
+
+/// How each kind is said in a schema.
+struct SchemaOf {
+  Definitions& definitions;
+
+  JsonValue operator()(const Number& kind) const { return bounded("number", kind.range, kLargestFloat); }
+  JsonValue operator()(const Integer& kind) const { return bounded("integer", kind.range, kLargestInteger); }
+  JsonValue operator()(const Boolean&) const { return of_type("boolean"); }
+  JsonValue operator()(const Text&) const { return of_type("string"); }
+  JsonValue operator()(const Word& kind) const {
+    Array names;
+    for (const char* name : kind.names) names.push_back(string(name));
+    return object_of("enum", json(std::move(names)));
+  }
+  JsonValue operator()(const Vector& kind) const {
+    JsonValue schema = array_of(bounded("number", kind.range, kLargestFloat), kind.count, kind.count);
+    if (kind.direction)
+      add(std::get<Object>(schema.value), "not", object_of("const", json(Array(kind.count, json(0.0)))));
+    return schema;
+  }
+  JsonValue operator()(const Numbers& kind) const {
+    return array_of(bounded("number", kind.range, kLargestFloat), 0, 0);
+  }
+  JsonValue operator()(const Thing& kind) const {
+    const Fields& fields = kind.fields();
+    const std::string name(fields.name);
+    if (!definitions.contains(name)) {
+      definitions[name];  // may be referred to by what it holds
+      Object schema;
+      if (!fields.text.empty()) add(schema, "description", string(fields.text));
+      write_object(fields, schema, definitions);
+      definitions[name] = json(std::move(schema));
+    }
+    return object_of("$ref", string(fmt::format("#/$defs/{}", name)));
+  }
+  JsonValue operator()(const List& kind) const {
+    JsonValue all = array_of(schema_of(*kind.element, definitions), kind.least, 0);
+    if (!kind.bare) return all;
+    return object_of("anyOf", json(Array{schema_of(*kind.element, definitions), std::move(all)}));
+  }
+  JsonValue operator()(const ByName& kind) const {
+    JsonValue schema = of_type("object");
+    auto& object = std::get<Object>(schema.value);
+    add(object, "additionalProperties", schema_of(*kind.element, definitions));
+    if (kind.least > 0) add(object, "minProperties", json(static_cast<double>(kind.least)));
+    return schema;
+  }
+  JsonValue operator()(const Forms& kind) const {
+    Array forms;
+    for (const Form& form : kind.forms) forms.push_back(schema_of(*form.alternative.kind, definitions));
+    return object_of("anyOf", json(std::move(forms)));
+  }
+};
+
+JsonValue schema_of(const Kind& kind, Definitions& definitions) {
+  return std::visit(SchemaOf{definitions}, kind.of);
+}
+
+}  // namespace
+
+JsonValue json_schema(const Fields& fields) {
+  Definitions definitions;
+  Object schema;
+  add(schema, "$schema", string("https://json-schema.org/draft/2020-12/schema"));
+  add(schema, "title", string(fields.name));
+  add(schema, "description", string(fields.text));
+  write_object(fields, schema, definitions);
+  Object all;
+  for (auto& [name, definition] : definitions) add(all, name, std::move(definition));
+  if (!all.empty()) add(schema, "$defs", json(std::move(all)));
+  return json(std::move(schema));
+}
+
+}  // namespace abbe::schema

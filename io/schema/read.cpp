@@ -1,0 +1,216 @@
+#include "io/schema/read.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace abbe::schema {
+namespace {
+
+bool read_value(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics);
+
+/// An object on its way into a thing.
+struct ObjectReading {
+  const JsonValue& json;
+  Diagnostics& diagnostics;
+  std::size_t known = 0;  ///< How many members have been found.
+  bool chosen = true;     ///< Whether every group of keys that must be there is; else keys may belong to it.
+};
+
+bool read_fields(ObjectReading& reading, const Fields& fields, void* thing);
+
+bool read_member(const JsonValue& json, const Field& field, void* thing, Diagnostics& diagnostics) {
+  void* member = field.member(thing);
+  void* value = field.holder.open(member);
+  if (SourcePosition* where = field.holder.where(member)) *where = json.where;
+  if (read_value(json, std::get<Kind>(field.what), value, diagnostics)) return true;
+  field.holder.close(member);
+  return false;
+}
+
+// The choice whose key is there; nullptr for none, and after an error.
+const Choice* choose(ObjectReading& reading, const OneOf& group) {
+  std::vector<const Choice*> present;
+  for (const Choice& choice : group.choices)
+    if (reading.json.find(choice.key)) present.push_back(&choice);
+  if (present.size() == 1) return present.front();
+  if (present.empty() && !group.required) return nullptr;
+  reading.chosen = false;
+  if (!group.several.empty() && present.size() > 1) {
+    reading.diagnostics.error(reading.json.where, fmt::format("{} (got {} and {})", group.several,
+                                                              present[0]->key, present[1]->key));
+    return nullptr;
+  }
+  std::vector<std::string_view> keys;
+  for (const Choice& choice : group.choices) keys.push_back(choice.key);
+  (void)choose_key(reading.json, keys, reading.diagnostics);
+  return nullptr;
+}
+
+bool read_group(ObjectReading& reading, const OneOf& group, void* variant) {
+  const Choice* choice = choose(reading, group);
+  if (choice == nullptr) return reading.chosen;
+  const Alternative& alternative = choice->alternative;
+  void* value = alternative.emplace(variant);
+  bool sound = false;
+  if (choice->inside) {
+    ++reading.known;
+    sound = read_value(*reading.json.find(choice->key), *alternative.kind, value, reading.diagnostics);
+  } else {
+    sound = read_fields(reading, std::get<Thing>(alternative.kind->of).fields(), value);
+  }
+  if (!sound) group.clear(variant);
+  return sound;
+}
+
+bool read_field(ObjectReading& reading, const Field& field, void* thing) {
+  if (const auto* group = std::get_if<OneOf>(&field.what))
+    return read_group(reading, *group, field.member(thing));
+  if (const auto* lent = std::get_if<Lent>(&field.what))
+    return read_fields(reading, lent->fields(), field.member(thing));
+  if (const JsonValue* json = reading.json.find(field.key)) {
+    ++reading.known;
+    return read_member(*json, field, thing, reading.diagnostics);
+  }
+  if (field.presence == Presence::optional) return true;
+  reading.diagnostics.error(reading.json.where, fmt::format("missing key \"{}\"", field.key));
+  return false;
+}
+
+bool read_fields(ObjectReading& reading, const Fields& fields, void* thing) {
+  bool sound = true;
+  if (SourcePosition* where = fields.where(thing)) *where = reading.json.where;
+  for (const Field& field : fields.fields) sound = read_field(reading, field, thing) && sound;
+  const auto is_there = [&](std::string_view key) { return reading.json.find(key) != nullptr; };
+  if (fields.any_of.empty() || std::any_of(fields.any_of.begin(), fields.any_of.end(), is_there))
+    return sound;
+  reading.diagnostics.error(reading.json.where, fmt::format("missing key \"{}\"", fields.any_of.front()));
+  return false;
+}
+
+// The keys that an object may have, given the alternatives it has chosen.
+void collect_keys(const JsonValue& json, const Fields& fields, std::vector<std::string>& keys) {
+  for (const Field& field : fields.fields) {
+    if (const auto* group = std::get_if<OneOf>(&field.what)) {
+      for (const Choice& choice : group->choices) {
+        keys.emplace_back(choice.key);
+        if (!choice.inside && json.find(choice.key))
+          collect_keys(json, std::get<Thing>(choice.alternative.kind->of).fields(), keys);
+      }
+    } else if (const auto* lent = std::get_if<Lent>(&field.what)) {
+      collect_keys(json, lent->fields(), keys);
+    } else {
+      keys.emplace_back(field.key);
+    }
+  }
+}
+
+bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics& diagnostics) {
+  if (list.bare && !std::holds_alternative<JsonValue::Array>(json.value))
+    return read_value(json, *list.element, list.append(value), diagnostics);
+  const JsonValue::Array* elements = read_array(json, list.what, list.least, diagnostics);
+  if (!elements) return false;
+  bool sound = true;
+  for (const JsonValue& element : *elements)
+    sound = read_value(element, *list.element, list.append(value), diagnostics) && sound;
+  return sound;
+}
+
+bool read_by_name(const JsonValue& json, const ByName& group, void* value, Diagnostics& diagnostics) {
+  const auto* members = std::get_if<JsonValue::Object>(&json.value);
+  if (!members || members->size() < group.least) {
+    diagnostics.error(json.where,
+                      fmt::format("expected {} (got {})", group.what, members ? "none" : json.kind()));
+    return false;
+  }
+  bool sound = true;
+  for (const auto& [name, member] : *members)
+    sound = read_value(member, *group.element, group.append(value, name, member.where), diagnostics) && sound;
+  return sound;
+}
+
+bool fits(const JsonValue& json, const Form& form) {
+  constexpr Json kTypes[] = {Json::any, Json::any, Json::number, Json::text, Json::list, Json::object};
+  if (form.json == Json::any) return true;
+  if (form.json != kTypes[json.value.index()]) return false;
+  return form.keys.empty() || std::any_of(form.keys.begin(), form.keys.end(),
+                                          [&](std::string_view key) { return json.find(key) != nullptr; });
+}
+
+bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnostics& diagnostics) {
+  for (const Form& form : forms.forms)
+    if (fits(json, form))
+      return read_value(json, *form.alternative.kind, form.alternative.emplace(value), diagnostics);
+  diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.kind()));
+  return false;
+}
+
+bool read_vector(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
+  const auto numbers = read_numbers(json, vector.count, vector.range, diagnostics);
+  if (!numbers) return false;
+  for (std::size_t i = 0; i < vector.count; ++i) vector.set(value, i, (*numbers)[i]);
+  const auto is_zero = [](double x) { return x == 0; };
+  if (!vector.direction || !std::all_of(numbers->begin(), numbers->end(), is_zero)) return true;
+  diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
+                                            fmt::join(std::vector<int>(vector.count, 0), ", ")));
+  return false;
+}
+
+template <typename T>
+bool store(std::optional<T> read, void* value) {
+  if (read) *static_cast<T*>(value) = *std::move(read);
+  return read.has_value();
+}
+
+/// How each kind reads.
+struct ReadValue {
+  const JsonValue& json;
+  void* value;
+  Diagnostics& diagnostics;
+
+  bool operator()(const Number& kind) const {
+    return store(read_number(json, kind.range, diagnostics), value);
+  }
+  bool operator()(const Integer& kind) const {
+    const auto read = read_integer(json, kind.range, diagnostics);
+    if (read) kind.set(value, *read);
+    return read.has_value();
+  }
+  bool operator()(const Boolean&) const { return store(read_boolean(json, diagnostics), value); }
+  bool operator()(const Text&) const { return store(read_string(json, diagnostics), value); }
+  bool operator()(const Word& kind) const {
+    const auto read = read_choice(json, kind.what, kind.names, diagnostics);
+    if (read) kind.set(value, *read);
+    return read.has_value();
+  }
+  bool operator()(const Vector& kind) const { return read_vector(json, kind, value, diagnostics); }
+  bool operator()(const Numbers& kind) const {
+    return store(read_numbers(json, 0, kind.range, diagnostics), value);
+  }
+  bool operator()(const Thing& kind) const { return read(json, kind.fields(), value, diagnostics); }
+  bool operator()(const List& kind) const { return read_list(json, kind, value, diagnostics); }
+  bool operator()(const ByName& kind) const { return read_by_name(json, kind, value, diagnostics); }
+  bool operator()(const Forms& kind) const { return read_form(json, kind, value, diagnostics); }
+};
+
+bool read_value(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics) {
+  return std::visit(ReadValue{json, value, diagnostics}, kind.of);
+}
+
+}  // namespace
+
+bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics& diagnostics) {
+  const JsonValue::Object* object = read_object(json, diagnostics);
+  if (!object) return false;
+  ObjectReading reading{json, diagnostics};
+  const bool sound = read_fields(reading, fields, thing);
+  if (!reading.chosen || reading.known == object->size()) return sound;
+  std::vector<std::string> keys;
+  collect_keys(json, fields, keys);
+  const std::size_t before = diagnostics.all().size();
+  report_unknown_keys(*object, keys, diagnostics);
+  return sound && diagnostics.all().size() == before;
+}
+
+}  // namespace abbe::schema
