@@ -1,12 +1,68 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
+#include "description/load_context.h"
 #include "description/sensor.h"
+#include "description/surface.h"
+#include "io/schema/fields.h"
+#include "scene/camera/camera.h"
+
+namespace abbe::spec {
+
+/// How much light a lens passes.
+struct Aperture {
+  std::optional<double> f_number;
+  std::optional<schema::Located<double>> t_stop;
+};
+struct FocalLength : schema::Value<double> {};
+struct FieldOfView : schema::Value<double> {};
+struct Pinhole {
+  std::variant<std::monostate, FocalLength, FieldOfView> view;
+  Aperture aperture;
+};
+enum class Far { infinity };
+struct ThinLens {
+  double focal_length = 0;
+  Aperture aperture;
+  std::optional<std::variant<double, Far>> focus_distance;  ///< Of what the camera looks at when absent.
+  SourcePosition where;
+};
+/// Where a camera stands and what it looks at.
+struct View {
+  Imath::V3d from{0, 0, 0};
+  Imath::V3d to{0, 0, 0};
+  Imath::V3d up{0, 0, 0};
+};
+struct PinholeCamera {
+  Pinhole pinhole;
+  View view;
+};
+struct ThinLensCamera {
+  ThinLens lens;
+  View view;
+};
+struct PointProbe {
+  Imath::V3d at{0, 0, 0};
+  Imath::V3d normal{0, 0, 0};
+};
+struct IrradianceProbe {
+  std::variant<std::monostate, PointProbe, Quad> surface;
+};
+struct Camera {
+  std::variant<std::monostate, PinholeCamera, ThinLensCamera, IrradianceProbe> kind;
+  SourcePosition where;
+};
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Camera>);
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
-[[nodiscard]] std::optional<Camera> read_camera(const JsonValue& json, const Sensor& sensor,
-                                                LoadContext& context);
+/// The camera before the sensor's film. Reports what no table can say: a T-stop faster than its f-number, a
+/// view of no direction, a lens that cannot focus; nothing after an error.
+[[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
+                                          const LoadContext& context);
 
 }  // namespace abbe::description

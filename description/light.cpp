@@ -259,13 +259,7 @@ void add_placed(ObjectReader& reader, std::string name, const std::optional<Plac
   context.light_positions.push_back(placed->position);
 }
 
-template <typename S>
-std::optional<Shape> as_shape(std::optional<S> shape) {
-  if (!shape) return std::nullopt;
-  return Shape(std::move(*shape));
-}
-
-void add_area(ObjectReader& reader, std::string name, std::optional<Shape> shape, LoadContext& context,
+void add_area(ObjectReader& reader, std::string name, std::optional<PlainShape> shape, LoadContext& context,
               Scene& scene) {
   const JsonValue* emission = reader.require("emission");
   const JsonValue* material_name = reader.find("material");
@@ -274,7 +268,7 @@ void add_area(ObjectReader& reader, std::string name, std::optional<Shape> shape
   const auto material =
       material_name ? find_material(*material_name, context, scene) : black_material(context, scene);
   if (!shape || !emission || !material) return;
-  scene.shapes.push_back({std::move(name), std::move(*shape), *material});
+  scene.shapes.push_back({std::move(name), as_shape(*std::move(shape)), *material});
   add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), context, scene);
 }
 
@@ -285,12 +279,8 @@ void read_light(const JsonValue& json, std::size_t number, LoadContext& context,
       reader.exactly_one({"quad", "sphere", "disc", "point", "spot", "directional", "sun", "environment"});
   if (!key) return;
   const JsonValue& kind = *reader.find(*key);
-  if (*key == "quad") {
-    add_area(reader, std::move(name), as_shape(read_quad(kind, context)), context, scene);
-  } else if (*key == "sphere") {
-    add_area(reader, std::move(name), as_shape(read_sphere(kind, context)), context, scene);
-  } else if (*key == "disc") {
-    add_area(reader, std::move(name), as_shape(read_disc(kind, context)), context, scene);
+  if (*key == "quad" || *key == "sphere" || *key == "disc") {
+    add_area(reader, std::move(name), read_geometry(kind, *key, context), context, scene);
   } else if (*key == "point") {
     add_placed(reader, std::move(name), read_point_light(kind, context), context, scene);
   } else if (*key == "spot") {

@@ -15,10 +15,12 @@
 #include "description/light.h"
 #include "description/material.h"
 #include "description/object.h"
+#include "description/render.h"
 #include "description/sensor.h"
 #include "description/shape.h"
 #include "description/values.h"
 #include "description/white.h"
+#include "io/schema/read.h"
 #include "io/standard_stream.h"
 #include "io/text.h"
 #include "materials/index/library.h"
@@ -31,7 +33,6 @@ namespace description {
 namespace {
 
 constexpr double kFormatVersion = 1;
-constexpr Range kCount{1, 16777216};  // samples: as many as a float counts exactly
 
 // False for a scene of another version, whose other errors are not ours to tell.
 bool check_version(ObjectReader& reader, LoadContext& context) {
@@ -53,31 +54,6 @@ void read_units(ObjectReader& reader, LoadContext& context) {
   if (const auto unit =
           read_choice(*json, "unit of length", {"m", "cm", "mm", "um", "in"}, context.diagnostics))
     context.unit_m = kMetres.at(*unit);
-}
-
-Integrator read_integrator(ObjectReader& reader, LoadContext& context) {
-  constexpr std::array kIntegrators{Integrator::automatic, Integrator::path, Integrator::light};
-  const JsonValue* json = reader.find("integrator");
-  const auto choice =
-      json ? read_choice(*json, "integrator", {"auto", "path", "light"}, context.diagnostics) : std::nullopt;
-  return kIntegrators.at(choice.value_or(0));
-}
-
-RenderSettings read_render(const JsonValue& json, LoadContext& context) {
-  RenderSettings render;
-  ObjectReader reader(json, context.diagnostics);
-  render.integrator = read_integrator(reader, context);
-  if (const auto n = reader.integer("samples", kCount)) render.samples = static_cast<int>(*n);
-  if (const auto n = reader.integer("max_depth", {1, 100000})) render.max_depth = static_cast<int>(*n);
-  if (const auto n = reader.integer("roulette_depth", {-1, 10000}))
-    render.roulette_depth = static_cast<int>(*n);
-  if (render.roulette_depth < 0 && !reader.find("max_depth"))
-    context.diagnostics.error(json.find("roulette_depth")->where,
-                              "ends no path, so that max_depth must (got -1 without a max_depth)");
-  if (const auto n = reader.integer("seed", {0, 9007199254740992.0}))
-    render.seed = static_cast<std::uint64_t>(*n);
-  reader.finish();
-  return render;
 }
 
 std::optional<White> read_white(const JsonValue& json, LoadContext& context, const Scene& scene) {
@@ -150,7 +126,8 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
     scene.sensor_text = to_text(*json);
   }
   if (camera)
-    if (const auto found = read_camera(*camera, sensor, context)) scene.camera = *found;
+    if (const auto said = schema::read<spec::Camera>(*camera, context.diagnostics))
+      if (const auto found = build(*said, sensor, context)) scene.camera = *found;
   scene.exposure_s = sensor.exposure_s;
   scene.readout = sensor.readout;
   scene.fill_factor = sensor.fill_factor;
@@ -162,7 +139,9 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
   if (const JsonValue* json = reader.find("objects")) read_objects(*json, context, scene);
   if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, context, scene);
   if (const JsonValue* json = reader.find("lights")) read_lights(*json, context, scene);
-  if (const JsonValue* json = reader.find("render")) scene.render = read_render(*json, context);
+  if (const JsonValue* json = reader.find("render"))
+    if (const auto render = schema::read<spec::Render>(*json, context.diagnostics))
+      scene.render = build(*render, context.diagnostics);
   if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, context, scene);
   reader.finish();
   if (context.diagnostics.has_errors()) return scene;

@@ -7,7 +7,22 @@
 #include "description/shape.h"
 #include "description/transform.h"
 #include "description/values.h"
+#include "io/schema/read.h"
 #include "scene/shapes/placed.h"
+
+namespace abbe::spec {
+
+const schema::Fields& fields(schema::Tag<Instance>) {
+  static const schema::Fields kFields =
+      schema::describe<Instance>("instance", "An object placed in the scene.",
+                                 {schema::field("of", &Instance::of, schema::text(), "Name of the object."),
+                                  schema::field("transform", &Instance::transform, affine_steps(),
+                                                "Where it is placed, by steps in order.")
+                                      .or_default()});
+  return kFields;
+}
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
@@ -64,17 +79,15 @@ void read_objects(const JsonValue& json, LoadContext& context, Scene& scene) {
 }
 
 void add_instance(const JsonValue& json, const std::string& name, LoadContext& context, Scene& scene) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto of = reader.require_string("of");
-  const JsonValue* transform = reader.find("transform");
-  reader.finish();
-  const auto matrix = transform ? read_affine(*transform, context) : Imath::M44d();
-  if (!of || !matrix) return;
-  const auto found = context.objects.find(*of);
+  const auto instance = schema::read<spec::Instance>(json, context.diagnostics);
+  if (!instance) return;
+  const auto matrix = build(instance->transform.value, instance->transform.where, context);
+  if (!matrix) return;
+  const auto found = context.objects.find(instance->of.value);
   if (found == context.objects.end()) {
     std::vector<std::string> names;
     for (const auto& [known, object] : context.objects) names.push_back(known);
-    context.diagnostics.error(json.find("of")->where, unknown_name("object", *of, names));
+    context.diagnostics.error(instance->of.where, unknown_name("object", instance->of.value, names));
     return;
   }
   const Object& object = found->second;

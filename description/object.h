@@ -1,9 +1,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "description/load_context.h"
+#include "description/transform.h"
 #include "scene/scene.h"
+
+namespace abbe::spec {
+
+struct Instance {
+  schema::Located<std::string> of;
+  schema::Located<std::vector<Affine>> transform;
+};
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Instance>);
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 

@@ -10,8 +10,10 @@
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
 #include "description/object.h"
+#include "description/surface.h"
 #include "description/transform.h"
 #include "description/values.h"
+#include "io/schema/read.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe::description {
@@ -43,81 +45,20 @@ void move(Quad& quad, const Transform& by) {
   quad.edge_v = moved_direction(quad.edge_v, by);
 }
 
-template <typename T, std::size_t N>
-std::optional<std::vector<std::array<T, N>>> read_rows(ObjectReader& reader, std::string_view key,
-                                                       Range allowed, const LoadContext& context) {
-  const JsonValue* json = reader.require(key);
-  if (!json) return std::nullopt;
-  const JsonValue::Array* list = read_array(*json, "rows", 1, context.diagnostics);
-  if (!list) return std::nullopt;
-  std::vector<std::array<T, N>> rows;
-  for (const JsonValue& entry : *list) {
-    const auto numbers = read_numbers(entry, N, allowed, context.diagnostics);
-    if (!numbers) return std::nullopt;
-    std::array<T, N>& row = rows.emplace_back();
-    for (std::size_t i = 0; i < N; ++i) {
-      row[i] = static_cast<T>((*numbers)[i]);
-      if (static_cast<double>(row[i]) == (*numbers)[i]) continue;
-      context.diagnostics.error(entry.where, fmt::format("expected an integer (got {})", (*numbers)[i]));
-      return std::nullopt;
-    }
-  }
-  return rows;
-}
-
-std::optional<Mesh> read_inline_mesh(const JsonValue& json, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto vertices = read_rows<double, 3>(reader, "vertices", kCoordinate, context);
-  const auto triangles = read_rows<std::uint32_t, 3>(reader, "triangles", {0, 4294967295.0}, context);
-  const JsonValue* given = reader.find("uv");
-  const auto uv =
-      given ? read_rows<double, 2>(reader, "uv", kCoordinate, context) : std::vector<std::array<double, 2>>();
-  reader.finish();
-  if (!vertices || !triangles || !uv) return std::nullopt;
-  if (given && uv->size() != vertices->size()) {
-    context.diagnostics.error(
-        given->where,
-        fmt::format("as many uv as vertices are needed (got {}, allowed {})", uv->size(), vertices->size()));
-    return std::nullopt;
-  }
-  Mesh mesh;
-  for (const auto& v : *vertices) mesh.vertices.emplace_back(v[0], v[1], v[2]);
-  mesh.triangles = *triangles;
-  if (!check_mesh(mesh, json.where, context.diagnostics)) return std::nullopt;
-  const auto at = [&](std::uint32_t i) { return Imath::V2f(Imath::V2d((*uv)[i][0], (*uv)[i][1])); };
-  if (given)
-    for (const auto& [a, b, c] : mesh.triangles) mesh.coordinates.push_back({at(a), at(b), at(c)});
-  return mesh;
-}
-
-std::optional<Mesh> read_prism(const JsonValue& json, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto apex = reader.require_number("apex_deg", {0, 180, true, true});
-  const auto side = reader.require_number("side", kLength);
-  const auto length = reader.require_number("length", kLength);
-  reader.finish();
-  if (!apex || !side || !length) return std::nullopt;
-  return make_prism(*apex, *side * context.unit_m, *length * context.unit_m);
-}
-
-template <typename S>
-std::optional<PlainShape> as_shape(std::optional<S> shape) {
-  if (!shape) return std::nullopt;
-  return std::make_optional<PlainShape>(std::move(*shape));
-}
-
 std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
   if (mesh)
     for (Imath::V3d& vertex : mesh->vertices) vertex *= factor;
   return mesh;
 }
 
-std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view key, LoadContext& context) {
-  if (key == "mesh") return as_shape(scaled(read_inline_mesh(json, context), context.unit_m));
-  if (key == "sphere") return as_shape(read_sphere(json, context));
-  if (key == "disc") return as_shape(read_disc(json, context));
-  if (key == "quad") return as_shape(read_quad(json, context));
-  return as_shape(read_prism(json, context));
+// What a table reads, built.
+template <typename S>
+std::optional<PlainShape> read_surface(const JsonValue& json, const LoadContext& context) {
+  const auto surface = schema::read<S>(json, context.diagnostics);
+  if (!surface) return std::nullopt;
+  auto shape = std::optional(build(*surface, context));
+  if (!shape) return std::nullopt;
+  return std::make_optional<PlainShape>(*std::move(shape));
 }
 
 // The parts of a mesh file, made of `material` or of the file's own.
@@ -212,9 +153,7 @@ void read_shape(const JsonValue& json, std::size_t number, LoadContext& context,
   if (emission && !reader.find("material"))
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
   for (NamedShape& part : parts) {
-    scene.shapes.push_back({std::move(part.name),
-                            std::visit([](auto& s) { return Shape(std::move(s)); }, part.shape),
-                            part.material});
+    scene.shapes.push_back({std::move(part.name), as_shape(std::move(part.shape)), part.material});
     if (emission)
       add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), context,
                      scene);
@@ -222,6 +161,10 @@ void read_shape(const JsonValue& json, std::size_t number, LoadContext& context,
 }
 
 }  // namespace
+
+Shape as_shape(PlainShape shape) {
+  return std::visit([](auto& plain) { return Shape(std::move(plain)); }, shape);
+}
 
 void shift(Mesh& mesh, const Imath::V3d& by) {
   for (Imath::V3d& vertex : mesh.vertices) vertex += by;
@@ -253,46 +196,23 @@ std::optional<Imath::V3d> read_direction(ObjectReader& reader, std::string_view 
   return std::nullopt;
 }
 
-std::optional<Sphere> read_sphere(const JsonValue& json, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto center = read_point(reader, "center", context);
-  const auto radius = reader.require_number("radius", kLength);
-  reader.finish();
-  if (!center || !radius) return std::nullopt;
-  return Sphere{*center, *radius * context.unit_m};
-}
-
-std::optional<Disc> read_disc(const JsonValue& json, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto center = read_point(reader, "center", context);
-  const auto normal = read_direction(reader, "normal", context);
-  const auto radius = reader.require_number("radius", kLength);
-  reader.finish();
-  if (!center || !normal || !radius) return std::nullopt;
-  return Disc{*center, *normal, *radius * context.unit_m};
-}
-
-std::optional<Quad> read_quad(const JsonValue& json, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto corner = read_point(reader, "corner", context);
-  const auto edge_u = read_point(reader, "edge_u", context);
-  const auto edge_v = read_point(reader, "edge_v", context);
-  reader.finish();
-  if (!corner || !edge_u || !edge_v) return std::nullopt;
-  if (edge_u->cross(*edge_v).length() > 0) return Quad{*corner, *edge_u, *edge_v};
-  context.diagnostics.error(json.where,
-                            "edge_u and edge_v are parallel: a quad of zero area (got 0, allowed (0, inf))",
-                            ErrorCode::input);
-  return std::nullopt;
-}
-
 std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view key, const std::string& name,
                                           LoadContext& context, Scene& scene) {
   std::vector<NamedShape> parts = read_unplaced(reader, key, name, context, scene);
   const JsonValue* steps = reader.find("transform");
-  const Transform transform = steps ? read_similarity(*steps, context) : Transform{};
+  std::vector<spec::Similarity> moves;
+  if (steps) (void)schema::read(*steps, spec::similarity_steps(), &moves, context.diagnostics);
+  const Transform transform = build(moves, context);
   for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
   return parts;
+}
+
+std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view key, LoadContext& context) {
+  if (key == "mesh") return read_surface<spec::InlineMesh>(json, context);
+  if (key == "sphere") return read_surface<spec::Sphere>(json, context);
+  if (key == "disc") return read_surface<spec::Disc>(json, context);
+  if (key == "quad") return read_surface<spec::Quad>(json, context);
+  return read_surface<spec::Prism>(json, context);
 }
 
 void read_shapes(const JsonValue& json, LoadContext& context, Scene& scene) {

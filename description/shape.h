@@ -23,9 +23,11 @@ struct NamedShape {
 void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
                         const SourcePosition& where, const LoadContext& context);
 
-[[nodiscard]] std::optional<Sphere> read_sphere(const JsonValue& json, const LoadContext& context);
-[[nodiscard]] std::optional<Disc> read_disc(const JsonValue& json, const LoadContext& context);
-[[nodiscard]] std::optional<Quad> read_quad(const JsonValue& json, const LoadContext& context);
+/// The same as a shape of a scene.
+[[nodiscard]] Shape as_shape(PlainShape shape);
+/// The shape of the kind `key`, such as "disc", before any transform; nothing after an error.
+[[nodiscard]] std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view key,
+                                                      LoadContext& context);
 /// The shape of the kind `key`, placed; of a mesh file, one for each material. None after an error.
 [[nodiscard]] std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view key,
                                                         const std::string& name, LoadContext& context,

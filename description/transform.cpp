@@ -7,92 +7,126 @@
 
 #include "description/values.h"
 
-namespace abbe::description {
+namespace abbe {
+
+static constexpr double kMaxStretch = 1e9;
+
+namespace spec {
 namespace {
 
-constexpr double kMaxStretch = 1e9;
+using namespace schema;
+
 constexpr Range kScale{0, kMaxStretch, true, false};
 constexpr Range kSignedScale{-kMaxStretch, kMaxStretch};
+
+constexpr char kScaleText[] = "Factor of all lengths.";
+constexpr char kRotateText[] = "Rotation after the scale.";
+constexpr char kTranslateText[] = "Displacement after scale and rotation.";
+
+}  // namespace
+
+static const Fields& fields(Tag<Rotation>) {
+  static const Fields kFields =
+      describe<Rotation>("rotation", "A right-handed rotation about an axis through the origin.",
+                         {field("axis", &Rotation::axis, direction(), "Direction of the axis."),
+                          field("deg", &Rotation::deg, number(kValue), "Angle in degrees.")});
+  return kFields;
+}
+
+const Fields& fields(Tag<Similarity>) {
+  static const Fields kFields =
+      describe<Similarity>("similarity", "A step that scales, then rotates, then translates.",
+                           {field("scale", &Similarity::scale, number(kScale), kScaleText),
+                            field("rotate", &Similarity::rotate, thing<Rotation>(), kRotateText),
+                            field("translate", &Similarity::translate, point(), kTranslateText)});
+  return kFields;
+}
+
+const Fields& fields(Tag<Stretch>) {
+  using Scale = std::variant<double, Imath::V3d>;
+  static const Fields kFields = describe<Stretch>(
+      "stretch", "A step that scales, then rotates, then translates.",
+      {field("scale", &Stretch::scale,
+             forms<Scale>("a scale", form<Imath::V3d>(Json::list, vector<Imath::V3d>(kSignedScale)),
+                          form<double>(Json::any, number(kScale))),
+             "Factor of all lengths, or factors along x, y and z, which mirror where they are negative."),
+       field("rotate", &Stretch::rotate, thing<Rotation>(), kRotateText),
+       field("translate", &Stretch::translate, point(), kTranslateText)});
+  return kFields;
+}
+
+const Fields& fields(Tag<Matrix>) {
+  static const Fields kFields =
+      describe<Matrix>("matrix", "A step given as a matrix.",
+                       {field("matrix", &Matrix::rows, numbers(kCoordinate),
+                              "Rows of a matrix for column vectors: 12 numbers, or 16 of which the last are "
+                              "0 0 0 1. The fourth column translates.")});
+  return kFields;
+}
+
+Kind similarity_steps() {
+  return list<Similarity>(thing<Similarity>(), "steps", 0, true);
+}
+
+Kind affine_steps() {
+  return list<Affine>(forms<Affine>("a step", form<Matrix>(Json::object, thing<Matrix>(), {"matrix"}),
+                                    form<Stretch>(Json::any, thing<Stretch>())),
+                      "steps", 0, true);
+}
+
+}  // namespace spec
+
+namespace description {
+namespace {
 
 // The relative error of a determinant summed up in double, generously.
 constexpr double kRounding = 1e-13;
 
-void append(Transform& transform, const Imath::M44d& step) {
-  transform.matrix = transform.matrix * step;
+Imath::M44d scaling(double factor) {
+  return Imath::M44d().setScale(factor);
+}
+Imath::M44d scaling(const Imath::V3d& factors) {
+  return Imath::M44d().setScale(factors);
 }
 
-void read_scale(ObjectReader& reader, bool affine, Transform& transform, const LoadContext& context) {
-  const JsonValue* json = reader.find("scale");
-  if (!json) return;
-  if (affine && std::holds_alternative<JsonValue::Array>(json->value)) {
-    if (const auto s = read_numbers(*json, 3, kSignedScale, context.diagnostics))
-      append(transform, Imath::M44d().setScale(Imath::V3d((*s)[0], (*s)[1], (*s)[2])));
-  } else if (const auto factor = read_number(*json, kScale, context.diagnostics)) {
-    append(transform, Imath::M44d().setScale(*factor));
-    transform.scale *= *factor;
-  }
+// After the scale: rotation, then translation.
+void append_motion(Imath::M44d& matrix, const std::optional<spec::Rotation>& rotate,
+                   const std::optional<Imath::V3d>& translate, const LoadContext& context) {
+  if (rotate)
+    matrix =
+        matrix * Imath::M44d().setAxisAngle(rotate->axis.normalized(), rotate->deg * std::numbers::pi / 180);
+  if (translate) matrix = matrix * Imath::M44d().setTranslation(*translate * context.unit_m);
 }
 
-void read_rotation(const JsonValue& json, Transform& transform, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto axis = read_direction(reader, "axis", context);
-  const auto angle = reader.require_number("deg", kValue);
-  reader.finish();
-  if (axis && angle) append(transform, Imath::M44d().setAxisAngle(*axis, *angle * std::numbers::pi / 180));
+bool append(Imath::M44d& matrix, const spec::Stretch& step, const LoadContext& context) {
+  if (step.scale) matrix = matrix * std::visit([](const auto& by) { return scaling(by); }, *step.scale);
+  append_motion(matrix, step.rotate, step.translate, context);
+  return true;
 }
 
 // Rows of a matrix for column vectors: the fourth column translates, a fourth row must be 0 0 0 1.
-void read_matrix(const JsonValue& json, Transform& transform, const LoadContext& context) {
-  const auto m = read_numbers(json, 0, kCoordinate, context.diagnostics);
-  if (!m) return;
-  const bool rows4 = m->size() == 16;
-  if (!rows4 && m->size() != 12) {
+bool append(Imath::M44d& matrix, const spec::Matrix& step, const LoadContext& context) {
+  const std::vector<double>& m = step.rows.value;
+  const bool rows4 = m.size() == 16;
+  if (!rows4 && m.size() != 12) {
     context.diagnostics.error(
-        json.where,
-        fmt::format("expected the rows of a matrix (got {} numbers, allowed 12 or 16)", m->size()));
-    return;
+        step.rows.where,
+        fmt::format("expected the rows of a matrix (got {} numbers, allowed 12 or 16)", m.size()));
+    return false;
   }
-  if (rows4 && !((*m)[12] == 0 && (*m)[13] == 0 && (*m)[14] == 0 && (*m)[15] == 1)) {
-    context.diagnostics.error(json.where,
+  if (rows4 && !(m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1)) {
+    context.diagnostics.error(step.rows.where,
                               fmt::format("a transform is affine (got the last row [{}, {}, {}, {}], allowed "
                                           "[0, 0, 0, 1])",
-                                          (*m)[12], (*m)[13], (*m)[14], (*m)[15]));
-    return;
+                                          m[12], m[13], m[14], m[15]));
+    return false;
   }
-  Imath::M44d matrix;
+  Imath::M44d by;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column)
-      matrix[column][row] =
-          (*m)[static_cast<std::size_t>(4 * row + column)] * (column == 3 ? context.unit_m : 1);
-  append(transform, matrix);
-}
-
-// One step; scale, then rotation, then translation, when it has several.
-void read_step(const JsonValue& json, bool affine, Transform& transform, const LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  if (affine)
-    if (const JsonValue* matrix = reader.find("matrix")) {
-      read_matrix(*matrix, transform, context);
-      reader.finish();
-      return;
-    }
-  read_scale(reader, affine, transform, context);
-  if (const JsonValue* rotation = reader.find("rotate")) read_rotation(*rotation, transform, context);
-  if (reader.find("translate")) {
-    const auto by = read_point(reader, "translate", context);
-    if (by) append(transform, Imath::M44d().setTranslation(*by));
-  }
-  reader.finish();
-}
-
-Transform read_steps(const JsonValue& json, bool affine, const LoadContext& context) {
-  Transform transform;
-  if (const auto* steps = std::get_if<JsonValue::Array>(&json.value)) {
-    for (const JsonValue& step : *steps) read_step(step, affine, transform, context);
-  } else {
-    read_step(json, affine, transform, context);
-  }
-  return transform;
+      by[column][row] = m[static_cast<std::size_t>(4 * row + column)] * (column == 3 ? context.unit_m : 1);
+  matrix = matrix * by;
+  return true;
 }
 
 // Root of the sum of the squares of the linear part.
@@ -105,14 +139,23 @@ double norm(const Imath::M44d& matrix) {
 
 }  // namespace
 
-Transform read_similarity(const JsonValue& json, const LoadContext& context) {
-  return read_steps(json, false, context);
+Transform build(const std::vector<spec::Similarity>& steps, const LoadContext& context) {
+  Transform transform;
+  for (const spec::Similarity& step : steps) {
+    if (step.scale) {
+      transform.matrix = transform.matrix * scaling(*step.scale);
+      transform.scale *= *step.scale;
+    }
+    append_motion(transform.matrix, step.rotate, step.translate, context);
+  }
+  return transform;
 }
 
-std::optional<Imath::M44d> read_affine(const JsonValue& json, const LoadContext& context) {
-  const std::size_t faults = context.diagnostics.all().size();
-  const Imath::M44d matrix = read_steps(json, true, context).matrix;
-  if (context.diagnostics.all().size() > faults) return std::nullopt;
+std::optional<Imath::M44d> build(const std::vector<spec::Affine>& steps, const SourcePosition& where,
+                                 const LoadContext& context) {
+  Imath::M44d matrix;
+  for (const spec::Affine& step : steps)
+    if (!std::visit([&](const auto& by) { return append(matrix, by, context); }, step)) return std::nullopt;
   const Imath::V3d rows[3] = {{matrix[0][0], matrix[0][1], matrix[0][2]},
                               {matrix[1][0], matrix[1][1], matrix[1][2]},
                               {matrix[2][0], matrix[2][1], matrix[2][2]}};
@@ -120,17 +163,17 @@ std::optional<Imath::M44d> read_affine(const JsonValue& json, const LoadContext&
   const double largest = rows[0].length() * rows[1].length() * rows[2].length();
   if (!(std::abs(determinant) > kRounding * largest) || !std::isfinite(determinant)) {
     context.diagnostics.error(
-        json.where, fmt::format("transform is singular (determinant got {:g}, allowed not 0)", determinant));
+        where, fmt::format("transform is singular (determinant got {:g}, allowed not 0)", determinant));
     return std::nullopt;
   }
   // Embree inverts the matrix in float.
   const double shrinks = 1 / norm(matrix.inverse());
   if (norm(matrix) <= 2 * kMaxStretch && shrinks >= 0.5 / kMaxStretch) return matrix;
   context.diagnostics.error(
-      json.where,
-      fmt::format("transform is out of range (got lengths times {:g} to {:g}, allowed [{:g}, {:g}])", shrinks,
-                  norm(matrix), 1 / kMaxStretch, kMaxStretch));
+      where, fmt::format("transform is out of range (got lengths times {:g} to {:g}, allowed [{:g}, {:g}])",
+                         shrinks, norm(matrix), 1 / kMaxStretch, kMaxStretch));
   return std::nullopt;
 }
 
-}  // namespace abbe::description
+}  // namespace description
+}  // namespace abbe

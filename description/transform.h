@@ -1,11 +1,46 @@
 #pragma once
 
 #include <optional>
+#include <variant>
+#include <vector>
 
 #include <ImathMatrix.h>
+#include <ImathVec.h>
 
 #include "description/load_context.h"
-#include "io/object_reader.h"
+#include "io/schema/fields.h"
+
+namespace abbe::spec {
+
+struct Rotation {
+  Imath::V3d axis{0, 0, 0};
+  double deg = 0;
+};
+/// A step that keeps the forms of shapes: it scales, then rotates, then translates.
+struct Similarity {
+  std::optional<double> scale;
+  std::optional<Rotation> rotate;
+  std::optional<Imath::V3d> translate;
+};
+/// A step of an instance, which may stretch and mirror.
+struct Stretch {
+  std::optional<std::variant<double, Imath::V3d>> scale;
+  std::optional<Rotation> rotate;
+  std::optional<Imath::V3d> translate;
+};
+/// A step given by rows.
+struct Matrix {
+  schema::Located<std::vector<double>> rows;
+};
+using Affine = std::variant<Stretch, Matrix>;
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Similarity>);
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Stretch>);
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Matrix>);
+/// Steps one after the other, a single one without brackets.
+[[nodiscard]] schema::Kind similarity_steps();
+[[nodiscard]] schema::Kind affine_steps();
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
@@ -14,10 +49,9 @@ struct Transform {
   Imath::M44d matrix;
   double scale = 1;
 };
-/// Steps of uniform scale, rotation and translation.
-[[nodiscard]] Transform read_similarity(const JsonValue& json, const LoadContext& context);
-/// Reads an affine map: what `read_similarity` reads, scales along the axes, and matrices; a map without an
-/// inverse is reported.
-[[nodiscard]] std::optional<Imath::M44d> read_affine(const JsonValue& json, const LoadContext& context);
+[[nodiscard]] Transform build(const std::vector<spec::Similarity>& steps, const LoadContext& context);
+/// The affine map of all steps; rows that are no matrix and a map without an inverse are reported at `where`.
+[[nodiscard]] std::optional<Imath::M44d> build(const std::vector<spec::Affine>& steps,
+                                               const SourcePosition& where, const LoadContext& context);
 
 }  // namespace abbe::description

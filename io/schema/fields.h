@@ -61,10 +61,13 @@ struct Holder {
 /// Whether a key must be there.
 enum class Presence { required, optional };
 
+/// A value under a key, a group of keys, or the fields of another thing.
+using Part = std::variant<Kind, OneOf, Lent>;
+
 /// One key of a thing, or one group of keys.
 struct Field {
   std::string_view key;  ///< Empty unless a value stands under it.
-  std::variant<Kind, OneOf, Lent> what;
+  std::shared_ptr<const Part> part;
   std::string_view text;  ///< What it means, as a whole sentence.
   Presence presence;
   std::ptrdiff_t offset;  ///< Of the member in its thing.
@@ -76,17 +79,9 @@ struct Field {
     return holder.look(static_cast<const char*>(thing) + offset);
   }
   /// The same, which may be absent: then the member's initialiser holds.
-  [[nodiscard]] Field or_default() const {
-    Field field = *this;
-    field.presence = Presence::optional;
-    return field;
-  }
+  [[nodiscard]] Field or_default() const;
   /// The same, which must be there though the member could be without.
-  [[nodiscard]] Field required() const {
-    Field field = *this;
-    field.presence = Presence::required;
-    return field;
-  }
+  [[nodiscard]] Field required() const;
 };
 
 /// The table of a thing.
@@ -192,6 +187,25 @@ struct LooseForm {
   Kind kind;
 };
 
+// Not in line, where the compiler loses its way among the alternatives.
+[[nodiscard]] std::shared_ptr<const Part> part(Kind&& kind);
+[[nodiscard]] std::shared_ptr<const Part> part(OneOf&& group);
+[[nodiscard]] std::shared_ptr<const Part> part(Lent lent);
+
+template <typename T, typename M>
+[[nodiscard]] Field make_field(std::string_view key, std::shared_ptr<const Part> part, std::string_view text,
+                               Presence presence, M T::*member) {
+  return {key, std::move(part), text, presence, offset(member), holder<M>(), &typeid(T)};
+}
+
+template <typename V, typename... A>
+OneOf group(bool required, std::string_view several, LooseChoice<A>... choice) {
+  return {required,
+          several,
+          {Choice{choice.key, choice.text, choice.inside, alternative<V, A>(std::move(choice.kind))}...},
+          [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }};
+}
+
 }  // namespace detail
 
 /// What the table of T says.
@@ -225,17 +239,17 @@ template <typename E>
 /// As many numbers as V holds: an array or a vector of geometry.
 template <typename V>
 [[nodiscard]] Kind vector(Range range, bool direction = false) {
-  static_assert(sizeof(V) % sizeof(double) == 0);
   using Index = std::conditional_t < requires(V v) {
     v.setValue(v);
   }
   , int, std::size_t > ;
-  return {Vector{sizeof(V) / sizeof(double), range, direction,
+  using Number = std::remove_cvref_t<decltype(std::declval<V&>()[Index{}])>;
+  return {Vector{sizeof(V) / sizeof(Number), range, direction, std::is_integral_v<Number>,
                  [](void* value, std::size_t i, double to) {
-                   (*static_cast<V*>(value))[static_cast<Index>(i)] = to;
+                   (*static_cast<V*>(value))[static_cast<Index>(i)] = static_cast<Number>(to);
                  },
                  [](const void* value, std::size_t i) {
-                   return (*static_cast<const V*>(value))[static_cast<Index>(i)];
+                   return static_cast<double>((*static_cast<const V*>(value))[static_cast<Index>(i)]);
                  }},
           &typeid(V)};
 }
@@ -306,39 +320,24 @@ template <typename A>
 template <typename T, typename M>
 [[nodiscard]] Field field(std::string_view key, M T::*member, Kind kind, std::string_view text) {
   detail::require_same(*kind.type, typeid(typename detail::Held<M>::Value), key);
-  return {key,
-          std::move(kind),
-          text,
-          detail::Held<M>::kPresence,
-          detail::offset(member),
-          detail::holder<M>(),
-          &typeid(T)};
+  return detail::make_field(key, detail::part(std::move(kind)), text, detail::Held<M>::kPresence, member);
 }
 /// The fields of a member that is a thing, in the same object.
 template <typename T, typename M>
 [[nodiscard]] Field lent(M T::*member) {
-  return {"",        Lent{fields_of<M>}, "", Presence::required, detail::offset(member), detail::holder<M>(),
-          &typeid(T)};
+  return detail::make_field("", detail::part(Lent{fields_of<M>}), "", Presence::required, member);
 }
 /// Keys of which exactly one is there; the member is a variant of std::monostate and their alternatives.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field one_of(V T::*member, detail::LooseChoice<A>... choice) {
-  OneOf group{
-      true,
-      {},
-      {Choice{choice.key, choice.text, choice.inside, detail::alternative<V, A>(std::move(choice.kind))}...},
-      [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }};
-  return {"",        std::move(group), "", Presence::required, detail::offset(member), detail::holder<V>(),
-          &typeid(T)};
+  return detail::make_field("", detail::part(detail::group<V>(true, "", std::move(choice)...)), "",
+                            Presence::required, member);
 }
 /// Keys of which one at most is there; `several` says what is wrong with two.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field at_most_one(V T::*member, std::string_view several, detail::LooseChoice<A>... choice) {
-  Field field = one_of(member, std::move(choice)...);
-  auto& group = std::get<OneOf>(field.what);
-  group.required = false;
-  group.several = several;
-  return field;
+  return detail::make_field("", detail::part(detail::group<V>(false, several, std::move(choice)...)), "",
+                            Presence::required, member);
 }
 
 /// The table of T. Its name is that of a definition of the JSON schema.

@@ -70,7 +70,7 @@ bool says_something(const JsonValue& value) {
 }
 
 JsonValue field_schema(const Field& field, const void* defaults, Definitions& definitions) {
-  const Kind& kind = std::get<Kind>(field.what);
+  const Kind& kind = std::get<Kind>(*field.part);
   JsonValue schema = schema_of(kind, definitions);
   describe_as(schema, field.text);
   const void* otherwise = field.presence == Presence::optional ? field.look(defaults) : nullptr;
@@ -156,9 +156,9 @@ void add_group(const OneOf& group, Part& part, Definitions& definitions) {
 
 void add_fields(const Fields& fields, Part& part, Definitions& definitions) {
   for (const Field& field : fields.fields) {
-    if (const auto* group = std::get_if<OneOf>(&field.what)) {
+    if (const auto* group = std::get_if<OneOf>(field.part.get())) {
       add_group(*group, part, definitions);
-    } else if (const auto* lent = std::get_if<Lent>(&field.what)) {
+    } else if (const auto* lent = std::get_if<Lent>(field.part.get())) {
       add_fields(lent->fields(), part, definitions);
     } else {
       add(part.properties, field.key, field_schema(field, fields.defaults, definitions));
@@ -214,7 +214,9 @@ struct SchemaOf {
     return object_of("enum", json(std::move(names)));
   }
   JsonValue operator()(const Vector& kind) const {
-    JsonValue schema = array_of(bounded("number", kind.range, kLargestFloat), kind.count, kind.count);
+    JsonValue number = kind.whole ? bounded("integer", kind.range, kLargestInteger)
+                                  : bounded("number", kind.range, kLargestFloat);
+    JsonValue schema = array_of(std::move(number), kind.count, kind.count);
     if (kind.direction)
       add(std::get<Object>(schema.value), "not", object_of("const", json(Array(kind.count, json(0.0)))));
     return schema;

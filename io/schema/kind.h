@@ -46,6 +46,7 @@ struct Vector {
   std::size_t count;
   Range range;
   bool direction;  ///< Which is of any length but zero.
+  bool whole;      ///< Numbers that are integers.
   void (*set)(void* value, std::size_t i, double to);
   double (*get)(const void* value, std::size_t i);
 };

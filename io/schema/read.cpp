@@ -8,8 +8,6 @@
 namespace abbe::schema {
 namespace {
 
-bool read_value(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics);
-
 /// An object on its way into a thing.
 struct ObjectReading {
   const JsonValue& json;
@@ -24,7 +22,7 @@ bool read_member(const JsonValue& json, const Field& field, void* thing, Diagnos
   void* member = field.member(thing);
   void* value = field.holder.open(member);
   if (SourcePosition* where = field.holder.where(member)) *where = json.where;
-  if (read_value(json, std::get<Kind>(field.what), value, diagnostics)) return true;
+  if (read(json, std::get<Kind>(*field.part), value, diagnostics)) return true;
   field.holder.close(member);
   return false;
 }
@@ -56,7 +54,7 @@ bool read_group(ObjectReading& reading, const OneOf& group, void* variant) {
   bool sound = false;
   if (choice->inside) {
     ++reading.known;
-    sound = read_value(*reading.json.find(choice->key), *alternative.kind, value, reading.diagnostics);
+    sound = read(*reading.json.find(choice->key), *alternative.kind, value, reading.diagnostics);
   } else {
     sound = read_fields(reading, std::get<Thing>(alternative.kind->of).fields(), value);
   }
@@ -65,9 +63,9 @@ bool read_group(ObjectReading& reading, const OneOf& group, void* variant) {
 }
 
 bool read_field(ObjectReading& reading, const Field& field, void* thing) {
-  if (const auto* group = std::get_if<OneOf>(&field.what))
+  if (const auto* group = std::get_if<OneOf>(field.part.get()))
     return read_group(reading, *group, field.member(thing));
-  if (const auto* lent = std::get_if<Lent>(&field.what))
+  if (const auto* lent = std::get_if<Lent>(field.part.get()))
     return read_fields(reading, lent->fields(), field.member(thing));
   if (const JsonValue* json = reading.json.find(field.key)) {
     ++reading.known;
@@ -92,13 +90,13 @@ bool read_fields(ObjectReading& reading, const Fields& fields, void* thing) {
 // The keys that an object may have, given the alternatives it has chosen.
 void collect_keys(const JsonValue& json, const Fields& fields, std::vector<std::string>& keys) {
   for (const Field& field : fields.fields) {
-    if (const auto* group = std::get_if<OneOf>(&field.what)) {
+    if (const auto* group = std::get_if<OneOf>(field.part.get())) {
       for (const Choice& choice : group->choices) {
         keys.emplace_back(choice.key);
         if (!choice.inside && json.find(choice.key))
           collect_keys(json, std::get<Thing>(choice.alternative.kind->of).fields(), keys);
       }
-    } else if (const auto* lent = std::get_if<Lent>(&field.what)) {
+    } else if (const auto* lent = std::get_if<Lent>(field.part.get())) {
       collect_keys(json, lent->fields(), keys);
     } else {
       keys.emplace_back(field.key);
@@ -108,12 +106,16 @@ void collect_keys(const JsonValue& json, const Fields& fields, std::vector<std::
 
 bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics& diagnostics) {
   if (list.bare && !std::holds_alternative<JsonValue::Array>(json.value))
-    return read_value(json, *list.element, list.append(value), diagnostics);
+    return read(json, *list.element, list.append(value), diagnostics);
   const JsonValue::Array* elements = read_array(json, list.what, list.least, diagnostics);
   if (!elements) return false;
+  const bool rows =
+      std::holds_alternative<Vector>(list.element->of);  // of which there may be many: one fault will do
   bool sound = true;
-  for (const JsonValue& element : *elements)
-    sound = read_value(element, *list.element, list.append(value), diagnostics) && sound;
+  for (const JsonValue& element : *elements) {
+    sound = read(element, *list.element, list.append(value), diagnostics) && sound;
+    if (rows && !sound) return false;
+  }
   return sound;
 }
 
@@ -126,7 +128,7 @@ bool read_by_name(const JsonValue& json, const ByName& group, void* value, Diagn
   }
   bool sound = true;
   for (const auto& [name, member] : *members)
-    sound = read_value(member, *group.element, group.append(value, name, member.where), diagnostics) && sound;
+    sound = read(member, *group.element, group.append(value, name, member.where), diagnostics) && sound;
   return sound;
 }
 
@@ -141,7 +143,7 @@ bool fits(const JsonValue& json, const Form& form) {
 bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnostics& diagnostics) {
   for (const Form& form : forms.forms)
     if (fits(json, form))
-      return read_value(json, *form.alternative.kind, form.alternative.emplace(value), diagnostics);
+      return read(json, *form.alternative.kind, form.alternative.emplace(value), diagnostics);
   diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.kind()));
   return false;
 }
@@ -149,7 +151,12 @@ bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnosti
 bool read_vector(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
   const auto numbers = read_numbers(json, vector.count, vector.range, diagnostics);
   if (!numbers) return false;
-  for (std::size_t i = 0; i < vector.count; ++i) vector.set(value, i, (*numbers)[i]);
+  for (std::size_t i = 0; i < vector.count; ++i) {
+    vector.set(value, i, (*numbers)[i]);
+    if (!vector.whole || vector.get(value, i) == (*numbers)[i]) continue;
+    diagnostics.error(json.where, fmt::format("expected an integer (got {})", (*numbers)[i]));
+    return false;
+  }
   const auto is_zero = [](double x) { return x == 0; };
   if (!vector.direction || !std::all_of(numbers->begin(), numbers->end(), is_zero)) return true;
   diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
@@ -194,11 +201,11 @@ struct ReadValue {
   bool operator()(const Forms& kind) const { return read_form(json, kind, value, diagnostics); }
 };
 
-bool read_value(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics) {
+}  // namespace
+
+bool read(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics) {
   return std::visit(ReadValue{json, value, diagnostics}, kind.of);
 }
-
-}  // namespace
 
 bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics& diagnostics) {
   const JsonValue::Object* object = read_object(json, diagnostics);

@@ -11,6 +11,9 @@ namespace abbe::schema {
 /// what is sound has been read all the same.
 bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics& diagnostics);
 
+/// Reads a value of that kind, as `read` does a thing.
+bool read(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics);
+
 /// The same for a new thing, nothing after an error.
 template <typename T>
 [[nodiscard]] std::optional<T> read(const JsonValue& json, Diagnostics& diagnostics) {

@@ -22,19 +22,19 @@ void write_choice(const Choice& choice, const void* variant, JsonValue::Object& 
 bool as_default(const Field& field, const JsonValue& written, const void* defaults) {
   if (field.presence == Presence::required) return false;
   const void* value = field.look(defaults);
-  return value != nullptr && to_text(write(std::get<Kind>(field.what), value)) == to_text(written);
+  return value != nullptr && to_text(write(std::get<Kind>(*field.part), value)) == to_text(written);
 }
 
 void write_fields(const Fields& fields, const void* thing, JsonValue::Object& into) {
   for (const Field& field : fields.fields) {
     const void* value = field.look(thing);
     if (value == nullptr) continue;
-    if (const auto* group = std::get_if<OneOf>(&field.what)) {
+    if (const auto* group = std::get_if<OneOf>(field.part.get())) {
       for (const Choice& choice : group->choices) write_choice(choice, value, into);
-    } else if (const auto* lent = std::get_if<Lent>(&field.what)) {
+    } else if (const auto* lent = std::get_if<Lent>(field.part.get())) {
       write_fields(lent->fields(), value, into);
     } else {
-      JsonValue written = write(std::get<Kind>(field.what), value);
+      JsonValue written = write(std::get<Kind>(*field.part), value);
       if (!as_default(field, written, fields.defaults))
         into.push_back({std::string(field.key), std::move(written)});
     }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ImathVec.h>
+
+#include "io/schema/fields.h"
+#include "spectral/curve.h"
+
+// What the tables of the scene file share.
+namespace abbe::spec {
+
+/// Lengths and coordinates, in scene units: beyond this the floats of the render overflow when squared and
+/// multiplied.
+inline constexpr double kMaxLength = 1e12;
+inline constexpr Range kCoordinate{-kMaxLength, kMaxLength};
+inline constexpr Range kLength{0, kMaxLength, true, false};
+/// Values of curves and powers, safely inside float.
+inline constexpr Range kValue{-1e30, 1e30};
+inline constexpr Range kPower{0, 1e30};
+inline constexpr Range kExposure{0, 1e9, true, false};  ///< [s]
+inline constexpr Range kWavelength{kMinWavelengthNm, kMaxWavelengthNm};
+
+/// A length above 0, as a double.
+[[nodiscard]] inline schema::Kind length() {
+  return schema::number(kLength);
+}
+/// A position, edge or displacement, as an Imath::V3d.
+[[nodiscard]] inline schema::Kind point() {
+  return schema::vector<Imath::V3d>(kCoordinate);
+}
+/// A direction of any length but zero, as an Imath::V3d.
+[[nodiscard]] inline schema::Kind direction() {
+  return schema::vector<Imath::V3d>(kCoordinate, true);
+}
+
+}  // namespace abbe::spec

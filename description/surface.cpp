@@ -1,0 +1,114 @@
+#include "description/surface.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/meshes/mesh_file.h"
+#include "description/values.h"
+#include "scene/shapes/mesh.h"
+
+namespace abbe::spec {
+
+using namespace schema;
+
+const Fields& fields(Tag<Sphere>) {
+  static const Fields kFields =
+      describe<Sphere>("sphere", "A sphere, which emits outwards.",
+                       {field("center", &Sphere::center, point(), "Position of its middle."),
+                        field("radius", &Sphere::radius, length(), "Length of its radius.")});
+  return kFields;
+}
+
+const Fields& fields(Tag<Disc>) {
+  static const Fields kFields =
+      describe<Disc>("disc", "A flat disc, which emits along its normal.",
+                     {field("center", &Disc::center, point(), "Position of its middle."),
+                      field("normal", &Disc::normal, direction(), "Outward direction."),
+                      field("radius", &Disc::radius, length(), "Length of its radius.")});
+  return kFields;
+}
+
+const Fields& fields(Tag<Quad>) {
+  static const Fields kFields =
+      describe<Quad>("quad", "A parallelogram, which emits from the side edge_u x edge_v points to.",
+                     {field("corner", &Quad::corner, point(), "Position of a corner."),
+                      field("edge_u", &Quad::edge_u, point(), "From the corner along one side."),
+                      field("edge_v", &Quad::edge_v, point(),
+                            "From the corner along the other side; the normal is edge_u x edge_v.")});
+  return kFields;
+}
+
+const Fields& fields(Tag<Prism>) {
+  static const Fields kFields = describe<Prism>(
+      "prism", "A right prism along y with an isosceles cross-section, whose apex points along +z.",
+      {field("apex_deg", &Prism::apex_deg, number({0, 180, true, true}),
+             "Angle between the two equal faces."),
+       field("side", &Prism::side, length(), "Width of the equal faces."),
+       field("length", &Prism::length, length(), "Length along y.")});
+  return kFields;
+}
+
+const Fields& fields(Tag<InlineMesh>) {
+  using Triangle = std::array<std::uint32_t, 3>;
+  using Vertex = std::array<double, 3>;
+  using Coordinates = std::array<double, 2>;
+  static const Fields kFields = describe<InlineMesh>(
+      "inline_mesh", "Triangles, counter-clockwise seen from outside.",
+      {field("vertices", &InlineMesh::vertices, list<Vertex>(vector<Vertex>(kCoordinate), "rows", 1),
+             "Positions of the vertices."),
+       field("triangles", &InlineMesh::triangles,
+             list<Triangle>(vector<Triangle>({0, 4294967295.0}), "rows", 1),
+             "Three numbers of vertices each, which count from 0."),
+       field("uv", &InlineMesh::uv, list<Coordinates>(vector<Coordinates>(kCoordinate), "rows", 1),
+             "Texture coordinates of each vertex.")});
+  return kFields;
+}
+
+}  // namespace abbe::spec
+
+namespace abbe::description {
+
+Sphere build(const spec::Sphere& sphere, const LoadContext& context) {
+  return {sphere.center * context.unit_m, sphere.radius * context.unit_m};
+}
+
+Disc build(const spec::Disc& disc, const LoadContext& context) {
+  return {disc.center * context.unit_m, disc.normal.normalized(), disc.radius * context.unit_m};
+}
+
+std::optional<Quad> build(const spec::Quad& quad, const LoadContext& context) {
+  const Quad built{quad.corner * context.unit_m, quad.edge_u * context.unit_m, quad.edge_v * context.unit_m};
+  if (built.edge_u.cross(built.edge_v).length() > 0) return built;
+  context.diagnostics.error(quad.where,
+                            "edge_u and edge_v are parallel: a quad of zero area (got 0, allowed (0, inf))",
+                            ErrorCode::input);
+  return std::nullopt;
+}
+
+Mesh build(const spec::Prism& prism, const LoadContext& context) {
+  return make_prism(prism.apex_deg, prism.side * context.unit_m, prism.length * context.unit_m);
+}
+
+std::optional<Mesh> build(const spec::InlineMesh& mesh, const LoadContext& context) {
+  if (mesh.uv && mesh.uv->value.size() != mesh.vertices.size()) {
+    context.diagnostics.error(mesh.uv->where,
+                              fmt::format("as many uv as vertices are needed (got {}, allowed {})",
+                                          mesh.uv->value.size(), mesh.vertices.size()));
+    return std::nullopt;
+  }
+  Mesh built;
+  for (const auto& [x, y, z] : mesh.vertices) built.vertices.emplace_back(x, y, z);
+  built.triangles = mesh.triangles;
+  if (!check_mesh(built, mesh.where, context.diagnostics)) return std::nullopt;
+  for (Imath::V3d& vertex : built.vertices) vertex *= context.unit_m;
+  if (!mesh.uv) return built;
+  const auto at = [&](std::uint32_t i) {
+    const auto& [u, v] = mesh.uv->value[i];
+    return Imath::V2f(Imath::V2d(u, v));
+  };
+  for (const auto& [a, b, c] : built.triangles) built.coordinates.push_back({at(a), at(b), at(c)});
+  return built;
+}
+
+}  // namespace abbe::description
