@@ -41,7 +41,7 @@ static const Fields& fields(Tag<ThinLens>) {
       {field("focal_length", &ThinLens::focal_length, length(), "The focal length."),
        lent(&ThinLens::aperture),
        field("focus_distance", &ThinLens::focus_distance,
-             forms<Focus>("a distance", form<Far>(Json::text, word<Far>("distance", {"infinity"})),
+             forms<Focus>("", "a distance", form<Far>(Json::text, word<Far>("distance", {"infinity"})),
                           form<double>(Json::any, length())),
              "Distance from the lens to the plane in focus, beyond the focal length; that from `from` to "
              "`to` when absent.")},

@@ -1,17 +1,78 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
-#include "description/values.h"
+#include "description/kinds.h"
+#include "description/load_context.h"
+#include "spectral/sources.h"
+
+namespace abbe::spec {
+
+struct Curve;
+
+/// Samples with straight lines between them.
+struct TableCurve {
+  std::vector<double> wavelength_nm;
+  std::vector<double> values;
+  Outside outside = Outside::clamp;
+  SourcePosition where;
+};
+/// `value` on [low, high) nm.
+struct Band {
+  schema::Located<std::array<double, 2>> ends;
+  double value = 1;
+};
+struct Gaussian {
+  double center_nm = 0;
+  double fwhm_nm = 0;
+  double peak = 1;
+};
+struct Line {
+  double nm = 0;
+  double width_nm = 0;
+  double power = 0;
+};
+struct Lines : schema::Value<std::vector<Line>> {};
+struct Blackbody : schema::Value<double> {};  ///< [K]
+struct Daylight : schema::Value<double> {};   ///< [K]
+struct Product : schema::Value<std::vector<Curve>> {};
+struct Sum : schema::Value<std::vector<Curve>> {};
+struct Scaled {
+  double scale = 1;
+  std::shared_ptr<Curve> of;
+};
+struct CurveFormula {
+  std::variant<std::monostate, TableCurve, Band, Gaussian, Lines, Blackbody, Daylight, Product, Sum, Scaled>
+      of;
+};
+/// A function of wavelength: a constant, the name of a table, or a formula.
+struct Curve : schema::Located<std::variant<double, std::string, CurveFormula>> {};
+
+[[nodiscard]] const schema::Fields& fields(schema::Tag<CurveFormula>);
+[[nodiscard]] schema::Kind curve();
+[[nodiscard]] schema::Kind lines();
+[[nodiscard]] schema::Kind blackbody_K();
+[[nodiscard]] schema::Kind daylight_K();
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
 /// Where a curve is used: the data folder its names are looked for in, and the values it may take.
 struct CurveUse {
   std::string_view folder;
-  Range allowed = kValue;
+  Range allowed = spec::kValue;
 };
+/// The curve, sampled. Reports what no table can say: wavelengths that do not ascend, an empty band, an
+/// unknown name, values that the use does not allow; nothing then.
+[[nodiscard]] std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context);
+[[nodiscard]] Curve build(const spec::Lines& lines);
 [[nodiscard]] std::optional<Curve> read_curve(const JsonValue& json, const CurveUse& use,
                                               LoadContext& context);
 /// The curves an emission shares with other curves: "blackbody_K", "daylight_K" and "lines".

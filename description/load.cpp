@@ -172,16 +172,19 @@ void LoadContext::take_memory(const std::string& what, std::size_t bytes) const 
   if (inputs != nullptr) inputs->take_memory(what, bytes);
 }
 
-std::optional<std::string> LoadContext::table(const JsonValue& json) {
+std::optional<std::string> LoadContext::table(const std::string& name, const SourcePosition& where) {
   constexpr std::string_view kExtension = ".csv";  // which a column may follow
-  std::optional<std::string> name = read_string(json, diagnostics);
-  if (!name) return std::nullopt;
-  const std::size_t dot = name->find(kExtension);
-  if (dot == std::string::npos && !name->ends_with(".json") && !is_refractiveindex_info(*name)) return name;
-  const std::size_t end = dot == std::string::npos ? name->size() : dot + kExtension.size();
-  const auto path = file(name->substr(0, end), json.where);
+  const std::size_t dot = name.find(kExtension);
+  if (dot == std::string::npos && !name.ends_with(".json") && !is_refractiveindex_info(name)) return name;
+  const std::size_t end = dot == std::string::npos ? name.size() : dot + kExtension.size();
+  const auto path = file(name.substr(0, end), where);
   if (!path) return std::nullopt;
-  return path->string() + name->substr(end);
+  return path->string() + name.substr(end);
+}
+
+std::optional<std::string> LoadContext::table(const JsonValue& json) {
+  const std::optional<std::string> name = read_string(json, diagnostics);
+  return name ? table(*name, json.where) : std::nullopt;
 }
 
 }  // namespace description

@@ -62,6 +62,7 @@ struct LoadContext {
   void take_memory(const std::string& what, std::size_t bytes) const;
   /// A table's name as the libraries take it: a user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml` is looked
   /// for beside the scene.
+  [[nodiscard]] std::optional<std::string> table(const std::string& name, const SourcePosition& where);
   [[nodiscard]] std::optional<std::string> table(const JsonValue& name);
 };
 

@@ -47,7 +47,7 @@ const Fields& fields(Tag<Stretch>) {
   static const Fields kFields = describe<Stretch>(
       "stretch", "A step that scales, then rotates, then translates.",
       {field("scale", &Stretch::scale,
-             forms<Scale>("a scale", form<Imath::V3d>(Json::list, vector<Imath::V3d>(kSignedScale)),
+             forms<Scale>("", "a scale", form<Imath::V3d>(Json::list, vector<Imath::V3d>(kSignedScale)),
                           form<double>(Json::any, number(kScale))),
              "Factor of all lengths, or factors along x, y and z, which mirror where they are negative."),
        field("rotate", &Stretch::rotate, thing<Rotation>(), kRotateText),
@@ -69,7 +69,7 @@ Kind similarity_steps() {
 }
 
 Kind affine_steps() {
-  return list<Affine>(forms<Affine>("a step", form<Matrix>(Json::object, thing<Matrix>(), {"matrix"}),
+  return list<Affine>(forms<Affine>("", "a step", form<Matrix>(Json::object, thing<Matrix>(), {"matrix"}),
                                     form<Stretch>(Json::any, thing<Stretch>())),
                       "steps", 0, true);
 }

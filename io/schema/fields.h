@@ -137,6 +137,28 @@ struct Held<std::optional<M>> {
 };
 
 template <typename M>
+struct Held<std::shared_ptr<M>> {
+  using Value = typename Held<M>::Value;
+  static Value* open(std::shared_ptr<M>& member) { return Held<M>::open(*(member = std::make_shared<M>())); }
+  static const Value* look(const std::shared_ptr<M>& member) {
+    return member ? Held<M>::look(*member) : nullptr;
+  }
+  static void close(std::shared_ptr<M>& member) { member.reset(); }
+  static SourcePosition* where(std::shared_ptr<M>& member) {
+    return member ? Held<M>::where(*member) : nullptr;
+  }
+  static constexpr Presence kPresence = Presence::required;
+};
+
+/// Makes room for a value that stands there.
+template <typename M>
+void* open_at(M& member, const SourcePosition& where) {
+  void* value = Held<M>::open(member);
+  if (SourcePosition* kept = Held<M>::where(member)) *kept = where;
+  return value;
+}
+
+template <typename M>
 Holder holder() {
   using H = Held<M>;
   return {[](void* m) -> void* { return H::open(*static_cast<M*>(m)); },
@@ -163,13 +185,14 @@ std::ptrdiff_t offset(M T::*member) {
 template <typename V, typename A>
 Alternative alternative(Kind kind) {
   require_same(*kind.type, typeid(typename Held<A>::Value), "an alternative");
-  return {
-      std::make_shared<const Kind>(std::move(kind)),
-      [](void* variant) -> void* { return Held<A>::open(static_cast<V*>(variant)->template emplace<A>()); },
-      [](const void* variant) -> const void* {
-        const A* held = std::get_if<A>(static_cast<const V*>(variant));
-        return held ? Held<A>::look(*held) : nullptr;
-      }};
+  return {std::make_shared<const Kind>(std::move(kind)),
+          [](void* variant, const SourcePosition& where) -> void* {
+            return open_at(static_cast<V*>(variant)->template emplace<A>(), where);
+          },
+          [](const void* variant) -> const void* {
+            const A* held = std::get_if<A>(static_cast<const V*>(variant));
+            return held ? Held<A>::look(*held) : nullptr;
+          }};
 }
 
 /// A choice or form before it is known whose alternative it is.
@@ -263,28 +286,32 @@ template <typename T>
 template <typename T>
 [[nodiscard]] Kind list(Kind element, std::string_view what, std::size_t least, bool bare = false) {
   using L = std::vector<T>;
-  detail::require_same(*element.type, typeid(T), what);
+  detail::require_same(*element.type, typeid(typename detail::Held<T>::Value), what);
   return {List{std::make_shared<const Kind>(std::move(element)), what, least, bare,
-               [](void* l) -> void* { return &static_cast<L*>(l)->emplace_back(); },
+               [](void* l, const SourcePosition& where) -> void* {
+                 return detail::open_at(static_cast<L*>(l)->emplace_back(), where);
+               },
                [](const void* l) { return static_cast<const L*>(l)->size(); },
-               [](const void* l, std::size_t i) -> const void* { return &(*static_cast<const L*>(l))[i]; }},
+               [](const void* l, std::size_t i) -> const void* {
+                 return detail::Held<T>::look((*static_cast<const L*>(l))[i]);
+               }},
           &typeid(L)};
 }
 /// A std::vector of `Named<T>`.
 template <typename T>
 [[nodiscard]] Kind by_name(Kind element, std::string_view what, std::size_t least) {
   using L = std::vector<Named<T>>;
-  detail::require_same(*element.type, typeid(T), what);
+  detail::require_same(*element.type, typeid(typename detail::Held<T>::Value), what);
   return {ByName{std::make_shared<const Kind>(std::move(element)), what, least,
                  [](void* l, const std::string& name, const SourcePosition& where) -> void* {
                    Named<T>& named = static_cast<L*>(l)->emplace_back();
                    named.name = name;
                    named.where = where;
-                   return &named.value;
+                   return detail::open_at(named.value, where);
                  },
                  [](const void* l) { return static_cast<const L*>(l)->size(); },
                  [](const void* l, std::size_t i) -> const void* {
-                   return &(*static_cast<const L*>(l))[i].value;
+                   return detail::Held<T>::look((*static_cast<const L*>(l))[i].value);
                  },
                  [](const void* l, std::size_t i) -> const std::string& {
                    return (*static_cast<const L*>(l))[i].name;
@@ -297,10 +324,12 @@ template <typename A>
 [[nodiscard]] detail::LooseForm<A> form(Json json, Kind kind, std::vector<std::string_view> keys = {}) {
   return {json, std::move(keys), std::move(kind)};
 }
-/// A variant V that is told by how it is written.
+/// A variant V that is told by how it is written; `name` is that of its definition in the JSON schema, if it
+/// is to have one, and errors say that it is `expected`.
 template <typename V, typename... A>
-[[nodiscard]] Kind forms(std::string_view expected, detail::LooseForm<A>... form) {
-  return {Forms{expected,
+[[nodiscard]] Kind forms(std::string_view name, std::string_view expected, detail::LooseForm<A>... form) {
+  return {Forms{name,
+                expected,
                 {Form{form.json, std::move(form.keys), detail::alternative<V, A>(std::move(form.kind))}...}},
           &typeid(V)};
 }

@@ -224,17 +224,24 @@ struct SchemaOf {
   JsonValue operator()(const Numbers& kind) const {
     return array_of(bounded("number", kind.range, kLargestFloat), 0, 0);
   }
+  // Refers to the definition of that name, which `write` writes the first time.
+  template <typename Write>
+  JsonValue defined(std::string_view name, Write write) const {
+    if (!definitions.contains(std::string(name))) {
+      definitions[std::string(name)];  // may be referred to by what it holds
+      JsonValue schema = write();
+      definitions[std::string(name)] = std::move(schema);
+    }
+    return object_of("$ref", string(fmt::format("#/$defs/{}", name)));
+  }
   JsonValue operator()(const Thing& kind) const {
     const Fields& fields = kind.fields();
-    const std::string name(fields.name);
-    if (!definitions.contains(name)) {
-      definitions[name];  // may be referred to by what it holds
+    return defined(fields.name, [&] {
       Object schema;
       if (!fields.text.empty()) add(schema, "description", string(fields.text));
       write_object(fields, schema, definitions);
-      definitions[name] = json(std::move(schema));
-    }
-    return object_of("$ref", string(fmt::format("#/$defs/{}", name)));
+      return json(std::move(schema));
+    });
   }
   JsonValue operator()(const List& kind) const {
     JsonValue all = array_of(schema_of(*kind.element, definitions), kind.least, 0);
@@ -249,9 +256,12 @@ struct SchemaOf {
     return schema;
   }
   JsonValue operator()(const Forms& kind) const {
-    Array forms;
-    for (const Form& form : kind.forms) forms.push_back(schema_of(*form.alternative.kind, definitions));
-    return object_of("anyOf", json(std::move(forms)));
+    const auto any_of = [&] {
+      Array forms;
+      for (const Form& form : kind.forms) forms.push_back(schema_of(*form.alternative.kind, definitions));
+      return object_of("anyOf", json(std::move(forms)));
+    };
+    return kind.name.empty() ? any_of() : defined(kind.name, any_of);
   }
 };
 

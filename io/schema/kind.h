@@ -64,7 +64,7 @@ struct List {
   std::string_view what;  ///< As an error calls them, e.g. "layers".
   std::size_t least;
   bool bare;  ///< A single one may stand without brackets.
-  void* (*append)(void* list);
+  void* (*append)(void* list, const SourcePosition& where);
   std::size_t (*size)(const void* list);
   const void* (*at)(const void* list, std::size_t i);
 };
@@ -86,7 +86,7 @@ enum class Json { number, text, list, object, any };
 /// held.
 struct Alternative {
   Element kind;
-  void* (*emplace)(void* variant);
+  void* (*emplace)(void* variant, const SourcePosition& where);
   const void* (*get)(const void* variant);
 };
 /// An alternative told by how it is written: by the type of JSON, and of objects by a key they have.
@@ -97,6 +97,7 @@ struct Form {
 };
 /// A value that may be written in several ways, of which the first that fits is taken.
 struct Forms {
+  std::string_view name;      ///< That of a definition of the JSON schema; empty where it has none.
   std::string_view expected;  ///< As an error calls them, e.g. "a curve: a number, a name or an object".
   std::vector<Form> forms;
 };

@@ -50,11 +50,12 @@ bool read_group(ObjectReading& reading, const OneOf& group, void* variant) {
   const Choice* choice = choose(reading, group);
   if (choice == nullptr) return reading.chosen;
   const Alternative& alternative = choice->alternative;
-  void* value = alternative.emplace(variant);
+  const JsonValue& json = choice->inside ? *reading.json.find(choice->key) : reading.json;
+  void* value = alternative.emplace(variant, json.where);
   bool sound = false;
   if (choice->inside) {
     ++reading.known;
-    sound = read(*reading.json.find(choice->key), *alternative.kind, value, reading.diagnostics);
+    sound = read(json, *alternative.kind, value, reading.diagnostics);
   } else {
     sound = read_fields(reading, std::get<Thing>(alternative.kind->of).fields(), value);
   }
@@ -106,14 +107,14 @@ void collect_keys(const JsonValue& json, const Fields& fields, std::vector<std::
 
 bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics& diagnostics) {
   if (list.bare && !std::holds_alternative<JsonValue::Array>(json.value))
-    return read(json, *list.element, list.append(value), diagnostics);
+    return read(json, *list.element, list.append(value, json.where), diagnostics);
   const JsonValue::Array* elements = read_array(json, list.what, list.least, diagnostics);
   if (!elements) return false;
   const bool rows =
       std::holds_alternative<Vector>(list.element->of);  // of which there may be many: one fault will do
   bool sound = true;
   for (const JsonValue& element : *elements) {
-    sound = read(element, *list.element, list.append(value), diagnostics) && sound;
+    sound = read(element, *list.element, list.append(value, element.where), diagnostics) && sound;
     if (rows && !sound) return false;
   }
   return sound;
@@ -143,7 +144,7 @@ bool fits(const JsonValue& json, const Form& form) {
 bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnostics& diagnostics) {
   for (const Form& form : forms.forms)
     if (fits(json, form))
-      return read(json, *form.alternative.kind, form.alternative.emplace(value), diagnostics);
+      return read(json, *form.alternative.kind, form.alternative.emplace(value, json.where), diagnostics);
   diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.kind()));
   return false;
 }

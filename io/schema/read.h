@@ -22,4 +22,12 @@ template <typename T>
   return thing;
 }
 
+/// The same for a value of that kind, which `M` holds.
+template <typename M>
+[[nodiscard]] std::optional<M> read(const JsonValue& json, const Kind& kind, Diagnostics& diagnostics) {
+  std::optional<M> value(std::in_place);
+  if (!read(json, kind, detail::open_at(*value, json.where), diagnostics)) value.reset();
+  return value;
+}
+
 }  // namespace abbe::schema

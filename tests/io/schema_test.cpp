@@ -111,7 +111,7 @@ struct Lamp {
                    under<Power>("power", schema::number(kLength), "In watts."), beside<Ratio>("ratio")),
        field("steps", &Lamp::steps, schema::numbers({0, 5}), "Of the dimmer.").or_default(),
        field("strength", &Lamp::strength,
-             schema::forms<Strength>("a strength: a number or a name",
+             schema::forms<Strength>("strength", "a strength: a number or a name",
                                      schema::form<double>(Json::number, schema::number({0, 1})),
                                      schema::form<std::string>(Json::text, schema::text())),
              "How strong it is."),
@@ -231,6 +231,7 @@ TEST(SchemaTest, DescribesWhatItReads) {
   expect(
       R"("radius":{"type":"number","exclusiveMinimum":0,"maximum":1000000000000,"description":"Its radius."})");
   expect(R"("required":["at"])");
+  expect(R"("strength":{"$ref":"#/$defs/strength","description":"How strong it is."})");
   expect(R"("oneOf":[{"required":["bulb"]},{"required":["tube_length"]}],"dependentSchemas":{)");
   expect(R"("cold":{"anyOf":[{"required":["tube_length"]}]})");
   expect(R"("tube_length":{"required":["cold"]})");
