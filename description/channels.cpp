@@ -1,11 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "description/curve.h"
 #include "description/sensor.h"
-#include "description/values.h"
 
 namespace abbe::description {
 namespace {
@@ -13,10 +12,12 @@ namespace {
 // Above 1 by what a measurement may err, far below a percentage.
 constexpr Range kTransmittance{0, 1.05};
 constexpr Range kQuantumEfficiency{0, 10};  // above 1 for energetic photons; per cent are more
-constexpr Range kEffectiveIndex{1, 10};
 
 // As EXR files can name channels and what is said of them.
 constexpr std::size_t kLongestName = 100;
+
+constexpr int kFewestBins = 2;  // the files tell widths by the distances of centres
+constexpr int kMostBins = 1000;
 
 // Channels name the planes of an EXR, whose layers are separated by dots.
 bool is_plain(std::string_view name) {
@@ -24,14 +25,6 @@ bool is_plain(std::string_view name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
   return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), plain);
-}
-
-std::optional<ResponseKind> read_response(ObjectReader& reader, LoadContext& context) {
-  const JsonValue* json = reader.find("response");
-  if (!json) return std::nullopt;
-  const auto choice = read_choice(*json, "response", {"energy", "quantum"}, context.diagnostics);
-  if (!choice) return std::nullopt;
-  return *choice == 0 ? ResponseKind::energy : ResponseKind::quantum;
 }
 
 /// What all channels of a sensor share.
@@ -43,47 +36,39 @@ struct Detector {
 };
 
 // Puts one more filter into the stack: a curve, or one that shifts with the angle.
-bool read_filter(const JsonValue& json, FilterStack& stack, LoadContext& context) {
-  if (!json.find("effective_index") && !json.find("transmittance")) {
-    const auto curve = read_curve(json, {"filter", kTransmittance}, context);
+bool add_filter(const spec::Filter& filter, FilterStack& stack, LoadContext& context) {
+  if (const auto* fixed = std::get_if<spec::Curve>(&filter)) {
+    const auto curve = build(*fixed, {"filter", kTransmittance}, context);
     if (curve) stack.fixed = product(stack.fixed, *curve);
     return curve.has_value();
   }
-  ObjectReader reader(json, context.diagnostics);
-  const auto index = reader.require_number("effective_index", kEffectiveIndex);
-  const JsonValue* transmittance = reader.require("transmittance");
-  reader.finish();
-  if (!index || !transmittance) return false;
-  auto curve = read_curve(*transmittance, {"filter", kTransmittance}, context);
+  const auto& shifting = std::get<spec::InterferenceFilter>(filter);
+  auto curve = build(shifting.transmittance, {"filter", kTransmittance}, context);
   if (!curve) return false;
-  stack.shifting.push_back({*std::move(curve), *index});
+  stack.shifting.push_back({*std::move(curve), shifting.effective_index});
   return true;
 }
 
-std::optional<FilterStack> read_filters(const JsonValue& json, LoadContext& context) {
-  const JsonValue::Array* list = read_array(json, "filters", 0, context.diagnostics);
-  if (!list) return std::nullopt;
+std::optional<FilterStack> build_filters(const spec::Filters& filters, LoadContext& context) {
   FilterStack stack;
   bool complete = true;
-  for (const JsonValue& entry : *list) complete = read_filter(entry, stack, context) && complete;
+  for (const spec::Filter& filter : filters) complete = add_filter(filter, stack, context) && complete;
   return complete ? std::optional(std::move(stack)) : std::nullopt;
 }
 
 // Nothing after an error.
-std::optional<Detector> read_detector(ObjectReader& reader, double exposure_s, LoadContext& context) {
-  Detector detector{read_response(reader, context), {}, {}, exposure_s};
-  const JsonValue* efficiency = reader.find("quantum_efficiency");
-  const JsonValue* filters = reader.find("filters");
-  const JsonValue* lens = reader.find("lens_transmission");
+std::optional<Detector> build_detector(const spec::Sensor& said, LoadContext& context) {
+  Detector detector{{}, {}, {}, said.exposure_s};
+  if (said.response) detector.response = said.response->value;
+  const auto& efficiency = said.quantum_efficiency;
   if (efficiency && detector.response == ResponseKind::energy)
     context.diagnostics.error(efficiency->where,
                               "a quantum_efficiency makes the response quantum (got \"energy\")");
-  if (efficiency)
-    detector.quantum_efficiency = read_curve(*efficiency, {"camera", kQuantumEfficiency}, context);
-  if (filters) detector.filters = read_filters(*filters, context);
-  const auto transmission =
-      lens ? read_curve(*lens, {"filter", kTransmittance}, context) : std::optional<Curve>();
-  if ((efficiency && !detector.quantum_efficiency) || (filters && !detector.filters) ||
+  if (efficiency) detector.quantum_efficiency = build(*efficiency, {"camera", kQuantumEfficiency}, context);
+  if (said.filters) detector.filters = build_filters(said.filters->value, context);
+  const auto& lens = said.lens_transmission;
+  const auto transmission = lens ? build(*lens, {"filter", kTransmittance}, context) : std::optional<Curve>();
+  if ((efficiency && !detector.quantum_efficiency) || (said.filters && !detector.filters) ||
       (lens && !transmission))
     return std::nullopt;
   if (transmission) {
@@ -101,34 +86,34 @@ struct Own {
 };
 
 // Either a curve, or filters perhaps with an exposure time.
-std::optional<Own> read_own(const JsonValue& json, const Detector& detector, LoadContext& context) {
+std::optional<Own> build_own(const spec::ChannelResponse& said, const Detector& detector,
+                             LoadContext& context) {
   Own own{.exposure_s = detector.exposure_s};
-  const JsonValue* filters = json.find("filters");
-  if (!filters) {
-    auto curve = read_curve(json, {"filter"}, context);
+  if (const auto* response = std::get_if<spec::Curve>(&said)) {
+    auto curve = build(*response, {"filter"}, context);
     if (!curve) return std::nullopt;
     own.curve = *std::move(curve);
     return own;
   }
-  ObjectReader reader(json, context.diagnostics);
-  auto stack = read_filters(*reader.find("filters"), context);
-  own.exposure_s = reader.number_or("exposure_s", own.exposure_s, kExposure);
-  reader.finish();
+  const auto& filtered = std::get<spec::FilteredChannel>(said);
+  auto stack = build_filters(filtered.filters, context);
   if (!stack) return std::nullopt;
+  own.exposure_s = filtered.exposure_s.value_or(own.exposure_s);
   own.curve = std::exchange(stack->fixed, Curve(1.0));
   own.filters = *std::move(stack);
   return own;
 }
 
-std::optional<Channel> read_channel(const std::string& name, const JsonValue& json, const Detector& detector,
-                                    LoadContext& context) {
+std::optional<Channel> build_channel(const schema::Named<spec::ChannelResponse>& said,
+                                     const Detector& detector, LoadContext& context) {
+  const std::string& name = said.name;
   if (!is_plain(name)) {
     context.diagnostics.error(
-        json.where, fmt::format("a channel's name has up to {} letters, digits, - and _ only (got \"{}\")",
+        said.where, fmt::format("a channel's name has up to {} letters, digits, - and _ only (got \"{}\")",
                                 kLongestName, name));
     return std::nullopt;
   }
-  std::optional<Own> own = read_own(json, detector, context);
+  std::optional<Own> own = build_own(said.value, detector, context);
   if (!own) return std::nullopt;
   Curve& curve = own->curve;
   if (detector.quantum_efficiency) curve = product(curve, *detector.quantum_efficiency);
@@ -140,47 +125,78 @@ std::optional<Channel> read_channel(const std::string& name, const JsonValue& js
   return channel;
 }
 
-std::vector<Channel> read_named(const JsonValue& json, const std::optional<Detector>& detector,
-                                LoadContext& context) {
-  const auto* members = std::get_if<JsonValue::Object>(&json.value);
-  if (!members || members->empty()) {
-    context.diagnostics.error(
-        json.where, fmt::format("expected channels by name (got {})", members ? "none" : json.kind()));
-    return {};
-  }
-  std::vector<Channel> channels;
-  if (!detector) return channels;
-  for (const auto& [name, value] : *members)
-    if (auto channel = read_channel(name, value, *detector, context)) channels.push_back(std::move(*channel));
-  return channels;
-}
-
-std::vector<Channel> read_observer(const JsonValue& json, LoadContext& context) {
-  const auto* year = std::get_if<double>(&json.value);
-  const auto name = year ? std::optional(fmt::format("{}", *year)) : read_string(json, context.diagnostics);
-  if (!name) return {};
-  if (*name == "1931") return observer_channels(Observer::cie1931);
-  if (*name == "1964") return observer_channels(Observer::cie1964);
-  context.diagnostics.error(json.where,
-                            unknown_name("observer", *name, std::vector<std::string>{"1931", "1964"}));
-  return {};
-}
-
-std::vector<Channel> read_camera_channels(const JsonValue& json, const std::optional<Detector>& detector,
-                                          LoadContext& context) {
-  const std::optional<std::string> name = context.table(json);
-  if (!name || !detector) return {};
-  return load_camera(*name, json.where, context.diagnostics, detector->response)
-      .value_or(std::vector<Channel>{});
-}
-
 // Responses that others have themselves.
-void refuse(ObjectReader& reader, std::initializer_list<const char*> keys, const std::string& instead,
-            LoadContext& context) {
-  for (const char* key : keys)
-    if (const JsonValue* at = reader.find(key))
-      context.diagnostics.error(
-          at->where, fmt::format("{} goes with channels (got {}, which has its own)", key, instead));
+void refuse(const SourcePosition* at, const char* key, const char* instead, LoadContext& context) {
+  if (at != nullptr)
+    context.diagnostics.error(*at,
+                              fmt::format("{} goes with channels (got {}, which has its own)", key, instead));
+}
+template <typename T>
+const SourcePosition* place(const std::optional<T>& said) {
+  return said ? &said->where : nullptr;
+}
+
+std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& context) {
+  const double bins = (said.to_nm - said.from_nm) / said.step_nm;
+  if (bins > kFewestBins - 0.5 && bins < kMostBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
+    return SpectralBins{said.from_nm, said.step_nm, static_cast<int>(std::round(bins))};
+  context.diagnostics.error(
+      said.where,
+      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
+                  said.step_nm, said.from_nm, said.to_nm, kFewestBins, kMostBins));
+  return std::nullopt;
+}
+
+/// Makes the channels of each way to say what pixels count. Those of a faulty detector are left out.
+struct ChannelBuilder {
+  const spec::Sensor& said;
+  const std::optional<Detector>& detector;
+  Sensor& sensor;
+  LoadContext& context;
+
+  void operator()(std::monostate) const {}
+  void operator()(const spec::Channels& channels) const {
+    for (const auto& named : channels.value)
+      if (detector)
+        if (auto channel = build_channel(named, *detector, context))
+          sensor.channels.push_back(*std::move(channel));
+  }
+  void operator()(const spec::MeasuredCamera& camera) const {
+    refuse(place(said.quantum_efficiency), "quantum_efficiency", "camera", context);
+    const auto name = context.table(camera.value, camera.where);
+    if (name && detector)
+      sensor.channels = load_camera(*name, camera.where, context.diagnostics, detector->response)
+                            .value_or(std::vector<Channel>{});
+  }
+  void operator()(const spec::StandardObserver& observer) const {
+    refuse(place(said.response), "response", "observer", context);
+    refuse(place(said.quantum_efficiency), "quantum_efficiency", "observer", context);
+    sensor.channels = observer_channels(observer.value);
+  }
+  void operator()(const spec::Bins& bins) const {
+    refuse(place(said.response), "response", "spectral", context);
+    refuse(place(said.quantum_efficiency), "quantum_efficiency", "spectral", context);
+    refuse(place(said.filters), "filters", "spectral", context);
+    refuse(place(said.lens_transmission), "lens_transmission", "spectral", context);
+    refuse(place(said.mosaic), "mosaic", "spectral", context);
+    sensor.spectral = build_bins(bins, context);
+    if (sensor.spectral) sensor.channels = spectral_channels(*sensor.spectral);
+  }
+};
+
+// Where a channel is said: by its own name, or with all others.
+const SourcePosition& place_of(const Channel& channel, const spec::Sensor& said) {
+  if (const auto* channels = std::get_if<spec::Channels>(&said.counts))
+    for (const auto& named : channels->value)
+      if (named.name == channel.name) return named.where;
+  return std::visit(
+      [&](const auto& counts) -> const SourcePosition& {
+        if constexpr (requires { counts.where; })
+          return counts.where;
+        else
+          return said.where;
+      },
+      said.counts);
 }
 
 void require_response(const Channel& channel, const SourcePosition& where, LoadContext& context) {
@@ -191,30 +207,13 @@ void require_response(const Channel& channel, const SourcePosition& where, LoadC
 
 }  // namespace
 
-void read_channels(ObjectReader& reader, Sensor& sensor, LoadContext& context) {
-  const auto key = reader.exactly_one({"channels", "camera", "observer", "spectral"});
-  const std::optional<Detector> detector = read_detector(reader, sensor.exposure_s, context);
-  if (!key) return;
-  const JsonValue& json = *reader.find(*key);
-  if (*key == "channels") {
-    sensor.channels = read_named(json, detector, context);
-  } else if (*key == "camera") {
-    refuse(reader, {"quantum_efficiency"}, *key, context);
-    sensor.channels = read_camera_channels(json, detector, context);
-  } else if (*key == "spectral") {
-    refuse(reader, {"response", "quantum_efficiency", "filters", "lens_transmission", "mosaic"}, *key,
-           context);
-    sensor.spectral = read_spectral(json, context);
-    if (sensor.spectral) sensor.channels = spectral_channels(*sensor.spectral);
-  } else {
-    refuse(reader, {"response", "quantum_efficiency"}, *key, context);
-    sensor.channels = read_observer(json, context);
-  }
+void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
+  const std::optional<Detector> detector = build_detector(said, context);
+  std::visit(ChannelBuilder{said, detector, sensor, context}, said.counts);
   for (Channel& channel : sensor.channels) {
     if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
     limit_angles(channel, 0);
-    const JsonValue* own = json.find(channel.name);
-    require_response(channel, own ? own->where : json.where, context);
+    require_response(channel, place_of(channel, said), context);
   }
 }
 

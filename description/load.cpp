@@ -122,7 +122,8 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
   const JsonValue* materials = reader.find("materials");
   Sensor sensor;
   if (const JsonValue* json = reader.require("sensor")) {
-    sensor = read_sensor(*json, camera && camera->find("irradiance_probe"), context);
+    if (const auto said = schema::read<spec::Sensor>(*json, context.diagnostics))
+      sensor = build(*said, camera && camera->find("irradiance_probe"), context);
     scene.sensor_text = to_text(*json);
   }
   if (camera)

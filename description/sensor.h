@@ -1,15 +1,66 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
-#include "description/load_context.h"
-#include "io/object_reader.h"
+#include "description/curve.h"
 #include "scene/scene.h"
+#include "sensor/readout/readout_json.h"
+#include "spectral/colorimetry.h"
+
+namespace abbe::spec {
+
+/// A filter whose transmittance shifts with the angle of incidence.
+struct InterferenceFilter {
+  Curve transmittance;
+  double effective_index = 1;
+};
+using Filter = std::variant<Curve, InterferenceFilter>;
+using Filters = std::vector<Filter>;
+/// A channel behind filters of its own.
+struct FilteredChannel {
+  Filters filters;
+  std::optional<double> exposure_s;  ///< The sensor's when absent.
+};
+using ChannelResponse = std::variant<Curve, FilteredChannel>;
+
+struct Channels : schema::Located<std::vector<schema::Named<ChannelResponse>>> {};
+struct MeasuredCamera : schema::Located<std::string> {};
+struct StandardObserver : schema::Located<Observer> {};
+/// Bins of wavelength that fill a range.
+struct Bins {
+  double from_nm = 0;
+  double to_nm = 0;
+  double step_nm = 0;
+  SourcePosition where;
+};
+
+/// The film: its pixels, and what they count.
+struct Sensor {
+  std::optional<schema::Located<std::array<std::int64_t, 2>>> resolution;
+  double pixel_pitch_um = 4.5;
+  double exposure_s = 1;
+  double fill_factor = 1;
+  std::variant<std::monostate, Channels, MeasuredCamera, StandardObserver, Bins> counts;
+  std::optional<schema::Located<ResponseKind>> response;
+  std::optional<Curve> quantum_efficiency;
+  std::optional<schema::Located<Filters>> filters;
+  std::optional<Curve> lens_transmission;
+  std::optional<schema::Located<std::vector<schema::Located<std::vector<schema::Located<std::string>>>>>>
+      mosaic;
+  std::optional<schema::Located<Readout>> readout;
+  SourcePosition where;
+};
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Sensor>);
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
-/// The film: its pixels, and what they count.
+/// The sensor ready to be used.
 struct Sensor {
   int width = 1;
   int height = 1;
@@ -21,14 +72,12 @@ struct Sensor {
   std::optional<Mosaic> mosaic;
   std::optional<SpectralBins> spectral;
 };
-/// `probe`: the sensor of an irradiance probe has one pixel unless it says otherwise.
-[[nodiscard]] Sensor read_sensor(const JsonValue& json, bool probe, LoadContext& context);
+/// Reports what no table can say. `probe`: the sensor of an irradiance probe has one pixel unless it says
+/// otherwise.
+[[nodiscard]] Sensor build(const spec::Sensor& sensor, bool probe, LoadContext& context);
 
-/// Bins of wavelength instead of channels.
-[[nodiscard]] std::optional<SpectralBins> read_spectral(const JsonValue& json, const LoadContext& context);
-
-/// What the pixels of a sensor count, with its filters; the sensor's exposure is that of channels without
-/// their own.
-void read_channels(ObjectReader& reader, Sensor& sensor, LoadContext& context);
+/// What the pixels of a sensor count, with its filters: its channels or its bins; the sensor's exposure is
+/// that of channels without their own.
+void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context);
 
 }  // namespace abbe::description

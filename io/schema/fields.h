@@ -253,8 +253,8 @@ template <typename I>
   return {Text{}, &typeid(std::string)};
 }
 template <typename E>
-[[nodiscard]] Kind word(std::string_view what, std::vector<const char*> names) {
-  return {Word{what, std::move(names),
+[[nodiscard]] Kind word(std::string_view what, std::vector<const char*> names, bool numbers = false) {
+  return {Word{what, std::move(names), numbers,
                [](void* value, std::size_t to) { *static_cast<E*>(value) = static_cast<E>(to); },
                [](const void* value) { return static_cast<std::size_t>(*static_cast<const E*>(value)); }},
           &typeid(E)};

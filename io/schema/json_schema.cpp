@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/schema/write.h"
+#include "io/text.h"
 
 namespace abbe::schema {
 namespace {
@@ -210,7 +211,10 @@ struct SchemaOf {
   JsonValue operator()(const Text&) const { return of_type("string"); }
   JsonValue operator()(const Word& kind) const {
     Array names;
-    for (const char* name : kind.names) names.push_back(string(name));
+    for (const char* name : kind.names) {
+      names.push_back(string(name));
+      if (kind.numbers) names.push_back(json(parse_number(name).value()));
+    }
     return object_of("enum", json(std::move(names)));
   }
   JsonValue operator()(const Vector& kind) const {

@@ -38,6 +38,7 @@ struct Text {};
 struct Word {
   std::string_view what;  ///< As an error calls it, e.g. "filter".
   std::vector<const char*> names;
+  bool numbers;  ///< A number stands for its digits as well.
   void (*set)(void* value, std::size_t to);
   std::size_t (*get)(const void* value);
 };

@@ -149,20 +149,38 @@ bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnosti
   return false;
 }
 
+// Integers, each of which is reported at its own place.
+bool read_integers(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
+  if (!read_numbers(json, vector.count, Range::any(), diagnostics)) return false;
+  bool sound = true;
+  for (std::size_t i = 0; i < vector.count; ++i) {
+    const auto read = read_integer(std::get<JsonValue::Array>(json.value)[i], vector.range, diagnostics);
+    if (read) vector.set(value, i, static_cast<double>(*read));
+    sound = sound && read;
+  }
+  return sound;
+}
+
 bool read_vector(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
+  if (vector.whole) return read_integers(json, vector, value, diagnostics);
   const auto numbers = read_numbers(json, vector.count, vector.range, diagnostics);
   if (!numbers) return false;
-  for (std::size_t i = 0; i < vector.count; ++i) {
-    vector.set(value, i, (*numbers)[i]);
-    if (!vector.whole || vector.get(value, i) == (*numbers)[i]) continue;
-    diagnostics.error(json.where, fmt::format("expected an integer (got {})", (*numbers)[i]));
-    return false;
-  }
+  for (std::size_t i = 0; i < vector.count; ++i) vector.set(value, i, (*numbers)[i]);
   const auto is_zero = [](double x) { return x == 0; };
   if (!vector.direction || !std::all_of(numbers->begin(), numbers->end(), is_zero)) return true;
   diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
                                             fmt::join(std::vector<int>(vector.count, 0), ", ")));
   return false;
+}
+
+// A word, or a number in place of its digits.
+bool read_word(const JsonValue& json, const Word& word, void* value, Diagnostics& diagnostics) {
+  const auto* number = word.numbers ? std::get_if<double>(&json.value) : nullptr;
+  const auto read =
+      number ? read_choice({fmt::format("{}", *number), json.where}, word.what, word.names, diagnostics)
+             : read_choice(json, word.what, word.names, diagnostics);
+  if (read) word.set(value, *read);
+  return read.has_value();
 }
 
 template <typename T>
@@ -187,11 +205,7 @@ struct ReadValue {
   }
   bool operator()(const Boolean&) const { return store(read_boolean(json, diagnostics), value); }
   bool operator()(const Text&) const { return store(read_string(json, diagnostics), value); }
-  bool operator()(const Word& kind) const {
-    const auto read = read_choice(json, kind.what, kind.names, diagnostics);
-    if (read) kind.set(value, *read);
-    return read.has_value();
-  }
+  bool operator()(const Word& kind) const { return read_word(json, kind, value, diagnostics); }
   bool operator()(const Vector& kind) const { return read_vector(json, kind, value, diagnostics); }
   bool operator()(const Numbers& kind) const {
     return store(read_numbers(json, 0, kind.range, diagnostics), value);

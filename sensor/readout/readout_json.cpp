@@ -2,53 +2,91 @@
 
 #include <algorithm>
 
-#include "io/object_reader.h"
+#include <fmt/format.h>
+
+#include "io/schema/read.h"
 
 namespace abbe {
 namespace {
 
 constexpr Range kElectrons{0, 1e12};
+constexpr Range kHeldElectrons{0, kElectrons.high, true, false};
 constexpr Range kGain{0, 1e9, true, false};
 constexpr int kMostBits = 16;  // as the files that hold raw data
 
-std::optional<MonotoneCurve> read_response_curve(const JsonValue& json, Diagnostics& diagnostics) {
-  const auto* array = std::get_if<JsonValue::Array>(&json.value);
+std::optional<MonotoneCurve> build_curve(const schema::Located<std::vector<std::array<double, 2>>>& said,
+                                         Diagnostics& diagnostics) {
   std::vector<MonotoneCurve::Point> points;
-  for (const JsonValue& point : array ? *array : JsonValue::Array{}) {
-    const auto pair = read_numbers(point, 2, Range::unit(), diagnostics);
-    if (!pair) return std::nullopt;
-    points.push_back({pair->front(), pair->back()});
-  }
+  for (const auto& [in, out] : said.value) points.push_back({in, out});
   const auto falls = [](const auto& a, const auto& b) { return !(a.in < b.in && a.out < b.out); };
   const auto is = [](const MonotoneCurve::Point& p, double x) { return p.in == x && p.out == x; };
   if (points.size() >= 2 && is(points.front(), 0) && is(points.back(), 1) &&
       std::adjacent_find(points.begin(), points.end(), falls) == points.end())
     return MonotoneCurve(std::move(points));
-  diagnostics.error(json.where, "expected points [in, out] that increase in both, from [0, 0] to [1, 1]");
+  diagnostics.error(said.where, "expected points [in, out] that increase in both, from [0, 0] to [1, 1]");
   return std::nullopt;
 }
 
 }  // namespace
 
+static const schema::Fields& fields(schema::Tag<Readout>) {
+  using namespace schema;
+  static const Fields kFields = describe<Readout>(
+      "readout_numbers", "",
+      {field("gain_e_per_dn", &Readout::gain_e_per_dn, number(kGain), "Electrons per digital number."),
+       field("bits", &Readout::bits, integer<int>({1, kMostBits}), "Bits of the codes."),
+       field("full_well_e", &Readout::full_well_e, number(kHeldElectrons),
+             "Electrons a pixel holds, unlimited when absent.")
+           .or_default(),
+       field("read_noise_e", &Readout::read_noise_e, number(kElectrons),
+             "Standard deviation of the read noise.")
+           .or_default(),
+       field("dark_e_per_s", &Readout::dark_e_per_s, number(kElectrons), "Mean dark current.").or_default(),
+       field("prnu_percent", &Readout::prnu_percent, number({0, 100}),
+             "Standard deviation of the pixels' sensitivities, in per cent of their mean.")
+           .or_default(),
+       field("dsnu_e", &Readout::dsnu_e, number(kElectrons), "Standard deviation of the pixels' offsets.")
+           .or_default(),
+       field("serial", &Readout::serial, integer<std::uint64_t>({0, kLargestInteger}),
+             "Which specimen of the sensor: it fixes the patterns of PRNU and DSNU, the same in every "
+             "exposure.")
+           .or_default()});
+  return kFields;
+}
+
+const schema::Fields& spec::fields(schema::Tag<Readout>) {
+  using namespace schema;
+  using Point = std::array<double, 2>;
+  static const Fields kFields =
+      describe<Readout>("readout", "How electrons become digital numbers, for channels that count electrons.",
+                        {lent(&Readout::numbers),
+                         field("offset_dn", &Readout::offset_dn, number({0, 65535, false, true}),
+                               "Code of a pixel without electrons, less than 2^bits - 1.")
+                             .or_default(),
+                         field("response_curve", &Readout::response_curve,
+                               list<Point>(vector<Point>(Range::unit()), "points [in, out]", 0),
+                               "Points [signal, code] in shares of the codes above the offset, linear "
+                               "between them, increasing from [0, 0] to [1, 1].")});
+  return kFields;
+}
+
+std::optional<Readout> build(const spec::Readout& said, Diagnostics& diagnostics) {
+  Readout readout;  // assigned, since GCC 12 takes the curve of a copy for uninitialised
+  readout = said.numbers;
+  readout.offset_dn = said.offset_dn.value;
+  if (said.response_curve) readout.response_curve = build_curve(*said.response_curve, diagnostics);
+  const Range codes{0, readout.highest_code(), false, true};
+  if (!codes.contains(readout.offset_dn))
+    diagnostics.error(said.offset_dn.where,
+                      fmt::format("expected a number (got {}, allowed {})", readout.offset_dn, codes.text()));
+  else if (!said.response_curve || readout.response_curve)
+    return readout;
+  return std::nullopt;
+}
+
 std::optional<Readout> read_readout(const JsonValue& json, Diagnostics& diagnostics) {
-  ObjectReader reader(json, diagnostics);
-  Readout readout;
-  readout.gain_e_per_dn = reader.require_number("gain_e_per_dn", kGain).value_or(readout.gain_e_per_dn);
-  if (const JsonValue* bits = reader.require("bits"))
-    readout.bits = static_cast<int>(read_integer(*bits, {1, kMostBits}, diagnostics).value_or(readout.bits));
-  readout.offset_dn = reader.number_or("offset_dn", 0, {0, readout.highest_code(), false, true});
-  readout.full_well_e =
-      reader.number_or("full_well_e", readout.full_well_e, {0, kElectrons.high, true, false});
-  readout.read_noise_e = reader.number_or("read_noise_e", 0, kElectrons);
-  readout.dark_e_per_s = reader.number_or("dark_e_per_s", 0, kElectrons);
-  readout.prnu_percent = reader.number_or("prnu_percent", 0, {0, 100});
-  readout.dsnu_e = reader.number_or("dsnu_e", 0, kElectrons);
-  if (const auto n = reader.integer("serial", {0, 9007199254740992.0}))
-    readout.serial = static_cast<std::uint64_t>(*n);
-  if (const JsonValue* curve = reader.find("response_curve"))
-    readout.response_curve = read_response_curve(*curve, diagnostics);
-  reader.finish();
-  return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(readout));
+  const auto readout = schema::read<spec::Readout>(json, diagnostics);
+  return readout ? build(*readout, diagnostics) : std::nullopt;
 }
 
 }  // namespace abbe

@@ -79,7 +79,8 @@ TEST_F(ReadoutDescription, FaultsAreNamed) {
         std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0], [1, 0.9]]})",
                   "from [0, 0] to [1, 1]"},
         std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0]]})", "expected points"},
-        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": 2})", "expected points"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": 2})",
+                  "response_curve: error: expected an array of points [in, out] (got a number)"},
         std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0], [1, 1, 1]]})",
                   "wrong number of elements"},
         std::pair{R"(3)", "/sensor/readout: error: expected an object"}}) {
