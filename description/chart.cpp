@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "description/curve.h"
 #include "description/shape.h"
-#include "description/values.h"
 #include "spectral/chart.h"
 
 namespace abbe::description {
@@ -77,12 +75,12 @@ std::uint32_t diffuse_material(const std::string& name, Curve reflectance, LoadC
   return known->second;
 }
 
-bool check_reflectances(const Chart& chart, const JsonValue& at, const LoadContext& context) {
+bool check_reflectances(const Chart& chart, const SourcePosition& at, const LoadContext& context) {
   for (const Patch& patch : chart.patches) {
     if (patch.reflectance.min() >= 0 && patch.reflectance.max() <= 1) continue;
     context.diagnostics.error(
-        at.where, fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed [0, 1])",
-                              patch.name, patch.reflectance.min(), patch.reflectance.max()));
+        at, fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed [0, 1])", patch.name,
+                        patch.reflectance.min(), patch.reflectance.max()));
     return false;
   }
   return true;
@@ -90,26 +88,22 @@ bool check_reflectances(const Chart& chart, const JsonValue& at, const LoadConte
 
 }  // namespace
 
-std::vector<NamedShape> read_chart(const JsonValue& json, const std::string& name, LoadContext& context,
-                                   Scene& scene) {
-  ObjectReader reader(json, context.diagnostics);
-  const JsonValue* table = reader.require("reflectances");
-  const auto corner = read_point(reader, "corner", context);
-  const auto edge_u = read_point(reader, "edge_u", context);
-  const auto edge_v = read_point(reader, "edge_v", context);
-  const JsonValue* dark = reader.find("surround");
-  reader.finish();
-  const auto surround = dark ? read_curve(*dark, {"reflectance", Range::unit()}, context) : Curve(kSurround);
-  const auto file = table ? context.table(*table) : std::nullopt;
-  const auto chart = file ? load_chart(*file, table->where, context.diagnostics) : std::nullopt;
-  if (!chart || !corner || !edge_u || !edge_v || !surround || !check_reflectances(*chart, *table, context))
-    return {};
-  if (edge_u->cross(*edge_v).length() == 0) {
-    context.diagnostics.error(json.where, "edge_u and edge_v are parallel: a chart of zero area");
+std::vector<NamedShape> build(const spec::Chart& said, const std::string& name, LoadContext& context,
+                              Scene& scene) {
+  const auto surround =
+      said.surround ? build(*said.surround, {"reflectance", Range::unit()}, context) : Curve(kSurround);
+  const SourcePosition& where = said.reflectances.where;
+  const auto file = context.table(said.reflectances.value, where);
+  const auto chart = file ? load_chart(*file, where, context.diagnostics) : std::nullopt;
+  if (!chart || !surround || !check_reflectances(*chart, where, context)) return {};
+  const Imath::V3d edge_u = said.edge_u * context.unit_m;
+  const Imath::V3d edge_v = said.edge_v * context.unit_m;
+  if (edge_u.cross(edge_v).length() == 0) {
+    context.diagnostics.error(said.where, "edge_u and edge_v are parallel: a chart of zero area");
     return {};
   }
   const std::size_t patches = chart->patches.size();
-  const Grid grid{{*corner, *edge_u, *edge_v}, (patches + kColumns - 1) / kColumns};
+  const Grid grid{{said.corner * context.unit_m, edge_u, edge_v}, (patches + kColumns - 1) / kColumns};
   std::vector<NamedShape> parts;
   for (std::size_t i = 0; i < patches; ++i) {
     const Patch& patch = chart->patches[i];

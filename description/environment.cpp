@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "description/light.h"
-#include "description/values.h"
 #include "io/picture.h"
 
 namespace abbe::description {
@@ -22,24 +21,21 @@ std::optional<std::array<const ImageChannel*, 3>> find_planes(const Image& image
 
 }  // namespace
 
-std::optional<Sky> read_sky(const JsonValue& json, LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const JsonValue* name_value = reader.find("image");
-  const auto name = name_value ? read_string(*name_value, context.diagnostics) : std::nullopt;
-  const auto up = reader.find("up") ? read_direction(reader, "up", context) : Imath::V3d(0, 0, 1);
-  const double turn = reader.number_or("rotate_deg", 0, kValue);
-  reader.finish();
-  if (!name_value) {
-    for (const char* key : {"up", "rotate_deg"})
-      if (const JsonValue* given = json.find(key))
+std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
+  if (!said.image) {
+    const auto refuse = [&](const char* key, const auto& given) {
+      if (given)
         context.diagnostics.error(given->where, fmt::format("{} turns an image, and there is none", key));
+    };
+    refuse("up", said.up);
+    refuse("rotate_deg", said.rotate_deg);
     return Sky{};
   }
-  const auto path = name ? context.file(*name, name_value->where) : std::nullopt;
-  if (!path || !up) return std::nullopt;
-  const auto refuse = [&](const std::string& what) {
-    context.diagnostics.error(name_value->where, fmt::format("environment \"{}\": {}", *name, what),
-                              ErrorCode::input);
+  const auto path = context.file(said.image->value, said.image->where);
+  if (!path) return std::nullopt;
+  const auto refuse = [&context, &name = said.image->value,
+                       &where = said.image->where](const std::string& what) {
+    context.diagnostics.error(where, fmt::format("environment \"{}\": {}", name, what), ErrorCode::input);
     return std::nullopt;
   };
   const std::string extension = path->extension().string();
@@ -51,23 +47,24 @@ std::optional<Sky> read_sky(const JsonValue& json, LoadContext& context) {
   if (!planes) return refuse("no channels R, G, B or Y");
   // Texels, and the cumulative distribution by which they are drawn.
   context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
+  const Imath::V3d up = said.up ? said.up->value : Imath::V3d(0, 0, 1);
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
-          environment_frame(*up, turn)};
+          environment_frame(up.normalized(), said.rotate_deg ? said.rotate_deg->value : 0)};
   std::size_t negative = 0;
   for (std::size_t i = 0; i < image.pixels(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const float value = (*planes)[c]->values[i];
-      if (!kPower.contains(std::abs(static_cast<double>(value))))
+      if (!spec::kPower.contains(std::abs(static_cast<double>(value))))
         return refuse(fmt::format("texel ({}, {}) (got {}, allowed {})",
                                   i % static_cast<std::size_t>(image.width),
-                                  i / static_cast<std::size_t>(image.width), value, kPower.text()));
+                                  i / static_cast<std::size_t>(image.width), value, spec::kPower.text()));
       negative += value < 0;
       sky.texels[i][c] = std::max(value, 0.0F);
     }
   if (negative > 0)
     context.diagnostics.warning(
-        name_value->where,
-        fmt::format("environment \"{}\": negative values taken as 0: {}", *name, negative));
+        said.image->where,
+        fmt::format("environment \"{}\": negative values taken as 0: {}", said.image->value, negative));
   return sky;
 }
 

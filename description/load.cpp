@@ -14,7 +14,6 @@
 #include "description/checks.h"
 #include "description/light.h"
 #include "description/material.h"
-#include "description/object.h"
 #include "description/render.h"
 #include "description/sensor.h"
 #include "description/shape.h"
@@ -137,9 +136,19 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
   scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
   for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
   if (materials) read_materials(*materials, context, scene);
-  if (const JsonValue* json = reader.find("objects")) read_objects(*json, context, scene);
-  if (const JsonValue* json = reader.find("shapes")) read_shapes(*json, context, scene);
-  if (const JsonValue* json = reader.find("lights")) read_lights(*json, context, scene);
+  // What is sound of them is built all the same, for its complaints.
+  std::vector<schema::Named<spec::Object>> objects;
+  std::vector<spec::Shape> shapes;
+  std::vector<spec::Light> lights;
+  const auto read = [&](const char* key, const schema::Kind& kind, void* list) {
+    if (const JsonValue* json = reader.find(key)) (void)schema::read(*json, kind, list, context.diagnostics);
+  };
+  read("objects", spec::objects(), &objects);
+  read("shapes", spec::shapes(), &shapes);
+  read("lights", spec::lights(), &lights);
+  build_objects(objects, context, scene);
+  build_shapes(shapes, context, scene);
+  build_lights(lights, context, scene);
   if (const JsonValue* json = reader.find("render"))
     if (const auto render = schema::read<spec::Render>(*json, context.diagnostics))
       scene.render = build(*render, context.diagnostics);

@@ -80,19 +80,18 @@ void read_materials(const JsonValue& json, LoadContext& context, Scene& scene) {
   }
 }
 
-std::optional<std::uint32_t> find_material(const JsonValue& json, LoadContext& context, const Scene& scene) {
-  const std::optional<std::string> name = read_string(json, context.diagnostics);
-  if (!name) return std::nullopt;
-  if (const auto found = context.materials.find(*name); found != context.materials.end())
+std::optional<std::uint32_t> find_material(const schema::Located<std::string>& name, LoadContext& context,
+                                           const Scene& scene) {
+  if (const auto found = context.materials.find(name.value); found != context.materials.end())
     return found->second;
   std::vector<std::string> names;
   for (const Material& material : scene.materials) names.push_back(material.name);
-  context.diagnostics.error(json.where, unknown_name("material", *name, names));
+  context.diagnostics.error(name.where, unknown_name("material", name.value, names));
   return std::nullopt;
 }
 
-std::uint32_t add_file_material(const FileMaterial& material, const std::string& file, const JsonValue& at,
-                                LoadContext& context, Scene& scene) {
+std::uint32_t add_file_material(const FileMaterial& material, const std::string& file,
+                                const SourcePosition& at, LoadContext& context, Scene& scene) {
   const std::string name = file + ":" + material.name;
   const auto [known, added] =
       context.materials.emplace(name, static_cast<std::uint32_t>(scene.materials.size()));
@@ -104,8 +103,8 @@ std::uint32_t add_file_material(const FileMaterial& material, const std::string&
     scene.materials.push_back({name, DiffuseMaterial{rgb_spectrum(material.color)}});
   if (!material.lost.empty())
     context.diagnostics.warning(
-        at.where, fmt::format("material \"{}\" of \"{}\": {} {} not represented", material.name, file,
-                              fmt::join(material.lost, ", "), material.lost.size() == 1 ? "is" : "are"));
+        at, fmt::format("material \"{}\" of \"{}\": {} {} not represented", material.name, file,
+                        fmt::join(material.lost, ", "), material.lost.size() == 1 ? "is" : "are"));
   return known->second;
 }
 

@@ -6,6 +6,28 @@
 #include "description/material_readers.h"
 #include "description/values.h"
 #include "io/npy.h"
+#include "io/schema/read.h"
+
+namespace abbe::spec {
+
+/// Densities at the nodes of a grid.
+struct Grid {
+  schema::Located<std::string> densities;
+  Imath::V3d from{0, 0, 0};
+  Imath::V3d to{0, 0, 0};
+  SourcePosition where;
+};
+static const schema::Fields& fields(schema::Tag<Grid>) {
+  using namespace schema;
+  static const Fields kFields = describe<Grid>(
+      "grid", "Densities that multiply absorption and scattering.",
+      {field("densities", &Grid::densities, text(), "A NumPy file of axes z, y, x."),
+       field("from", &Grid::from, point(), "Position of the first node."),
+       field("to", &Grid::to, point(), "Position of the last node, beyond the first along x, y and z.")});
+  return kFields;
+}
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
@@ -32,19 +54,19 @@ std::optional<Curve> read_coefficient(const JsonValue* json, LoadContext& contex
   return read_curve(*json, {"filter", kPower}, context);
 }
 
-std::optional<DensityGrid> read_densities(const JsonValue& json, LoadContext& context) {
-  const auto name = read_string(json, context.diagnostics);
-  const auto path = name ? context.file(*name, json.where) : std::nullopt;
+std::optional<DensityGrid> build_densities(const schema::Located<std::string>& said, LoadContext& context) {
+  const SourcePosition& where = said.where;
+  const auto path = context.file(said.value, where);
   if (!path) return std::nullopt;
   NumberArray array;
   try {
     array = read_npy(*path, context.inputs);
   } catch (const Error& e) {
-    context.diagnostics.error(json.where, e.what(), e.code);
+    context.diagnostics.error(where, e.what(), e.code);
     return std::nullopt;
   }
   const auto fault = [&](std::string_view what) {
-    context.diagnostics.error(json.where, fmt::format("\"{}\" {}", *name, what), ErrorCode::input);
+    context.diagnostics.error(where, fmt::format("\"{}\" {}", said.value, what), ErrorCode::input);
     return std::nullopt;
   };
   if (array.shape.size() != 3)
@@ -58,20 +80,16 @@ std::optional<DensityGrid> read_densities(const JsonValue& json, LoadContext& co
                      std::move(array.values)};
 }
 
-std::optional<PlacedGrid> read_grid(const JsonValue& json, LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const JsonValue* densities = reader.require("densities");
-  const auto from = read_point(reader, "from", context);
-  const auto to = read_point(reader, "to", context);
-  reader.finish();
-  if (!densities || !from || !to) return std::nullopt;
-  if (!(to->x > from->x && to->y > from->y && to->z > from->z)) {
-    context.diagnostics.error(json.where, "the grid's `to` must lie beyond its `from` along x, y and z");
+std::optional<PlacedGrid> build(const spec::Grid& said, LoadContext& context) {
+  const Imath::V3d from = said.from * context.unit_m;
+  const Imath::V3d to = said.to * context.unit_m;
+  if (!(to.x > from.x && to.y > from.y && to.z > from.z)) {
+    context.diagnostics.error(said.where, "the grid's `to` must lie beyond its `from` along x, y and z");
     return std::nullopt;
   }
-  auto grid = read_densities(*densities, context);
+  auto grid = build_densities(said.densities, context);
   if (!grid) return std::nullopt;
-  return PlacedGrid{std::make_shared<const DensityGrid>(std::move(*grid)), *from, *to};
+  return PlacedGrid{std::make_shared<const DensityGrid>(std::move(*grid)), from, to};
 }
 
 }  // namespace
@@ -92,7 +110,8 @@ std::optional<MaterialModel> read_medium(const JsonValue& json, LoadContext& con
   reader.finish();
   if (!filling) return std::nullopt;
   if (grid) {
-    filling->grid = read_grid(*grid, context);
+    const auto said = schema::read<spec::Grid>(*grid, context.diagnostics);
+    if (said) filling->grid = build(*said, context);
     if (!filling->grid) return std::nullopt;
   }
   return MediumMaterial{std::move(*filling)};

@@ -16,7 +16,9 @@ constexpr double kSlack = 1e-9;  // thirds written to ten digits may add up to 1
 // The material of that name, if a mixture may be made of it.
 std::shared_ptr<const Material> mixable_material(const JsonValue& name, LoadContext& context,
                                                  const Scene& scene) {
-  const auto number = find_material(name, context, scene);
+  const auto words = read_string(name, context.diagnostics);
+  if (!words) return nullptr;
+  const auto number = find_material({{*words}, name.where}, context, scene);
   if (!number) return nullptr;
   const Material& material = scene.materials[*number];
   const char* fault = nullptr;

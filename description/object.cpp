@@ -1,47 +1,22 @@
-#include "description/object.h"
-
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "description/shape.h"
-#include "description/transform.h"
-#include "description/values.h"
-#include "io/schema/read.h"
 #include "scene/shapes/placed.h"
-
-namespace abbe::spec {
-
-const schema::Fields& fields(schema::Tag<Instance>) {
-  static const schema::Fields kFields =
-      schema::describe<Instance>("instance", "An object placed in the scene.",
-                                 {schema::field("of", &Instance::of, schema::text(), "Name of the object."),
-                                  schema::field("transform", &Instance::transform, affine_steps(),
-                                                "Where it is placed, by steps in order.")
-                                      .or_default()});
-  return kFields;
-}
-
-}  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
 
-void read_object_shape(const JsonValue& json, std::size_t number, LoadContext& context, Scene& scene,
-                       std::vector<NamedShape>& parts) {
-  ObjectReader reader(json, context.diagnostics);
-  const std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
-  if (const JsonValue* instance = json.find("instance")) {
-    context.diagnostics.error(instance->where, "an object holds shapes, not instances");
-    return;
-  }
-  if (const JsonValue* emission = reader.find("emission"))
+void build_object_shape(const spec::Shape& shape, const std::string& name, LoadContext& context, Scene& scene,
+                        std::vector<NamedShape>& parts) {
+  if (const auto* instance = std::get_if<spec::Instance>(&shape.kind))
+    return context.diagnostics.error(instance->where, "an object holds shapes, not instances");
+  if (const auto* chart = std::get_if<spec::ChartShape>(&shape.kind))
+    return context.diagnostics.error(chart->chart.where, "an object holds shapes, not charts");
+  if (const spec::Emission* emission = emission_of(shape))
     context.diagnostics.error(emission->where, "a shape of an object cannot emit");
-  const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism"});
-  if (!key) return;
-  for (NamedShape& part : read_named_shapes(reader, *key, name, context, scene))
-    parts.push_back(std::move(part));
-  reader.finish();
+  for (NamedShape& part : build_parts(shape, name, context, scene)) parts.push_back(std::move(part));
 }
 
 // Around the middle of the object, where floats are finest.
@@ -59,35 +34,26 @@ Object centred(std::vector<NamedShape> parts) {
 
 }  // namespace
 
-void read_objects(const JsonValue& json, LoadContext& context, Scene& scene) {
-  const auto* members = std::get_if<JsonValue::Object>(&json.value);
-  if (!members) {
-    context.diagnostics.error(json.where,
-                              fmt::format("expected an object of objects by name (got {})", json.kind()));
-    return;
-  }
-  for (const auto& [name, value] : *members) {
-    ObjectReader reader(value, context.diagnostics);
-    const JsonValue* list = reader.require("shapes");
-    reader.finish();
+void build_objects(const std::vector<schema::Named<spec::Object>>& objects, LoadContext& context,
+                   Scene& scene) {
+  for (const auto& [name, object, where] : objects) {
     std::vector<NamedShape> parts;
-    const JsonValue::Array* shapes = list ? read_array(*list, "shapes", 1, context.diagnostics) : nullptr;
-    for (std::size_t i = 0; shapes && i < shapes->size(); ++i)
-      read_object_shape((*shapes)[i], i, context, scene, parts);
+    for (std::size_t i = 0; i < object.shapes.size(); ++i)
+      build_object_shape(object.shapes[i], object.shapes[i].name.value_or(fmt::format("shape {}", i)),
+                         context, scene, parts);
     context.objects.emplace(name, centred(std::move(parts)));
   }
 }
 
-void add_instance(const JsonValue& json, const std::string& name, LoadContext& context, Scene& scene) {
-  const auto instance = schema::read<spec::Instance>(json, context.diagnostics);
-  if (!instance) return;
-  const auto matrix = build(instance->transform.value, instance->transform.where, context);
+void add_instance(const spec::Instance& instance, const std::string& name, LoadContext& context,
+                  Scene& scene) {
+  const auto matrix = build(instance.transform.value, instance.transform.where, context);
   if (!matrix) return;
-  const auto found = context.objects.find(instance->of.value);
+  const auto found = context.objects.find(instance.of.value);
   if (found == context.objects.end()) {
     std::vector<std::string> names;
     for (const auto& [known, object] : context.objects) names.push_back(known);
-    context.diagnostics.error(instance->of.where, unknown_name("object", instance->of.value, names));
+    context.diagnostics.error(instance.of.where, unknown_name("object", instance.of.value, names));
     return;
   }
   const Object& object = found->second;

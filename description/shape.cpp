@@ -1,7 +1,9 @@
 #include "description/shape.h"
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,11 +11,6 @@
 #include "description/light.h"
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
-#include "description/object.h"
-#include "description/surface.h"
-#include "description/transform.h"
-#include "description/values.h"
-#include "io/schema/read.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe::description {
@@ -51,25 +48,15 @@ std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
   return mesh;
 }
 
-// What a table reads, built.
-template <typename S>
-std::optional<PlainShape> read_surface(const JsonValue& json, const LoadContext& context) {
-  const auto surface = schema::read<S>(json, context.diagnostics);
-  if (!surface) return std::nullopt;
-  auto shape = std::optional(build(*surface, context));
-  if (!shape) return std::nullopt;
-  return std::make_optional<PlainShape>(*std::move(shape));
-}
-
 // The parts of a mesh file, made of `material` or of the file's own.
-std::vector<NamedShape> read_mesh_file(const JsonValue& json, const std::string& file,
-                                       const std::string& name, const std::uint32_t* material,
-                                       LoadContext& context, Scene& scene) {
+std::vector<NamedShape> build_mesh_file(const SourcePosition& where, const std::string& file,
+                                        const std::string& name, const std::uint32_t* material,
+                                        LoadContext& context, Scene& scene) {
   std::vector<NamedShape> parts;
-  const auto path = context.file(file, json.where);
+  const auto path = context.file(file, where);
   if (!path) return parts;
   const bool mapped = material && needs_coordinates(scene.materials[*material]);
-  auto found = load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, json.where,
+  auto found = load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, where,
                               context.diagnostics,
                               mapped ? FileCoordinates::wanted : FileCoordinates::ignored, context.inputs);
   if (!found) return parts;
@@ -78,7 +65,7 @@ std::vector<NamedShape> read_mesh_file(const JsonValue& json, const std::string&
     context.take_memory(path->string(), memory_bytes(part.mesh));
     if (!material && !part.material) {
       context.diagnostics.error(
-          json.where, fmt::format("mesh \"{}\": triangles without a material; the shape needs one", file));
+          where, fmt::format("mesh \"{}\": triangles without a material; the shape needs one", file));
       return {};
     }
     const std::string full =
@@ -88,7 +75,7 @@ std::vector<NamedShape> read_mesh_file(const JsonValue& json, const std::string&
     if (material)
       added.material = *material;
     else
-      added.material = add_file_material(found->materials[*part.material], file, json, context, scene);
+      added.material = add_file_material(found->materials[*part.material], file, where, context, scene);
   }
   return parts;
 }
@@ -98,73 +85,107 @@ std::string mesh_name(const std::string* file) {
 }
 
 // Reports a mesh without the texture coordinates that its material needs.
-void require_coordinates(std::span<const NamedShape> parts, const Material& material, const JsonValue& json,
-                         const std::string* file, const LoadContext& context) {
+void require_coordinates(std::span<const NamedShape> parts, const Material& material,
+                         const SourcePosition& where, const std::string* file, const LoadContext& context) {
   if (!needs_coordinates(material)) return;
   for (const NamedShape& part : parts)
     if (const auto* mesh = std::get_if<Mesh>(&part.shape); mesh && mesh->coordinates.empty())
-      context.diagnostics.error(json.where,
+      context.diagnostics.error(where,
                                 fmt::format("{}: no texture coordinates, which its material \"{}\" needs",
                                             mesh_name(file), material.name),
                                 file ? ErrorCode::input : ErrorCode::scene);
 }
 
-// The shape of the kind `key` before its transform.
-std::vector<NamedShape> read_unplaced(ObjectReader& reader, std::string_view key, const std::string& name,
-                                      LoadContext& context, Scene& scene) {
-  const JsonValue& json = *reader.find(key);
-  if (key == "chart") return read_chart(json, name, context, scene);
-  const auto* file = key == "mesh" ? std::get_if<std::string>(&json.value) : nullptr;
-  const bool optional = file && brings_materials(*file);
-  const JsonValue* material_name = optional ? reader.find("material") : reader.require("material");
-  const auto material = material_name ? find_material(*material_name, context, scene) : std::nullopt;
-  std::vector<NamedShape> parts;
-  if (file && (material || !material_name)) {
-    parts = read_mesh_file(json, *file, name, material ? &*material : nullptr, context, scene);
-  } else if (!file) {
-    auto shape = read_geometry(json, key, context);
-    if (shape && material) parts.push_back({name, std::move(*shape), *material});
+/// The parts of each kind of shape before its transform.
+struct PartsBuilder {
+  const SourcePosition& where;
+  const std::string& name;
+  LoadContext& context;
+  Scene& scene;
+
+  std::vector<NamedShape> operator()(std::monostate) const { return {}; }
+  std::vector<NamedShape> operator()(const spec::Instance&) const { return {}; }
+  std::vector<NamedShape> operator()(const spec::ChartShape& said) const {
+    return build(said.chart, name, context, scene);
   }
-  if (material) require_coordinates(parts, scene.materials[*material], json, file, context);
-  if (key == "mesh")
+  template <typename Surface>
+  std::vector<NamedShape> operator()(const spec::SurfaceShape<Surface>& said) const {
+    return single(std::optional(build(said.surface, context)), said.material);
+  }
+  std::vector<NamedShape> operator()(const spec::PrismShape& said) const {
+    return single(std::optional(build(said.prism, context)), said.material);
+  }
+  template <typename S>
+  [[nodiscard]] std::vector<NamedShape> single(std::optional<S> shape,
+                                               const schema::Located<std::string>& material_name) const {
+    const auto material = find_material(material_name, context, scene);
+    std::vector<NamedShape> parts;
+    if (shape && material) parts.push_back({name, *std::move(shape), *material});
+    return parts;
+  }
+  std::vector<NamedShape> operator()(const spec::MeshShape& said) const {
+    const SourcePosition& at = said.mesh.where;
+    const auto* file = std::get_if<std::string>(&said.mesh.value);
+    if (!said.material && !(file && brings_materials(*file))) {
+      context.diagnostics.error(where, "missing key \"material\"");
+      return {};
+    }
+    const auto material = said.material ? find_material(*said.material, context, scene) : std::nullopt;
+    std::vector<NamedShape> parts;
+    if (file && (material || !said.material))
+      parts = build_mesh_file(at, *file, name, material ? &*material : nullptr, context, scene);
+    else if (!file)
+      if (auto mesh = build(std::get<spec::InlineMesh>(said.mesh.value), context); mesh && material)
+        parts.push_back({name, *std::move(mesh), *material});
+    if (material) require_coordinates(parts, scene.materials[*material], at, file, context);
     for (NamedShape& part : parts)
-      prepare_for_medium(std::get<Mesh>(part.shape), mesh_name(file), scene.materials[part.material],
-                         json.where, context);
-  return parts;
+      prepare_for_medium(std::get<Mesh>(part.shape), mesh_name(file), scene.materials[part.material], at,
+                         context);
+    return parts;
+  }
+};
+
+// A member that some kinds of shapes have, by `get`; nullptr of the others.
+template <typename T, typename Get>
+const T* member_of(const spec::Shape& shape, Get get) {
+  return std::visit(
+      [&](const auto& kind) -> const T* {
+        if constexpr (requires { get(kind); })
+          return get(kind);
+        else
+          return nullptr;
+      },
+      shape.kind);
 }
 
-void read_shape(const JsonValue& json, std::size_t number, LoadContext& context, Scene& scene) {
-  ObjectReader reader(json, context.diagnostics);
-  std::string name = reader.string("name").value_or(fmt::format("shape {}", number));
-  const auto key = reader.exactly_one({"mesh", "sphere", "disc", "quad", "prism", "chart", "instance"});
-  if (!key) return;
-  if (*key == "instance") {
-    add_instance(*reader.find(*key), name, context, scene);
-    reader.finish();
-    return;
-  }
-  std::vector<NamedShape> parts = read_named_shapes(reader, *key, name, context, scene);
-  if (*key == "chart" && !parts.empty())
+bool emits_from_both_sides(const spec::Shape& shape) {
+  const auto* both =
+      member_of<bool>(shape, [](const auto& kind) -> decltype(&kind.two_sided) { return &kind.two_sided; });
+  return both != nullptr && *both;
+}
+
+void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& context, Scene& scene) {
+  if (const auto* instance = std::get_if<spec::Instance>(&shape.kind))
+    return add_instance(*instance, name, context, scene);
+  std::vector<NamedShape> parts = build_parts(shape, name, context, scene);
+  if (std::holds_alternative<spec::ChartShape>(shape.kind) && !parts.empty())
     scene.charts.push_back({name, static_cast<std::uint32_t>(scene.shapes.size()),
                             static_cast<std::uint32_t>(parts.size() - 1)});
-  const JsonValue* emission = reader.find("emission");
-  const bool two_sided = reader.boolean_or("two_sided", false);
-  reader.finish();
-  if (emission && !reader.find("material"))
+  const spec::Emission* emission = emission_of(shape);
+  const auto* mesh = std::get_if<spec::MeshShape>(&shape.kind);
+  if (emission && mesh && !mesh->material)
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
   for (NamedShape& part : parts) {
-    scene.shapes.push_back({std::move(part.name), as_shape(std::move(part.shape)), part.material});
+    scene.shapes.push_back({std::move(part.name),
+                            std::visit([](auto& s) { return Shape(std::move(s)); }, part.shape),
+                            part.material});
     if (emission)
-      add_area_light(*emission, two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1), context,
-                     scene);
+      add_area_light(*emission, emits_from_both_sides(shape),
+                     static_cast<std::uint32_t>(scene.shapes.size() - 1), context, scene);
   }
 }
 
 }  // namespace
-
-Shape as_shape(PlainShape shape) {
-  return std::visit([](auto& plain) { return Shape(std::move(plain)); }, shape);
-}
 
 void shift(Mesh& mesh, const Imath::V3d& by) {
   for (Imath::V3d& vertex : mesh.vertices) vertex += by;
@@ -180,47 +201,34 @@ void shift(Quad& quad, const Imath::V3d& by) {
 }
 void shift(PlacedShape&, const Imath::V3d&) {}
 
-std::optional<Imath::V3d> read_point(ObjectReader& reader, std::string_view key, const LoadContext& context) {
-  const auto v = reader.require_numbers(key, 3, kCoordinate);
-  if (!v) return std::nullopt;
-  return Imath::V3d((*v)[0], (*v)[1], (*v)[2]) * context.unit_m;
+const spec::Emission* emission_of(const spec::Shape& shape) {
+  return member_of<spec::Emission>(shape, [](const auto& kind) -> decltype(&*kind.emission) {
+    return kind.emission ? &*kind.emission : nullptr;
+  });
 }
 
-std::optional<Imath::V3d> read_direction(ObjectReader& reader, std::string_view key,
-                                         const LoadContext& context) {
-  const auto v = reader.require_numbers(key, 3, kCoordinate);
-  if (!v) return std::nullopt;
-  const Imath::V3d direction((*v)[0], (*v)[1], (*v)[2]);
-  if (direction.length() > 0) return direction.normalized();
-  context.diagnostics.error(reader.find(key)->where, "a direction must not be zero (got [0, 0, 0])");
-  return std::nullopt;
-}
-
-std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view key, const std::string& name,
-                                          LoadContext& context, Scene& scene) {
-  std::vector<NamedShape> parts = read_unplaced(reader, key, name, context, scene);
-  const JsonValue* steps = reader.find("transform");
-  std::vector<spec::Similarity> moves;
-  if (steps) (void)schema::read(*steps, spec::similarity_steps(), &moves, context.diagnostics);
-  const Transform transform = build(moves, context);
+std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string& name, LoadContext& context,
+                                    Scene& scene) {
+  std::vector<NamedShape> parts = std::visit(PartsBuilder{shape.where, name, context, scene}, shape.kind);
+  const auto* steps = member_of<std::vector<spec::Similarity>>(
+      shape, [](const auto& kind) -> const std::vector<spec::Similarity>* {
+        if constexpr (requires {
+                        { kind.transform } -> std::convertible_to<const std::vector<spec::Similarity>&>;
+                      })
+          return &kind.transform;
+        else
+          return nullptr;
+      });
+  if (steps == nullptr || steps->empty()) return parts;
+  const Transform transform = build(*steps, context);
   for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
   return parts;
 }
 
-std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view key, LoadContext& context) {
-  if (key == "mesh") return read_surface<spec::InlineMesh>(json, context);
-  if (key == "sphere") return read_surface<spec::Sphere>(json, context);
-  if (key == "disc") return read_surface<spec::Disc>(json, context);
-  if (key == "quad") return read_surface<spec::Quad>(json, context);
-  return read_surface<spec::Prism>(json, context);
-}
-
-void read_shapes(const JsonValue& json, LoadContext& context, Scene& scene) {
-  const JsonValue::Array* list = read_array(json, "shapes", 0, context.diagnostics);
-  if (!list) return;
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    read_shape((*list)[i], i, context, scene);
-    context.shape_places.resize(scene.shapes.size(), (*list)[i].where);
+void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, Scene& scene) {
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    add_shape(shapes[i], shapes[i].name.value_or(fmt::format("shape {}", i)), context, scene);
+    context.shape_places.resize(scene.shapes.size(), shapes[i].where);
   }
 }
 

@@ -2,11 +2,78 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "description/curve.h"
+#include "description/emission.h"
 #include "description/load_context.h"
-#include "io/object_reader.h"
+#include "description/surface.h"
+#include "description/transform.h"
 #include "scene/scene.h"
+
+namespace abbe::spec {
+
+/// A file, or triangles.
+struct Mesh : schema::Located<std::variant<std::string, InlineMesh>> {};
+struct MeshShape {
+  Mesh mesh;
+  std::optional<schema::Located<std::string>> material;  ///< The file's own when absent.
+  std::vector<Similarity> transform;
+  std::optional<MeshEmission> emission;
+  bool two_sided = false;
+};
+/// A shape given by a few numbers.
+template <typename Surface>
+struct SurfaceShape {
+  Surface surface;
+  schema::Located<std::string> material;
+  std::vector<Similarity> transform;
+  std::optional<LampEmission> emission;
+  bool two_sided = false;
+};
+struct PrismShape {
+  Prism prism;
+  schema::Located<std::string> material;
+  std::vector<Similarity> transform;
+  std::optional<MeshEmission> emission;
+  bool two_sided = false;
+};
+/// A colour chart.
+struct Chart {
+  schema::Located<std::string> reflectances;
+  Imath::V3d corner{0, 0, 0};
+  Imath::V3d edge_u{0, 0, 0};
+  Imath::V3d edge_v{0, 0, 0};
+  std::optional<Curve> surround;
+  SourcePosition where;
+};
+struct ChartShape {
+  Chart chart;
+  std::vector<Similarity> transform;
+};
+struct Instance {
+  schema::Located<std::string> of;
+  schema::Located<std::vector<Affine>> transform;
+  SourcePosition where;
+};
+struct Shape {
+  std::optional<std::string> name;
+  std::variant<std::monostate, MeshShape, SurfaceShape<Sphere>, SurfaceShape<Disc>, SurfaceShape<Quad>,
+               PrismShape, ChartShape, Instance>
+      kind;
+  SourcePosition where;
+};
+/// Shapes for instances to place.
+struct Object {
+  std::vector<Shape> shapes;
+};
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Shape>);
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Object>);
+[[nodiscard]] schema::Kind shapes();
+[[nodiscard]] schema::Kind objects();
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
@@ -23,19 +90,21 @@ struct NamedShape {
 void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
                         const SourcePosition& where, const LoadContext& context);
 
-/// The same as a shape of a scene.
-[[nodiscard]] Shape as_shape(PlainShape shape);
-/// The shape of the kind `key`, such as "disc", before any transform; nothing after an error.
-[[nodiscard]] std::optional<PlainShape> read_geometry(const JsonValue& json, std::string_view key,
-                                                      LoadContext& context);
-/// The shape of the kind `key`, placed; of a mesh file, one for each material. None after an error.
-[[nodiscard]] std::vector<NamedShape> read_named_shapes(ObjectReader& reader, std::string_view key,
-                                                        const std::string& name, LoadContext& context,
-                                                        Scene& scene);
+/// The parts of a shape that is no instance, placed: of a mesh file, one for each material. None after an
+/// error.
+[[nodiscard]] std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string& name,
+                                                  LoadContext& context, Scene& scene);
+/// What a shape emits, if it does.
+[[nodiscard]] const spec::Emission* emission_of(const spec::Shape& shape);
 /// The patches of a chart in the order of its table, then what surrounds them. None after an error.
-[[nodiscard]] std::vector<NamedShape> read_chart(const JsonValue& json, const std::string& name,
-                                                 LoadContext& context, Scene& scene);
-void read_shapes(const JsonValue& json, LoadContext& context, Scene& scene);
+[[nodiscard]] std::vector<NamedShape> build(const spec::Chart& chart, const std::string& name,
+                                            LoadContext& context, Scene& scene);
+void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, Scene& scene);
+void build_objects(const std::vector<schema::Named<spec::Object>>& objects, LoadContext& context,
+                   Scene& scene);
+/// Adds the shapes of an object, placed.
+void add_instance(const spec::Instance& instance, const std::string& name, LoadContext& context,
+                  Scene& scene);
 
 void shift(Mesh& mesh, const Imath::V3d& by);
 void shift(Sphere& sphere, const Imath::V3d& by);

@@ -20,11 +20,4 @@ using spec::kPower;
 using spec::kValue;
 using spec::kWavelength;
 
-/// A position or edge [m].
-[[nodiscard]] std::optional<Imath::V3d> read_point(ObjectReader& reader, std::string_view key,
-                                                   const LoadContext& context);
-/// A unit vector; the zero vector is reported.
-[[nodiscard]] std::optional<Imath::V3d> read_direction(ObjectReader& reader, std::string_view key,
-                                                       const LoadContext& context);
-
 }  // namespace abbe::description
