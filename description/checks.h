@@ -1,6 +1,7 @@
 #pragma once
 
 #include "description/load_context.h"
+#include "description/material.h"
 #include "scene/scene.h"
 
 namespace abbe::description {
@@ -12,6 +13,6 @@ void check_lamps(const LoadContext& context, const Scene& scene);
 /// that emits, only few float steps large where it stands, and a view of little more than one direction.
 void check_precision(const JsonValue& root, const LoadContext& context, const Scene& scene);
 /// Warns of every index used beyond the wavelengths it holds for.
-void check_validity(const JsonValue& json, const LoadContext& context, const Scene& scene);
+void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene);
 
 }  // namespace abbe::description

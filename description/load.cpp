@@ -17,7 +17,6 @@
 #include "description/render.h"
 #include "description/sensor.h"
 #include "description/shape.h"
-#include "description/values.h"
 #include "description/white.h"
 #include "io/schema/read.h"
 #include "io/standard_stream.h"
@@ -118,7 +117,6 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
   read_units(reader, context);
   scene.unit_m = context.unit_m;
   const JsonValue* camera = reader.require("camera");
-  const JsonValue* materials = reader.find("materials");
   Sensor sensor;
   if (const JsonValue* json = reader.require("sensor")) {
     if (const auto said = schema::read<spec::Sensor>(*json, context.diagnostics))
@@ -135,14 +133,16 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
   scene.spectral = sensor.spectral;
   scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
   for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
-  if (materials) read_materials(*materials, context, scene);
   // What is sound of them is built all the same, for its complaints.
+  spec::Materials materials;
   std::vector<schema::Named<spec::Object>> objects;
   std::vector<spec::Shape> shapes;
   std::vector<spec::Light> lights;
   const auto read = [&](const char* key, const schema::Kind& kind, void* list) {
     if (const JsonValue* json = reader.find(key)) (void)schema::read(*json, kind, list, context.diagnostics);
   };
+  read("materials", spec::materials(), &materials);
+  build_materials(materials, context, scene);
   read("objects", spec::objects(), &objects);
   read("shapes", spec::shapes(), &shapes);
   read("lights", spec::lights(), &lights);
@@ -155,7 +155,7 @@ Scene read_scene(const JsonValue& root, LoadContext& context) {
   if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, context, scene);
   reader.finish();
   if (context.diagnostics.has_errors()) return scene;
-  if (materials) check_validity(*materials, context, scene);
+  check_validity(materials, context, scene);
   check_lamps(context, scene);
   if (scene.lights.empty())
     context.diagnostics.error_if_strict(root.where, "no light: the image will be black");

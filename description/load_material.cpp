@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "io/schema/read.h"
 #include "io/text.h"
 
 namespace abbe {
@@ -60,7 +61,9 @@ std::optional<Material> load_material(const std::string& words, Diagnostics& dia
   if (inputs && !in_place) inputs->add_file(place.path);
   description::LoadContext context{diagnostics, place.path.parent_path(), inputs};
   Scene scene{};
-  description::read_materials(materials, context, scene);
+  spec::Materials said;
+  (void)schema::read(materials, spec::materials(), &said, diagnostics);
+  description::build_materials(said, context, scene);
   if (diagnostics.has_errors()) return std::nullopt;
   const Material* material = chosen(scene.materials, place.name, materials.where, diagnostics);
   return material ? std::optional(*material) : std::nullopt;

@@ -3,15 +3,133 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
+#include <vector>
 
-#include "description/load_context.h"
+#include "description/index.h"
 #include "description/meshes/mesh_file.h"
-#include "io/schema/fields.h"
+#include "description/reflectance.h"
 #include "scene/scene.h"
+
+namespace abbe::spec {
+
+enum class PhaseWord { isotropic, rayleigh };
+struct HenyeyGreenstein {
+  double g = 0;
+};
+/// How matter within a shape scatters.
+struct Scattering {
+  std::optional<Curve> per_m;
+  std::optional<std::variant<PhaseWord, HenyeyGreenstein>> phase;
+};
+/// Densities at the nodes of a grid.
+struct Grid {
+  schema::Located<std::string> densities;
+  Imath::V3d from{0, 0, 0};
+  Imath::V3d to{0, 0, 0};
+  SourcePosition where;
+};
+
+struct Diffuse {
+  Reflectance reflectance;
+};
+struct Dielectric {
+  TintedIor ior;
+  Scattering scattering;
+  std::vector<LayerEntry> coating;
+  std::optional<Roughness> roughness;
+};
+struct Conductor {
+  Ior ior;
+  std::vector<LayerEntry> coating;
+  std::optional<Roughness> roughness;
+};
+/// A film with air on both sides, such as a soap bubble's: a coating on nothing.
+struct Film {
+  std::vector<LayerEntry> layers;
+};
+/// Matter without an interface.
+struct Medium {
+  std::optional<Curve> absorption_per_m;
+  Scattering scattering;
+  std::optional<Grid> grid;
+};
+struct CoatedDiffuse {
+  Ior ior;
+  Reflectance reflectance;
+};
+struct ThinGlass {
+  TintedIor ior;
+  double thickness = 0;
+};
+struct Mirror {
+  Reflectance reflectance;
+};
+struct Schlick {
+  std::variant<std::monostate, Ior, Reflectance> normal;
+};
+struct OrenNayar {
+  Reflectance reflectance;
+  double sigma_deg = 0;
+};
+struct Principled {
+  Reflectance base_color;
+  double metallic = 0;
+  double roughness = 0.5;
+  double specular = 0.5;
+  double sheen = 0;
+  double clearcoat = 0;
+  double clearcoat_gloss = 1;
+};
+/// What all powers of a cosine have.
+struct Power {
+  Reflectance reflectance;
+  double exponent = 0;
+};
+struct CosinePower {
+  Power power;
+  bool reciprocal = false;
+};
+struct Phong {
+  Power power;
+};
+struct Retroreflector {
+  Power power;
+};
+struct MixturePart {
+  schema::Located<std::string> material;
+  Curve weight;
+};
+struct Mixture : schema::Located<std::vector<MixturePart>> {};
+
+struct NormalMap {
+  TextureFile file;
+};
+struct BumpMap {
+  TextureFile file;
+  double height = 0;
+};
+struct Material {
+  std::variant<std::monostate, Mixture, Diffuse, Dielectric, Conductor, Film, Medium, CoatedDiffuse,
+               ThinGlass, Mirror, Schlick, OrenNayar, Principled, CosinePower, Phong, Retroreflector>
+      model;
+  std::optional<schema::Located<int>> priority;
+  std::variant<std::monostate, NormalMap, BumpMap> relief;
+};
+[[nodiscard]] const schema::Fields& fields(schema::Tag<Material>);
+[[nodiscard]] schema::Kind materials();
+
+using Materials = std::vector<schema::Named<Material>>;
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
-void read_materials(const JsonValue& json, LoadContext& context, Scene& scene);
+/// Adds all materials. One that cannot be built stands as black, so that what names it is not reported as
+/// well.
+void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene);
+/// What the material does, none after an error; a mixture without its parts.
+[[nodiscard]] std::optional<MaterialModel> build_model(const spec::Material& material, LoadContext& context);
 /// Index of the material of that name; an unknown one is reported with the nearest.
 [[nodiscard]] std::optional<std::uint32_t> find_material(const schema::Located<std::string>& name,
                                                          LoadContext& context, const Scene& scene);
@@ -20,5 +138,15 @@ void read_materials(const JsonValue& json, LoadContext& context, Scene& scene);
                                               const SourcePosition& at, LoadContext& context, Scene& scene);
 /// Index of the material of lamps that name none: diffuse, reflecting nothing.
 [[nodiscard]] std::uint32_t black_material(LoadContext& context, Scene& scene);
+
+/// Matter inside: reports what it is filled with as curves do; nothing after an error.
+[[nodiscard]] std::optional<Medium> build(const spec::Scattering& scattering,
+                                          const std::optional<spec::Curve>& absorption, LoadContext& context);
+[[nodiscard]] std::optional<PlacedGrid> build(const spec::Grid& grid, LoadContext& context);
+/// A mixture of materials of `scene` that are no mixtures.
+[[nodiscard]] std::optional<MixtureMaterial> build(const spec::Mixture& mixture, LoadContext& context,
+                                                   const Scene& scene);
+[[nodiscard]] std::shared_ptr<const Relief> build(const spec::NormalMap& map, LoadContext& context);
+[[nodiscard]] std::shared_ptr<const Relief> build(const spec::BumpMap& map, LoadContext& context);
 
 }  // namespace abbe::description

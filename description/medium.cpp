@@ -2,56 +2,24 @@
 
 #include <fmt/format.h>
 
-#include "description/curve.h"
-#include "description/material_readers.h"
-#include "description/values.h"
+#include "description/material.h"
 #include "io/npy.h"
-#include "io/schema/read.h"
-
-namespace abbe::spec {
-
-/// Densities at the nodes of a grid.
-struct Grid {
-  schema::Located<std::string> densities;
-  Imath::V3d from{0, 0, 0};
-  Imath::V3d to{0, 0, 0};
-  SourcePosition where;
-};
-static const schema::Fields& fields(schema::Tag<Grid>) {
-  using namespace schema;
-  static const Fields kFields = describe<Grid>(
-      "grid", "Densities that multiply absorption and scattering.",
-      {field("densities", &Grid::densities, text(), "A NumPy file of axes z, y, x."),
-       field("from", &Grid::from, point(), "Position of the first node."),
-       field("to", &Grid::to, point(), "Position of the last node, beyond the first along x, y and z.")});
-  return kFields;
-}
-
-}  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
 
-// Beyond it a cosine's float says nothing about the peak.
-constexpr double kMostPeaked = 0.9999;
-
-std::optional<PhaseFunction> read_phase(const JsonValue& json, LoadContext& context) {
-  if (std::holds_alternative<std::string>(json.value)) {
-    const auto choice = read_choice(json, "phase function", {"isotropic", "rayleigh"}, context.diagnostics);
-    if (!choice) return std::nullopt;
-    return *choice == 0 ? PhaseFunction{IsotropicPhase{}} : RayleighPhase{};
-  }
-  ObjectReader reader(json, context.diagnostics);
-  const auto g = reader.require_number("henyey_greenstein", {-kMostPeaked, kMostPeaked});
-  reader.finish();
-  if (!g) return std::nullopt;
-  return HenyeyGreensteinPhase{static_cast<float>(*g)};
+PhaseFunction build_phase(const spec::Scattering& said) {
+  if (!said.phase) return IsotropicPhase{};
+  if (const auto* peak = std::get_if<spec::HenyeyGreenstein>(&*said.phase))
+    return HenyeyGreensteinPhase{static_cast<float>(peak->g)};
+  if (std::get<spec::PhaseWord>(*said.phase) == spec::PhaseWord::isotropic) return IsotropicPhase{};
+  return RayleighPhase{};
 }
 
 // Per metre; that of nothing where the key is absent.
-std::optional<Curve> read_coefficient(const JsonValue* json, LoadContext& context) {
-  if (json == nullptr) return Curve(0.0);
-  return read_curve(*json, {"filter", kPower}, context);
+std::optional<Curve> build_coefficient(const std::optional<spec::Curve>& said, LoadContext& context) {
+  if (!said) return Curve(0.0);
+  return build(*said, {"filter", spec::kPower}, context);
 }
 
 std::optional<DensityGrid> build_densities(const schema::Located<std::string>& said, LoadContext& context) {
@@ -80,6 +48,8 @@ std::optional<DensityGrid> build_densities(const schema::Located<std::string>& s
                      std::move(array.values)};
 }
 
+}  // namespace
+
 std::optional<PlacedGrid> build(const spec::Grid& said, LoadContext& context) {
   const Imath::V3d from = said.from * context.unit_m;
   const Imath::V3d to = said.to * context.unit_m;
@@ -92,29 +62,12 @@ std::optional<PlacedGrid> build(const spec::Grid& said, LoadContext& context) {
   return PlacedGrid{std::make_shared<const DensityGrid>(std::move(*grid)), from, to};
 }
 
-}  // namespace
-
-std::optional<Medium> read_filling(ObjectReader& reader, bool absorbs, LoadContext& context) {
-  const JsonValue* phase = reader.find("phase");
-  auto scattering = read_coefficient(reader.find("scattering_per_m"), context);
-  auto absorption = read_coefficient(absorbs ? reader.find("absorption_per_m") : nullptr, context);
-  const auto turns = phase ? read_phase(*phase, context) : PhaseFunction{IsotropicPhase{}};
-  if (!scattering || !absorption || !turns) return std::nullopt;
-  return Medium{std::move(*absorption), std::move(*scattering), *turns};
-}
-
-std::optional<MaterialModel> read_medium(const JsonValue& json, LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  auto filling = read_filling(reader, true, context);
-  const JsonValue* grid = reader.find("grid");
-  reader.finish();
-  if (!filling) return std::nullopt;
-  if (grid) {
-    const auto said = schema::read<spec::Grid>(*grid, context.diagnostics);
-    if (said) filling->grid = build(*said, context);
-    if (!filling->grid) return std::nullopt;
-  }
-  return MediumMaterial{std::move(*filling)};
+std::optional<Medium> build(const spec::Scattering& said, const std::optional<spec::Curve>& absorption,
+                            LoadContext& context) {
+  auto scatters = build_coefficient(said.per_m, context);
+  auto absorbs = build_coefficient(absorption, context);
+  if (!scatters || !absorbs) return std::nullopt;
+  return Medium{std::move(*absorbs), std::move(*scatters), build_phase(said)};
 }
 
 }  // namespace abbe::description

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "description/material_readers.h"
-#include "description/texture_file.h"
-#include "description/values.h"
+#include "description/material.h"
 
 namespace abbe::description {
 namespace {
@@ -25,10 +23,10 @@ std::optional<TextureImage> map_image(const TextureFile& file, std::span<const s
   return texture_image(file, channels.size(), std::move(*texels));
 }
 
-std::shared_ptr<const Relief> read_normal_map(const JsonValue& json, LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto file = read_texture_file(reader, context);
-  reader.finish();
+}  // namespace
+
+std::shared_ptr<const Relief> build(const spec::NormalMap& said, LoadContext& context) {
+  const auto file = build(said.file, context);
   if (!file) return nullptr;
   const std::vector<std::string> channels{"R", "G", "B"};
   auto image = map_image(*file, channels, "a normal map", context);
@@ -44,29 +42,13 @@ std::shared_ptr<const Relief> read_normal_map(const JsonValue& json, LoadContext
   return std::make_shared<const Relief>(NormalMap{std::move(*image)});
 }
 
-std::shared_ptr<const Relief> read_bump_map(const JsonValue& json, LoadContext& context) {
-  ObjectReader reader(json, context.diagnostics);
-  const auto height = reader.require_number("height", kCoordinate);
-  const auto file = read_texture_file(reader, context);
-  reader.finish();
-  if (!file || !height) return nullptr;
+std::shared_ptr<const Relief> build(const spec::BumpMap& said, LoadContext& context) {
+  const auto file = build(said.file, context);
+  if (!file) return nullptr;
   const std::vector<std::string> only{file->image.channels.empty() ? "" : file->image.channels[0].name};
   auto image = map_image(*file, only, "a bump map", context);
   if (!image) return nullptr;
-  return std::make_shared<const Relief>(BumpMap{std::move(*image), *height * context.unit_m});
-}
-
-}  // namespace
-
-std::shared_ptr<const Relief> read_relief(ObjectReader& reader, LoadContext& context) {
-  const JsonValue* normals = reader.find("normal_map");
-  const JsonValue* bumps = reader.find("bump_map");
-  if (normals && bumps) {
-    context.diagnostics.error(bumps->where, "a material has a normal_map or a bump_map (got both)");
-    return nullptr;
-  }
-  if (normals) return read_normal_map(*normals, context);
-  return bumps ? read_bump_map(*bumps, context) : nullptr;
+  return std::make_shared<const Relief>(BumpMap{std::move(*image), said.height * context.unit_m});
 }
 
 }  // namespace abbe::description

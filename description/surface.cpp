@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "description/kinds.h"
 #include "description/meshes/mesh_file.h"
-#include "description/values.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe::spec {

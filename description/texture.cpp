@@ -6,10 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "description/curve.h"
-#include "description/material_readers.h"
-#include "description/texture_file.h"
-#include "description/values.h"
+#include "description/reflectance.h"
+#include "spectral/rgb.h"
 
 namespace abbe::description {
 namespace {
@@ -26,16 +24,10 @@ struct Weights {
   Encoding encoding = Encoding::linear;
 };
 
-std::optional<Weights> read_weights(const JsonValue& json, LoadContext& context) {
-  const auto* members = std::get_if<JsonValue::Object>(&json.value);
-  if (!members || members->empty()) {
-    context.diagnostics.error(
-        json.where, fmt::format("expected spectra by channel (got {})", members ? "none" : json.kind()));
-    return std::nullopt;
-  }
+std::optional<Weights> build(const spec::Weights& said, LoadContext& context) {
   Weights weights;
-  for (const auto& [channel, value] : *members) {
-    auto spectrum = read_curve(value, {"reflectance", kValue}, context);
+  for (const auto& [channel, curve, where] : said.value) {
+    auto spectrum = build(curve, {"reflectance"}, context);
     if (!spectrum) return std::nullopt;
     weights.channels.push_back(channel);
     weights.spectra.push_back(std::move(*spectrum));
@@ -44,11 +36,9 @@ std::optional<Weights> read_weights(const JsonValue& json, LoadContext& context)
 }
 
 // Files of floats hold linear values, those of integers what a display is sent.
-std::optional<Weights> read_rgb(const JsonValue& json, const TextureFile& file, LoadContext& context) {
-  const auto rgb = read_boolean(json, context.diagnostics);
-  if (!rgb) return std::nullopt;
-  if (!*rgb) {
-    context.diagnostics.error(json.where, "an image that is not rgb needs weights (got false, allowed true)");
+std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, LoadContext& context) {
+  if (!said.value) {
+    context.diagnostics.error(said.where, "an image that is not rgb needs weights (got false, allowed true)");
     return std::nullopt;
   }
   context.diagnostics.warning(
@@ -143,19 +133,17 @@ bool check_reflectances(const TextureFile& file, const Weights& weights, const s
 
 }  // namespace
 
-std::optional<SpectralTexture> read_reflectance(const JsonValue& json, LoadContext& context) {
-  if (!json.find("image")) {
-    auto curve = read_curve(json, {"reflectance", Range::unit()}, context);
+std::optional<SpectralTexture> build(const spec::Reflectance& said, LoadContext& context) {
+  if (const auto* constant = std::get_if<spec::Curve>(&said)) {
+    auto curve = build(*constant, {"reflectance", Range::unit()}, context);
     if (!curve) return std::nullopt;
     return SpectralTexture(std::move(*curve));
   }
-  ObjectReader reader(json, context.diagnostics);
-  const auto key = reader.exactly_one({"weights", "rgb"});
-  const auto file = read_texture_file(reader, context);
-  reader.finish();
-  if (!key || !file) return std::nullopt;
-  const JsonValue& of = *json.find(*key);
-  auto weights = *key == "rgb" ? read_rgb(of, *file, context) : read_weights(of, context);
+  const auto& texture = std::get<spec::Texture>(said);
+  const auto file = build(texture.file, context);
+  if (!file) return std::nullopt;
+  const auto* rgb = std::get_if<spec::Rgb>(&texture.of);
+  auto weights = rgb ? build(*rgb, *file, context) : build(std::get<spec::Weights>(texture.of), context);
   if (!weights) return std::nullopt;
   auto texels = read_texels(*file, weights->channels, weights->encoding, context);
   if (!texels || !check_reflectances(*file, *weights, *texels, context)) return std::nullopt;

@@ -1,4 +1,4 @@
-#include "description/texture_file.h"
+#include "description/reflectance.h"
 
 #include <cmath>
 #include <utility>
@@ -9,26 +9,6 @@
 #include "spectral/rgb.h"
 
 namespace abbe::description {
-namespace {
-
-constexpr Range kMapping{-1e6, 1e6};
-
-TextureMapping read_mapping(ObjectReader& reader, LoadContext& context) {
-  TextureMapping mapping;
-  if (const JsonValue* json = reader.find("filter"))
-    if (read_choice(*json, "filter", {"bilinear", "nearest"}, context.diagnostics) == 1)
-      mapping.filter = TextureFilter::nearest;
-  if (const JsonValue* json = reader.find("wrap"))
-    if (read_choice(*json, "wrap", {"repeat", "clamp"}, context.diagnostics) == 1)
-      mapping.wrap = TextureWrap::clamp;
-  if (const auto scale = reader.numbers("scale", 2, kMapping)) mapping.scale = {(*scale)[0], (*scale)[1]};
-  if (const auto offset = reader.numbers("offset", 2, kMapping))
-    mapping.offset = {(*offset)[0], (*offset)[1]};
-  return mapping;
-}
-
-}  // namespace
-
 void TextureFile::refuse(const std::string& what, ErrorCode code, LoadContext& context) const {
   context.diagnostics.error(where, fmt::format("texture \"{}\": {}", name, what), code);
 }
@@ -38,18 +18,17 @@ std::string TextureFile::texel_name(std::size_t i) const {
   return fmt::format("texel ({}, {})", i % columns, i / columns);
 }
 
-std::optional<TextureFile> read_texture_file(ObjectReader& reader, LoadContext& context) {
-  const JsonValue* json = reader.require("image");
-  const TextureMapping mapping = read_mapping(reader, context);
-  const auto name = json ? read_string(*json, context.diagnostics) : std::nullopt;
-  const auto path = name ? context.file(*name, json->where) : std::nullopt;
+std::optional<TextureFile> build(const spec::TextureFile& said, LoadContext& context) {
+  const std::string& name = said.image.value;
+  const SourcePosition& where = said.image.where;
+  const auto path = context.file(name, where);
   if (!path) return std::nullopt;
   try {
     Image image = read_image(*path, context.inputs);
     const std::size_t bytes = image.memory_bytes();
-    return TextureFile{*name, json->where, std::move(image), mapping, {context.inputs, bytes}};
+    return TextureFile{name, where, std::move(image), said.mapping, {context.inputs, bytes}};
   } catch (const Error& e) {
-    context.diagnostics.error(json->where, e.what(), e.code);
+    context.diagnostics.error(where, e.what(), e.code);
     return std::nullopt;
   }
 }

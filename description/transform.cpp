@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "description/values.h"
+#include "description/kinds.h"
 
 namespace abbe {
 

@@ -25,14 +25,15 @@ void extend(Support& support, const Curve& curve) {
 
 }  // namespace
 
-void check_validity(const JsonValue& json, const LoadContext& context, const Scene& scene) {
+void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene) {
   Support sensor;
   for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
   const auto check = [&](const Material& material, const std::string& name, const RefractiveIndex& index) {
     if (index.low_nm() <= sensor.low && sensor.high <= index.high_nm()) return;
-    const JsonValue* at = json.find(material.name);
+    const auto said = std::find_if(materials.begin(), materials.end(),
+                                   [&](const auto& named) { return named.name == material.name; });
     context.diagnostics.warning(
-        at ? at->where : json.where,
+        said != materials.end() ? said->where : SourcePosition{},
         fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
                     "held from the nearer end",
                     name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));

@@ -175,7 +175,7 @@ TEST_F(SchemaTest, SchemaKnowsEveryKey) {
   // What the loader asks for, read from its own text.
   std::set<std::string> asked;
   const std::regex getter(
-      R"re((?:find|require|number|integer|string|boolean_or|numbers|number_or|require_\w+|read_point|read_direction|field|under|beside|describe_lamp|read)(?:<[^>]*>)?\(\s*(?:\w+,\s*)?"([\w]+)")re");
+      R"re((?:find|require|number|integer|string|boolean_or|numbers|number_or|require_\w+|read_point|read_direction|field|under|beside|describe_lamp|amount|read)(?:<[^>]*>)?\(\s*(?:\w+,\s*)?"([\w]+)")re");
   const std::regex choice(R"re((?:exactly_one\(\s*|Scales)\{([^}]*)\})re");
   const std::regex word(R"re("(\w+)")re");
   const std::regex reader(R"re(\{"(\w+)", read_\w+\})re");  // of the table of materials

@@ -3,11 +3,34 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
+#include <vector>
 
-#include "description/load_context.h"
+#include "description/curve.h"
 #include "io/image.h"
-#include "io/object_reader.h"
+#include "materials/texture/spectral_texture.h"
 #include "materials/texture/texture_image.h"
+
+namespace abbe::spec {
+
+/// An image, and how it lies on surfaces.
+struct TextureFile {
+  schema::Located<std::string> image;
+  TextureMapping mapping;
+};
+[[nodiscard]] const schema::Fields& fields(schema::Tag<TextureFile>);
+/// The spectrum that each channel weighs.
+struct Weights : schema::Located<std::vector<schema::Named<Curve>>> {};
+struct Rgb : schema::Located<bool> {};
+struct Texture {
+  TextureFile file;
+  std::variant<std::monostate, Weights, Rgb> of;
+};
+/// A quantity in [0, 1] over wavelength, and perhaps over the surface.
+using Reflectance = std::variant<Curve, Texture>;
+[[nodiscard]] schema::Kind reflectance();
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 
@@ -28,9 +51,8 @@ struct TextureFile {
   [[nodiscard]] std::string texel_name(std::size_t i) const;
 };
 
-/// The keys all textures have: "image", "filter", "wrap", "scale" and "offset". An image that cannot be read
-/// or is too large is reported.
-[[nodiscard]] std::optional<TextureFile> read_texture_file(ObjectReader& reader, LoadContext& context);
+/// The image, read; one that cannot be read or is too large is reported.
+[[nodiscard]] std::optional<TextureFile> build(const spec::TextureFile& file, LoadContext& context);
 
 /// Reads `channels` of the image texel by texel; a channel that is not there and a value that is not finite
 /// are reported.
@@ -41,5 +63,10 @@ struct TextureFile {
 /// Makes an image of texels with so many channels each, laid on surfaces as the file says.
 [[nodiscard]] TextureImage texture_image(const TextureFile& file, std::size_t channels,
                                          std::vector<float> texels);
+
+/// Reports values beyond [0, 1], of a curve or of a texel.
+/// Throws Error{input} or Error{resource} for an image file that cannot be read or is too large.
+[[nodiscard]] std::optional<SpectralTexture> build(const spec::Reflectance& reflectance,
+                                                   LoadContext& context);
 
 }  // namespace abbe::description
