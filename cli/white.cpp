@@ -66,7 +66,7 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads) 
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                   const std::optional<std::string>& asked) {
   Diagnostics diagnostics;
-  if (asked) scene.output.white = read_asked(*asked, white_names(scene.lights, diagnostics), diagnostics);
+  if (asked) scene.output.white = read_asked(*asked, white_names(scene.lights), diagnostics);
   if (!scene.output.white) scene.output.white = white_of_film(scene, film);
   settle_white(scene, path);
 }
@@ -94,7 +94,7 @@ Chromaticity asked_white(const std::string& text, const Image& film) {
   Json lights = Json::object();
   if (recorded != film.metadata.end()) lights = Json::parse(recorded->second, nullptr, false);
   const std::vector<Light> none;
-  WhiteNames names = white_names(none, diagnostics);
+  WhiteNames names = white_names(none);
   for (const auto& [name, xy] : lights.items())
     if (xy.is_null())
       names.lights.insert(names.lights.end(), 2, name);

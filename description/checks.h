@@ -10,8 +10,9 @@ namespace abbe::description {
 void check_lamps(const LoadContext& context, const Scene& scene);
 
 /// Reports what floats cannot tell apart, once the scene is recentred: a shape with matter inside, or a mesh
-/// that emits, only few float steps large where it stands, and a view of little more than one direction.
-void check_precision(const JsonValue& root, const LoadContext& context, const Scene& scene);
+/// that emits, only few float steps large where it stands, and a view of little more than one direction, of
+/// the `camera` said there.
+void check_precision(const SourcePosition& camera, const LoadContext& context, const Scene& scene);
 /// Warns of every index used beyond the wavelengths it holds for.
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene);
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "io/schema/read.h"
 #include "spectral/library.h"
 
 namespace abbe::description {
@@ -104,23 +103,6 @@ std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadCo
   if (!fault) return built;
   context.diagnostics.error(curve.where, *fault);
   return std::nullopt;
-}
-
-std::optional<Curve> read_source(std::string_view key, const JsonValue& json, LoadContext& context) {
-  if (key == "lines") {
-    const auto said = schema::read<spec::Lines>(json, spec::lines(), context.diagnostics);
-    return said ? std::optional(build(*said)) : std::nullopt;
-  }
-  const bool day = key == "daylight_K";
-  const auto temperature =
-      schema::read<double>(json, day ? spec::daylight_K() : spec::blackbody_K(), context.diagnostics);
-  if (!temperature) return std::nullopt;
-  return day ? daylight(*temperature) : planck(*temperature);
-}
-
-std::optional<Curve> read_curve(const JsonValue& json, const CurveUse& use, LoadContext& context) {
-  const auto curve = schema::read<spec::Curve>(json, spec::curve(), context.diagnostics);
-  return curve ? build(*curve, use, context) : std::nullopt;
 }
 
 }  // namespace abbe::description

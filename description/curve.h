@@ -73,10 +73,5 @@ struct CurveUse {
 /// unknown name, values that the use does not allow; nothing then.
 [[nodiscard]] std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context);
 [[nodiscard]] Curve build(const spec::Lines& lines);
-[[nodiscard]] std::optional<Curve> read_curve(const JsonValue& json, const CurveUse& use,
-                                              LoadContext& context);
-/// The curves an emission shares with other curves: "blackbody_K", "daylight_K" and "lines".
-[[nodiscard]] std::optional<Curve> read_source(std::string_view key, const JsonValue& json,
-                                               LoadContext& context);
 
 }  // namespace abbe::description

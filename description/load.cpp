@@ -1,7 +1,5 @@
 #include "description/load.h"
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -10,19 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "description/camera.h"
 #include "description/checks.h"
-#include "description/light.h"
-#include "description/material.h"
-#include "description/render.h"
-#include "description/sensor.h"
-#include "description/shape.h"
-#include "description/white.h"
+#include "description/scene.h"
 #include "io/schema/read.h"
 #include "io/standard_stream.h"
 #include "io/text.h"
 #include "materials/index/library.h"
-#include "scene/colors.h"
 #include "scene/extent.h"
 #include "scene/shapes/placed.h"
 
@@ -30,52 +21,16 @@ namespace abbe {
 namespace description {
 namespace {
 
-constexpr double kFormatVersion = 1;
-
 // False for a scene of another version, whose other errors are not ours to tell.
-bool check_version(ObjectReader& reader, LoadContext& context) {
-  const JsonValue* json = reader.require("abbe");
-  if (!json) return true;
-  const auto version = read_number(*json, Range::any(), context.diagnostics);
-  if (!version || *version == kFormatVersion) return true;
-  const std::string_view what =
-      *version > kFormatVersion ? "future version of the scene format" : "no version of the scene format";
-  context.diagnostics.error(json->where,
-                            fmt::format("{} (got {}, allowed {})", what, *version, kFormatVersion));
+bool check_version(const JsonValue& root, Diagnostics& diagnostics) {
+  const JsonValue* json = root.find("abbe");
+  const auto* version = json ? std::get_if<double>(&json->value) : nullptr;
+  if (!version || *version == spec::kFormatVersion) return true;
+  const std::string_view what = *version > spec::kFormatVersion ? "future version of the scene format"
+                                                                : "no version of the scene format";
+  diagnostics.error(json->where,
+                    fmt::format("{} (got {}, allowed {})", what, *version, spec::kFormatVersion));
   return false;
-}
-
-void read_units(ObjectReader& reader, LoadContext& context) {
-  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
-  const JsonValue* json = reader.find("units");
-  if (!json) return;
-  if (const auto unit =
-          read_choice(*json, "unit of length", {"m", "cm", "mm", "um", "in"}, context.diagnostics))
-    context.unit_m = kMetres.at(*unit);
-}
-
-std::optional<White> read_white(const JsonValue& json, LoadContext& context, const Scene& scene) {
-  WhiteNames names = white_names(scene.lights, context.diagnostics);
-  names.illuminant = [&context](const JsonValue& name) { return context.table(name); };
-  return read_white(json, names, context.diagnostics);
-}
-
-OutputSettings read_output(const JsonValue& json, LoadContext& context, const Scene& scene) {
-  OutputSettings output;
-  ObjectReader reader(json, context.diagnostics);
-  if (const auto path = reader.string("image")) output.image = *path;
-  if (const auto path = reader.string("display")) output.display = *path;
-  output.display_exposure = reader.number("exposure", {0, 1e30, true, false});
-  if (const JsonValue* white = reader.find("white")) {
-    output.white = read_white(*white, context, scene);
-    if (!has_colors(scene)) {
-      context.diagnostics.warning(
-          white->where, "a white without effect: the sensor has neither three channels nor a spectrum");
-      output.white.reset();
-    }
-  }
-  reader.finish();
-  return output;
 }
 
 // Moves the scene so that (0, 0, 0), where floats are finest, is where they are to be; everything up to here
@@ -110,58 +65,6 @@ std::string hash(const SourceText& source, std::span<const Override> overrides, 
   return sha256(all);
 }
 
-Scene read_scene(const JsonValue& root, LoadContext& context) {
-  Scene scene{};
-  ObjectReader reader(root, context.diagnostics);
-  if (!check_version(reader, context)) return scene;
-  read_units(reader, context);
-  scene.unit_m = context.unit_m;
-  const JsonValue* camera = reader.require("camera");
-  Sensor sensor;
-  if (const JsonValue* json = reader.require("sensor")) {
-    if (const auto said = schema::read<spec::Sensor>(*json, context.diagnostics))
-      sensor = build(*said, camera && camera->find("irradiance_probe"), context);
-    scene.sensor_text = to_text(*json);
-  }
-  if (camera)
-    if (const auto said = schema::read<spec::Camera>(*camera, context.diagnostics))
-      if (const auto found = build(*said, sensor, context)) scene.camera = *found;
-  scene.exposure_s = sensor.exposure_s;
-  scene.readout = sensor.readout;
-  scene.fill_factor = sensor.fill_factor;
-  scene.mosaic = std::move(sensor.mosaic);
-  scene.spectral = sensor.spectral;
-  scene.channels = std::move(sensor.channels);  // before the lights, which may be sampled by what they expose
-  for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
-  // What is sound of them is built all the same, for its complaints.
-  spec::Materials materials;
-  std::vector<schema::Named<spec::Object>> objects;
-  std::vector<spec::Shape> shapes;
-  std::vector<spec::Light> lights;
-  const auto read = [&](const char* key, const schema::Kind& kind, void* list) {
-    if (const JsonValue* json = reader.find(key)) (void)schema::read(*json, kind, list, context.diagnostics);
-  };
-  read("materials", spec::materials(), &materials);
-  build_materials(materials, context, scene);
-  read("objects", spec::objects(), &objects);
-  read("shapes", spec::shapes(), &shapes);
-  read("lights", spec::lights(), &lights);
-  build_objects(objects, context, scene);
-  build_shapes(shapes, context, scene);
-  build_lights(lights, context, scene);
-  if (const JsonValue* json = reader.find("render"))
-    if (const auto render = schema::read<spec::Render>(*json, context.diagnostics))
-      scene.render = build(*render, context.diagnostics);
-  if (const JsonValue* json = reader.find("output")) scene.output = read_output(*json, context, scene);
-  reader.finish();
-  if (context.diagnostics.has_errors()) return scene;
-  check_validity(materials, context, scene);
-  check_lamps(context, scene);
-  if (scene.lights.empty())
-    context.diagnostics.error_if_strict(root.where, "no light: the image will be black");
-  return scene;
-}
-
 }  // namespace
 
 std::optional<std::filesystem::path> LoadContext::file(const std::string& name, const SourcePosition& where) {
@@ -192,11 +95,6 @@ std::optional<std::string> LoadContext::table(const std::string& name, const Sou
   return path->string() + name.substr(end);
 }
 
-std::optional<std::string> LoadContext::table(const JsonValue& json) {
-  const std::optional<std::string> name = read_string(json, diagnostics);
-  return name ? table(*name, json.where) : std::nullopt;
-}
-
 }  // namespace description
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
@@ -213,10 +111,14 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
   if (!root) return std::nullopt;
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
   description::LoadContext context{diagnostics, path.parent_path(), inputs};
-  Scene scene = description::read_scene(*root, context);
+  if (!description::check_version(*root, diagnostics)) return std::nullopt;
+  spec::Scene said;
+  (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said,
+                     diagnostics);  // what is sound of it is built
+  Scene scene = build(said, context);
   if (diagnostics.has_errors()) return std::nullopt;
   description::recentre(scene, context);
-  description::check_precision(*root, context, scene);
+  description::check_precision(said.camera->where, context, scene);
   if (diagnostics.has_errors()) return std::nullopt;
   scene.sha256 = description::hash(*source, overrides, context);
   scene.commit();

@@ -63,7 +63,6 @@ struct LoadContext {
   /// A table's name as the libraries take it: a user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml` is looked
   /// for beside the scene.
   [[nodiscard]] std::optional<std::string> table(const std::string& name, const SourcePosition& where);
-  [[nodiscard]] std::optional<std::string> table(const JsonValue& name);
 };
 
 }  // namespace abbe::description

@@ -47,11 +47,10 @@ void check_shapes(const LoadContext& context, const Scene& scene) {
 
 }  // namespace
 
-void check_precision(const JsonValue& root, const LoadContext& context, const Scene& scene) {
+void check_precision(const SourcePosition& where, const LoadContext& context, const Scene& scene) {
   check_shapes(context, scene);
   const std::optional<double> image_distance = traits(scene.camera).image_distance;
   if (!image_distance) return;
-  const SourcePosition& where = root.find("camera")->where;
   const double pixel = scene.camera.pixel_pitch / *image_distance;
   if (pixel < kLeastPixelSteps * kDirectionStep)
     context.diagnostics.error(

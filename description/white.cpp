@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/object_reader.h"
+#include "io/schema/read.h"
 #include "io/table.h"
 #include "spectral/library.h"
 
@@ -14,12 +14,10 @@ namespace {
 
 constexpr const char* kAsked = "asked for";
 
-std::optional<White> read_chromaticity(const JsonValue& json, Diagnostics& diagnostics) {
-  const auto xy = read_numbers(json, 2, {0, 1, true, true}, diagnostics);
-  if (!xy) return std::nullopt;
-  const Chromaticity white{(*xy)[0], (*xy)[1]};
+std::optional<White> build_chromaticity(const Chromaticity& white, const SourcePosition& where,
+                                        Diagnostics& diagnostics) {
   if (white[0] + white[1] <= 1) return White{fmt::format("{},{}", white[0], white[1]), kAsked, white};
-  diagnostics.error(json.where,
+  diagnostics.error(where,
                     fmt::format("is no chromaticity: x + y is above 1 (got {}, {})", white[0], white[1]));
   return std::nullopt;
 }
@@ -32,37 +30,50 @@ bool may_be_illuminant(const std::string& name, const std::vector<std::string>& 
 
 }  // namespace
 
-std::optional<White> read_white(const JsonValue& json, const WhiteNames& names, Diagnostics& diagnostics) {
-  if (std::holds_alternative<JsonValue::Array>(json.value)) return read_chromaticity(json, diagnostics);
-  const std::optional<std::string> name = read_string(json, diagnostics);
-  if (!name) return std::nullopt;
+schema::Kind spec::white() {
+  using namespace schema;
+  using Pair = std::array<double, 2>;
+  return forms<White::Wrapped>("white", "a white", form<Pair>(Json::list, vector<Pair>({0, 1, true, true})),
+                               form<std::string>(Json::any, text()));
+}
+
+std::optional<White> build(const spec::White& said, const WhiteNames& names, Diagnostics& diagnostics) {
+  const SourcePosition& where = said.where;
+  if (const auto* xy = std::get_if<std::array<double, 2>>(&said.value))
+    return build_chromaticity({(*xy)[0], (*xy)[1]}, where, diagnostics);
+  const auto& name = std::get<std::string>(said.value);
   const std::vector<std::string>& lights = names.lights;
-  const auto light = std::find(lights.begin(), lights.end(), *name);
+  const auto light = std::find(lights.begin(), lights.end(), name);
   if (light != lights.end()) {
-    if (std::find(light + 1, lights.end(), *name) == lights.end()) {
+    if (std::find(light + 1, lights.end(), name) == lights.end()) {
       White white = names.white_of_light(static_cast<std::size_t>(light - lights.begin()));
       white.reason = kAsked;
       return white;
     }
-    diagnostics.error(json.where, fmt::format("several lights are called \"{}\"", *name));
+    diagnostics.error(where, fmt::format("several lights are called \"{}\"", name));
     return std::nullopt;
   }
   std::vector<std::string> known = table_names("illuminant");
-  if (!may_be_illuminant(*name, known)) {
+  if (!may_be_illuminant(name, known)) {
     known.insert(known.begin(), lights.begin(), lights.end());
-    diagnostics.error(json.where, unknown_name("light or illuminant", *name, known));
+    diagnostics.error(where, unknown_name("light or illuminant", name, known));
     return std::nullopt;
   }
-  const std::optional<std::string> table = names.illuminant(json);
-  const auto illuminant = table ? load_illuminant(*table, json.where, diagnostics) : std::nullopt;
+  const std::optional<std::string> table = names.illuminant({{name}, where});
+  const auto illuminant = table ? load_illuminant(*table, where, diagnostics) : std::nullopt;
   if (!illuminant) return std::nullopt;
-  return White{*name, kAsked, chromaticity(illuminant->curve)};
+  return White{name, kAsked, chromaticity(illuminant->curve)};
 }
 
-WhiteNames white_names(const std::vector<Light>& lights, Diagnostics& diagnostics) {
+std::optional<White> read_white(const JsonValue& json, const WhiteNames& names, Diagnostics& diagnostics) {
+  const auto said = schema::read<spec::White>(json, spec::white(), diagnostics);
+  return said ? build(*said, names, diagnostics) : std::nullopt;
+}
+
+WhiteNames white_names(const std::vector<Light>& lights) {
   WhiteNames names{{},
                    [&lights](std::size_t i) { return white_of(lights[i], ""); },
-                   [&diagnostics](const JsonValue& name) { return read_string(name, diagnostics); }};
+                   [](const schema::Located<std::string>& name) { return std::optional(name.value); }};
   for (const Light& light : lights) names.lights.push_back(light.name);
   return names;
 }

@@ -1,0 +1,67 @@
+#include "description/scene.h"
+
+#include <array>
+
+#include "description/checks.h"
+#include "io/schema/write.h"
+#include "scene/colors.h"
+
+namespace abbe::description {
+namespace {
+
+OutputSettings build(const spec::Output& said, LoadContext& context, const Scene& scene) {
+  OutputSettings output{said.image.value_or(""), said.display.value_or(""), said.exposure, {}};
+  if (!said.white) return output;
+  WhiteNames names = white_names(scene.lights);
+  names.illuminant = [&context](const schema::Located<std::string>& name) {
+    return context.table(name.value, name.where);
+  };
+  output.white = abbe::build(*said.white, names, context.diagnostics);
+  if (has_colors(scene)) return output;
+  context.diagnostics.warning(said.white->where,
+                              "a white without effect: the sensor has neither three channels nor a spectrum");
+  output.white.reset();
+  return output;
+}
+
+void build_sensor(const spec::Scene& said, LoadContext& context, Scene& scene) {
+  Sensor sensor;
+  const bool probe = said.camera && std::holds_alternative<spec::IrradianceProbe>(said.camera->kind);
+  if (said.sensor) {
+    sensor = build(*said.sensor, probe, context);
+    scene.sensor_text = to_text(schema::write(*said.sensor));
+  }
+  if (said.camera)
+    if (const auto camera = build(*said.camera, sensor, context)) scene.camera = *camera;
+  scene.exposure_s = sensor.exposure_s;
+  scene.readout = sensor.readout;
+  scene.fill_factor = sensor.fill_factor;
+  scene.mosaic = std::move(sensor.mosaic);
+  scene.spectral = sensor.spectral;
+  scene.channels = std::move(sensor.channels);
+  for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
+}
+
+}  // namespace
+
+Scene build(const spec::Scene& said, LoadContext& context) {
+  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
+  Scene scene{};
+  context.unit_m = kMetres.at(static_cast<std::size_t>(said.units));
+  scene.unit_m = context.unit_m;
+  build_sensor(said, context, scene);  // before the lights, which may be sampled by what they expose
+  build_materials(said.materials, context, scene);
+  build_objects(said.objects, context, scene);
+  build_shapes(said.shapes, context, scene);
+  build_lights(said.lights, context, scene);
+  if (said.render) scene.render = build(*said.render, context.diagnostics);
+  if (said.output) scene.output = build(*said.output, context, scene);
+  if (context.diagnostics.has_errors()) return scene;
+  check_validity(said.materials, context, scene);
+  check_lamps(context, scene);
+  if (scene.lights.empty())
+    context.diagnostics.error_if_strict(said.where, "no light: the image will be black");
+  return scene;
+}
+
+}  // namespace abbe::description
