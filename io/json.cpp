@@ -231,7 +231,55 @@ void write(TextWriter& writer, const JsonValue& json) {
   }
 }
 
+// In one line, with blanks.
+void write_line(const JsonValue& json, std::string& out) {
+  const auto* array = std::get_if<JsonValue::Array>(&json.value);
+  const auto* object = std::get_if<JsonValue::Object>(&json.value);
+  if (!array && !object) {
+    out += to_text(json);
+    return;
+  }
+  const char* separator = "";
+  out += array ? '[' : '{';
+  for (std::size_t i = 0; i < (array ? array->size() : object->size()); ++i) {
+    out += std::exchange(separator, ", ");
+    if (object) out += to_text({(*object)[i].first, {}}) + ": ";
+    write_line(array ? (*array)[i] : (*object)[i].second, out);
+  }
+  out += array ? ']' : '}';
+}
+
+// From a column on; what does not fit goes on lines of its own.
+void write_lines(const JsonValue& json, std::size_t column, std::size_t indent, std::size_t width,
+                 std::string& out) {
+  const auto* array = std::get_if<JsonValue::Array>(&json.value);
+  const auto* object = std::get_if<JsonValue::Object>(&json.value);
+  std::string line;
+  write_line(json, line);
+  if ((!array && !object) || column + line.size() + 1 <= width) {  // and a comma
+    out += line;
+    return;
+  }
+  const std::string margin(indent + 2, ' ');
+  const std::size_t size = array ? array->size() : object->size();
+  out += array ? "[\n" : "{\n";
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::string key = object ? to_text({(*object)[i].first, {}}) + ": " : "";
+    out += margin + key;
+    write_lines(array ? (*array)[i] : (*object)[i].second, margin.size() + key.size(), indent + 2, width,
+                out);
+    out += i + 1 < size ? ",\n" : "\n";
+  }
+  out += std::string(indent, ' ') + (array ? ']' : '}');
+}
+
 }  // namespace
+
+std::string to_lines(const JsonValue& value, std::size_t width) {
+  std::string out;
+  write_lines(value, 0, 0, width, out);
+  return out + '\n';
+}
 
 std::string to_text(const JsonValue& value) {
   rapidjson::StringBuffer buffer;

@@ -46,6 +46,9 @@ struct JsonValue::Member {
 /// The value as JSON in one line, numbers with the fewest digits that read back as the same.
 [[nodiscard]] std::string to_text(const JsonValue& value);
 
+/// The value as JSON for people: what fits into a line of `width` columns stands in one.
+[[nodiscard]] std::string to_lines(const JsonValue& value, std::size_t width);
+
 /// Replaces or creates the value at a JSON pointer ("/render/samples") by `text`, which is JSON, or a bare
 /// word or path taken as a string. Objects on the way are created; the index after an array's last, or "-",
 /// appends. Reports, as usage errors, a pointer that passes through something that is no object or array, and
