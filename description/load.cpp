@@ -115,6 +115,7 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
   spec::Scene said;
   (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said,
                      diagnostics);  // what is sound of it is built
+  root.reset();                     // of a large scene as large as what follows
   Scene scene = build(said, context);
   if (diagnostics.has_errors()) return std::nullopt;
   description::recentre(scene, context);
