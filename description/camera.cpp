@@ -9,6 +9,93 @@
 
 #include "description/kinds.h"
 
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+constexpr Range kFNumber{0, 1e6, true, false};
+
+}  // namespace
+
+static Fields fields(Tag<Aperture>) {
+  return describe(
+      "aperture", "How much light a lens passes.",
+      {field("f_number", &Aperture::f_number, kFNumber,
+             "Focal length over the diameter of the opening; of a pinhole, which is sharp everywhere, it "
+             "sets the exposure only."),
+       field("t_stop", &Aperture::t_stop, kFNumber,
+             "f-number over the root of the lens's transmittance, at least the f-number: it exposes as a "
+             "lens without losses of that f-number does, and alone stands for both.")});
+}
+
+static Fields fields(Tag<Pinhole>) {
+  return describe("pinhole", "A camera without a lens, sharp everywhere.",
+                  {one_of(&Pinhole::view,
+                          under<FocalLength>("focal_length", kLength, "Distance from the hole to the film."),
+                          under<FieldOfView>("fov_deg", {0, 180, true, true},
+                                             "Field of view along the shorter image axis.")),
+                   lent(&Pinhole::aperture)});
+}
+
+static Fields fields(Tag<ThinLens>) {
+  using Focus = std::variant<double, Far>;
+  return describe(
+      "thin_lens", "A camera with an ideal lens.",
+      {field("focal_length", &ThinLens::focal_length, kLength, "The focal length."),
+       lent(&ThinLens::aperture),
+       field("focus_distance", &ThinLens::focus_distance,
+             forms<Focus>("", "a distance", form<Far>(Json::text, word<Far>("distance", {"infinity"})),
+                          form<double>(Json::any, kLength)),
+             "Distance from the lens to the plane in focus, beyond the focal length; that from `from` to "
+             "`to` when absent.")},
+      {"f_number", "t_stop"});
+}
+
+static Fields fields(Tag<View>) {
+  return describe("view", "Where a camera stands.",
+                  {field("from", &View::from, kCoordinate, "Position of the camera."),
+                   field("to", &View::to, kCoordinate, "Position it looks at."),
+                   field("up", &View::up, direction(), "Direction that is up in the image.")});
+}
+
+static Fields fields(Tag<PinholeCamera>) {
+  return describe(
+      "pinhole_camera", "",
+      {field("pinhole", &PinholeCamera::pinhole, "The camera is a pinhole."), lent(&PinholeCamera::view)});
+}
+
+static Fields fields(Tag<ThinLensCamera>) {
+  return describe("thin_lens_camera", "",
+                  {field("thin_lens", &ThinLensCamera::lens, "The camera has a thin lens."),
+                   lent(&ThinLensCamera::view)});
+}
+
+static Fields fields(Tag<PointProbe>) {
+  return describe("point_probe", "",
+                  {field("at", &PointProbe::at, kCoordinate, "Position of a point that measures irradiance."),
+                   field("normal", &PointProbe::normal, direction(), "Direction the point faces.")});
+}
+
+static Fields fields(Tag<IrradianceProbe>) {
+  return describe(
+      "irradiance_probe", "A meter of irradiance.",
+      {one_of(
+          &IrradianceProbe::surface, beside<PointProbe>("at"),
+          under<Quad>(
+              "quad",
+              "A parallelogram that measures irradiance, one patch per pixel; it faces edge_u x edge_v."))});
+}
+
+Fields fields(Tag<Camera>) {
+  return describe(
+      "camera", "What looks at the scene.",
+      {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
+              under<IrradianceProbe>("irradiance_probe", "The camera is a meter of irradiance."))});
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 

@@ -54,7 +54,7 @@ struct Camera {
   std::variant<std::monostate, PinholeCamera, ThinLensCamera, IrradianceProbe> kind;
   SourcePosition where;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Camera>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Camera>);
 
 }  // namespace abbe::spec
 

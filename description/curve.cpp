@@ -7,6 +7,79 @@
 
 #include "spectral/library.h"
 
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+// Wavelengths of a table's samples: wide enough for tables beyond the rendered range, too high for
+// micrometres.
+constexpr Range kTableWavelength{100, 1e5};
+constexpr Range kLineWidth{1e-3, kMaxWavelengthNm - kMinWavelengthNm};
+
+}  // namespace
+
+static Fields fields(Tag<TableCurve>) {
+  return describe(
+      "table_curve", "Samples with straight lines between them.",
+      {field("wavelength_nm", &TableCurve::wavelength_nm, kTableWavelength,
+             "Strictly ascending wavelengths."),
+       field("values", &TableCurve::values, kValue, "As many values."),
+       field("outside", &TableCurve::outside, word<Outside>("rule for outside the table", {"clamp", "zero"}),
+             "What holds before the first and after the last sample.")});
+}
+
+static Fields fields(Tag<Band>) {
+  return describe("band", "A box.",
+                  {field("band", &Band::ends, vector<std::array<double, 2>>(kWavelength),
+                         "[low, high) in nm, and zero elsewhere."),
+                   defaulted("value", &Band::value, kValue, "Height of the band.")});
+}
+
+static Fields fields(Tag<Gaussian>) {
+  return describe("gaussian", "peak x 2^(-(2 (wavelength - center)/fwhm)^2).",
+                  {field("center_nm", &Gaussian::center_nm, kWavelength, "Where it is highest."),
+                   field("fwhm_nm", &Gaussian::fwhm_nm, kLineWidth, "Full width at half maximum."),
+                   defaulted("peak", &Gaussian::peak, kValue, "Its height.")});
+}
+
+static Fields fields(Tag<Line>) {
+  return describe("line", "A spectral line, which spreads its power evenly over its width.",
+                  {field("nm", &Line::nm, kWavelength, "Its middle."),
+                   field("width_nm", &Line::width_nm, kLineWidth, "Its width."),
+                   field("power", &Line::power, kPower, "Its integral.")});
+}
+
+static Fields fields(Tag<Scaled>) {
+  return describe("scaled", "",
+                  {field("of", &Scaled::of, "A curve that `scale` multiplies."),
+                   field("scale", &Scaled::scale, kValue, "Factor of the curve `of`.")});
+}
+
+Fields fields(Tag<CurveFormula>) {
+  return describe(
+      "curve_formula", "A curve given by a formula.",
+      {one_of(
+          &CurveFormula::of, under<TableCurve>("table", "Samples of the curve."), beside<Band>("band"),
+          under<Gaussian>("gaussian", "A bell."), under<Lines>("lines", "Spectral lines."),
+          under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance at this temperature [K]."),
+          under<Daylight>("daylight_K", kDaylight,
+                          "CIE daylight of this correlated colour temperature [K], relative."),
+          under<Product>("product", list<Curve>("curves", 1), "The product of all."),
+          under<Sum>("sum", list<Curve>("curves", 1), "The sum of all."), beside<Scaled>("of"))});
+}
+
+Kind kind(Tag<Lines::Wrapped>) {
+  return list<Line>("lines", 1);
+}
+Kind kind(Tag<Curve::Wrapped>) {
+  return forms<Curve::Wrapped>("curve", "a curve: a number, a name or an object",
+                               form<double>(Json::number, kValue), form<std::string>(Json::text),
+                               form<CurveFormula>(Json::object));
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 

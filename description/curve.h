@@ -54,11 +54,11 @@ struct CurveFormula {
 /// A function of wavelength: a constant, the name of a table, or a formula.
 struct Curve : schema::Located<std::variant<double, std::string, CurveFormula>> {};
 
-[[nodiscard]] const schema::Fields& fields(schema::Tag<CurveFormula>);
-[[nodiscard]] schema::Kind curve();
-[[nodiscard]] schema::Kind lines();
-[[nodiscard]] schema::Kind blackbody_K();
-[[nodiscard]] schema::Kind daylight_K();
+[[nodiscard]] schema::Fields fields(schema::Tag<CurveFormula>);
+[[nodiscard]] schema::Kind kind(schema::Tag<Curve::Wrapped>);
+[[nodiscard]] schema::Kind kind(schema::Tag<Lines::Wrapped>);
+inline constexpr Range kBlackbody{100, 1e6};    ///< [K]
+inline constexpr Range kDaylight{4000, 25000};  ///< [K]
 
 }  // namespace abbe::spec
 

@@ -1,5 +1,6 @@
 #include "description/emission.h"
 
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,110 @@
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
+
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+struct QuantityText {
+  std::string_view key;
+  std::string_view text;
+};
+constexpr QuantityText text_of(Quantity quantity) {
+  constexpr std::array<QuantityText, 8> kTexts{{
+      {"radiant_flux_W", "Power that the lamp sends out [W]."},
+      {"luminous_flux_lm", "Luminous flux that the lamp sends out [lm]."},
+      {"radiance", "Radiance [W/(m2 sr)] over 300-1100 nm."},
+      {"luminance", "Luminance [cd/m2]."},
+      {"intensity", "Intensity [W/sr] over 300-1100 nm."},
+      {"luminous_intensity", "Luminous intensity [cd]."},
+      {"irradiance", "Irradiance of a surface that faces the light [W/m2] over 300-1100 nm."},
+      {"illuminance", "Illuminance of a surface that faces the light [lx]."},
+  }};
+  return kTexts.at(static_cast<std::size_t>(quantity));
+}
+
+template <Quantity quantity>
+auto amount() {
+  return under<Amount<quantity>>(text_of(quantity).key, kPower, text_of(quantity).text);
+}
+template <Quantity quantity>
+auto amount_at() {
+  return beside<AmountAt<quantity>>(text_of(quantity).key);
+}
+
+// One spectrum and at most one of the scales.
+template <typename E, typename... Choices>
+Fields describe_emission(std::string_view name, std::string_view text, bool has_flux, Choices... scale) {
+  decltype(Emission::spectrum) E::*spectrum = &Emission::spectrum;
+  decltype(Emission::scale) E::*scales = &Emission::scale;
+  const auto sources = [&](auto... more) {
+    return one_of(
+        spectrum,
+        under<Illuminant>("illuminant",
+                          "A relative spectrum: a name of data/illuminant, blackbody:<K>, daylight:<K>, or "
+                          "FILE.csv:COLUMN."),
+        under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance at this temperature [K]."),
+        under<Daylight>("daylight_K", kDaylight,
+                        "CIE daylight of this correlated colour temperature [K], relative."),
+        under<Spectrum>("spectrum",
+                        "Spectral radiance [W/(m2 sr nm)], intensity [W/(sr nm)] of a point or spot, or "
+                        "irradiance [W/(m2 nm)] of a directional light; 0 or more."),
+        under<Lines>("lines", "Spectral lines, in the unit of a spectrum."), std::move(more)...);
+  };
+  return describe(name, text,
+                  {has_flux ? sources(under<SpectralFlux>(
+                                  "spectral_flux_W_per_nm",
+                                  "What the lamp sends out at each wavelength [W/nm], 0 or more."))
+                            : sources(),
+                   at_most_one(scales, "an emission has one scale", std::move(scale)...)});
+}
+
+}  // namespace
+
+template <Quantity quantity>
+Fields fields(Tag<AmountAt<quantity>>) {
+  using At = AmountAt<quantity>;
+  return describe("", "",
+                  {field(text_of(quantity).key, &At::amount, kPower, text_of(quantity).text),
+                   field("distance", &At::distance, kLength,
+                         "Distance of that surface from the middle of the lamp, along its normal.")});
+}
+
+Fields fields(Tag<MeshEmission>) {
+  return describe_emission<MeshEmission>("mesh_emission", "What each triangle sends out.", true,
+                                         amount<Quantity::radiant_flux>(), amount<Quantity::luminous_flux>(),
+                                         amount<Quantity::radiance>(), amount<Quantity::luminance>());
+}
+Fields fields(Tag<LampEmission>) {
+  return describe_emission<LampEmission>(
+      "lamp_emission", "What a surface sends out, the same radiance in all directions.", true,
+      amount<Quantity::radiant_flux>(), amount<Quantity::luminous_flux>(), amount<Quantity::radiance>(),
+      amount<Quantity::luminance>(), amount_at<Quantity::irradiance>(), amount_at<Quantity::illuminance>());
+}
+Fields fields(Tag<PointEmission>) {
+  return describe_emission<PointEmission>(
+      "point_emission", "What a point sends out.", true, amount<Quantity::radiant_flux>(),
+      amount<Quantity::luminous_flux>(), amount<Quantity::intensity>(),
+      amount<Quantity::luminous_intensity>(), amount_at<Quantity::irradiance>(),
+      amount_at<Quantity::illuminance>());
+}
+Fields fields(Tag<BeamEmission>) {
+  return describe_emission<BeamEmission>("beam_emission", "What comes from one direction.", false,
+                                         amount<Quantity::irradiance>(), amount<Quantity::illuminance>());
+}
+Fields fields(Tag<SunEmission>) {
+  return describe_emission<SunEmission>("sun_emission", "What a disc at infinity sends here.", false,
+                                        amount<Quantity::radiance>(), amount<Quantity::luminance>(),
+                                        amount<Quantity::irradiance>(), amount<Quantity::illuminance>());
+}
+Fields fields(Tag<SkyEmission>) {
+  return describe_emission<SkyEmission>("sky_emission", "What comes from all directions.", false,
+                                        amount<Quantity::radiance>(), amount<Quantity::luminance>());
+}
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
@@ -66,8 +171,7 @@ ScaledCurve times(LampSpectrum& spectrum, double factor) {
 
 /// A quantity that an emission is scaled to, and how much of it a lamp of unit radiance or intensity has.
 struct Scale {
-  std::string_view name;
-  bool luminous;
+  spec::Quantity quantity;
   double value;
   double of_unit;
 };
@@ -77,52 +181,34 @@ struct ScaleBuilder {
   const SourcePosition& where;
   const LoadContext& context;
 
-  [[nodiscard]] std::optional<Scale> at(std::string_view name, bool luminous, double value,
-                                        double distance) const {
-    const double of_unit = kind.irradiance(distance * context.unit_m);
-    if (of_unit > 0) return Scale{name, luminous, value, of_unit};
-    context.diagnostics.error(where, fmt::format("lies within the lamp (got a distance of {})", distance));
-    return std::nullopt;
+  [[nodiscard]] double of_unit(spec::Quantity quantity) const {
+    using enum spec::Quantity;
+    if (quantity == radiant_flux || quantity == luminous_flux) return kind.flux;
+    return quantity == irradiance || quantity == illuminance ? kind.irradiance(0) : 1;
   }
   std::optional<Scale> operator()(std::monostate) const { return std::nullopt; }
-  std::optional<Scale> operator()(const spec::RadiantFlux& said) const {
-    return Scale{"radiant_flux_W", false, said.value, kind.flux};
+  template <spec::Quantity quantity>
+  std::optional<Scale> operator()(const spec::Amount<quantity>& said) const {
+    return Scale{quantity, said.value, of_unit(quantity)};
   }
-  std::optional<Scale> operator()(const spec::LuminousFlux& said) const {
-    return Scale{"luminous_flux_lm", true, said.value, kind.flux};
-  }
-  std::optional<Scale> operator()(const spec::Radiance& said) const {
-    return Scale{"radiance", false, said.value, 1};
-  }
-  std::optional<Scale> operator()(const spec::Luminance& said) const {
-    return Scale{"luminance", true, said.value, 1};
-  }
-  std::optional<Scale> operator()(const spec::Intensity& said) const {
-    return Scale{"intensity", false, said.value, 1};
-  }
-  std::optional<Scale> operator()(const spec::LuminousIntensity& said) const {
-    return Scale{"luminous_intensity", true, said.value, 1};
-  }
-  std::optional<Scale> operator()(const spec::Irradiance& said) const {
-    return Scale{"irradiance", false, said.value, kind.irradiance(0)};
-  }
-  std::optional<Scale> operator()(const spec::Illuminance& said) const {
-    return Scale{"illuminance", true, said.value, kind.irradiance(0)};
-  }
-  std::optional<Scale> operator()(const spec::IrradianceAt& said) const {
-    return at("irradiance", false, said.irradiance, said.distance);
-  }
-  std::optional<Scale> operator()(const spec::IlluminanceAt& said) const {
-    return at("illuminance", true, said.illuminance, said.distance);
+  template <spec::Quantity quantity>
+  std::optional<Scale> operator()(const spec::AmountAt<quantity>& said) const {
+    const double irradiance = kind.irradiance(said.distance * context.unit_m);
+    if (irradiance > 0) return Scale{quantity, said.amount, irradiance};
+    context.diagnostics.error(where,
+                              fmt::format("lies within the lamp (got a distance of {})", said.distance));
+    return std::nullopt;
   }
 };
 
 // What `spectrum` is multiplied by to have as much of a quantity as asked for.
 std::optional<double> normaliser(const LampSpectrum& spectrum, const Scale& scale,
                                  const SourcePosition& where, const LoadContext& context) {
-  const double unscaled = (scale.luminous ? spectrum.luminous : spectrum.power) * scale.of_unit;
+  const bool luminous = static_cast<int>(scale.quantity) % 2 == 1;
+  const double unscaled = (luminous ? spectrum.luminous : spectrum.power) * scale.of_unit;
   if (unscaled > 0) return scale.value / unscaled;
-  context.diagnostics.error(where, fmt::format("{} cannot scale this spectrum, which has none", scale.name));
+  context.diagnostics.error(
+      where, fmt::format("{} cannot scale this spectrum, which has none", spec::text_of(scale.quantity).key));
   return std::nullopt;
 }
 

@@ -14,29 +14,33 @@ struct Illuminant : schema::Located<std::string> {};
 struct Spectrum : Curve {};
 struct SpectralFlux : Curve {};  ///< [W/nm]
 
-struct RadiantFlux : schema::Value<double> {};        ///< [W]
-struct LuminousFlux : schema::Value<double> {};       ///< [lm]
-struct Radiance : schema::Value<double> {};           ///< [W/(m^2 sr)]
-struct Luminance : schema::Value<double> {};          ///< [cd/m^2]
-struct Intensity : schema::Value<double> {};          ///< [W/sr]
-struct LuminousIntensity : schema::Value<double> {};  ///< [cd]
-struct Irradiance : schema::Value<double> {};         ///< [W/m^2]
-struct Illuminance : schema::Value<double> {};        ///< [lx]
-/// At a distance from the middle of the lamp.
-struct IrradianceAt {
-  double irradiance = 0;
-  double distance = 0;
+/// What a lamp may be scaled to; every other one is weighed by what the eye sees.
+enum class Quantity {
+  radiant_flux,
+  luminous_flux,
+  radiance,
+  luminance,
+  intensity,
+  luminous_intensity,
+  irradiance,
+  illuminance
 };
-struct IlluminanceAt {
-  double illuminance = 0;
+template <Quantity quantity>
+struct Amount : schema::Value<double> {};
+/// At a distance from the middle of the lamp.
+template <Quantity quantity>
+struct AmountAt {
+  double amount = 0;
   double distance = 0;
 };
 
 /// What a lamp sends out: one spectrum, and at most one quantity that it is scaled to.
 struct Emission {
   std::variant<std::monostate, Illuminant, Blackbody, Daylight, Spectrum, Lines, SpectralFlux> spectrum;
-  std::variant<std::monostate, RadiantFlux, LuminousFlux, Radiance, Luminance, Intensity, LuminousIntensity,
-               Irradiance, Illuminance, IrradianceAt, IlluminanceAt>
+  std::variant<std::monostate, Amount<Quantity::radiant_flux>, Amount<Quantity::luminous_flux>,
+               Amount<Quantity::radiance>, Amount<Quantity::luminance>, Amount<Quantity::intensity>,
+               Amount<Quantity::luminous_intensity>, Amount<Quantity::irradiance>,
+               Amount<Quantity::illuminance>, AmountAt<Quantity::irradiance>, AmountAt<Quantity::illuminance>>
       scale;
   SourcePosition where;
 };
@@ -47,12 +51,12 @@ struct PointEmission : Emission {};
 struct BeamEmission : Emission {};
 struct SunEmission : Emission {};
 struct SkyEmission : Emission {};
-[[nodiscard]] const schema::Fields& fields(schema::Tag<MeshEmission>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<LampEmission>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<PointEmission>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<BeamEmission>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<SunEmission>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<SkyEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<MeshEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<LampEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<PointEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<BeamEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<SunEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<SkyEmission>);
 
 }  // namespace abbe::spec
 

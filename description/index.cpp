@@ -7,6 +7,93 @@
 
 #include "materials/index/library.h"
 
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+constexpr Range kIndex{0, 100, true, false};  // every measured index lies well inside
+constexpr Range kMetalIndex{0, 100};          // n = 0 is the perfect mirror
+constexpr Range kExtinction{0, 100};
+constexpr Range kFilmThickness{0, 1e5, true, false};  // [nm]; nothing thicker is coherent
+constexpr Range kRepeats{1, static_cast<double>(Coating::kMaxLayers)};
+
+template <typename Constant>
+Fields describe_constant(std::string_view name, Range range) {
+  double Constant::*n = &ConstantIor::n;
+  double Constant::*k = &ConstantIor::k;
+  return describe(name, "A constant index.",
+                  {field("n", n, range, "The refractive index."),
+                   defaulted("k", k, kExtinction, "Extinction, absorbing when positive.")});
+}
+
+template <typename Constant>
+Kind index(std::string_view name, Range range) {
+  return forms<Ior::Wrapped>(name, "an index", form<double>(Json::number, range),
+                             form<Constant>(Json::object), form<std::string>(Json::any));
+}
+
+}  // namespace
+
+static Fields fields(Tag<ConstantIor>) {
+  return describe_constant<ConstantIor>("constant_index", kIndex);
+}
+static Fields fields(Tag<MetalIor>) {
+  return describe_constant<MetalIor>("constant_metal_index", kMetalIndex);
+}
+Kind kind(Tag<Ior::Wrapped>) {
+  return index<ConstantIor>("index", kIndex);
+}
+Kind metal_ior() {
+  return index<MetalIor>("metal_index", kMetalIndex);
+}
+
+Fields fields(Tag<TintedIor>) {
+  return describe("tinted_index", "",
+                  {field("ior", &TintedIor::ior,
+                         "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
+                         "FILE.csv or FILE.yml."),
+                   field("absorption_per_m", &TintedIor::absorption_per_m,
+                         "Absorption coefficient inside, 0 or more, with a constant real index only.")});
+}
+
+static Fields fields(Tag<Layer>) {
+  return describe("layer", "A coherent thin film.",
+                  {field("ior", &Layer::ior, "Its refractive index."),
+                   field("thickness_nm", &Layer::thickness_nm, kFilmThickness, "Its thickness.")});
+}
+static Fields fields(Tag<LayerGroup>) {
+  return describe("layer_group", "Layers that repeat.",
+                  {defaulted("repeat", &LayerGroup::repeat, kRepeats, "How often they stand there."),
+                   field("layers", &LayerGroup::layers, "What repeats.")});
+}
+Kind kind(Tag<std::vector<LayerEntry>>) {
+  return list<LayerEntry>(
+      forms<LayerEntry::Wrapped>("layer_entry", "a layer", form<LayerGroup>(Json::object, {"layers"}),
+                                 form<Layer>(Json::any)),
+      "layers", 1);
+}
+
+static Fields fields(Tag<Facets>) {
+  using Pair = std::array<double, 2>;
+  return describe(
+      "facets", "Microfacets.",
+      {field("alpha", &Facets::alpha,
+             forms<Alpha>("", "a width", form<Pair>(Json::list, vector<Pair>(Range::unit())),
+                          form<double>(Json::any, Range::unit())),
+             "Width of their slopes, or widths along the surface coordinate u and across it."),
+       defaulted("distribution", &Facets::distribution, word<FacetShape>("distribution", {"ggx", "beckmann"}),
+                 "How their slopes are distributed.")});
+}
+Kind kind(Tag<Roughness::Wrapped>) {
+  using Pair = std::array<double, 2>;
+  return forms<Roughness::Wrapped>("roughness", "a roughness", form<Facets>(Json::object),
+                                   form<Pair>(Json::list, vector<Pair>(Range::unit())),
+                                   form<double>(Json::any, Range::unit()));
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 

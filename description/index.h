@@ -20,7 +20,7 @@ struct ConstantIor {
 struct MetalIor : ConstantIor {};  ///< Whose n may be 0: the perfect mirror.
 /// n, n and k, or the name of a table.
 struct Ior : schema::Located<std::variant<double, ConstantIor, MetalIor, std::string>> {};
-[[nodiscard]] schema::Kind ior();
+[[nodiscard]] schema::Kind kind(schema::Tag<Ior::Wrapped>);
 [[nodiscard]] schema::Kind metal_ior();
 
 /// An index, whose absorption may be said beside it.
@@ -28,7 +28,7 @@ struct TintedIor {
   Ior ior;
   std::optional<Curve> absorption_per_m;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<TintedIor>);
+[[nodiscard]] schema::Fields fields(schema::Tag<TintedIor>);
 
 struct LayerEntry;
 struct Layer {
@@ -41,7 +41,7 @@ struct LayerGroup {
 };
 struct LayerEntry : schema::Located<std::variant<Layer, LayerGroup>> {};
 /// Layers and repeated groups of them, from the outside inwards.
-[[nodiscard]] schema::Kind layers();
+[[nodiscard]] schema::Kind kind(schema::Tag<std::vector<LayerEntry>>);
 
 /// A width, or those along the x and y axes.
 using Alpha = std::variant<double, std::array<double, 2>>;
@@ -50,7 +50,7 @@ struct Facets {
   FacetShape distribution = FacetShape::ggx;
 };
 struct Roughness : schema::Located<std::variant<double, std::array<double, 2>, Facets>> {};
-[[nodiscard]] schema::Kind roughness();
+[[nodiscard]] schema::Kind kind(schema::Tag<Roughness::Wrapped>);
 
 }  // namespace abbe::spec
 

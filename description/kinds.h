@@ -19,14 +19,6 @@ inline constexpr Range kPower{0, 1e30};
 inline constexpr Range kExposure{0, 1e9, true, false};  ///< [s]
 inline constexpr Range kWavelength{kMinWavelengthNm, kMaxWavelengthNm};
 
-/// A length above 0, as a double.
-[[nodiscard]] inline schema::Kind length() {
-  return schema::number(kLength);
-}
-/// A position, edge or displacement, as an Imath::V3d.
-[[nodiscard]] inline schema::Kind point() {
-  return schema::vector<Imath::V3d>(kCoordinate);
-}
 /// A direction of any length but zero, as an Imath::V3d.
 [[nodiscard]] inline schema::Kind direction() {
   return schema::vector<Imath::V3d>(kCoordinate, true);

@@ -10,6 +10,90 @@
 #include "description/material.h"
 #include "scene/shapes/quad.h"
 
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+constexpr Range kDiameter{0.01, 60};   // degrees: what looks smaller is as good as directional
+constexpr Range kHalfAngle{0.1, 180};  // degrees: below, a float's cosine no longer tells cones apart
+
+constexpr char kTowards[] = "Direction from the scene to where the light comes from, of any length.";
+
+template <typename T>
+Field strength(DaylightStrength T::*member) {
+  return at_most_one(
+      member, "a light has one strength",
+      under<DaylightIrradiance>(
+          "irradiance", kPower,
+          "Of a surface that faces the light [W/m2] over 300-1100 nm, as D65; in place of an emission."),
+      under<DaylightIlluminance>("illuminance", kPower,
+                                 "Of a surface that faces the light [lx], as D65; in place of an emission."));
+}
+
+}  // namespace
+
+// The name of what shines is its key.
+template <typename Source, typename Emission>
+Fields fields(Tag<Lamp<Source, Emission>>) {
+  using L = Lamp<Source, Emission>;
+  return describe("", "", {field(fields_of<Source>().name, &L::source), field("emission", &L::emission)});
+}
+template <typename Surface>
+Fields fields(Tag<AreaLamp<Surface>>) {
+  using L = AreaLamp<Surface>;
+  return describe("", "",
+                  {field(fields_of<Surface>().name, &L::surface), field("emission", &L::emission),
+                   defaulted("two_sided", &L::two_sided, "Whether it emits from both sides."),
+                   field("material", &L::material, "Material of its surface; black when absent.")});
+}
+
+static Fields fields(Tag<Point>) {
+  return describe("point", "A point that sends out the same intensity everywhere.",
+                  {field("at", &Point::at, kCoordinate, "Its position.")});
+}
+
+static Fields fields(Tag<Spot>) {
+  return describe(
+      "spot", "A point that sends out the same intensity within a cone, and none outside.",
+      {field("at", &Spot::at, kCoordinate, "Its position."),
+       field("direction", &Spot::direction, direction(), "Axis of the cone."),
+       field("half_angle_deg", &Spot::half_angle_deg, kHalfAngle, "Angle between axis and cone.")});
+}
+
+static Fields fields(Tag<Beam>) {
+  return describe("directional", "A parallel beam from infinity.",
+                  {field("towards", &Beam::towards, direction(), kTowards), strength(&Beam::strength)});
+}
+
+static Fields fields(Tag<Sun>) {
+  return describe(
+      "sun",
+      "A disc at infinity of the same radiance all over, seen by cameras, in mirrors and through glass.",
+      {field("towards", &Sun::towards, direction(), kTowards),
+       defaulted("angular_diameter_deg", &Sun::angular_diameter_deg, kDiameter, "How large it looks."),
+       strength(&Sun::strength)});
+}
+
+static Fields fields(Tag<Sky>) {
+  return describe(
+      "environment", "The same radiance from all directions, or an image's; one per scene.",
+      {field("image", &Sky::image, "An equirectangular EXR or HDR file with linear channels R, G, B, or Y."),
+       field("up", &Sky::up, direction(), "Direction of its top row, [0, 0, 1] when absent."),
+       field("rotate_deg", &Sky::rotate_deg, kValue, "Right-handed turn about `up`, 0 when absent.")});
+}
+
+Fields fields(Tag<Light>) {
+  return describe(
+      "light", "A light.",
+      {field("name", &Light::name, "For messages, and to name it as a white."),
+       one_of(&Light::kind, beside<AreaLamp<Quad>>("quad"), beside<AreaLamp<Sphere>>("sphere"),
+              beside<AreaLamp<Disc>>("disc"), beside<PointLamp>("point"), beside<SpotLamp>("spot"),
+              beside<BeamLamp>("directional"), beside<SunLamp>("sun"), beside<SkyLamp>("environment"))});
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 
@@ -83,15 +167,15 @@ struct LightBuilder {
                    context, scene);
   }
   void operator()(const spec::PointLamp& said) {
-    add(PointLight{Imath::V3f(0)}, said.point.at * context.unit_m, said.emission,
+    add(PointLight{Imath::V3f(0)}, said.source.at * context.unit_m, said.emission,
         {schema::fields_of<spec::PointEmission>, 4 * std::numbers::pi, inverse_square});
   }
   void operator()(const spec::SpotLamp& said) {
-    const double sine = std::sin(said.spot.half_angle_deg * std::numbers::pi / 360);
-    const SpotLight spot{Imath::V3f(0), Imath::V3f(said.spot.direction.normalized()),
+    const double sine = std::sin(said.source.half_angle_deg * std::numbers::pi / 360);
+    const SpotLight spot{Imath::V3f(0), Imath::V3f(said.source.direction.normalized()),
                          static_cast<float>(2 * sine * sine)};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
-    add(spot, said.spot.at * context.unit_m, said.emission,
+    add(spot, said.source.at * context.unit_m, said.emission,
         {schema::fields_of<spec::PointEmission>, solid_angle, inverse_square});
   }
   // A light from infinity may say its strength itself, by daylight, without an emission beside it.
@@ -108,28 +192,28 @@ struct LightBuilder {
     spec::Emission daylight;
     daylight.where = *own;
     daylight.spectrum = spec::Illuminant{{{"D65"}, *own}};
-    if (irradiance) daylight.scale = spec::Irradiance{{irradiance->value}};
-    if (illuminance) daylight.scale = spec::Illuminance{{illuminance->value}};
+    if (irradiance) daylight.scale = spec::Amount<spec::Quantity::irradiance>{{irradiance->value}};
+    if (illuminance) daylight.scale = spec::Amount<spec::Quantity::illuminance>{{illuminance->value}};
     add(std::move(kind), {0, 0, 0}, daylight, lamp);
   }
   void operator()(const spec::BeamLamp& said) {
-    add_from_infinity(DirectionalLight{Imath::V3f(said.beam.towards.normalized())}, said.beam.strength,
+    add_from_infinity(DirectionalLight{Imath::V3f(said.source.towards.normalized())}, said.source.strength,
                       said.emission ? &*said.emission : nullptr,
                       {schema::fields_of<spec::BeamEmission>, 0, [](double) { return 1.0; }});
   }
   void operator()(const spec::SunLamp& said) {
-    const double sine = std::sin(said.sun.angular_diameter_deg * std::numbers::pi / 720);
-    const SunLight sun{Imath::V3f(said.sun.towards.normalized()), static_cast<float>(2 * sine * sine)};
+    const double sine = std::sin(said.source.angular_diameter_deg * std::numbers::pi / 720);
+    const SunLight sun{Imath::V3f(said.source.towards.normalized()), static_cast<float>(2 * sine * sine)};
     const double of_unit = sun.projected_solid_angle();
-    add_from_infinity(sun, said.sun.strength, said.emission ? &*said.emission : nullptr,
+    add_from_infinity(sun, said.source.strength, said.emission ? &*said.emission : nullptr,
                       {schema::fields_of<spec::SunEmission>, 0, [of_unit](double) { return of_unit; }});
   }
   void operator()(const spec::SkyLamp& said) {
-    auto sky = build(said.sky, context);
+    auto sky = build(said.source, context);
     for (const Light& light : scene.lights)
       if (light.is_environment())
         return context.diagnostics.error(
-            said.sky.where,
+            said.source.where,
             fmt::format("a scene has one environment (got another beside \"{}\")", light.name));
     if (!sky) return;
     auto curve = build(said.emission, {schema::fields_of<spec::SkyEmission>, 0}, context);

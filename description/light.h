@@ -15,6 +15,12 @@
 
 namespace abbe::spec {
 
+/// What shines, and what it sends out.
+template <typename Source, typename Emission>
+struct Lamp {
+  Source source;
+  Emission emission;
+};
 /// A surface that is there to emit.
 template <typename Surface>
 struct AreaLamp {
@@ -26,18 +32,10 @@ struct AreaLamp {
 struct Point {
   Imath::V3d at{0, 0, 0};
 };
-struct PointLamp {
-  Point point;
-  PointEmission emission;
-};
 struct Spot {
   Imath::V3d at{0, 0, 0};
   Imath::V3d direction{0, 0, 0};
   double half_angle_deg = 0;
-};
-struct SpotLamp {
-  Spot spot;
-  PointEmission emission;
 };
 struct DaylightIrradiance : schema::Located<double> {};
 struct DaylightIlluminance : schema::Located<double> {};
@@ -47,18 +45,10 @@ struct Beam {
   Imath::V3d towards{0, 0, 0};
   DaylightStrength strength;
 };
-struct BeamLamp {
-  Beam beam;
-  std::optional<BeamEmission> emission;
-};
 struct Sun {
   Imath::V3d towards{0, 0, 0};
   double angular_diameter_deg = 0.533;  ///< Of ours, in the mean.
   DaylightStrength strength;
-};
-struct SunLamp {
-  Sun sun;
-  std::optional<SunEmission> emission;
 };
 /// Nothing but its light, or an image and which way it faces.
 struct Sky {
@@ -67,10 +57,11 @@ struct Sky {
   std::optional<schema::Located<double>> rotate_deg;
   SourcePosition where;
 };
-struct SkyLamp {
-  Sky sky;
-  SkyEmission emission;
-};
+using PointLamp = Lamp<Point, PointEmission>;
+using SpotLamp = Lamp<Spot, PointEmission>;
+using BeamLamp = Lamp<Beam, std::optional<BeamEmission>>;
+using SunLamp = Lamp<Sun, std::optional<SunEmission>>;
+using SkyLamp = Lamp<Sky, SkyEmission>;
 struct Light {
   std::optional<std::string> name;
   std::variant<std::monostate, AreaLamp<Quad>, AreaLamp<Sphere>, AreaLamp<Disc>, PointLamp, SpotLamp,
@@ -78,8 +69,7 @@ struct Light {
       kind;
   SourcePosition where;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Light>);
-[[nodiscard]] schema::Kind lights();
+[[nodiscard]] schema::Fields fields(schema::Tag<Light>);
 
 }  // namespace abbe::spec
 

@@ -116,7 +116,7 @@ struct Material {
   std::optional<schema::Located<int>> priority;
   std::variant<std::monostate, NormalMap, BumpMap> relief;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Material>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Material>);
 [[nodiscard]] schema::Kind materials();
 
 using Materials = std::vector<schema::Named<Material>>;

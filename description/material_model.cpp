@@ -6,6 +6,193 @@
 #include "description/material.h"
 #include "materials/interface/fresnel.h"
 
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+// Beyond it a cosine's float says nothing about the peak.
+constexpr double kMostPeaked = 0.9999;
+constexpr Range kSigma{0, 90};  // [deg]
+constexpr Range kExponent{0, 1e4};
+
+constexpr char kCoating[] = "Coherent thin films on the surface, from the outside inwards.";
+constexpr char kRoughness[] =
+    "Width of the slopes of microfacets in [0, 1], below 1e-3 smooth, or widths along u and across it; not "
+    "under a coating.";
+
+template <typename T>
+Field amount(std::string_view key, double T::*member, std::string_view text) {
+  return defaulted(key, member, Range::unit(), text);
+}
+
+}  // namespace
+
+static Fields fields(Tag<HenyeyGreenstein>) {
+  return describe(
+      "henyey_greenstein", "Henyey and Greenstein's phase function.",
+      {field("henyey_greenstein", &HenyeyGreenstein::g, {-kMostPeaked, kMostPeaked}, "Its mean cosine.")});
+}
+
+static Fields fields(Tag<Scattering>) {
+  using Phase = std::variant<PhaseWord, HenyeyGreenstein>;
+  return describe("scattering", "",
+                  {field("scattering_per_m", &Scattering::per_m,
+                         "Scattering coefficient inside, 0 or more, 0 when absent."),
+                   field("phase", &Scattering::phase,
+                         forms<Phase>("phase", "a phase function",
+                                      form<PhaseWord>(Json::text, word<PhaseWord>("phase function",
+                                                                                  {"isotropic", "rayleigh"})),
+                                      form<HenyeyGreenstein>(Json::any)),
+                         "How matter scatters, isotropic when absent.")});
+}
+
+static Fields fields(Tag<Grid>) {
+  return describe(
+      "grid", "Densities that multiply absorption and scattering.",
+      {field("densities", &Grid::densities, "A NumPy file of axes z, y, x."),
+       field("from", &Grid::from, kCoordinate, "Position of the first node."),
+       field("to", &Grid::to, kCoordinate, "Position of the last node, beyond the first along x, y and z.")});
+}
+
+static Fields fields(Tag<Diffuse>) {
+  return describe("diffuse", "Lambertian matter, both sides alike.",
+                  {field("reflectance", &Diffuse::reflectance, "Reflectance in [0, 1].")});
+}
+
+static Fields fields(Tag<Dielectric>) {
+  return describe("dielectric",
+                  "An interface between the matter inside a closed shape and what is around it.",
+                  {lent(&Dielectric::ior), lent(&Dielectric::scattering),
+                   defaulted("coating", &Dielectric::coating, kCoating),
+                   field("roughness", &Dielectric::roughness, kRoughness)});
+}
+
+static Fields fields(Tag<Conductor>) {
+  return describe("conductor", "An opaque metal.",
+                  {field("ior", &Conductor::ior, metal_ior(),
+                         "Refractive index: n, n and k, a name of data/metal, or a FILE.csv or FILE.yml."),
+                   defaulted("coating", &Conductor::coating, kCoating),
+                   field("roughness", &Conductor::roughness, kRoughness)});
+}
+
+static Fields fields(Tag<Film>) {
+  return describe("film", "Thin films with air on both sides, such as a soap bubble's.",
+                  {field("layers", &Film::layers, "The films.")});
+}
+
+static Fields fields(Tag<Medium>) {
+  return describe("medium", "Matter without an interface, such as fog or smoke.",
+                  {field("absorption_per_m", &Medium::absorption_per_m,
+                         "Absorption coefficient, 0 or more, 0 when absent."),
+                   lent(&Medium::scattering),
+                   field("grid", &Medium::grid, "Where there is how much of it; everywhere 1 when absent.")});
+}
+
+static Fields fields(Tag<CoatedDiffuse>) {
+  return describe(
+      "coated_diffuse", "Lambertian ground under a smooth clear coat.",
+      {field("ior", &CoatedDiffuse::ior, "Index of the coat; n is 1 or more, and k next to nothing."),
+       field("reflectance", &CoatedDiffuse::reflectance, "Reflectance of the bare ground, in [0, 1].")});
+}
+
+static Fields fields(Tag<ThinGlass>) {
+  return describe("thin_glass", "A pane as one surface, which light crosses without being bent.",
+                  {lent(&ThinGlass::ior), defaulted("thickness", &ThinGlass::thickness, {0, kMaxLength},
+                                                    "Length of its thickness; 0 absorbs nothing.")});
+}
+
+static Fields fields(Tag<Mirror>) {
+  return describe("mirror", "The ideal mirror.",
+                  {field("reflectance", &Mirror::reflectance, "Reflectance in [0, 1], at every angle.")});
+}
+
+static Fields fields(Tag<Schlick>) {
+  return describe("schlick", "A smooth mirror by Schlick's approximation, to compare with.",
+                  {one_of(&Schlick::normal, under<Ior>("ior", metal_ior(), "Refractive index."),
+                          under<Reflectance>("reflectance", "Reflectance along the normal, in [0, 1]."))});
+}
+
+static Fields fields(Tag<OrenNayar>) {
+  return describe("oren_nayar", "Rough diffuse matter.",
+                  {field("reflectance", &OrenNayar::reflectance, "Reflectance in [0, 1]."),
+                   field("sigma_deg", &OrenNayar::sigma_deg, kSigma, "Standard deviation of its slopes.")});
+}
+
+static Fields fields(Tag<Principled>) {
+  return describe(
+      "principled", "Burley's principled model.",
+      {field("base_color", &Principled::base_color, "Reflectance in [0, 1]."),
+       amount("metallic", &Principled::metallic, "How much of it is metal."),
+       amount("roughness", &Principled::roughness, "The facets' width is its square."),
+       amount("specular", &Principled::specular,
+              "Reflectance along the normal of what is no metal, over 0.08."),
+       amount("sheen", &Principled::sheen, "As of cloth at grazing angles."),
+       amount("clearcoat", &Principled::clearcoat, "Strength of a second highlight."),
+       amount("clearcoat_gloss", &Principled::clearcoat_gloss, "How narrow the second highlight is.")});
+}
+
+static Fields fields(Tag<Power>) {
+  return describe("power", "",
+                  {field("reflectance", &Power::reflectance, "Reflectance of the lobe, in [0, 1]."),
+                   field("exponent", &Power::exponent, kExponent, "Power of the cosine.")});
+}
+static Fields fields(Tag<CosinePower>) {
+  return describe("cosine_power", "A power of the cosine of light's direction, or of both directions.",
+                  {lent(&CosinePower::power),
+                   defaulted("reciprocal", &CosinePower::reciprocal, "Whether it is of both.")});
+}
+static Fields fields(Tag<Phong>) {
+  return describe("phong", "Phong's highlight, which breaks reciprocity and makes energy.",
+                  {lent(&Phong::power)});
+}
+static Fields fields(Tag<Retroreflector>) {
+  return describe("retroreflector", "A lobe back to where light comes from.", {lent(&Retroreflector::power)});
+}
+
+static Fields fields(Tag<MixturePart>) {
+  return describe("mixture_part", "A part of a mixture.",
+                  {field("material", &MixturePart::material,
+                         "A material that is no mixture and that light does not enter."),
+                   field("weight", &MixturePart::weight, "Its share, in [0, 1].")});
+}
+
+static Fields fields(Tag<NormalMap>) {
+  return describe("normal_map",
+                  "Channels R, G, B in [0, 1], which stand for [-1, 1] along u, v and the outward normal.",
+                  {lent(&NormalMap::file)});
+}
+static Fields fields(Tag<BumpMap>) {
+  return describe("bump_map", "One channel of heights above the surface.",
+                  {field("height", &BumpMap::height, kCoordinate, "Length that a value of 1 stands for."),
+                   lent(&BumpMap::file)});
+}
+
+Fields fields(Tag<Material>) {
+  return describe(
+      "material", "What a surface is made of, or what is inside.",
+      {one_of(&Material::model,
+              under<Mixture>("mixture", list<MixturePart>("parts", 1),
+                             "Other materials side by side, whose weights add up to at most 1."),
+              under<Diffuse>("diffuse", ""), under<Dielectric>("dielectric", ""),
+              under<Conductor>("conductor", ""), under<Film>("film", ""), under<Medium>("medium", ""),
+              under<CoatedDiffuse>("coated_diffuse", ""), under<ThinGlass>("thin_glass", ""),
+              under<Mirror>("mirror", ""), under<Schlick>("schlick", ""), under<OrenNayar>("oren_nayar", ""),
+              under<Principled>("principled", ""), under<CosinePower>("cosine_power", ""),
+              under<Phong>("phong", ""), under<Retroreflector>("retroreflector", "")),
+       field("priority", &Material::priority, {-1000, 1000},
+             "Of the matter inside, 0 when absent: where shapes overlap, that of the highest priority is "
+             "there, of equals the one that light enters last."),
+       at_most_one(&Material::relief, "a material has a normal_map or a bump_map",
+                   under<NormalMap>("normal_map", ""), under<BumpMap>("bump_map", ""))});
+}
+
+Kind materials() {
+  return by_name<Material>("an object of materials by name", 0);
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 

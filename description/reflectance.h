@@ -18,7 +18,7 @@ struct TextureFile {
   schema::Located<std::string> image;
   TextureMapping mapping;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<TextureFile>);
+[[nodiscard]] schema::Fields fields(schema::Tag<TextureFile>);
 /// The spectrum that each channel weighs.
 struct Weights : schema::Located<std::vector<schema::Named<Curve>>> {};
 struct Rgb : schema::Located<bool> {};
@@ -28,7 +28,7 @@ struct Texture {
 };
 /// A quantity in [0, 1] over wavelength, and perhaps over the surface.
 using Reflectance = std::variant<Curve, Texture>;
-[[nodiscard]] schema::Kind reflectance();
+[[nodiscard]] schema::Kind kind(schema::Tag<Reflectance>);
 
 }  // namespace abbe::spec
 

@@ -6,23 +6,18 @@ using namespace schema;
 
 constexpr Range kCount{1, 16777216};  // as many as a float counts exactly
 
-const Fields& fields(Tag<Render>) {
-  static const Fields kFields = describe<Render>(
+Fields fields(Tag<Render>) {
+  return describe(
       "render", "How to render.",
-      {field("integrator", &Render::integrator, word<Integrator>("integrator", {"auto", "path", "light"}),
-             "Which techniques find the light.")
-           .or_default(),
-       field("samples", &Render::samples, integer<int>(kCount), "Samples per pixel.").or_default(),
-       field("max_depth", &Render::max_depth, integer<int>({1, 100000}),
+      {defaulted("integrator", &Render::integrator, word<Integrator>("integrator", {"auto", "path", "light"}),
+                 "Which techniques find the light."),
+       defaulted("samples", &Render::samples, kCount, "Samples per pixel."),
+       field("max_depth", &Render::max_depth, {1, 100000},
              "Events a path may have between camera and light, at surfaces and within matter; without it "
              "chance alone ends paths."),
-       field("roulette_depth", &Render::roulette_depth, integer<int>({-1, 10000}),
-             "Events before Russian roulette; -1 never plays it, and needs `max_depth`.")
-           .or_default(),
-       field("seed", &Render::seed, integer<std::uint64_t>({0, kLargestInteger}),
-             "Chooses the random numbers.")
-           .or_default()});
-  return kFields;
+       defaulted("roulette_depth", &Render::roulette_depth, {-1, 10000},
+                 "Events before Russian roulette; -1 never plays it, and needs `max_depth`."),
+       defaulted("seed", &Render::seed, {0, kLargestInteger}, "Chooses the random numbers.")});
 }
 
 }  // namespace abbe::spec

@@ -16,7 +16,7 @@ struct Render {
   schema::Located<int> roulette_depth{{4}, {}};
   std::uint64_t seed = 0;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Render>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 
 }  // namespace abbe::spec
 

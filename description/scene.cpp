@@ -6,6 +6,42 @@
 #include "io/schema/write.h"
 #include "scene/colors.h"
 
+namespace abbe::spec {
+
+using namespace schema;
+
+static Fields fields(Tag<Output>) {
+  return describe(
+      "output", "What is written, relative to the working directory.",
+      {field("image", &Output::image, "The film as an EXR file."),
+       field("display", &Output::display, "The picture as a PNG, JPEG or TIFF file."),
+       field("exposure", &Output::exposure, {0, 1e30, true, false},
+             "Film value shown as diffuse white, chosen from the image when absent."),
+       field("white", &Output::white, white(),
+             "What is shown as white: the name of a light, else of an illuminant or its file, or "
+             "chromaticity coordinates [x, y]; the light that exposes the film most when absent.")});
+}
+
+Fields fields(Tag<Scene>) {
+  return describe(
+      "Abbe scene", "Lengths are in `units`, wavelengths in nm.",
+      {field("$schema", &Scene::schema, "Where editors find this schema."),
+       field("abbe", &Scene::version, {kFormatVersion, kFormatVersion}, "Version of the scene format."),
+       defaulted("units", &Scene::units, word<Unit>("unit of length", {"m", "cm", "mm", "um", "in"}),
+                 "Unit of length."),
+       field("camera", &Scene::camera, "The camera.").with(Presence::required),
+       field("sensor", &Scene::sensor, "The sensor.").with(Presence::required),
+       defaulted("materials", &Scene::materials, materials(), "Materials by name."),
+       defaulted("objects", &Scene::objects, by_name<Object>("an object of objects by name", 0),
+                 "Shapes by name, for instances to place."),
+       defaulted("shapes", &Scene::shapes, list<Shape>("shapes", 0), "What is there."),
+       defaulted("lights", &Scene::lights, list<Light>("lights", 0), "What shines."),
+       field("render", &Scene::render, "How to render."),
+       field("output", &Scene::output, "What is written.")});
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 

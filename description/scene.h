@@ -41,7 +41,7 @@ struct Scene {
   std::optional<Output> output;
   SourcePosition where;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Scene>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Scene>);
 
 }  // namespace abbe::spec
 

@@ -8,6 +8,95 @@
 
 #include "io/image.h"
 
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+// Above 1 by what a measurement may err, far below a percentage.
+constexpr Range kEffectiveIndex{1, 10};
+constexpr Range kPixels{1};
+constexpr Range kPitch{0, 1e6, true, false};  // um
+constexpr Range kFill{0, 1, true, false};
+constexpr Range kStep{0.01, kMaxWavelengthNm - kMinWavelengthNm};
+
+Kind filters() {
+  return list<Filter>(
+      forms<Filter>("filter", "a filter",
+                    form<InterferenceFilter>(Json::object, {"transmittance", "effective_index"}),
+                    form<Curve>(Json::any)),
+      "filters", 0);
+}
+
+Kind channels() {
+  return by_name<ChannelResponse>(
+      forms<ChannelResponse>("channel", "a channel", form<FilteredChannel>(Json::object, {"filters"}),
+                             form<Curve>(Json::any)),
+      "channels by name", 1);
+}
+
+Kind mosaic() {
+  using Row = Located<std::vector<Located<std::string>>>;
+  return list<Row>(list<Located<std::string>>("channels' names", 1), "rows", 1);
+}
+
+}  // namespace
+
+static Fields fields(Tag<InterferenceFilter>) {
+  return describe("interference_filter", "A filter that shifts to the blue with the angle of incidence.",
+                  {field("effective_index", &InterferenceFilter::effective_index, kEffectiveIndex,
+                         "At an angle t of incidence the curve is stretched by sqrt(1 - sin(t)^2/n^2)."),
+                   field("transmittance", &InterferenceFilter::transmittance,
+                         "Transmittance along the normal, in [0, 1.05].")});
+}
+
+static Fields fields(Tag<FilteredChannel>) {
+  return describe(
+      "filtered_channel", "A channel behind filters of its own.",
+      {field("filters", &FilteredChannel::filters, filters(), "The filters, one behind the other."),
+       field("exposure_s", &FilteredChannel::exposure_s, kExposure,
+             "Exposure time of this channel; the sensor's when absent.")});
+}
+
+static Fields fields(Tag<Bins>) {
+  return describe("spectral",
+                  "Bins of wavelength that fill a range, 2 to 1000 of them: the film holds radiances.",
+                  {field("from_nm", &Bins::from_nm, kWavelength, "Where the first bin begins."),
+                   field("to_nm", &Bins::to_nm, kWavelength, "Where the last bin ends."),
+                   field("step_nm", &Bins::step_nm, kStep, "Width of each bin.")});
+}
+
+Fields fields(Tag<Sensor>) {
+  return describe(
+      "sensor", "The pixels, and what they count.",
+      {field("resolution", &Sensor::resolution, vector<std::array<std::int64_t, 2>>(kPixels),
+             "[width, height] in pixels, edges up to 65536 and 2^28 pixels in all; [1, 1] of a probe when "
+             "absent."),
+       defaulted("pixel_pitch_um", &Sensor::pixel_pitch_um, kPitch, "Distance between pixels."),
+       defaulted("exposure_s", &Sensor::exposure_s, kExposure, "Exposure time."),
+       defaulted("fill_factor", &Sensor::fill_factor, kFill, "Share of a pixel that takes light."),
+       one_of(
+           &Sensor::counts,
+           under<Channels>("channels", channels(), "Response of each channel by name, or its filters."),
+           under<MeasuredCamera>("camera", "A measured camera, by its name in data/camera or as FILE.csv."),
+           under<StandardObserver>("observer", word<Observer>("observer", {"1931", "1964"}, true),
+                                   "A CIE standard observer: channels X, Y and Z."),
+           under<Bins>("spectral", "Bins of wavelength in place of channels.")),
+       field(
+           "response", &Sensor::response, word<ResponseKind>("response", {"energy", "quantum"}),
+           "What the channels, or a camera's curves, multiply; quantum when `quantum_efficiency` is given."),
+       field("quantum_efficiency", &Sensor::quantum_efficiency,
+             "Electrons per photon, in [0, 10], multiplied into every channel."),
+       field("filters", &Sensor::filters, filters(), "Filters before every channel, one behind the other."),
+       field("lens_transmission", &Sensor::lens_transmission,
+             "Transmittance in [0, 1.05] before all filters."),
+       field("mosaic", &Sensor::mosaic, mosaic(),
+             "Channels of single pixels, rows of a pattern that repeats from the top left corner."),
+       field("readout", &Sensor::readout, "The electronics behind channels that count electrons.")});
+}
+
+}  // namespace abbe::spec
+
 namespace abbe::description {
 namespace {
 

@@ -54,7 +54,7 @@ struct Sensor {
   std::optional<schema::Located<Readout>> readout;
   SourcePosition where;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Sensor>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Sensor>);
 
 }  // namespace abbe::spec
 

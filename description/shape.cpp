@@ -1,6 +1,5 @@
 #include "description/shape.h"
 
-#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -12,6 +11,76 @@
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
 #include "scene/shapes/mesh.h"
+
+namespace abbe::spec {
+namespace {
+
+using namespace schema;
+
+constexpr char kTransform[] = "Where the shape is moved, by steps in order.";
+
+Kind mesh() {
+  return forms<Mesh::Wrapped>("mesh", "a mesh", form<std::string>(Json::text), form<InlineMesh>(Json::any));
+}
+
+}  // namespace
+
+template <typename Surface, typename Material, typename Emission>
+Fields fields(Tag<Body<Surface, Material, Emission>>) {
+  using B = Body<Surface, Material, Emission>;
+  Field surface;
+  if constexpr (std::is_same_v<Surface, Mesh>)
+    surface = field("mesh", &B::surface, mesh(), "A PLY, OBJ, glTF or GLB file, or triangles.");
+  else
+    surface = field(fields_of<Surface>().name, &B::surface);
+  return describe(
+      "", "",
+      {std::move(surface),
+       field("material", &B::material, "Name of its material; an OBJ or glTF mesh may bring its own."),
+       defaulted("transform", &B::transform, similarity_steps(), kTransform),
+       field("emission", &B::emission, "What its surface sends out."),
+       defaulted("two_sided", &B::two_sided, "Whether it emits from both sides.")});
+}
+
+static Fields fields(Tag<Chart>) {
+  return describe(
+      "chart", "A colour chart: six patches a row, from the top left, on a dark surround.",
+      {field("reflectances", &Chart::reflectances,
+             "A table of data/reflectance, or FILE.csv: a patch per column."),
+       field("corner", &Chart::corner, kCoordinate, "Position of its lower left, as the reader sees it."),
+       field("edge_u", &Chart::edge_u, kCoordinate, "Along the rows."),
+       field("edge_v", &Chart::edge_v, kCoordinate, "Upwards."),
+       field("surround", &Chart::surround, "Reflectance of its surround, 0.035 when absent.")});
+}
+static Fields fields(Tag<ChartShape>) {
+  return describe("chart_shape", "",
+                  {field("chart", &ChartShape::chart, "The shape is a colour chart."),
+                   defaulted("transform", &ChartShape::transform, similarity_steps(), kTransform)});
+}
+
+static Fields fields(Tag<Instance>) {
+  return describe("instance", "An object placed in the scene.",
+                  {field("of", &Instance::of, "Name of the object."),
+                   defaulted("transform", &Instance::transform, affine_steps(),
+                             "Where it is placed, by steps in order.")});
+}
+
+Fields fields(Tag<Shape>) {
+  return describe(
+      "shape", "A shape.",
+      {field("name", &Shape::name, "For messages."),
+       one_of(&Shape::kind, beside<MeshBody>("mesh"), beside<PlainBody<Sphere>>("sphere"),
+              beside<PlainBody<Disc>>("disc"), beside<PlainBody<Quad>>("quad"), beside<PrismBody>("prism"),
+              beside<ChartShape>("chart"), under<Instance>("instance"))});
+}
+
+Fields fields(Tag<Object>) {
+  return describe("object", "Shapes that appear only where an instance puts them.",
+                  {field("shapes", &Object::shapes, list<Shape>("shapes", 1),
+                         "Its shapes, of which none is an instance or a chart, and none emits.")});
+}
+
+}  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
@@ -108,24 +177,17 @@ struct PartsBuilder {
   std::vector<NamedShape> operator()(const spec::ChartShape& said) const {
     return build(said.chart, name, context, scene);
   }
-  template <typename Surface>
-  std::vector<NamedShape> operator()(const spec::SurfaceShape<Surface>& said) const {
-    return single(std::optional(build(said.surface, context)), said.material);
-  }
-  std::vector<NamedShape> operator()(const spec::PrismShape& said) const {
-    return single(std::optional(build(said.prism, context)), said.material);
-  }
-  template <typename S>
-  [[nodiscard]] std::vector<NamedShape> single(std::optional<S> shape,
-                                               const schema::Located<std::string>& material_name) const {
-    const auto material = find_material(material_name, context, scene);
+  template <typename Surface, typename Emission>
+  std::vector<NamedShape> operator()(const spec::Body<Surface, spec::MaterialName, Emission>& said) const {
+    std::optional surface = build(said.surface, context);
+    const auto material = find_material(said.material, context, scene);
     std::vector<NamedShape> parts;
-    if (shape && material) parts.push_back({name, *std::move(shape), *material});
+    if (surface && material) parts.push_back({name, *std::move(surface), *material});
     return parts;
   }
-  std::vector<NamedShape> operator()(const spec::MeshShape& said) const {
-    const SourcePosition& at = said.mesh.where;
-    const auto* file = std::get_if<std::string>(&said.mesh.value);
+  std::vector<NamedShape> operator()(const spec::MeshBody& said) const {
+    const SourcePosition& at = said.surface.where;
+    const auto* file = std::get_if<std::string>(&said.surface.value);
     if (!said.material && !(file && brings_materials(*file))) {
       context.diagnostics.error(where, "missing key \"material\"");
       return {};
@@ -135,7 +197,7 @@ struct PartsBuilder {
     if (file && (material || !said.material))
       parts = build_mesh_file(at, *file, name, material ? &*material : nullptr, context, scene);
     else if (!file)
-      if (auto mesh = build(std::get<spec::InlineMesh>(said.mesh.value), context); mesh && material)
+      if (auto mesh = build(std::get<spec::InlineMesh>(said.surface.value), context); mesh && material)
         parts.push_back({name, *std::move(mesh), *material});
     if (material) require_coordinates(parts, scene.materials[*material], at, file, context);
     for (NamedShape& part : parts)
@@ -145,23 +207,14 @@ struct PartsBuilder {
   }
 };
 
-// A member that some kinds of shapes have, by `get`; nullptr of the others.
-template <typename T, typename Get>
-const T* member_of(const spec::Shape& shape, Get get) {
-  return std::visit(
-      [&](const auto& kind) -> const T* {
-        if constexpr (requires { get(kind); })
-          return get(kind);
-        else
-          return nullptr;
-      },
-      shape.kind);
-}
-
 bool emits_from_both_sides(const spec::Shape& shape) {
-  const auto* both =
-      member_of<bool>(shape, [](const auto& kind) -> decltype(&kind.two_sided) { return &kind.two_sided; });
-  return both != nullptr && *both;
+  const auto both = [](const auto& kind) {
+    if constexpr (requires { kind.two_sided; })
+      return kind.two_sided;
+    else
+      return false;
+  };
+  return std::visit(both, shape.kind);
 }
 
 void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& context, Scene& scene) {
@@ -172,7 +225,7 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
     scene.charts.push_back({name, static_cast<std::uint32_t>(scene.shapes.size()),
                             static_cast<std::uint32_t>(parts.size() - 1)});
   const spec::Emission* emission = emission_of(shape);
-  const auto* mesh = std::get_if<spec::MeshShape>(&shape.kind);
+  const auto* mesh = std::get_if<spec::MeshBody>(&shape.kind);
   if (emission && mesh && !mesh->material)
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
   for (NamedShape& part : parts) {
@@ -202,26 +255,26 @@ void shift(Quad& quad, const Imath::V3d& by) {
 void shift(PlacedShape&, const Imath::V3d&) {}
 
 const spec::Emission* emission_of(const spec::Shape& shape) {
-  return member_of<spec::Emission>(shape, [](const auto& kind) -> decltype(&*kind.emission) {
-    return kind.emission ? &*kind.emission : nullptr;
-  });
+  const auto emission = [](const auto& kind) -> const spec::Emission* {
+    if constexpr (requires { kind.emission; })
+      return kind.emission ? &*kind.emission : nullptr;
+    else
+      return nullptr;
+  };
+  return std::visit(emission, shape.kind);
 }
 
 std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string& name, LoadContext& context,
                                     Scene& scene) {
   std::vector<NamedShape> parts = std::visit(PartsBuilder{shape.where, name, context, scene}, shape.kind);
-  const auto* steps = member_of<std::vector<spec::Similarity>>(
-      shape, [](const auto& kind) -> const std::vector<spec::Similarity>* {
-        if constexpr (requires {
-                        { kind.transform } -> std::convertible_to<const std::vector<spec::Similarity>&>;
-                      })
-          return &kind.transform;
-        else
-          return nullptr;
-      });
-  if (steps == nullptr || steps->empty()) return parts;
-  const Transform transform = build(*steps, context);
-  for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
+  const auto place = [&](const auto& kind) {
+    if constexpr (requires { build(kind.transform, context).scale; }) {
+      if (kind.transform.empty()) return;
+      const Transform transform = build(kind.transform, context);
+      for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
+    }
+  };
+  std::visit(place, shape.kind);
   return parts;
 }
 

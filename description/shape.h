@@ -16,29 +16,21 @@ namespace abbe::spec {
 
 /// A file, or triangles.
 struct Mesh : schema::Located<std::variant<std::string, InlineMesh>> {};
-struct MeshShape {
-  Mesh mesh;
-  std::optional<schema::Located<std::string>> material;  ///< The file's own when absent.
-  std::vector<Similarity> transform;
-  std::optional<MeshEmission> emission;
-  bool two_sided = false;
-};
-/// A shape given by a few numbers.
-template <typename Surface>
-struct SurfaceShape {
+using MaterialName = schema::Located<std::string>;
+/// A shape of one material.
+template <typename Surface, typename Material, typename Emission>
+struct Body {
   Surface surface;
-  schema::Located<std::string> material;
+  Material material;
   std::vector<Similarity> transform;
-  std::optional<LampEmission> emission;
+  std::optional<Emission> emission;
   bool two_sided = false;
 };
-struct PrismShape {
-  Prism prism;
-  schema::Located<std::string> material;
-  std::vector<Similarity> transform;
-  std::optional<MeshEmission> emission;
-  bool two_sided = false;
-};
+using MeshBody =
+    Body<Mesh, std::optional<MaterialName>, MeshEmission>;  ///< Of the file's material when absent.
+using PrismBody = Body<Prism, MaterialName, MeshEmission>;
+template <typename Surface>
+using PlainBody = Body<Surface, MaterialName, LampEmission>;
 /// A colour chart.
 struct Chart {
   schema::Located<std::string> reflectances;
@@ -59,8 +51,8 @@ struct Instance {
 };
 struct Shape {
   std::optional<std::string> name;
-  std::variant<std::monostate, MeshShape, SurfaceShape<Sphere>, SurfaceShape<Disc>, SurfaceShape<Quad>,
-               PrismShape, ChartShape, Instance>
+  std::variant<std::monostate, MeshBody, PlainBody<Sphere>, PlainBody<Disc>, PlainBody<Quad>, PrismBody,
+               ChartShape, Instance>
       kind;
   SourcePosition where;
 };
@@ -68,10 +60,8 @@ struct Shape {
 struct Object {
   std::vector<Shape> shapes;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Shape>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Object>);
-[[nodiscard]] schema::Kind shapes();
-[[nodiscard]] schema::Kind objects();
+[[nodiscard]] schema::Fields fields(schema::Tag<Shape>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Object>);
 
 }  // namespace abbe::spec
 

@@ -12,48 +12,40 @@ namespace abbe::spec {
 
 using namespace schema;
 
-const Fields& fields(Tag<Sphere>) {
-  static const Fields kFields =
-      describe<Sphere>("sphere", "A sphere, which emits outwards.",
-                       {field("center", &Sphere::center, point(), "Position of its middle."),
-                        field("radius", &Sphere::radius, length(), "Length of its radius.")});
-  return kFields;
+Fields fields(Tag<Sphere>) {
+  return describe("sphere", "A sphere, which emits outwards.",
+                  {field("center", &Sphere::center, kCoordinate, "Position of its middle."),
+                   field("radius", &Sphere::radius, kLength, "Length of its radius.")});
 }
 
-const Fields& fields(Tag<Disc>) {
-  static const Fields kFields =
-      describe<Disc>("disc", "A flat disc, which emits along its normal.",
-                     {field("center", &Disc::center, point(), "Position of its middle."),
-                      field("normal", &Disc::normal, direction(), "Outward direction."),
-                      field("radius", &Disc::radius, length(), "Length of its radius.")});
-  return kFields;
+Fields fields(Tag<Disc>) {
+  return describe("disc", "A flat disc, which emits along its normal.",
+                  {field("center", &Disc::center, kCoordinate, "Position of its middle."),
+                   field("normal", &Disc::normal, direction(), "Outward direction."),
+                   field("radius", &Disc::radius, kLength, "Length of its radius.")});
 }
 
-const Fields& fields(Tag<Quad>) {
-  static const Fields kFields =
-      describe<Quad>("quad", "A parallelogram, which emits from the side edge_u x edge_v points to.",
-                     {field("corner", &Quad::corner, point(), "Position of a corner."),
-                      field("edge_u", &Quad::edge_u, point(), "From the corner along one side."),
-                      field("edge_v", &Quad::edge_v, point(),
-                            "From the corner along the other side; the normal is edge_u x edge_v.")});
-  return kFields;
+Fields fields(Tag<Quad>) {
+  return describe("quad", "A parallelogram, which emits from the side edge_u x edge_v points to.",
+                  {field("corner", &Quad::corner, kCoordinate, "Position of a corner."),
+                   field("edge_u", &Quad::edge_u, kCoordinate, "From the corner along one side."),
+                   field("edge_v", &Quad::edge_v, kCoordinate,
+                         "From the corner along the other side; the normal is edge_u x edge_v.")});
 }
 
-const Fields& fields(Tag<Prism>) {
-  static const Fields kFields = describe<Prism>(
+Fields fields(Tag<Prism>) {
+  return describe(
       "prism", "A right prism along y with an isosceles cross-section, whose apex points along +z.",
-      {field("apex_deg", &Prism::apex_deg, number({0, 180, true, true}),
-             "Angle between the two equal faces."),
-       field("side", &Prism::side, length(), "Width of the equal faces."),
-       field("length", &Prism::length, length(), "Length along y.")});
-  return kFields;
+      {field("apex_deg", &Prism::apex_deg, {0, 180, true, true}, "Angle between the two equal faces."),
+       field("side", &Prism::side, kLength, "Width of the equal faces."),
+       field("length", &Prism::length, kLength, "Length along y.")});
 }
 
-const Fields& fields(Tag<InlineMesh>) {
+Fields fields(Tag<InlineMesh>) {
   using Triangle = std::array<std::uint32_t, 3>;
   using Vertex = std::array<double, 3>;
   using Coordinates = std::array<double, 2>;
-  static const Fields kFields = describe<InlineMesh>(
+  return describe(
       "inline_mesh", "Triangles, counter-clockwise seen from outside.",
       {field("vertices", &InlineMesh::vertices, list<Vertex>(vector<Vertex>(kCoordinate), "rows", 1),
              "Positions of the vertices."),
@@ -62,7 +54,6 @@ const Fields& fields(Tag<InlineMesh>) {
              "Three numbers of vertices each, which count from 0."),
        field("uv", &InlineMesh::uv, list<Coordinates>(vector<Coordinates>(kCoordinate), "rows", 1),
              "Texture coordinates of each vertex.")});
-  return kFields;
 }
 
 }  // namespace abbe::spec

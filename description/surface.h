@@ -40,11 +40,11 @@ struct InlineMesh {
   std::optional<schema::Located<std::vector<std::array<double, 2>>>> uv;
   SourcePosition where;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Sphere>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Disc>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Quad>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Prism>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<InlineMesh>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Sphere>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Disc>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Quad>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Prism>);
+[[nodiscard]] schema::Fields fields(schema::Tag<InlineMesh>);
 
 }  // namespace abbe::spec
 

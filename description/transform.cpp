@@ -25,53 +25,46 @@ constexpr char kTranslateText[] = "Displacement after scale and rotation.";
 
 }  // namespace
 
-static const Fields& fields(Tag<Rotation>) {
-  static const Fields kFields =
-      describe<Rotation>("rotation", "A right-handed rotation about an axis through the origin.",
-                         {field("axis", &Rotation::axis, direction(), "Direction of the axis."),
-                          field("deg", &Rotation::deg, number(kValue), "Angle in degrees.")});
-  return kFields;
+static Fields fields(Tag<Rotation>) {
+  return describe("rotation", "A right-handed rotation about an axis through the origin.",
+                  {field("axis", &Rotation::axis, direction(), "Direction of the axis."),
+                   field("deg", &Rotation::deg, kValue, "Angle in degrees.")});
 }
 
-const Fields& fields(Tag<Similarity>) {
-  static const Fields kFields =
-      describe<Similarity>("similarity", "A step that scales, then rotates, then translates.",
-                           {field("scale", &Similarity::scale, number(kScale), kScaleText),
-                            field("rotate", &Similarity::rotate, thing<Rotation>(), kRotateText),
-                            field("translate", &Similarity::translate, point(), kTranslateText)});
-  return kFields;
+Fields fields(Tag<Similarity>) {
+  return describe("similarity", "A step that scales, then rotates, then translates.",
+                  {field("scale", &Similarity::scale, kScale, kScaleText),
+                   field("rotate", &Similarity::rotate, kRotateText),
+                   field("translate", &Similarity::translate, kCoordinate, kTranslateText)});
 }
 
-const Fields& fields(Tag<Stretch>) {
+Fields fields(Tag<Stretch>) {
   using Scale = std::variant<double, Imath::V3d>;
-  static const Fields kFields = describe<Stretch>(
+  return describe(
       "stretch", "A step that scales, then rotates, then translates.",
       {field("scale", &Stretch::scale,
-             forms<Scale>("", "a scale", form<Imath::V3d>(Json::list, vector<Imath::V3d>(kSignedScale)),
-                          form<double>(Json::any, number(kScale))),
+             forms<Scale>("", "a scale", form<Imath::V3d>(Json::list, kSignedScale),
+                          form<double>(Json::any, kScale)),
              "Factor of all lengths, or factors along x, y and z, which mirror where they are negative."),
-       field("rotate", &Stretch::rotate, thing<Rotation>(), kRotateText),
-       field("translate", &Stretch::translate, point(), kTranslateText)});
-  return kFields;
+       field("rotate", &Stretch::rotate, kRotateText),
+       field("translate", &Stretch::translate, kCoordinate, kTranslateText)});
 }
 
-const Fields& fields(Tag<Matrix>) {
-  static const Fields kFields =
-      describe<Matrix>("matrix", "A step given as a matrix.",
-                       {field("matrix", &Matrix::rows, numbers(kCoordinate),
-                              "Rows of a matrix for column vectors: 12 numbers, or 16 of which the last are "
-                              "0 0 0 1. The fourth column translates.")});
-  return kFields;
+Fields fields(Tag<Matrix>) {
+  return describe("matrix", "A step given as a matrix.",
+                  {field("matrix", &Matrix::rows, kCoordinate,
+                         "Rows of a matrix for column vectors: 12 numbers, or 16 of which the last are 0 0 0 "
+                         "1. The fourth column translates.")});
 }
 
 Kind similarity_steps() {
-  return list<Similarity>(thing<Similarity>(), "steps", 0, true);
+  return list<Similarity>("steps", 0, true);
 }
 
 Kind affine_steps() {
-  return list<Affine>(forms<Affine>("", "a step", form<Matrix>(Json::object, thing<Matrix>(), {"matrix"}),
-                                    form<Stretch>(Json::any, thing<Stretch>())),
-                      "steps", 0, true);
+  return list<Affine>(
+      forms<Affine>("", "a step", form<Matrix>(Json::object, {"matrix"}), form<Stretch>(Json::any)), "steps",
+      0, true);
 }
 
 }  // namespace spec
@@ -115,10 +108,10 @@ bool append(Imath::M44d& matrix, const spec::Matrix& step, const LoadContext& co
     return false;
   }
   if (rows4 && !(m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1)) {
-    context.diagnostics.error(step.rows.where,
-                              fmt::format("a transform is affine (got the last row [{}, {}, {}, {}], allowed "
-                                          "[0, 0, 0, 1])",
-                                          m[12], m[13], m[14], m[15]));
+    context.diagnostics.error(
+        step.rows.where,
+        fmt::format("a transform is affine (got the last row [{}, {}, {}, {}], allowed [0, 0, 0, 1])", m[12],
+                    m[13], m[14], m[15]));
     return false;
   }
   Imath::M44d by;

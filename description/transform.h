@@ -33,9 +33,9 @@ struct Matrix {
   schema::Located<std::vector<double>> rows;
 };
 using Affine = std::variant<Stretch, Matrix>;
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Similarity>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Stretch>);
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Matrix>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Similarity>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Stretch>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Matrix>);
 /// Steps one after the other, a single one without brackets.
 [[nodiscard]] schema::Kind similarity_steps();
 [[nodiscard]] schema::Kind affine_steps();

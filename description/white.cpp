@@ -34,7 +34,7 @@ schema::Kind spec::white() {
   using namespace schema;
   using Pair = std::array<double, 2>;
   return forms<White::Wrapped>("white", "a white", form<Pair>(Json::list, vector<Pair>({0, 1, true, true})),
-                               form<std::string>(Json::any, text()));
+                               form<std::string>(Json::any));
 }
 
 std::optional<White> build(const spec::White& said, const WhiteNames& names, Diagnostics& diagnostics) {

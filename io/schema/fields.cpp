@@ -6,35 +6,31 @@
 
 namespace abbe::schema {
 
-Field Field::or_default() const {
+Field Field::with(Presence other) const {
   Field field = *this;
-  field.presence = Presence::optional;
+  field.presence = other;
   return field;
 }
 
-Field Field::required() const {
-  Field field = *this;
-  field.presence = Presence::required;
-  return field;
+Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
+                std::vector<std::string_view> any_of) {
+  return {name, text, std::move(fields), std::move(any_of)};
 }
 
-namespace detail {
+std::shared_ptr<const Part> detail::part(Kind&& kind) {
+  return std::make_shared<const Part>(std::move(kind));
+}
+std::shared_ptr<const Part> detail::part(OneOf&& group) {
+  return std::make_shared<const Part>(std::move(group));
+}
+std::shared_ptr<const Part> detail::part(Lent lent) {
+  return std::make_shared<const Part>(lent);
+}
 
-void require_same(const std::type_info& said, const std::type_info& is, std::string_view what) {
+void detail::require_same(const std::type_info& said, const std::type_info& is, std::string_view what) {
   if (said != is)
     throw Error{ErrorCode::internal, "",
                 fmt::format("the table of \"{}\" holds a {} for a {}", what, said.name(), is.name())};
 }
 
-std::shared_ptr<const Part> part(Kind&& kind) {
-  return std::make_shared<const Part>(std::move(kind));
-}
-std::shared_ptr<const Part> part(OneOf&& group) {
-  return std::make_shared<const Part>(std::move(group));
-}
-std::shared_ptr<const Part> part(Lent lent) {
-  return std::make_shared<const Part>(lent);
-}
-
-}  // namespace detail
 }  // namespace abbe::schema

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,15 +14,14 @@
 // The declarative tables of a user's file. A thing is a plain struct whose members hold its defaults; beside
 // it stands its table,
 //
-//   const Fields& fields(Tag<Disc>) {
-//     static const Fields kFields = describe<Disc>("disc", "A flat disc.", {
-//         field("center", &Disc::center, vector<Imath::V3d>(kCoordinate), "Its middle."),
-//         field("radius", &Disc::radius, number(kLength), "Its radius."),
-//     });
-//     return kFields;
+//   Fields fields(Tag<Disc>) {
+//     return describe("disc", "A flat disc.",
+//                     {field("center", &Disc::center, point(), "Its middle."),
+//                      field("radius", &Disc::radius, kLength, "Its radius.")});
 //   }
 //
-// from which `read`, `write`, `json_schema`, `guide` and `help` work.
+// from which `read`, `write`, `json_schema` and the guide work. Of a member whose type says all, such as a
+// bool, a string, a thing, or a type V with a `Kind kind(Tag<V>)` beside it, no kind is said.
 namespace abbe::schema {
 
 /// Chooses the table of a thing: `fields(Tag<Disc>{})`.
@@ -68,7 +66,8 @@ using Part = std::variant<Kind, OneOf, Lent>;
 struct Field {
   std::string_view key;  ///< Empty unless a value stands under it.
   std::shared_ptr<const Part> part;
-  std::string_view text;  ///< What it means, as a whole sentence.
+  std::string_view
+      text;  ///< What it means, as a whole sentence; empty where that of the thing it holds does.
   Presence presence;
   std::ptrdiff_t offset;  ///< Of the member in its thing.
   Holder holder;
@@ -78,77 +77,77 @@ struct Field {
   [[nodiscard]] const void* look(const void* thing) const {
     return holder.look(static_cast<const char*>(thing) + offset);
   }
-  /// The same, which may be absent: then the member's initialiser holds.
-  [[nodiscard]] Field or_default() const;
-  /// The same, which must be there though the member could be without.
-  [[nodiscard]] Field required() const;
+  /// The same, but for whether it must be there.
+  [[nodiscard]] Field with(Presence other) const;
 };
 
 /// The table of a thing.
 struct Fields {
-  std::string_view name;
+  std::string_view name;  ///< That of a definition of the JSON schema.
   std::string_view text;  ///< What it is, as a whole sentence.
   std::vector<Field> fields;
-  const void* defaults;                       ///< A thing as its members' initialisers make it.
-  SourcePosition* (*where)(void* thing);      ///< Where it keeps its place, nullptr when it does not.
   std::vector<std::string_view> any_of = {};  ///< Keys one of which must be there; the first is asked for.
+  // What the type of the thing tells.
+  const void* defaults = nullptr;                   ///< A thing as its members' initialisers make it.
+  SourcePosition* (*where)(void* thing) = nullptr;  ///< Where it keeps its place, nullptr when it does not.
 };
 
 namespace detail {
 
 template <typename M>
-struct Held {
-  using Value = M;
-  static Value* open(M& member) { return &member; }
-  static const Value* look(const M& member) { return &member; }
-  static void close(M&) {}
-  static SourcePosition* where(M&) { return nullptr; }
-  static constexpr Presence kPresence = Presence::required;
-};
-template <typename M>
-requires requires {
-  typename M::Wrapped;
+SourcePosition* where_of(M& member) {
+  if constexpr (requires { member.where; })
+    return &member.where;
+  else
+    return nullptr;
 }
-struct Held<M> {
-  using Value = typename M::Wrapped;
-  static Value* open(M& member) { return &member.value; }
-  static const Value* look(const M& member) { return &member.value; }
+
+// A member that is its value, or wraps it.
+template <typename M>
+struct Held {
+  static auto& value(auto& member) {
+    if constexpr (requires { typename M::Wrapped; })
+      return member.value;
+    else
+      return member;
+  }
+  using Value = std::remove_cvref_t<decltype(value(std::declval<M&>()))>;
+  static Value* open(M& member) { return &value(member); }
+  static const Value* look(const M& member) { return &value(member); }
   static void close(M&) {}
   static SourcePosition* where(M& member) {
-    if constexpr (requires { member.where; })
-      return &member.where;
+    if constexpr (requires { typename M::Wrapped; })
+      return where_of(member);
     else
       return nullptr;
   }
   static constexpr Presence kPresence = Presence::required;
 };
+// One that may be without a value: std::optional, or std::shared_ptr, which a thing needs to hold its like.
 template <typename M>
-struct Held<std::optional<M>> {
-  using Value = typename Held<M>::Value;
-  static Value* open(std::optional<M>& member) { return Held<M>::open(member.emplace()); }
-  static const Value* look(const std::optional<M>& member) {
-    return member ? Held<M>::look(*member) : nullptr;
+requires requires(M m) {
+  m.reset();
+}
+struct Held<M> {
+  using Inner = std::remove_cvref_t<decltype(*std::declval<M&>())>;
+  using Value = typename Held<Inner>::Value;
+  static Value* open(M& member) {
+    if constexpr (std::is_same_v<M, std::optional<Inner>>)
+      member.emplace();
+    else
+      member = std::make_shared<Inner>();
+    return Held<Inner>::open(*member);
   }
-  static void close(std::optional<M>& member) { member.reset(); }
-  static SourcePosition* where(std::optional<M>& member) {
-    return member ? Held<M>::where(*member) : nullptr;
-  }
-  static constexpr Presence kPresence = Presence::optional;
+  static const Value* look(const M& member) { return member ? Held<Inner>::look(*member) : nullptr; }
+  static void close(M& member) { member.reset(); }
+  static SourcePosition* where(M& member) { return member ? Held<Inner>::where(*member) : nullptr; }
+  static constexpr Presence kPresence =
+      std::is_same_v<M, std::optional<Inner>> ? Presence::optional : Presence::required;
 };
 
+/// What a member of type M holds.
 template <typename M>
-struct Held<std::shared_ptr<M>> {
-  using Value = typename Held<M>::Value;
-  static Value* open(std::shared_ptr<M>& member) { return Held<M>::open(*(member = std::make_shared<M>())); }
-  static const Value* look(const std::shared_ptr<M>& member) {
-    return member ? Held<M>::look(*member) : nullptr;
-  }
-  static void close(std::shared_ptr<M>& member) { member.reset(); }
-  static SourcePosition* where(std::shared_ptr<M>& member) {
-    return member ? Held<M>::where(*member) : nullptr;
-  }
-  static constexpr Presence kPresence = Presence::required;
-};
+using ValueOf = typename Held<M>::Value;
 
 /// Makes room for a value that stands there.
 template <typename M>
@@ -176,15 +175,31 @@ const T& defaults() {
 /// Throws Error{internal} where a table is wrong about the type of a member.
 void require_same(const std::type_info& said, const std::type_info& is, std::string_view what);
 
+/// The table with what the type T tells; throws as `require_same` for the field of another thing.
+template <typename T>
+Fields completed(Fields table) {
+  for (const Field& field : table.fields) require_same(*field.owner, typeid(T), table.name);
+  table.defaults = &defaults<T>();
+  table.where = [](void* thing) { return where_of(*static_cast<T*>(thing)); };
+  return table;
+}
+
+// Not in line, where the compiler loses its way among the alternatives.
+[[nodiscard]] std::shared_ptr<const Part> part(Kind&& kind);
+[[nodiscard]] std::shared_ptr<const Part> part(OneOf&& group);
+[[nodiscard]] std::shared_ptr<const Part> part(Lent lent);
+
 template <typename T, typename M>
-std::ptrdiff_t offset(M T::*member) {
+Field make_field(std::string_view key, std::shared_ptr<const Part> part, std::string_view text,
+                 M T::*member) {
   const T& thing = defaults<T>();
-  return reinterpret_cast<const char*>(&(thing.*member)) - reinterpret_cast<const char*>(&thing);
+  const auto offset = reinterpret_cast<const char*>(&(thing.*member)) - reinterpret_cast<const char*>(&thing);
+  return {key, std::move(part), text, Held<M>::kPresence, offset, holder<M>(), &typeid(T)};
 }
 
 template <typename V, typename A>
 Alternative alternative(Kind kind) {
-  require_same(*kind.type, typeid(typename Held<A>::Value), "an alternative");
+  require_same(*kind.type, typeid(ValueOf<A>), "an alternative");
   return {std::make_shared<const Kind>(std::move(kind)),
           [](void* variant, const SourcePosition& where) -> void* {
             return open_at(static_cast<V*>(variant)->template emplace<A>(), where);
@@ -210,23 +225,15 @@ struct LooseForm {
   Kind kind;
 };
 
-// Not in line, where the compiler loses its way among the alternatives.
-[[nodiscard]] std::shared_ptr<const Part> part(Kind&& kind);
-[[nodiscard]] std::shared_ptr<const Part> part(OneOf&& group);
-[[nodiscard]] std::shared_ptr<const Part> part(Lent lent);
-
-template <typename T, typename M>
-[[nodiscard]] Field make_field(std::string_view key, std::shared_ptr<const Part> part, std::string_view text,
-                               Presence presence, M T::*member) {
-  return {key, std::move(part), text, presence, offset(member), holder<M>(), &typeid(T)};
-}
-
-template <typename V, typename... A>
-OneOf group(bool required, std::string_view several, LooseChoice<A>... choice) {
-  return {required,
-          several,
-          {Choice{choice.key, choice.text, choice.inside, alternative<V, A>(std::move(choice.kind))}...},
-          [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }};
+template <typename T, typename V, typename... A>
+Field group(V T::*member, bool required, std::string_view several, LooseChoice<A>... choice) {
+  return make_field("",
+                    part(OneOf{required,
+                               several,
+                               {Choice{choice.key, choice.text, choice.inside,
+                                       alternative<V, A>(std::move(choice.kind))}...},
+                               [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }}),
+                    "", member);
 }
 
 }  // namespace detail
@@ -234,24 +241,10 @@ OneOf group(bool required, std::string_view several, LooseChoice<A>... choice) {
 /// What the table of T says.
 template <typename T>
 [[nodiscard]] const Fields& fields_of() {
-  return fields(Tag<T>{});
+  static const Fields kFields = detail::completed<T>(fields(Tag<T>{}));
+  return kFields;
 }
 
-[[nodiscard]] inline Kind number(Range range) {
-  return {Number{range}, &typeid(double)};
-}
-template <typename I>
-[[nodiscard]] Kind integer(Range range) {
-  return {Integer{range, [](void* value, std::int64_t to) { *static_cast<I*>(value) = static_cast<I>(to); },
-                  [](const void* value) { return static_cast<std::int64_t>(*static_cast<const I*>(value)); }},
-          &typeid(I)};
-}
-[[nodiscard]] inline Kind boolean() {
-  return {Boolean{}, &typeid(bool)};
-}
-[[nodiscard]] inline Kind text() {
-  return {Text{}, &typeid(std::string)};
-}
 template <typename E>
 [[nodiscard]] Kind word(std::string_view what, std::vector<const char*> names, bool numbers = false) {
   return {Word{what, std::move(names), numbers,
@@ -262,22 +255,15 @@ template <typename E>
 /// As many numbers as V holds: an array or a vector of geometry.
 template <typename V>
 [[nodiscard]] Kind vector(Range range, bool direction = false) {
-  using Index = std::conditional_t < requires(V v) {
-    v.setValue(v);
-  }
-  , int, std::size_t > ;
-  using Number = std::remove_cvref_t<decltype(std::declval<V&>()[Index{}])>;
+  using Number = std::remove_cvref_t<decltype(std::declval<V&>()[0])>;
   return {Vector{sizeof(V) / sizeof(Number), range, direction, std::is_integral_v<Number>,
                  [](void* value, std::size_t i, double to) {
-                   (*static_cast<V*>(value))[static_cast<Index>(i)] = static_cast<Number>(to);
+                   (&(*static_cast<V*>(value))[0])[i] = static_cast<Number>(to);
                  },
                  [](const void* value, std::size_t i) {
-                   return static_cast<double>((*static_cast<const V*>(value))[static_cast<Index>(i)]);
+                   return static_cast<double>((&(*static_cast<const V*>(value))[0])[i]);
                  }},
           &typeid(V)};
-}
-[[nodiscard]] inline Kind numbers(Range range) {
-  return {Numbers{range}, &typeid(std::vector<double>)};
 }
 template <typename T>
 [[nodiscard]] Kind thing() {
@@ -286,7 +272,7 @@ template <typename T>
 template <typename T>
 [[nodiscard]] Kind list(Kind element, std::string_view what, std::size_t least, bool bare = false) {
   using L = std::vector<T>;
-  detail::require_same(*element.type, typeid(typename detail::Held<T>::Value), what);
+  detail::require_same(*element.type, typeid(detail::ValueOf<T>), what);
   return {List{std::make_shared<const Kind>(std::move(element)), what, least, bare,
                [](void* l, const SourcePosition& where) -> void* {
                  return detail::open_at(static_cast<L*>(l)->emplace_back(), where);
@@ -301,7 +287,7 @@ template <typename T>
 template <typename T>
 [[nodiscard]] Kind by_name(Kind element, std::string_view what, std::size_t least) {
   using L = std::vector<Named<T>>;
-  detail::require_same(*element.type, typeid(typename detail::Held<T>::Value), what);
+  detail::require_same(*element.type, typeid(detail::ValueOf<T>), what);
   return {ByName{std::make_shared<const Kind>(std::move(element)), what, least,
                  [](void* l, const std::string& name, const SourcePosition& where) -> void* {
                    Named<T>& named = static_cast<L*>(l)->emplace_back();
@@ -319,10 +305,75 @@ template <typename T>
           &typeid(L)};
 }
 
+/// A V in that range: a number, an integer, or a point or list of numbers which are.
+template <typename V>
+[[nodiscard]] Kind within(Range range) {
+  if constexpr (std::is_same_v<V, double>)
+    return {Number{range}, &typeid(V)};
+  else if constexpr (std::is_same_v<V, std::vector<double>>)
+    return {Numbers{range}, &typeid(V)};
+  else if constexpr (std::is_integral_v<V>)
+    return {
+        Integer{range, [](void* value, std::int64_t to) { *static_cast<V*>(value) = static_cast<V>(to); },
+                [](const void* value) { return static_cast<std::int64_t>(*static_cast<const V*>(value)); }},
+        &typeid(V)};
+  else
+    return vector<V>(range);
+}
+
+/// What a V is when no more is said: a bool, a string, what `kind(Tag<V>)` says, or a thing.
+template <typename V>
+[[nodiscard]] Kind kind_of() {
+  if constexpr (std::is_same_v<V, bool>)
+    return {Boolean{}, &typeid(V)};
+  else if constexpr (std::is_same_v<V, std::string>)
+    return {Text{}, &typeid(V)};
+  else if constexpr (requires { kind(Tag<V>{}); })
+    return kind(Tag<V>{});
+  else
+    return thing<V>();
+}
+
+template <typename T>
+[[nodiscard]] Kind list(std::string_view what, std::size_t least, bool bare = false) {
+  return list<T>(kind_of<detail::ValueOf<T>>(), what, least, bare);
+}
+template <typename T>
+[[nodiscard]] Kind by_name(std::string_view what, std::size_t least) {
+  return by_name<T>(kind_of<detail::ValueOf<T>>(), what, least);
+}
+
+/// A number, or several.
+template <typename V>
+concept Numeric = std::is_arithmetic_v<V> || requires(V v) {
+  requires std::is_arithmetic_v<std::remove_cvref_t<decltype(v[0])>>;
+};
+
+/// What a table says of a value: its kind or its range.
+struct Saying {
+  std::variant<Range, Kind> said;
+
+  Saying(Range range) : said(range) {}
+  Saying(double low, double high, bool open_low = false, bool open_high = false)
+      : said(Range{low, high, open_low, open_high}) {}
+  Saying(Kind kind) : said(std::move(kind)) {}
+
+  template <typename V>
+  [[nodiscard]] Kind of() const {
+    if constexpr (Numeric<V>)
+      if (const auto* range = std::get_if<Range>(&said)) return within<V>(*range);
+    return std::get<Kind>(said);
+  }
+};
+
 /// The alternative A of a variant, written as that type of JSON; objects perhaps only with one of `keys`.
 template <typename A>
-[[nodiscard]] detail::LooseForm<A> form(Json json, Kind kind, std::vector<std::string_view> keys = {}) {
-  return {json, std::move(keys), std::move(kind)};
+[[nodiscard]] detail::LooseForm<A> form(Json json, const Saying& said) {
+  return {json, {}, said.of<detail::ValueOf<A>>()};
+}
+template <typename A>
+[[nodiscard]] detail::LooseForm<A> form(Json json, std::vector<std::string_view> keys = {}) {
+  return {json, std::move(keys), kind_of<detail::ValueOf<A>>()};
 }
 /// A variant V that is told by how it is written; `name` is that of its definition in the JSON schema, if it
 /// is to have one, and errors say that it is `expected`.
@@ -336,8 +387,12 @@ template <typename V, typename... A>
 
 /// The alternative A of a variant under a key of its own.
 template <typename A>
-[[nodiscard]] detail::LooseChoice<A> under(std::string_view key, Kind kind, std::string_view text) {
-  return {key, std::move(kind), text, true};
+[[nodiscard]] detail::LooseChoice<A> under(std::string_view key, const Saying& said, std::string_view text) {
+  return {key, said.of<detail::ValueOf<A>>(), text, true};
+}
+template <typename A>
+[[nodiscard]] detail::LooseChoice<A> under(std::string_view key, std::string_view text = {}) {
+  return {key, kind_of<detail::ValueOf<A>>(), text, true};
 }
 /// The alternative A of a variant as fields of the same object, told by the one of them under `key`.
 template <typename A>
@@ -347,44 +402,42 @@ template <typename A>
 
 /// The member under a key. It must be there unless the member is optional.
 template <typename T, typename M>
-[[nodiscard]] Field field(std::string_view key, M T::*member, Kind kind, std::string_view text) {
-  detail::require_same(*kind.type, typeid(typename detail::Held<M>::Value), key);
-  return detail::make_field(key, detail::part(std::move(kind)), text, detail::Held<M>::kPresence, member);
+[[nodiscard]] Field field(std::string_view key, M T::*member, const Saying& said, std::string_view text) {
+  Kind kind = said.of<detail::ValueOf<M>>();
+  detail::require_same(*kind.type, typeid(detail::ValueOf<M>), key);
+  return detail::make_field(key, detail::part(std::move(kind)), text, member);
+}
+template <typename T, typename M>
+[[nodiscard]] Field field(std::string_view key, M T::*member, std::string_view text = {}) {
+  return field(key, member, kind_of<detail::ValueOf<M>>(), text);
+}
+/// The same that may be absent: then the member's initialiser holds.
+template <typename T, typename M>
+[[nodiscard]] Field defaulted(std::string_view key, M T::*member, const Saying& said, std::string_view text) {
+  return field(key, member, said, text).with(Presence::optional);
+}
+template <typename T, typename M>
+[[nodiscard]] Field defaulted(std::string_view key, M T::*member, std::string_view text) {
+  return field(key, member, text).with(Presence::optional);
 }
 /// The fields of a member that is a thing, in the same object.
 template <typename T, typename M>
 [[nodiscard]] Field lent(M T::*member) {
-  return detail::make_field("", detail::part(Lent{fields_of<M>}), "", Presence::required, member);
+  return detail::make_field("", detail::part(Lent{fields_of<M>}), "", member);
 }
 /// Keys of which exactly one is there; the member is a variant of std::monostate and their alternatives.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field one_of(V T::*member, detail::LooseChoice<A>... choice) {
-  return detail::make_field("", detail::part(detail::group<V>(true, "", std::move(choice)...)), "",
-                            Presence::required, member);
+  return detail::group(member, true, "", std::move(choice)...);
 }
 /// Keys of which one at most is there; `several` says what is wrong with two.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field at_most_one(V T::*member, std::string_view several, detail::LooseChoice<A>... choice) {
-  return detail::make_field("", detail::part(detail::group<V>(false, several, std::move(choice)...)), "",
-                            Presence::required, member);
+  return detail::group(member, false, several, std::move(choice)...);
 }
 
-/// The table of T. Its name is that of a definition of the JSON schema.
-template <typename T>
+/// The table of a thing. Its name is that of a definition of the JSON schema.
 [[nodiscard]] Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
-                              std::vector<std::string_view> any_of = {}) {
-  for (const Field& field : fields) detail::require_same(*field.owner, typeid(T), name);
-  return {name,
-          text,
-          std::move(fields),
-          &detail::defaults<T>(),
-          [](void* thing) -> SourcePosition* {
-            if constexpr (requires(T t) { t.where; })
-              return &static_cast<T*>(thing)->where;
-            else
-              return nullptr;
-          },
-          std::move(any_of)};
-}
+                              std::vector<std::string_view> any_of = {});
 
 }  // namespace abbe::schema

@@ -29,45 +29,35 @@ std::optional<MonotoneCurve> build_curve(const schema::Located<std::vector<std::
 
 }  // namespace
 
-static const schema::Fields& fields(schema::Tag<Readout>) {
+static schema::Fields fields(schema::Tag<Readout>) {
   using namespace schema;
-  static const Fields kFields = describe<Readout>(
+  return describe(
       "readout_numbers", "",
-      {field("gain_e_per_dn", &Readout::gain_e_per_dn, number(kGain), "Electrons per digital number."),
-       field("bits", &Readout::bits, integer<int>({1, kMostBits}), "Bits of the codes."),
-       field("full_well_e", &Readout::full_well_e, number(kHeldElectrons),
-             "Electrons a pixel holds, unlimited when absent.")
-           .or_default(),
-       field("read_noise_e", &Readout::read_noise_e, number(kElectrons),
-             "Standard deviation of the read noise.")
-           .or_default(),
-       field("dark_e_per_s", &Readout::dark_e_per_s, number(kElectrons), "Mean dark current.").or_default(),
-       field("prnu_percent", &Readout::prnu_percent, number({0, 100}),
-             "Standard deviation of the pixels' sensitivities, in per cent of their mean.")
-           .or_default(),
-       field("dsnu_e", &Readout::dsnu_e, number(kElectrons), "Standard deviation of the pixels' offsets.")
-           .or_default(),
-       field("serial", &Readout::serial, integer<std::uint64_t>({0, kLargestInteger}),
-             "Which specimen of the sensor: it fixes the patterns of PRNU and DSNU, the same in every "
-             "exposure.")
-           .or_default()});
-  return kFields;
+      {field("gain_e_per_dn", &Readout::gain_e_per_dn, kGain, "Electrons per digital number."),
+       field("bits", &Readout::bits, {1, kMostBits}, "Bits of the codes."),
+       defaulted("full_well_e", &Readout::full_well_e, kHeldElectrons,
+                 "Electrons a pixel holds, unlimited when absent."),
+       defaulted("read_noise_e", &Readout::read_noise_e, kElectrons, "Standard deviation of the read noise."),
+       defaulted("dark_e_per_s", &Readout::dark_e_per_s, kElectrons, "Mean dark current."),
+       defaulted("prnu_percent", &Readout::prnu_percent, {0, 100},
+                 "Standard deviation of the pixels' sensitivities, in per cent of their mean."),
+       defaulted("dsnu_e", &Readout::dsnu_e, kElectrons, "Standard deviation of the pixels' offsets."),
+       defaulted("serial", &Readout::serial, {0, kLargestInteger},
+                 "Which specimen of the sensor: it fixes the patterns of PRNU and DSNU, the same in every "
+                 "exposure.")});
 }
 
-const schema::Fields& spec::fields(schema::Tag<Readout>) {
+schema::Fields spec::fields(schema::Tag<Readout>) {
   using namespace schema;
   using Point = std::array<double, 2>;
-  static const Fields kFields =
-      describe<Readout>("readout", "How electrons become digital numbers, for channels that count electrons.",
-                        {lent(&Readout::numbers),
-                         field("offset_dn", &Readout::offset_dn, number({0, 65535, false, true}),
-                               "Code of a pixel without electrons, less than 2^bits - 1.")
-                             .or_default(),
-                         field("response_curve", &Readout::response_curve,
-                               list<Point>(vector<Point>(Range::unit()), "points [in, out]", 0),
-                               "Points [signal, code] in shares of the codes above the offset, linear "
-                               "between them, increasing from [0, 0] to [1, 1].")});
-  return kFields;
+  return describe("readout", "How electrons become digital numbers, for channels that count electrons.",
+                  {lent(&Readout::numbers),
+                   defaulted("offset_dn", &Readout::offset_dn, {0, 65535, false, true},
+                             "Code of a pixel without electrons, less than 2^bits - 1."),
+                   field("response_curve", &Readout::response_curve,
+                         list<Point>(vector<Point>(Range::unit()), "points [in, out]", 0),
+                         "Points [signal, code] in shares of the codes above the offset, linear between "
+                         "them, increasing from [0, 0] to [1, 1].")});
 }
 
 std::optional<Readout> build(const spec::Readout& said, Diagnostics& diagnostics) {

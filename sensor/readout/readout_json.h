@@ -15,7 +15,7 @@ struct Readout {
   schema::Located<double> offset_dn;
   std::optional<schema::Located<std::vector<std::array<double, 2>>>> response_curve;
 };
-[[nodiscard]] const schema::Fields& fields(schema::Tag<Readout>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Readout>);
 
 }  // namespace abbe::spec
 

@@ -80,7 +80,7 @@ TEST_F(SchemaTest, LightsSayTheirStrengthOnce) {
 }
 
 TEST_F(SchemaTest, TheSchemaIsThatOfTheTables) {
-  EXPECT_EQ(file_text(data_directory().parent_path() / "docs" / "scene.schema.json"), scene_schema())
+  EXPECT_TRUE(file_text(data_directory().parent_path() / "docs" / "scene.schema.json") == scene_schema())
       << "stale: build the target `reference`";
 }
 

@@ -35,22 +35,18 @@ struct Place {
   std::array<double, 3> at{};
   std::optional<std::array<double, 3>> towards;
 };
-[[maybe_unused]] const Fields& fields(Tag<Place>) {
-  static const Fields kFields = describe<Place>(
-      "place", "Where something is.",
-      {field("at", &Place::at, schema::vector<std::array<double, 3>>({-10, 10}), "Its middle."),
-       field("towards", &Place::towards, schema::vector<std::array<double, 3>>({-10, 10}, true),
-             "Where it looks.")});
-  return kFields;
+[[maybe_unused]] Fields fields(Tag<Place>) {
+  return describe("place", "Where something is.",
+                  {field("at", &Place::at, schema::vector<std::array<double, 3>>({-10, 10}), "Its middle."),
+                   field("towards", &Place::towards, schema::vector<std::array<double, 3>>({-10, 10}, true),
+                         "Where it looks.")});
 }
 
 struct Bulb {
   double radius = 0;
 };
-[[maybe_unused]] const Fields& fields(Tag<Bulb>) {
-  static const Fields kFields = describe<Bulb>(
-      "bulb", "A ball of light.", {field("radius", &Bulb::radius, schema::number(kLength), "Its radius.")});
-  return kFields;
+[[maybe_unused]] Fields fields(Tag<Bulb>) {
+  return describe("bulb", "A ball of light.", {field("radius", &Bulb::radius, kLength, "Its radius.")});
 }
 
 /// Stands beside what it is chosen by.
@@ -59,13 +55,11 @@ struct Tube {
   double width = 0.5;
   Located<bool> cold;
 };
-[[maybe_unused]] const Fields& fields(Tag<Tube>) {
-  static const Fields kFields = describe<Tube>(
-      "tube", "",
-      {field("tube_length", &Tube::length, schema::number(kLength), "How long it is."),
-       field("width", &Tube::width, schema::number(Range::unit()), "How wide it is.").or_default(),
-       field("cold", &Tube::cold, schema::boolean(), "Whether it starts slowly.")});
-  return kFields;
+[[maybe_unused]] Fields fields(Tag<Tube>) {
+  return describe("tube", "",
+                  {field("tube_length", &Tube::length, kLength, "How long it is."),
+                   schema::defaulted("width", &Tube::width, Range::unit(), "How wide it is."),
+                   field("cold", &Tube::cold, "Whether it starts slowly.")});
 }
 
 enum class Colour { red, green };
@@ -91,39 +85,31 @@ struct Lamp {
   std::optional<double> volts;
   SourcePosition where;
 };
-[[maybe_unused]] const Fields& fields(Tag<Ratio>) {
-  static const Fields kFields = describe<Ratio>(
-      "ratio", "", {field("ratio", &Ratio::share, schema::number(Range::unit()), "A share.")});
-  return kFields;
+[[maybe_unused]] Fields fields(Tag<Ratio>) {
+  return describe("ratio", "", {field("ratio", &Ratio::share, Range::unit(), "A share.")});
 }
-[[maybe_unused]] const Fields& fields(Tag<Lamp>) {
-  static const Fields kFields = describe<Lamp>(
+[[maybe_unused]] Fields fields(Tag<Lamp>) {
+  return describe(
       "lamp", "What gives light.",
-      {field("name", &Lamp::name, schema::text(), "For messages."),
-       one_of(&Lamp::kind, under<Bulb>("bulb", schema::thing<Bulb>(), "A ball."),
-              beside<Tube>("tube_length")),
-       lent(&Lamp::place),
-       field("colour", &Lamp::colour, schema::word<Colour>("colour", {"red", "green"}), "Its colour.")
-           .or_default(),
-       field("count", &Lamp::count, schema::integer<int>({1, 9}), "How many.").or_default(),
-       field("limit", &Lamp::limit, schema::number(Range::positive()), "At most.").or_default(),
-       at_most_one(&Lamp::scale, "a lamp has one scale",
-                   under<Power>("power", schema::number(kLength), "In watts."), beside<Ratio>("ratio")),
-       field("steps", &Lamp::steps, schema::numbers({0, 5}), "Of the dimmer.").or_default(),
+      {field("name", &Lamp::name, "For messages."),
+       one_of(&Lamp::kind, under<Bulb>("bulb", "A ball."), beside<Tube>("tube_length")), lent(&Lamp::place),
+       schema::defaulted("colour", &Lamp::colour, schema::word<Colour>("colour", {"red", "green"}),
+                         "Its colour."),
+       schema::defaulted("count", &Lamp::count, {1, 9}, "How many."),
+       schema::defaulted("limit", &Lamp::limit, Range::positive(), "At most."),
+       at_most_one(&Lamp::scale, "a lamp has one scale", under<Power>("power", kLength, "In watts."),
+                   beside<Ratio>("ratio")),
+       schema::defaulted("steps", &Lamp::steps, {0, 5}, "Of the dimmer."),
        field("strength", &Lamp::strength,
              schema::forms<Strength>("strength", "a strength: a number or a name",
-                                     schema::form<double>(Json::number, schema::number({0, 1})),
-                                     schema::form<std::string>(Json::text, schema::text())),
+                                     schema::form<double>(Json::number, {0, 1}),
+                                     schema::form<std::string>(Json::text)),
              "How strong it is."),
-       field("spares", &Lamp::spares, schema::by_name<Bulb>(schema::thing<Bulb>(), "spares by name", 1),
-             "In the cupboard.")
-           .or_default(),
-       field("bulbs", &Lamp::bulbs, schema::list<Bulb>(schema::thing<Bulb>(), "bulbs", 1, true), "Others.")
-           .or_default(),
-       field("watts", &Lamp::watts, schema::number({0, 100}), "Power."),
-       field("volts", &Lamp::volts, schema::number({0, 100}), "Voltage.")},
+       schema::defaulted("spares", &Lamp::spares, schema::by_name<Bulb>("spares by name", 1),
+                         "In the cupboard."),
+       schema::defaulted("bulbs", &Lamp::bulbs, schema::list<Bulb>("bulbs", 1, true), "Others."),
+       field("watts", &Lamp::watts, {0, 100}, "Power."), field("volts", &Lamp::volts, {0, 100}, "Voltage.")},
       {"watts", "volts"});
-  return kFields;
 }
 
 struct Reading {
@@ -245,7 +231,7 @@ TEST(SchemaTest, DescribesWhatItReads) {
 
 // A table that is wrong about a member is our bug.
 TEST(SchemaTest, RefusesATableOfOtherTypes) {
-  EXPECT_THROW((void)field("count", &Lamp::count, schema::number(kLength), ""), Error);
+  EXPECT_THROW((void)field("count", &Lamp::count, schema::within<double>(kLength), ""), Error);
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "description/reflectance.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,8 +8,54 @@
 
 #include <fmt/format.h>
 
-#include "description/reflectance.h"
 #include "spectral/rgb.h"
+
+namespace abbe {
+
+static schema::Fields fields(schema::Tag<TextureMapping>) {
+  using namespace schema;
+  constexpr Range kMapping{-1e6, 1e6};
+  return describe(
+      "texture_mapping", "",
+      {defaulted("filter", &TextureMapping::filter, word<TextureFilter>("filter", {"bilinear", "nearest"}),
+                 "What holds between the centres of texels."),
+       defaulted("wrap", &TextureMapping::wrap, word<TextureWrap>("wrap", {"repeat", "clamp"}),
+                 "What holds beyond the edges of the image."),
+       defaulted("scale", &TextureMapping::scale, kMapping, "The image lies at scale * (u, v) + offset."),
+       defaulted("offset", &TextureMapping::offset, kMapping, "The image lies at scale * (u, v) + offset.")});
+}
+
+namespace spec {
+
+using namespace schema;
+
+Fields fields(Tag<TextureFile>) {
+  return describe(
+      "texture_file", "",
+      {field("image", &TextureFile::image, "EXR, PNG, TIFF or another file that OpenImageIO reads."),
+       lent(&TextureFile::mapping)});
+}
+
+static Fields fields(Tag<Texture>) {
+  return describe(
+      "texture", "An image whose channels weigh spectra.",
+      {lent(&Texture::file),
+       one_of(
+           &Texture::of,
+           under<Weights>("weights", by_name<Curve>("spectra by channel", 1),
+                          "The spectrum that each channel weighs; values are taken as linear."),
+           under<Rgb>(
+               "rgb",
+               "true: channels R, G, B are a colour, sRGB in files of integers, linear in .exr and .hdr."))});
+}
+
+Kind kind(Tag<Reflectance>) {
+  return forms<Reflectance>("reflectance", "a reflectance", form<Texture>(Json::object, {"image"}),
+                            form<Curve>(Json::any));
+}
+
+}  // namespace spec
+}  // namespace abbe
 
 namespace abbe::description {
 namespace {
