@@ -140,43 +140,53 @@ LampKind area_lamp(const Shape& shape, bool two_sided) {
   return kind;
 }
 
+std::string name_of(const spec::Light& light, std::size_t i) {
+  return light.name.value_or(fmt::format("light {}", i));
+}
+
+// Adds the surface of a lamp, which it tells the number of; nothing after an error.
+template <typename Surface>
+std::optional<std::uint32_t> add_surface(const spec::AreaLamp<Surface>& said, const std::string& name,
+                                         LoadContext& context, Scene& scene) {
+  const std::optional surface = build(said.surface, context);
+  const auto material =
+      said.material ? find_material(*said.material, context, scene) : black_material(context, scene);
+  if (!surface || !material) return std::nullopt;
+  scene.shapes.push_back({name, *surface, *material});
+  return static_cast<std::uint32_t>(scene.shapes.size() - 1);
+}
+
 /// Adds each kind of light to the scene.
 struct LightBuilder {
   const SourcePosition& where;
   std::string name;
+  std::optional<std::uint32_t> surface;  ///< Its shape, if it has one.
   LoadContext& context;
   Scene& scene;
 
-  void add(decltype(Light::kind) kind, const Imath::V3d& position, const spec::Emission& emission,
-           const LampKind& lamp) {
-    auto curve = build(emission, lamp, context);
-    if (!curve) return;
-    scene.lights.push_back({std::move(name), std::move(kind), *std::move(curve)});
-    context.light_positions.push_back(position);
+  void add(decltype(Light::kind) kind, const spec::Emission& emission, const LampKind& lamp) {
+    if (auto curve = build(emission, lamp, context))
+      scene.lights.push_back({std::move(name), std::move(kind), *std::move(curve)});
+  }
+  [[nodiscard]] Imath::V3f position(const Imath::V3d& at) const {
+    return Imath::V3f(at * context.unit_m - scene.origin_m);
   }
 
   void operator()(std::monostate) const {}
   template <typename Surface>
   void operator()(const spec::AreaLamp<Surface>& said) {
-    const std::optional surface = build(said.surface, context);
-    const auto material =
-        said.material ? find_material(*said.material, context, scene) : black_material(context, scene);
-    if (!surface || !material) return;
-    scene.shapes.push_back({std::move(name), *surface, *material});
-    add_area_light(said.emission, said.two_sided, static_cast<std::uint32_t>(scene.shapes.size() - 1),
-                   context, scene);
+    if (surface) add_area_light(said.emission, said.two_sided, *surface, context, scene);
   }
   void operator()(const spec::PointLamp& said) {
-    add(PointLight{Imath::V3f(0)}, said.source.at * context.unit_m, said.emission,
+    add(PointLight{position(said.source.at)}, said.emission,
         {schema::fields_of<spec::PointEmission>, 4 * std::numbers::pi, inverse_square});
   }
   void operator()(const spec::SpotLamp& said) {
     const double sine = std::sin(said.source.half_angle_deg * std::numbers::pi / 360);
-    const SpotLight spot{Imath::V3f(0), Imath::V3f(said.source.direction.normalized()),
+    const SpotLight spot{position(said.source.at), Imath::V3f(said.source.direction.normalized()),
                          static_cast<float>(2 * sine * sine)};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
-    add(spot, said.source.at * context.unit_m, said.emission,
-        {schema::fields_of<spec::PointEmission>, solid_angle, inverse_square});
+    add(spot, said.emission, {schema::fields_of<spec::PointEmission>, solid_angle, inverse_square});
   }
   // A light from infinity may say its strength itself, by daylight, without an emission beside it.
   void add_from_infinity(decltype(Light::kind) kind, const spec::DaylightStrength& strength,
@@ -188,13 +198,13 @@ struct LightBuilder {
       return context.diagnostics.error(where, "missing key \"emission\"");
     if (emission != nullptr && own != nullptr)
       return context.diagnostics.error(*own, "goes in place of an emission, and there is one");
-    if (emission != nullptr) return add(std::move(kind), {0, 0, 0}, *emission, lamp);
+    if (emission != nullptr) return add(std::move(kind), *emission, lamp);
     spec::Emission daylight;
     daylight.where = *own;
     daylight.spectrum = spec::Illuminant{{{"D65"}, *own}};
     if (irradiance) daylight.scale = spec::Amount<spec::Quantity::irradiance>{{irradiance->value}};
     if (illuminance) daylight.scale = spec::Amount<spec::Quantity::illuminance>{{illuminance->value}};
-    add(std::move(kind), {0, 0, 0}, daylight, lamp);
+    add(std::move(kind), daylight, lamp);
   }
   void operator()(const spec::BeamLamp& said) {
     add_from_infinity(DirectionalLight{Imath::V3f(said.source.towards.normalized())}, said.source.strength,
@@ -223,7 +233,6 @@ struct LightBuilder {
       light.image = std::make_shared<const EnvironmentImage>(sky->width, sky->height, std::move(sky->texels),
                                                              sky->frame, curve->curve(), scene.channels);
     scene.lights.push_back({std::move(name), std::move(light), *std::move(curve)});
-    context.light_positions.push_back({0, 0, 0});
   }
 };
 
@@ -239,16 +248,26 @@ void add_area_light(const spec::Emission& emission, bool two_sided, std::uint32_
   auto curve = build(emission, area_lamp(instance.shape, two_sided), context);
   if (!curve) return;
   scene.lights.push_back({instance.name, AreaLight{shape, two_sided}, std::move(*curve)});
-  context.light_positions.push_back({0, 0, 0});
 }
 
-void build_lights(const std::vector<spec::Light>& lights, LoadContext& context, Scene& scene) {
+LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadContext& context, Scene& scene) {
+  LampSurfaces surfaces(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const spec::Light& light = lights[i];
-    std::visit(LightBuilder{light.where, light.name.value_or(fmt::format("light {}", i)), context, scene},
-               light.kind);
-    context.shape_places.resize(scene.shapes.size(), light.where);
+    const auto add = [&](const auto& kind) {
+      if constexpr (requires { kind.surface; })
+        surfaces[i] = add_surface(kind, name_of(lights[i], i), context, scene);
+    };
+    std::visit(add, lights[i].kind);
+    context.shape_places.resize(scene.shapes.size(), lights[i].where);
   }
+  return surfaces;
+}
+
+void build_lights(const std::vector<spec::Light>& lights, const LampSurfaces& surfaces, LoadContext& context,
+                  Scene& scene) {
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    std::visit(LightBuilder{lights[i].where, name_of(lights[i], i), surfaces[i], context, scene},
+               lights[i].kind);
 }
 
 }  // namespace abbe::description

@@ -75,7 +75,14 @@ struct Light {
 
 namespace abbe::description {
 
-void build_lights(const std::vector<spec::Light>& lights, LoadContext& context, Scene& scene);
+/// The shape that each light has, if it has one.
+using LampSurfaces = std::vector<std::optional<std::uint32_t>>;
+/// Adds the surfaces of all lamps.
+[[nodiscard]] LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadContext& context,
+                                               Scene& scene);
+/// Adds all lights to a scene whose origin is known.
+void build_lights(const std::vector<spec::Light>& lights, const LampSurfaces& surfaces, LoadContext& context,
+                  Scene& scene);
 /// Makes `scene.shapes[shape]` emit.
 void add_area_light(const spec::Emission& emission, bool two_sided, std::uint32_t shape, LoadContext& context,
                     Scene& scene);

@@ -8,14 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "description/checks.h"
 #include "description/scene.h"
 #include "io/schema/read.h"
 #include "io/standard_stream.h"
 #include "io/text.h"
 #include "materials/index/library.h"
-#include "scene/extent.h"
-#include "scene/shapes/placed.h"
 
 namespace abbe {
 namespace description {
@@ -31,28 +28,6 @@ bool check_version(const JsonValue& root, Diagnostics& diagnostics) {
   diagnostics.error(json->where,
                     fmt::format("{} (got {}, allowed {})", what, *version, spec::kFormatVersion));
   return false;
-}
-
-// Moves the scene so that (0, 0, 0), where floats are finest, is where they are to be; everything up to here
-// is in double.
-void recentre(Scene& scene, LoadContext& context) {
-  const std::vector<Imath::V3d>& light_positions = context.light_positions;
-  scene.origin_m = extent_of(scene.camera, scene.shapes).origin;
-  for (ShapeInstance& instance : scene.shapes)
-    std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
-  for (const auto& at : context.placements)
-    *at = placement(at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
-  for (Material& material : scene.materials)
-    if (auto* medium = std::get_if<MediumMaterial>(&material.model); medium && medium->filling.grid) {
-      medium->filling.grid->from -= scene.origin_m;
-      medium->filling.grid->to -= scene.origin_m;
-    }
-  translate(scene.camera, -scene.origin_m);
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const Imath::V3f at(light_positions[i] - scene.origin_m);
-    if (auto* point = std::get_if<PointLight>(&scene.lights[i].kind)) point->position = at;
-    if (auto* spot = std::get_if<SpotLight>(&scene.lights[i].kind)) spot->position = at;
-  }
 }
 
 std::string hash(const SourceText& source, std::span<const Override> overrides, const LoadContext& context) {
@@ -117,9 +92,6 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
                      diagnostics);  // what is sound of it is built
   root.reset();                     // of a large scene as large as what follows
   Scene scene = build(said, context);
-  if (diagnostics.has_errors()) return std::nullopt;
-  description::recentre(scene, context);
-  description::check_precision(said.camera->where, context, scene);
   if (diagnostics.has_errors()) return std::nullopt;
   scene.sha256 = description::hash(*source, overrides, context);
   scene.commit();

@@ -47,7 +47,6 @@ struct LoadContext {
   double unit_m = 1;             ///< Metres per unit of length.
   std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
   std::vector<SourcePosition> emissions{};     ///< Where each light's is told.
-  std::vector<Imath::V3d> light_positions{};   ///< Of each light [m], in double until the scene is recentred.
   std::vector<SourcePosition> shape_places{};  ///< Where each shape of the scene is described.
   std::map<std::string, Object> objects{};
   std::unordered_map<std::string, LampSpectrum> lamp_spectra{};  ///< By the words that name them.

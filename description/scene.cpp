@@ -5,6 +5,8 @@
 #include "description/checks.h"
 #include "io/schema/write.h"
 #include "scene/colors.h"
+#include "scene/extent.h"
+#include "scene/shapes/placed.h"
 
 namespace abbe::spec {
 
@@ -78,6 +80,22 @@ void build_sensor(const spec::Scene& said, LoadContext& context, Scene& scene) {
   for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
 }
 
+// Moves what there is so that (0, 0, 0), where floats are finest, is where they are to be; everything up to
+// here is in double.
+void recentre(Scene& scene, const LoadContext& context) {
+  scene.origin_m = extent_of(scene.camera, scene.shapes).origin;
+  for (ShapeInstance& instance : scene.shapes)
+    std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
+  for (const auto& at : context.placements)
+    *at = placement(at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+  for (Material& material : scene.materials)
+    if (auto* medium = std::get_if<MediumMaterial>(&material.model); medium && medium->filling.grid) {
+      medium->filling.grid->from -= scene.origin_m;
+      medium->filling.grid->to -= scene.origin_m;
+    }
+  translate(scene.camera, -scene.origin_m);
+}
+
 }  // namespace
 
 Scene build(const spec::Scene& said, LoadContext& context) {
@@ -89,12 +107,15 @@ Scene build(const spec::Scene& said, LoadContext& context) {
   build_materials(said.materials, context, scene);
   build_objects(said.objects, context, scene);
   build_shapes(said.shapes, context, scene);
-  build_lights(said.lights, context, scene);
+  const LampSurfaces surfaces = build_lamp_surfaces(said.lights, context, scene);
+  if (!context.diagnostics.has_errors()) recentre(scene, context);
+  build_lights(said.lights, surfaces, context, scene);
   if (said.render) scene.render = build(*said.render, context.diagnostics);
   if (said.output) scene.output = build(*said.output, context, scene);
   if (context.diagnostics.has_errors()) return scene;
   check_validity(said.materials, context, scene);
   check_lamps(context, scene);
+  check_precision(said.camera->where, context, scene);
   if (scene.lights.empty())
     context.diagnostics.error_if_strict(said.where, "no light: the image will be black");
   return scene;
