@@ -59,16 +59,10 @@ static Fields fields(Tag<View>) {
                    field("up", &View::up, direction(), "Direction that is up in the image.")});
 }
 
-static Fields fields(Tag<PinholeCamera>) {
-  return describe(
-      "pinhole_camera", "",
-      {field("pinhole", &PinholeCamera::pinhole, "The camera is a pinhole."), lent(&PinholeCamera::view)});
-}
-
-static Fields fields(Tag<ThinLensCamera>) {
-  return describe("thin_lens_camera", "",
-                  {field("thin_lens", &ThinLensCamera::lens, "The camera has a thin lens."),
-                   lent(&ThinLensCamera::view)});
+// The name of the lens is its key.
+template <typename Lens>
+Fields fields(Tag<Sighted<Lens>>) {
+  return describe("", "", {field(fields_of<Lens>().name, &Sighted<Lens>::lens), lent(&Sighted<Lens>::view)});
 }
 
 static Fields fields(Tag<PointProbe>) {
@@ -88,10 +82,9 @@ static Fields fields(Tag<IrradianceProbe>) {
 }
 
 Fields fields(Tag<Camera>) {
-  return describe(
-      "camera", "What looks at the scene.",
-      {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
-              under<IrradianceProbe>("irradiance_probe", "The camera is a meter of irradiance."))});
+  return describe("camera", "What looks at the scene.",
+                  {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"),
+                          beside<ThinLensCamera>("thin_lens"), under<IrradianceProbe>("irradiance_probe"))});
 }
 
 }  // namespace abbe::spec
@@ -146,14 +139,14 @@ std::optional<Placed> build(const spec::View& view, const SourcePosition& where,
 std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosition& where,
                              const Sensor& sensor, const LoadContext& context) {
   const auto placed = build(camera.view, where, context);
-  const auto aperture = build(camera.pinhole.aperture, context);
+  const auto aperture = build(camera.lens.aperture, context);
   if (!placed || !aperture) return std::nullopt;
   double image_distance = 0;
-  if (const auto* length = std::get_if<spec::FocalLength>(&camera.pinhole.view)) {
+  if (const auto* length = std::get_if<spec::FocalLength>(&camera.lens.view)) {
     image_distance = length->value * context.unit_m;
   } else {
     const double half_film = std::min(sensor.width, sensor.height) * sensor.pixel_pitch / 2;
-    const double fov_deg = std::get<spec::FieldOfView>(camera.pinhole.view).value;
+    const double fov_deg = std::get<spec::FieldOfView>(camera.lens.view).value;
     image_distance = half_film / std::tan(fov_deg * std::numbers::pi / 360);
   }
   return Pinhole{placed->frame, image_distance, image_distance / (2 * aperture->f_number),

@@ -35,14 +35,14 @@ struct View {
   Imath::V3d to{0, 0, 0};
   Imath::V3d up{0, 0, 0};
 };
-struct PinholeCamera {
-  Pinhole pinhole;
+/// A camera of some lens.
+template <typename Lens>
+struct Sighted {
+  Lens lens;
   View view;
 };
-struct ThinLensCamera {
-  ThinLens lens;
-  View view;
-};
+using PinholeCamera = Sighted<Pinhole>;
+using ThinLensCamera = Sighted<ThinLens>;
 struct PointProbe {
   Imath::V3d at{0, 0, 0};
   Imath::V3d normal{0, 0, 0};

@@ -22,19 +22,13 @@ std::optional<std::array<const ImageChannel*, 3>> find_planes(const Image& image
 }  // namespace
 
 std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
-  if (!said.image) {
-    const auto refuse = [&](const char* key, const auto& given) {
-      if (given)
-        context.diagnostics.error(given->where, fmt::format("{} turns an image, and there is none", key));
-    };
-    refuse("up", said.up);
-    refuse("rotate_deg", said.rotate_deg);
-    return Sky{};
-  }
-  const auto path = context.file(said.image->value, said.image->where);
+  const auto* picture = std::get_if<spec::SkyImage>(&said.image);
+  if (picture == nullptr) return Sky{};
+  const std::string& name = picture->file.value;
+  const SourcePosition& where = picture->file.where;
+  const auto path = context.file(name, where);
   if (!path) return std::nullopt;
-  const auto refuse = [&context, &name = said.image->value,
-                       &where = said.image->where](const std::string& what) {
+  const auto refuse = [&](const std::string& what) {
     context.diagnostics.error(where, fmt::format("environment \"{}\": {}", name, what), ErrorCode::input);
     return std::nullopt;
   };
@@ -47,9 +41,8 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
   if (!planes) return refuse("no channels R, G, B or Y");
   // Texels, and the cumulative distribution by which they are drawn.
   context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
-  const Imath::V3d up = said.up ? said.up->value : Imath::V3d(0, 0, 1);
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
-          environment_frame(up.normalized(), said.rotate_deg ? said.rotate_deg->value : 0)};
+          environment_frame(picture->up.normalized(), picture->rotate_deg)};
   std::size_t negative = 0;
   for (std::size_t i = 0; i < image.pixels(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -63,8 +56,7 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
     }
   if (negative > 0)
     context.diagnostics.warning(
-        said.image->where,
-        fmt::format("environment \"{}\": negative values taken as 0: {}", said.image->value, negative));
+        where, fmt::format("environment \"{}\": negative values taken as 0: {}", name, negative));
   return sky;
 }
 

@@ -31,13 +31,25 @@ Field strength(DaylightStrength T::*member) {
                                  "Of a surface that faces the light [lx], as D65; in place of an emission."));
 }
 
+// Where a light may say how strong it is: in its emission, which most need.
+std::vector<std::string_view> strengths(const auto&) {
+  return {};
+}
+std::vector<std::string_view> strengths(const Beam&) {
+  return {"emission", "directional/irradiance", "directional/illuminance"};
+}
+std::vector<std::string_view> strengths(const Sun&) {
+  return {"emission", "sun/irradiance", "sun/illuminance"};
+}
+
 }  // namespace
 
 // The name of what shines is its key.
 template <typename Source, typename Emission>
 Fields fields(Tag<Lamp<Source, Emission>>) {
   using L = Lamp<Source, Emission>;
-  return describe("", "", {field(fields_of<Source>().name, &L::source), field("emission", &L::emission)});
+  return describe("", "", {field(fields_of<Source>().name, &L::source), field("emission", &L::emission)},
+                  strengths(Source{}), true);
 }
 template <typename Surface>
 Fields fields(Tag<AreaLamp<Surface>>) {
@@ -75,12 +87,16 @@ static Fields fields(Tag<Sun>) {
        strength(&Sun::strength)});
 }
 
+static Fields fields(Tag<SkyImage>) {
+  return describe("", "",
+                  {field("image", &SkyImage::file,
+                         "An equirectangular EXR or HDR file with linear channels R, G, B, or Y."),
+                   defaulted("up", &SkyImage::up, direction(), "Direction of its top row."),
+                   defaulted("rotate_deg", &SkyImage::rotate_deg, kValue, "Right-handed turn about `up`.")});
+}
 static Fields fields(Tag<Sky>) {
-  return describe(
-      "environment", "The same radiance from all directions, or an image's; one per scene.",
-      {field("image", &Sky::image, "An equirectangular EXR or HDR file with linear channels R, G, B, or Y."),
-       field("up", &Sky::up, direction(), "Direction of its top row, [0, 0, 1] when absent."),
-       field("rotate_deg", &Sky::rotate_deg, kValue, "Right-handed turn about `up`, 0 when absent.")});
+  return describe("environment", "The same radiance from all directions, or an image's; one per scene.",
+                  {at_most_one(&Sky::image, "", beside<SkyImage>("image"))});
 }
 
 Fields fields(Tag<Light>) {
@@ -193,15 +209,11 @@ struct LightBuilder {
                          const spec::Emission* emission, const LampKind& lamp) {
     const auto* irradiance = std::get_if<spec::DaylightIrradiance>(&strength);
     const auto* illuminance = std::get_if<spec::DaylightIlluminance>(&strength);
-    const SourcePosition* own = irradiance ? &irradiance->where : illuminance ? &illuminance->where : nullptr;
-    if (emission == nullptr && own == nullptr)
-      return context.diagnostics.error(where, "missing key \"emission\"");
-    if (emission != nullptr && own != nullptr)
-      return context.diagnostics.error(*own, "goes in place of an emission, and there is one");
+    const SourcePosition& own = irradiance ? irradiance->where : illuminance ? illuminance->where : where;
     if (emission != nullptr) return add(std::move(kind), *emission, lamp);
     spec::Emission daylight;
-    daylight.where = *own;
-    daylight.spectrum = spec::Illuminant{{{"D65"}, *own}};
+    daylight.where = own;
+    daylight.spectrum = spec::Illuminant{{{"D65"}, own}};
     if (irradiance) daylight.scale = spec::Amount<spec::Quantity::irradiance>{{irradiance->value}};
     if (illuminance) daylight.scale = spec::Amount<spec::Quantity::illuminance>{{illuminance->value}};
     add(std::move(kind), daylight, lamp);

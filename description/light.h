@@ -50,11 +50,14 @@ struct Sun {
   double angular_diameter_deg = 0.533;  ///< Of ours, in the mean.
   DaylightStrength strength;
 };
-/// Nothing but its light, or an image and which way it faces.
+struct SkyImage {
+  schema::Located<std::string> file;
+  Imath::V3d up{0, 0, 1};
+  double rotate_deg = 0;
+};
+/// Nothing but its light, or an image.
 struct Sky {
-  std::optional<schema::Located<std::string>> image;
-  std::optional<schema::Located<Imath::V3d>> up;
-  std::optional<schema::Located<double>> rotate_deg;
+  std::variant<std::monostate, SkyImage> image;
   SourcePosition where;
 };
 using PointLamp = Lamp<Point, PointEmission>;

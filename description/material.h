@@ -86,16 +86,11 @@ struct Power {
   Reflectance reflectance;
   double exponent = 0;
 };
-struct CosinePower {
-  Power power;
+struct CosinePower : Power {
   bool reciprocal = false;
 };
-struct Phong {
-  Power power;
-};
-struct Retroreflector {
-  Power power;
-};
+struct Phong : Power {};
+struct Retroreflector : Power {};
 struct MixturePart {
   schema::Located<std::string> material;
   Curve weight;

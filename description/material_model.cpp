@@ -26,6 +26,14 @@ Field amount(std::string_view key, double T::*member, std::string_view text) {
   return defaulted(key, member, Range::unit(), text);
 }
 
+template <typename P>
+std::vector<Field> power() {
+  Reflectance P::*reflectance = &Power::reflectance;
+  double P::*exponent = &Power::exponent;
+  return {field("reflectance", reflectance, "Reflectance of the lobe, in [0, 1]."),
+          field("exponent", exponent, kExponent, "Power of the cosine.")};
+}
+
 }  // namespace
 
 static Fields fields(Tag<HenyeyGreenstein>) {
@@ -132,22 +140,17 @@ static Fields fields(Tag<Principled>) {
        amount("clearcoat_gloss", &Principled::clearcoat_gloss, "How narrow the second highlight is.")});
 }
 
-static Fields fields(Tag<Power>) {
-  return describe("power", "",
-                  {field("reflectance", &Power::reflectance, "Reflectance of the lobe, in [0, 1]."),
-                   field("exponent", &Power::exponent, kExponent, "Power of the cosine.")});
-}
 static Fields fields(Tag<CosinePower>) {
+  std::vector<Field> fields = power<CosinePower>();
+  fields.push_back(defaulted("reciprocal", &CosinePower::reciprocal, "Whether it is of both."));
   return describe("cosine_power", "A power of the cosine of light's direction, or of both directions.",
-                  {lent(&CosinePower::power),
-                   defaulted("reciprocal", &CosinePower::reciprocal, "Whether it is of both.")});
+                  std::move(fields));
 }
 static Fields fields(Tag<Phong>) {
-  return describe("phong", "Phong's highlight, which breaks reciprocity and makes energy.",
-                  {lent(&Phong::power)});
+  return describe("phong", "Phong's highlight, which breaks reciprocity and makes energy.", power<Phong>());
 }
 static Fields fields(Tag<Retroreflector>) {
-  return describe("retroreflector", "A lobe back to where light comes from.", {lent(&Retroreflector::power)});
+  return describe("retroreflector", "A lobe back to where light comes from.", power<Retroreflector>());
 }
 
 static Fields fields(Tag<MixturePart>) {
@@ -174,17 +177,17 @@ Fields fields(Tag<Material>) {
       {one_of(&Material::model,
               under<Mixture>("mixture", list<MixturePart>("parts", 1),
                              "Other materials side by side, whose weights add up to at most 1."),
-              under<Diffuse>("diffuse", ""), under<Dielectric>("dielectric", ""),
-              under<Conductor>("conductor", ""), under<Film>("film", ""), under<Medium>("medium", ""),
-              under<CoatedDiffuse>("coated_diffuse", ""), under<ThinGlass>("thin_glass", ""),
-              under<Mirror>("mirror", ""), under<Schlick>("schlick", ""), under<OrenNayar>("oren_nayar", ""),
-              under<Principled>("principled", ""), under<CosinePower>("cosine_power", ""),
-              under<Phong>("phong", ""), under<Retroreflector>("retroreflector", "")),
+              under<Diffuse>("diffuse"), under<Dielectric>("dielectric"), under<Conductor>("conductor"),
+              under<Film>("film"), under<Medium>("medium"), under<CoatedDiffuse>("coated_diffuse"),
+              under<ThinGlass>("thin_glass"), under<Mirror>("mirror"), under<Schlick>("schlick"),
+              under<OrenNayar>("oren_nayar"), under<Principled>("principled"),
+              under<CosinePower>("cosine_power"), under<Phong>("phong"),
+              under<Retroreflector>("retroreflector")),
        field("priority", &Material::priority, {-1000, 1000},
              "Of the matter inside, 0 when absent: where shapes overlap, that of the highest priority is "
              "there, of equals the one that light enters last."),
        at_most_one(&Material::relief, "a material has a normal_map or a bump_map",
-                   under<NormalMap>("normal_map", ""), under<BumpMap>("bump_map", ""))});
+                   under<NormalMap>("normal_map"), under<BumpMap>("bump_map"))});
 }
 
 Kind materials() {
@@ -218,6 +221,13 @@ Curve normal_reflectance(const RefractiveIndex& index) {
   return Curve(std::move(knots));
 }
 
+// The material of its first part and more, if that could be built.
+template <typename M, typename Part, typename... More>
+std::optional<MaterialModel> made(std::optional<Part> part, More... more) {
+  if (!part) return std::nullopt;
+  return M{*std::move(part), more...};
+}
+
 /// Each material of the list from what is said of it; none after an error.
 struct ModelBuilder {
   using Model = std::optional<MaterialModel>;
@@ -226,9 +236,7 @@ struct ModelBuilder {
   Model operator()(std::monostate) const { return std::nullopt; }
   Model operator()(const spec::Mixture&) const { return MixtureMaterial{}; }  // whose parts come later
   Model operator()(const spec::Diffuse& said) const {
-    auto reflectance = build(said.reflectance, context);
-    if (!reflectance) return std::nullopt;
-    return DiffuseMaterial{std::move(*reflectance)};
+    return made<DiffuseMaterial>(build(said.reflectance, context));
   }
   Model operator()(const spec::Dielectric& said) const {
     auto ior = build(said.ior, context);
@@ -276,9 +284,7 @@ struct ModelBuilder {
     return ThinGlassMaterial{std::move(ior->name), std::move(ior->index), said.thickness * context.unit_m};
   }
   Model operator()(const spec::Mirror& said) const {
-    auto reflectance = build(said.reflectance, context);
-    if (!reflectance) return std::nullopt;
-    return MirrorMaterial{std::move(*reflectance)};
+    return made<MirrorMaterial>(build(said.reflectance, context));
   }
   Model operator()(const spec::Schlick& said) const {
     std::optional<SpectralTexture> r0;
@@ -286,36 +292,25 @@ struct ModelBuilder {
       r0 = build(*reflectance, context);
     else if (const auto ior = build(std::get<spec::Ior>(said.normal), context))
       r0 = normal_reflectance(ior->index);
-    if (!r0) return std::nullopt;
-    return SchlickMaterial{std::move(*r0)};
+    return made<SchlickMaterial>(std::move(r0));
   }
   Model operator()(const spec::OrenNayar& said) const {
-    auto reflectance = build(said.reflectance, context);
-    if (!reflectance) return std::nullopt;
-    return OrenNayarMaterial{std::move(*reflectance), said.sigma_deg};
+    return made<OrenNayarMaterial>(build(said.reflectance, context), said.sigma_deg);
   }
   Model operator()(const spec::Principled& said) const {
-    auto base = build(said.base_color, context);
-    if (!base) return std::nullopt;
     const auto amount = [](double x) { return static_cast<float>(x); };
     const PrincipledLook look{amount(said.metallic), amount(said.roughness), amount(said.specular),
                               amount(said.sheen),    amount(said.clearcoat), amount(said.clearcoat_gloss)};
-    return PrincipledMaterial{std::move(*base), Principled(look)};
+    return made<PrincipledMaterial>(build(said.base_color, context), Principled(look));
   }
   Model operator()(const spec::CosinePower& said) const {
-    auto reflectance = build(said.power.reflectance, context);
-    if (!reflectance) return std::nullopt;
-    return CosinePowerMaterial{std::move(*reflectance), said.power.exponent, said.reciprocal};
+    return made<CosinePowerMaterial>(build(said.reflectance, context), said.exponent, said.reciprocal);
   }
   Model operator()(const spec::Phong& said) const {
-    auto reflectance = build(said.power.reflectance, context);
-    if (!reflectance) return std::nullopt;
-    return PhongMaterial{std::move(*reflectance), said.power.exponent};
+    return made<PhongMaterial>(build(said.reflectance, context), said.exponent);
   }
   Model operator()(const spec::Retroreflector& said) const {
-    auto reflectance = build(said.power.reflectance, context);
-    if (!reflectance) return std::nullopt;
-    return RetroreflectorMaterial{std::move(*reflectance), said.power.exponent};
+    return made<RetroreflectorMaterial>(build(said.reflectance, context), said.exponent);
   }
 };
 

@@ -19,9 +19,16 @@ using namespace schema;
 constexpr Range kScale{0, kMaxStretch, true, false};
 constexpr Range kSignedScale{-kMaxStretch, kMaxStretch};
 
-constexpr char kScaleText[] = "Factor of all lengths.";
-constexpr char kRotateText[] = "Rotation after the scale.";
-constexpr char kTranslateText[] = "Displacement after scale and rotation.";
+Field scale(std::optional<double> Similarity::*member) {
+  return field("scale", member, kScale, "Factor of all lengths.");
+}
+Field scale(std::optional<std::variant<double, Imath::V3d>> Stretch::*member) {
+  return field(
+      "scale", member,
+      forms<std::variant<double, Imath::V3d>>("", "a scale", form<Imath::V3d>(Json::list, kSignedScale),
+                                              form<double>(Json::any, kScale)),
+      "Factor of all lengths, or factors along x, y and z, which mirror where they are negative.");
+}
 
 }  // namespace
 
@@ -31,26 +38,16 @@ static Fields fields(Tag<Rotation>) {
                    field("deg", &Rotation::deg, kValue, "Angle in degrees.")});
 }
 
-Fields fields(Tag<Similarity>) {
-  return describe("similarity", "A step that scales, then rotates, then translates.",
-                  {field("scale", &Similarity::scale, kScale, kScaleText),
-                   field("rotate", &Similarity::rotate, kRotateText),
-                   field("translate", &Similarity::translate, kCoordinate, kTranslateText)});
+template <typename Scale>
+Fields fields(Tag<Step<Scale>>) {
+  using S = Step<Scale>;
+  const std::string_view name = std::is_same_v<S, Similarity> ? "similarity" : "stretch";
+  return describe(name, "A step that scales, then rotates, then translates.",
+                  {scale(&S::scale), field("rotate", &S::rotate, "Rotation after the scale."),
+                   field("translate", &S::translate, kCoordinate, "Displacement after scale and rotation.")});
 }
 
-Fields fields(Tag<Stretch>) {
-  using Scale = std::variant<double, Imath::V3d>;
-  return describe(
-      "stretch", "A step that scales, then rotates, then translates.",
-      {field("scale", &Stretch::scale,
-             forms<Scale>("", "a scale", form<Imath::V3d>(Json::list, kSignedScale),
-                          form<double>(Json::any, kScale)),
-             "Factor of all lengths, or factors along x, y and z, which mirror where they are negative."),
-       field("rotate", &Stretch::rotate, kRotateText),
-       field("translate", &Stretch::translate, kCoordinate, kTranslateText)});
-}
-
-Fields fields(Tag<Matrix>) {
+static Fields fields(Tag<Matrix>) {
   return describe("matrix", "A step given as a matrix.",
                   {field("matrix", &Matrix::rows, kCoordinate,
                          "Rows of a matrix for column vectors: 12 numbers, or 16 of which the last are 0 0 0 "

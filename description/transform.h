@@ -16,26 +16,20 @@ struct Rotation {
   Imath::V3d axis{0, 0, 0};
   double deg = 0;
 };
-/// A step that keeps the forms of shapes: it scales, then rotates, then translates.
-struct Similarity {
-  std::optional<double> scale;
+/// A step that scales, then rotates, then translates.
+template <typename Scale>
+struct Step {
+  std::optional<Scale> scale;
   std::optional<Rotation> rotate;
   std::optional<Imath::V3d> translate;
 };
-/// A step of an instance, which may stretch and mirror.
-struct Stretch {
-  std::optional<std::variant<double, Imath::V3d>> scale;
-  std::optional<Rotation> rotate;
-  std::optional<Imath::V3d> translate;
-};
+using Similarity = Step<double>;                         ///< Keeps the forms of shapes.
+using Stretch = Step<std::variant<double, Imath::V3d>>;  ///< Of an instance: may stretch and mirror.
 /// A step given by rows.
 struct Matrix {
   schema::Located<std::vector<double>> rows;
 };
 using Affine = std::variant<Stretch, Matrix>;
-[[nodiscard]] schema::Fields fields(schema::Tag<Similarity>);
-[[nodiscard]] schema::Fields fields(schema::Tag<Stretch>);
-[[nodiscard]] schema::Fields fields(schema::Tag<Matrix>);
 /// Steps one after the other, a single one without brackets.
 [[nodiscard]] schema::Kind similarity_steps();
 [[nodiscard]] schema::Kind affine_steps();

@@ -13,8 +13,8 @@ Field Field::with(Presence other) const {
 }
 
 Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
-                std::vector<std::string_view> any_of) {
-  return {name, text, std::move(fields), std::move(any_of)};
+                std::vector<std::string_view> any_of, bool exclusive) {
+  return {name, text, std::move(fields), std::move(any_of), exclusive};
 }
 
 std::shared_ptr<const Part> detail::part(Kind&& kind) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -9,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/schema/held.h"
 #include "io/schema/kind.h"
 
 // The declarative tables of a user's file. A thing is a plain struct whose members hold its defaults; beside
@@ -27,37 +27,6 @@ namespace abbe::schema {
 /// Chooses the table of a thing: `fields(Tag<Disc>{})`.
 template <typename T>
 struct Tag {};
-
-/// What holds a value only: a type of its own derives from it, so that a variant can tell two lengths apart.
-template <typename T>
-struct Value {
-  using Wrapped = T;
-  T value{};
-};
-/// A value with its place, for complaints that come later. A thing may have a member `where` instead.
-template <typename T>
-struct Located : Value<T> {
-  SourcePosition where{};
-};
-/// A value under a name that the user chose.
-template <typename T>
-struct Named {
-  std::string name;
-  T value{};
-  SourcePosition where{};
-};
-
-/// How a member holds its value: `open` makes room for one, `look` gives nullptr when there is none, `close`
-/// takes it away again after an error.
-struct Holder {
-  void* (*open)(void* member);
-  const void* (*look)(const void* member);
-  void (*close)(void* member);
-  SourcePosition* (*where)(void* member);  ///< Where it keeps the place, nullptr when it does not.
-};
-
-/// Whether a key must be there.
-enum class Presence { required, optional };
 
 /// A value under a key, a group of keys, or the fields of another thing.
 using Part = std::variant<Kind, OneOf, Lent>;
@@ -86,85 +55,15 @@ struct Fields {
   std::string_view name;  ///< That of a definition of the JSON schema.
   std::string_view text;  ///< What it is, as a whole sentence.
   std::vector<Field> fields;
-  std::vector<std::string_view> any_of = {};  ///< Keys one of which must be there; the first is asked for.
+  /// Keys, or paths of keys ("sun/irradiance"), one of which must be there; the first is asked for.
+  std::vector<std::string_view> any_of = {};
+  bool exclusive = false;  ///< Whether no two of them may be there.
   // What the type of the thing tells.
   const void* defaults = nullptr;                   ///< A thing as its members' initialisers make it.
   SourcePosition* (*where)(void* thing) = nullptr;  ///< Where it keeps its place, nullptr when it does not.
 };
 
 namespace detail {
-
-template <typename M>
-SourcePosition* where_of(M& member) {
-  if constexpr (requires { member.where; })
-    return &member.where;
-  else
-    return nullptr;
-}
-
-// A member that is its value, or wraps it.
-template <typename M>
-struct Held {
-  static auto& value(auto& member) {
-    if constexpr (requires { typename M::Wrapped; })
-      return member.value;
-    else
-      return member;
-  }
-  using Value = std::remove_cvref_t<decltype(value(std::declval<M&>()))>;
-  static Value* open(M& member) { return &value(member); }
-  static const Value* look(const M& member) { return &value(member); }
-  static void close(M&) {}
-  static SourcePosition* where(M& member) {
-    if constexpr (requires { typename M::Wrapped; })
-      return where_of(member);
-    else
-      return nullptr;
-  }
-  static constexpr Presence kPresence = Presence::required;
-};
-// One that may be without a value: std::optional, or std::shared_ptr, which a thing needs to hold its like.
-template <typename M>
-requires requires(M m) {
-  m.reset();
-}
-struct Held<M> {
-  using Inner = std::remove_cvref_t<decltype(*std::declval<M&>())>;
-  using Value = typename Held<Inner>::Value;
-  static Value* open(M& member) {
-    if constexpr (std::is_same_v<M, std::optional<Inner>>)
-      member.emplace();
-    else
-      member = std::make_shared<Inner>();
-    return Held<Inner>::open(*member);
-  }
-  static const Value* look(const M& member) { return member ? Held<Inner>::look(*member) : nullptr; }
-  static void close(M& member) { member.reset(); }
-  static SourcePosition* where(M& member) { return member ? Held<Inner>::where(*member) : nullptr; }
-  static constexpr Presence kPresence =
-      std::is_same_v<M, std::optional<Inner>> ? Presence::optional : Presence::required;
-};
-
-/// What a member of type M holds.
-template <typename M>
-using ValueOf = typename Held<M>::Value;
-
-/// Makes room for a value that stands there.
-template <typename M>
-void* open_at(M& member, const SourcePosition& where) {
-  void* value = Held<M>::open(member);
-  if (SourcePosition* kept = Held<M>::where(member)) *kept = where;
-  return value;
-}
-
-template <typename M>
-Holder holder() {
-  using H = Held<M>;
-  return {[](void* m) -> void* { return H::open(*static_cast<M*>(m)); },
-          [](const void* m) -> const void* { return H::look(*static_cast<const M*>(m)); },
-          [](void* m) { H::close(*static_cast<M*>(m)); },
-          [](void* m) { return H::where(*static_cast<M*>(m)); }};
-}
 
 template <typename T>
 const T& defaults() {
@@ -438,6 +337,6 @@ template <typename T, typename V, typename... A>
 
 /// The table of a thing. Its name is that of a definition of the JSON schema.
 [[nodiscard]] Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
-                              std::vector<std::string_view> any_of = {});
+                              std::vector<std::string_view> any_of = {}, bool exclusive = false);
 
 }  // namespace abbe::schema

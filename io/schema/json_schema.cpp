@@ -29,9 +29,14 @@ JsonValue object_of(std::string_view key, JsonValue value) {
   add(object, key, std::move(value));
   return json(std::move(object));
 }
-// {"required": [key]}.
-JsonValue has(std::string_view key) {
-  return object_of("required", json(Array{string(key)}));
+// {"required": [key]}; of a path, that the first key is there and has the rest.
+JsonValue has(std::string_view path) {
+  const std::size_t end = path.find('/');
+  JsonValue first = object_of("required", json(Array{string(path.substr(0, end))}));
+  if (end != std::string_view::npos)
+    add(std::get<Object>(first.value), "properties",
+        object_of(path.substr(0, end), has(path.substr(end + 1))));
+  return first;
 }
 
 /// What an object must satisfy.
@@ -168,8 +173,8 @@ void add_fields(const Fields& fields, Part& part, Definitions& definitions) {
   }
   if (fields.any_of.empty()) return;
   Array keys;
-  for (const std::string_view key : fields.any_of) keys.push_back(has(key));
-  part.clauses.push_back(object_of("anyOf", json(std::move(keys))));
+  for (const std::string_view path : fields.any_of) keys.push_back(has(path));
+  part.clauses.push_back(object_of(fields.exclusive ? "oneOf" : "anyOf", json(std::move(keys))));
 }
 
 void write_object(const Fields& fields, Object& into, Definitions& definitions) {

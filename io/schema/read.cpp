@@ -77,15 +77,36 @@ bool read_field(ObjectReading& reading, const Field& field, void* thing) {
   return false;
 }
 
+const JsonValue* find_path(const JsonValue& json, std::string_view path) {
+  const JsonValue* found = &json;
+  for (std::size_t at = 0; found != nullptr && at <= path.size();) {
+    const std::size_t end = std::min(path.find('/', at), path.size());
+    found = found->find(path.substr(at, end - at));
+    at = end + 1;
+  }
+  return found;
+}
+
+// Whether one of the keys is there that a table asks for, and no other where there may be none.
+bool check_any_of(const ObjectReading& reading, const Fields& fields) {
+  std::vector<std::string_view> present;
+  for (const std::string_view path : fields.any_of)
+    if (find_path(reading.json, path)) present.push_back(path);
+  if (present.empty()) {
+    reading.diagnostics.error(reading.json.where, fmt::format("missing key \"{}\"", fields.any_of.front()));
+    return false;
+  }
+  if (present.size() == 1 || !fields.exclusive) return true;
+  reading.diagnostics.error(find_path(reading.json, present[1])->where,
+                            fmt::format("goes in place of \"{}\", and there is one", present[0]));
+  return false;
+}
+
 bool read_fields(ObjectReading& reading, const Fields& fields, void* thing) {
   bool sound = true;
   if (SourcePosition* where = fields.where(thing)) *where = reading.json.where;
   for (const Field& field : fields.fields) sound = read_field(reading, field, thing) && sound;
-  const auto is_there = [&](std::string_view key) { return reading.json.find(key) != nullptr; };
-  if (fields.any_of.empty() || std::any_of(fields.any_of.begin(), fields.any_of.end(), is_there))
-    return sound;
-  reading.diagnostics.error(reading.json.where, fmt::format("missing key \"{}\"", fields.any_of.front()));
-  return false;
+  return (fields.any_of.empty() || check_any_of(reading, fields)) && sound;
 }
 
 // The keys that an object may have, given the alternatives it has chosen.
@@ -101,6 +122,25 @@ void collect_keys(const JsonValue& json, const Fields& fields, std::vector<std::
       collect_keys(json, lent->fields(), keys);
     } else {
       keys.emplace_back(field.key);
+    }
+  }
+}
+
+// The keys one of which would have to be there for an object to have this one.
+void collect_owners(const JsonValue& json, const Fields& fields, std::string_view key,
+                    std::vector<std::string_view>& owners) {
+  for (const Field& field : fields.fields) {
+    if (const auto* lent = std::get_if<Lent>(field.part.get()))
+      collect_owners(json, lent->fields(), key, owners);
+    const auto* group = std::get_if<OneOf>(field.part.get());
+    if (group == nullptr) continue;
+    for (const Choice& choice : group->choices) {
+      if (choice.inside) continue;
+      const Fields& beside = std::get<Thing>(choice.alternative.kind->of).fields();
+      std::vector<std::string> keys;
+      collect_keys(json, beside, keys);
+      if (std::find(keys.begin(), keys.end(), key) != keys.end()) owners.push_back(choice.key);
+      if (json.find(choice.key)) collect_owners(json, beside, key, owners);
     }
   }
 }
@@ -230,9 +270,16 @@ bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics&
   if (!reading.chosen || reading.known == object->size()) return sound;
   std::vector<std::string> keys;
   collect_keys(json, fields, keys);
-  const std::size_t before = diagnostics.all().size();
-  report_unknown_keys(*object, keys, diagnostics);
-  return sound && diagnostics.all().size() == before;
+  for (const auto& [key, member] : *object) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    std::vector<std::string_view> owners;
+    collect_owners(json, fields, key, owners);
+    diagnostics.error(
+        member.key_position(),
+        owners.empty() ? unknown_name("key", key, keys)
+                       : fmt::format("{} goes with {}, which is not there", key, fmt::join(owners, " or ")));
+  }
+  return false;
 }
 
 }  // namespace abbe::schema

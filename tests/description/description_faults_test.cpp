@@ -209,7 +209,7 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"no distance", lit(R"({"illuminant": "A", "illuminance": 9})"), ErrorCode::scene,
        "missing key \"distance\""},
       {"a distance of nothing", lit(R"({"illuminant": "A", "luminous_intensity": 9, "distance": 1})"),
-       ErrorCode::scene, "unknown key \"distance\""},
+       ErrorCode::scene, "distance goes with irradiance or illuminance, which is not there"},
       {"negative flux", lit(R"({"spectral_flux_W_per_nm": -1})"), ErrorCode::scene,
        "(got -1, allowed [0, 1e+30])"},
       {"a body of a few float steps",

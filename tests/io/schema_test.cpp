@@ -181,7 +181,8 @@ TEST(SchemaTest, SaysWhatIsWrong) {
   EXPECT_EQ(complaints(R"("bulb": {"radius": 0}, )"),
             "a.json:1:21: /bulb/radius: error: expected a number (got 0, allowed (0, 1000000000000])\n");
   EXPECT_EQ(complaints(R"("bulb": {}, )"), "a.json:1:10: /bulb: error: missing key \"radius\"\n");
-  EXPECT_EQ(complaints(bulb + R"("width": 1, )"), "a.json:1:25: /width: error: unknown key \"width\"\n");
+  EXPECT_EQ(complaints(bulb + R"("width": 1, )"),
+            "a.json:1:25: /width: error: width goes with tube_length, which is not there\n");
   EXPECT_EQ(complaints(R"("tube_length": 1, "cold": true, "widht": 1, )"),
             "a.json:1:34: /widht: error: unknown key \"widht\"; did you mean \"width\"?\n");
   EXPECT_EQ(complaints(R"("tube_length": 1, )"), "a.json:1:1: error: missing key \"cold\"\n");

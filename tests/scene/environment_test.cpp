@@ -217,7 +217,7 @@ TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {
   expect_refused(R"("image": "sky.png")", ErrorCode::input,
                  "linear values are needed (got \".png\", allowed .exr, .hdr)");
   expect_refused(R"("image": "http://x/sky.exr")", ErrorCode::input, "expected a file");
-  expect_refused(R"("up": [0, 0, 1])", ErrorCode::scene, "up turns an image, and there is none");
+  expect_refused(R"("up": [0, 0, 1])", ErrorCode::scene, "up goes with image, which is not there");
   expect_refused(R"("image": "nan.exr", "up": [0, 0, 0])", ErrorCode::scene, "a direction must not be zero");
   EXPECT_THROW((void)loaded_with(R"("image": "gone.exr")"), Error);
 }

@@ -118,7 +118,7 @@ TEST_F(ReliefTest, FaultsAreRefused) {
        {"no height", glossy(R"("bump_map": {"image": "sky.exr"})"), ErrorCode::scene, "height"},
        {"both",
         glossy(R"("normal_map": {"image": "photo.exr"}, "bump_map": {"image": "sky.exr", "height": 1})"),
-        ErrorCode::scene, "a material has a normal_map or a bump_map (got both)"}});
+        ErrorCode::scene, "a material has a normal_map or a bump_map (got normal_map and bump_map)"}});
 }
 
 TEST_F(ReliefTest, AMeshWithoutCoordinatesTakesNone) {
