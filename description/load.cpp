@@ -73,7 +73,7 @@ std::optional<std::string> LoadContext::table(const std::string& name, const Sou
 }  // namespace description
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
-                                Diagnostics& diagnostics, Inputs* inputs) {
+                                Diagnostics& diagnostics, Inputs* inputs, spec::Scene* asked) {
   // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
   std::error_code error;
   const bool there = std::filesystem::is_regular_file(path, error);
@@ -87,7 +87,8 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
   description::LoadContext context{diagnostics, path.parent_path(), inputs};
   if (!description::check_version(*root, diagnostics)) return std::nullopt;
-  spec::Scene said;
+  spec::Scene own;
+  spec::Scene& said = asked != nullptr ? *asked : own;
   (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said,
                      diagnostics);  // what is sound of it is built
   root.reset();                     // of a large scene as large as what follows

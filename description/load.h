@@ -10,14 +10,19 @@
 #include "io/json.h"
 #include "scene/scene.h"
 
+namespace abbe::spec {
+struct Scene;
+}  // namespace abbe::spec
+
 namespace abbe {
 
 /// Reads, checks and builds a scene, from standard input where the path is `kStandardStream`; the files it
 /// names are then looked for in the current folder. Everything wrong with it is reported; nothing is returned
 /// if there is an error. `inputs` learns of every file that scene and meshes name, and counts the memory of
-/// images, grids and meshes: throws Error{resource} for one that is too large.
+/// images, grids and meshes: throws Error{resource} for one that is too large. `said` is given what the file
+/// says.
 [[nodiscard]] std::optional<Scene> load_scene(const std::filesystem::path& path,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
-                                              Inputs* inputs = nullptr);
+                                              Inputs* inputs = nullptr, spec::Scene* said = nullptr);
 
 }  // namespace abbe
