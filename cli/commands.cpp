@@ -13,6 +13,7 @@
 #include "cli/calibrate.h"
 #include "cli/command_options.h"
 #include "cli/compare.h"
+#include "cli/convert.h"
 #include "cli/develop.h"
 #include "cli/info.h"
 #include "cli/material_commands.h"
@@ -121,6 +122,21 @@ void add_merge(CLI::App& app, Command& command) {
   sub.app->add_option("-o,--output", sub->output, "Film to write")
       ->required()
       ->type_name("FILE.exr|FILE.abbepart");
+  add_max_memory(*sub.app, sub.options);
+}
+
+void add_convert(CLI::App& app, Command& command) {
+  const Sub<ConvertOptions> sub(
+      app, "convert", "Write a scene file in canonical form, without its comments and what is as by default",
+      command, convert);
+  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
+      ->required()
+      ->type_name("SCENE");
+  sub.app
+      ->add_option("-o,--output", sub->output,
+                   "File to write, in the scene's folder if it names files (default: - for standard output)")
+      ->type_name("FILE.json");
+  add_overrides(*sub.app, sub.options, "Replace a value of the scene file; may be repeated");
   add_max_memory(*sub.app, sub.options);
 }
 
@@ -302,6 +318,7 @@ void add_commands(CLI::App& app, Command& command) {
   app.require_subcommand(1);
   add_render(app, command);
   add_merge(app, command);
+  add_convert(app, command);
   add_scene_commands(app, command);
   add_query(app, command);
   add_lab(app, command);

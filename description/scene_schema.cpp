@@ -4,14 +4,9 @@
 #include "io/schema/json_schema.h"
 
 namespace abbe {
-namespace {
-
-constexpr std::size_t kWidth = 140;
-
-}  // namespace
 
 std::string scene_schema() {
-  return to_lines(schema::json_schema(schema::fields_of<spec::Scene>()), kWidth);
+  return to_lines(schema::json_schema(schema::fields_of<spec::Scene>()), kJsonWidth);
 }
 
 }  // namespace abbe

@@ -1,0 +1,17 @@
+#include "description/convert.h"
+
+#include "description/scene.h"
+#include "description/scene_schema.h"
+#include "io/schema/write.h"
+
+namespace abbe {
+
+std::optional<std::string> canonical_scene(const std::filesystem::path& path,
+                                           std::span<const Override> overrides, Diagnostics& diagnostics,
+                                           Inputs* inputs) {
+  spec::Scene said;
+  if (!load_scene(path, overrides, diagnostics, inputs, &said)) return std::nullopt;
+  return to_lines(schema::write(said), kJsonWidth);
+}
+
+}  // namespace abbe
