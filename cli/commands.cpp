@@ -23,6 +23,8 @@
 #include "cli/usage.h"
 #include "cli/validate.h"
 #include "cli/version.h"
+#include "description/scene.h"
+#include "io/schema/help.h"
 
 namespace abbe::cli {
 namespace {
@@ -286,26 +288,34 @@ void add_validate(CLI::App& app, Command& command) {
   add_json(options, sub->json);
 }
 
-// `abbe help [COMMAND]`.
+std::string help_text(const CLI::App& app, const std::string& topic, const std::string& key) {
+  if (topic == "scene") return schema::help(schema::fields_of<spec::Scene>(), key);
+  if (!key.empty()) throw Error(ErrorCode::usage, key, "only help scene takes a key");
+  return topic.empty() ? help_of(app, "abbe") : help_of(find_command(app, topic), "abbe " + topic);
+}
+
+// `abbe help [COMMAND]`, and `abbe help scene [KEY]`.
 void add_help(CLI::App& app, Command& command) {
   struct Options {
     std::string command;
+    std::string key;
     std::optional<ReferenceFormat> format;
   };
-  CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, or one command");
+  CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, one command, or a key of scene files");
   auto options = std::make_shared<Options>();
-  CLI::Option* name = help->add_option("command", options->command, "Command")->type_name("COMMAND");
+  CLI::Option* name =
+      help->add_option("command", options->command, "Command, or scene for the keys of scene files")
+          ->type_name("COMMAND|scene");
+  help->add_option("key", options->key,
+                   "With scene: a key, wherever it may stand, or a path of keys, as sensor/readout")
+      ->type_name("KEY");
   add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
              "Write the reference of all commands", "markdown|man|bash")
       ->excludes(name);
   help->callback([&app, &command, options] {
     command = [&app, options] {
-      const std::string& chosen = options->command;
-      if (options->format)
-        fmt::print("{}", reference(usage_of(app, "abbe"), *options->format));
-      else
-        fmt::print("{}", chosen.empty() ? help_of(app, "abbe")
-                                        : help_of(find_command(app, chosen), "abbe " + chosen));
+      fmt::print("{}", options->format ? reference(usage_of(app, "abbe"), *options->format)
+                                       : help_text(app, options->command, options->key));
       return 0;
     };
   });

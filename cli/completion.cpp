@@ -6,6 +6,8 @@
 
 #include "cli/query.h"
 #include "cli/reference.h"
+#include "description/scene.h"
+#include "io/schema/help.h"
 #include "io/text.h"
 
 namespace abbe::cli {
@@ -114,16 +116,15 @@ std::string kind_of(const std::string& value, const CommandUsage& program) {
     for (std::string& word : words) word = without(word.substr(word.find('.') + 1), ".");
     return fmt::format("files {}", fmt::join(words, " "));
   }
+  if (std::erase(words, "COMMAND") > 0)
+    for (const CommandUsage& command : program.commands) words.push_back(short_name(command));
   if (words.size() > 1) return fmt::format("words {}", fmt::join(words, " "));
   std::string& word = words.front();
   if (word == "SCENE") return "files json";
   if (word == "FOLDER") return "folders";
   if (word == "KIND") return fmt::format("words {}", fmt::join(kinds, " "));
-  if (word == "COMMAND") {
-    std::vector<std::string> commands;
-    for (const CommandUsage& command : program.commands) commands.push_back(short_name(command));
-    return fmt::format("words {}", fmt::join(commands, " "));
-  }
+  if (word == "KEY")
+    return fmt::format("words {}", fmt::join(schema::all_keys(schema::fields_of<spec::Scene>()), " "));
   std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
   return std::find(kinds.begin(), kinds.end(), word) != kinds.end() ? "names " + word : "none";
 }

@@ -30,8 +30,8 @@ enum class ReferenceFormat { markdown, man, bash };
 
 /// The bash script of `reference`. What a value completes to follows from what stands for it: `a|b` to its
 /// words, SCENE, FILE.ext and FILE.ext|FILE.ext to files (a last ... for any number), FOLDER to folders,
-/// COMMAND to the commands, KIND to the kinds of `query --list`, and a kind in capitals (MATERIAL) to the
-/// names of that kind.
+/// COMMAND to the commands, KEY to the keys of scene files, KIND to the kinds of `query --list`, and a kind
+/// in capitals (MATERIAL) to the names of that kind.
 [[nodiscard]] std::string bash_completion(const CommandUsage& program);
 
 }  // namespace abbe::cli

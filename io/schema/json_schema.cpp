@@ -1,7 +1,6 @@
 #include "io/schema/json_schema.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -67,22 +66,11 @@ void describe_as(JsonValue& schema, std::string_view text) {
   if (!text.empty()) add(std::get<Object>(schema.value), "description", string(text));
 }
 
-// Whether a default is worth telling: no infinity, and no list of nothing.
-bool says_something(const JsonValue& value) {
-  if (const auto* number = std::get_if<double>(&value.value)) return std::isfinite(*number);
-  if (const auto* array = std::get_if<Array>(&value.value)) return !array->empty();
-  const auto* object = std::get_if<Object>(&value.value);
-  return object == nullptr || !object->empty();
-}
-
 JsonValue field_schema(const Field& field, const void* defaults, Definitions& definitions) {
-  const Kind& kind = std::get<Kind>(*field.part);
-  JsonValue schema = schema_of(kind, definitions);
+  JsonValue schema = schema_of(std::get<Kind>(*field.part), definitions);
   describe_as(schema, field.text);
-  const void* otherwise = field.presence == Presence::optional ? field.look(defaults) : nullptr;
-  if (otherwise == nullptr) return schema;
-  JsonValue value = write(kind, otherwise);
-  if (says_something(value)) add(std::get<Object>(schema.value), "default", std::move(value));
+  if (auto value = default_of(field, defaults))
+    add(std::get<Object>(schema.value), "default", *std::move(value));
   return schema;
 }
 

@@ -1,5 +1,7 @@
 #include "io/schema/write.h"
 
+#include <cmath>
+
 namespace abbe::schema {
 namespace {
 
@@ -85,6 +87,14 @@ struct WriteValue {
   }
 };
 
+// Whether a default is worth telling: no infinity, and no list of nothing.
+bool says_something(const JsonValue& value) {
+  if (const auto* number = std::get_if<double>(&value.value)) return std::isfinite(*number);
+  if (const auto* array = std::get_if<JsonValue::Array>(&value.value)) return !array->empty();
+  const auto* object = std::get_if<JsonValue::Object>(&value.value);
+  return object == nullptr || !object->empty();
+}
+
 }  // namespace
 
 JsonValue write(const Kind& kind, const void* value) {
@@ -95,6 +105,13 @@ JsonValue write(const Fields& fields, const void* thing) {
   JsonValue::Object object;
   write_fields(fields, thing, object);
   return json(std::move(object));
+}
+
+std::optional<JsonValue> default_of(const Field& field, const void* defaults) {
+  const void* otherwise = field.presence == Presence::optional ? field.look(defaults) : nullptr;
+  if (otherwise == nullptr) return std::nullopt;
+  JsonValue value = write(std::get<Kind>(*field.part), otherwise);
+  return says_something(value) ? std::optional(std::move(value)) : std::nullopt;
 }
 
 }  // namespace abbe::schema

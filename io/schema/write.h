@@ -13,4 +13,8 @@ template <typename T>
 /// The value of that kind at an address.
 [[nodiscard]] JsonValue write(const Kind& kind, const void* value);
 
+/// What holds without the field's key, if it may be absent and that is worth telling: no infinity, and no
+/// list of nothing. `defaults` is that of its table.
+[[nodiscard]] std::optional<JsonValue> default_of(const Field& field, const void* defaults);
+
 }  // namespace abbe::schema

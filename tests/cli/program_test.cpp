@@ -32,6 +32,30 @@ TEST(Program, HelpAndVersionGoToStdout) {
     EXPECT_NE(abbe("help").out.find(command), std::string::npos) << command;
 }
 
+TEST(Program, HelpTellsTheKeysOfScenes) {
+  const auto lines = [](const std::string& arguments) {
+    const Outcome run = abbe("help scene " + arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return '\n' + run.out;
+  };
+  for (const auto& [arguments, expected] :
+       {std::pair{"",
+                  "\n  units\n      Unit of length.\n      \"m\", \"cm\", \"mm\", \"um\" or \"in\", default "
+                  "\"m\"\n"},
+        {"sensor/readout", "\n  bits\n      Bits of the codes.\n      integer in [1, 16], required\n"},
+        {"camera/pinhole", "\n  one of\n    focal_length\n"},
+        {"camera/pinhole/fov_deg",
+         "\ncamera/pinhole/fov_deg\n  Field of view along the shorter image axis.\n"},
+        {"lights/sun/angular_diameter_deg", "\n  number in [0.01, 60], default 0.533\n"},
+        {"camera/thin_lens", "\n      number in (0, 1e+06], required without t_stop\n"},
+        {"lights/two_sided", "\n  Beside `quad`, `sphere`, `disc`: Whether it emits from both sides.\n"},
+        {"resolution", "\nsensor/resolution\n"},
+        {"scale", "\nshapes/instance/transform/scale\n"},
+        {"scale", "\nshapes/transform/scale\n"}})
+    EXPECT_NE(lines(arguments).find(expected), std::string::npos) << lines(arguments) << "lacks" << expected;
+  EXPECT_EQ(abbe("help render resolution").code, 2);
+}
+
 TEST(Program, UsageErrorsExitWith2) {
   for (const char* text :
        {"", "rendr", "render", "--frobnicate", "help rendr", "info", "compare one.exr",
@@ -50,6 +74,8 @@ TEST(Program, UnknownNamesComeWithTheNearest) {
   for (const auto& [text, nearest] :
        {std::pair{"rendr", "command \"rendr\"; did you mean \"render\""},
         {"help rendr", "command \"rendr\"; did you mean \"render\""},
+        {"help scene sensr", "key \"sensr\"; did you mean \"sensor\""},
+        {"help scene sensor/readot", "key \"readot\"; did you mean \"readout\""},
         {"query brewstr N-BK7 --at 550", "command \"brewstr\"; did you mean \"brewster\""},
         {"render x.json --sppp=4", "option \"--sppp\"; did you mean \"--spp\""},
         {"--versoin", "option \"--versoin\"; did you mean \"--version\""}}) {

@@ -11,6 +11,8 @@ const CommandUsage kProgram{"tool",
                             {{"tool cut",
                               "Cuts",
                               {{{}, "SCENE", ".hidden \\ part", true},
+                               {{}, "KEY", "Key", false},
+                               {{}, "COMMAND|all", "Command", false},
                                {{"-w", "--with"}, "saw|axe", "Saw|axe", true},
                                {{"--dry"}, "", "'Only' think", false}},
                               {}}}};
@@ -22,7 +24,7 @@ bool has_line(const std::string& page, const std::string& line) {
 TEST(Reference, MarkdownKeepsBarsInTheirCells) {
   const std::string page = reference(kProgram, ReferenceFormat::markdown);
   EXPECT_TRUE(has_line(page, "## tool cut")) << page;
-  EXPECT_TRUE(has_line(page, "tool cut SCENE --with saw|axe [OPTION...]")) << page;
+  EXPECT_TRUE(has_line(page, "tool cut SCENE [KEY] [COMMAND|all] --with saw|axe [OPTION...]")) << page;
   EXPECT_TRUE(has_line(page, "| `-w, --with saw\\|axe` | Saw\\|axe; required |")) << page;
   EXPECT_TRUE(has_line(page, "| `--dry` | 'Only' think |")) << page;
   EXPECT_EQ(page.find("| `-h"), std::string::npos) << page;  // said once for all
@@ -30,7 +32,8 @@ TEST(Reference, MarkdownKeepsBarsInTheirCells) {
 
 TEST(Reference, ManTakesTextForText) {
   const std::string page = reference(kProgram, ReferenceFormat::man);
-  EXPECT_TRUE(has_line(page, ".SS \"tool cut SCENE \\-\\-with saw|axe [OPTION...]\"")) << page;
+  EXPECT_TRUE(has_line(page, ".SS \"tool cut SCENE [KEY] [COMMAND|all] \\-\\-with saw|axe [OPTION...]\""))
+      << page;
   EXPECT_TRUE(has_line(page, "\\&.hidden \\e part.")) << page;
   EXPECT_TRUE(has_line(page, "\\fB\\-w, \\-\\-with saw|axe\\fR")) << page;
   EXPECT_TRUE(has_line(page, "\\&'Only' think.")) << page;
@@ -42,6 +45,8 @@ TEST(Reference, CompletionKnowsWhatValuesAre) {
   EXPECT_TRUE(has_line(script, "    'tool cut') commands='' options='--with --dry' ;;")) << script;
   EXPECT_TRUE(has_line(script, "    'tool cut 1') kind='files json' ;;")) << script;
   EXPECT_TRUE(has_line(script, "    'tool cut -w' | 'tool cut --with') kind='words saw axe' ;;")) << script;
+  EXPECT_NE(script.find("    'tool cut 2') kind='words $schema "), std::string::npos) << script;
+  EXPECT_TRUE(has_line(script, "    'tool cut 3') kind='words all cut' ;;")) << script;
   EXPECT_EQ(script.find("--dry')"), std::string::npos) << script;  // takes no value
 }
 
