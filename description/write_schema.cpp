@@ -1,8 +1,19 @@
-// Writes docs/scene.schema.json to standard output: a part of the target `reference`.
+// Writes docs/scene.schema.json to standard output, or with the name of a guide that with its tables of keys
+// anew: a part of the target `reference`.
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "description/scene_schema.h"
 
-int main() {
-  return std::fputs(abbe::scene_schema().c_str(), stdout) < 0 ? 1 : 0;
+int main(int argc, char** argv) {
+  std::string text;
+  if (argc > 1) {
+    std::ifstream guide(argv[1], std::ios::binary);
+    text = abbe::scene_guide({std::istreambuf_iterator<char>(guide), {}});
+  } else {
+    text = abbe::scene_schema();
+  }
+  return text.empty() || std::fputs(text.c_str(), stdout) < 0 ? 1 : 0;
 }

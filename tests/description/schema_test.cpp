@@ -1,6 +1,8 @@
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "description/scene.h"
 #include "description/scene_schema.h"
 #include "io/data_directory.h"
+#include "io/schema/help.h"
 #include "io/schema/read.h"
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"
@@ -31,8 +34,12 @@ std::vector<fs::path> shipped_scenes() {
   return paths;
 }
 
+std::string scene_guide_text() {
+  return file_text(data_directory().parent_path() / "docs" / "scene.md");
+}
+
 std::vector<std::string> guide_examples() {
-  const std::string guide = file_text(data_directory().parent_path() / "docs" / "scene.md");
+  const std::string guide = scene_guide_text();
   const std::regex fence("```jsonc\n([^`]*)```");
   std::vector<std::string> examples;
   for (std::sregex_iterator i(guide.begin(), guide.end(), fence), end; i != end; ++i)
@@ -82,6 +89,28 @@ TEST_F(SchemaTest, LightsSayTheirStrengthOnce) {
 TEST_F(SchemaTest, TheSchemaIsThatOfTheTables) {
   EXPECT_TRUE(file_text(data_directory().parent_path() / "docs" / "scene.schema.json") == scene_schema())
       << "stale: build the target `reference`";
+}
+
+TEST_F(SchemaTest, TheGuidesTablesAreWrittenFromThoseOfTheFields) {
+  EXPECT_EQ(scene_guide_text(), scene_guide(scene_guide_text())) << "stale: build the target `reference`";
+  EXPECT_THROW((void)scene_guide("<!-- keys: nothing -->\n<!-- end -->\n"), Error);
+  EXPECT_THROW((void)scene_guide("<!-- keys: camera -->\n"), Error);
+}
+
+TEST_F(SchemaTest, TheGuideTellsEveryKeyAndItsLinksLeadSomewhere) {
+  const std::string guide = scene_guide_text();
+  for (const std::string& key : schema::all_keys(schema::fields_of<spec::Scene>()))
+    EXPECT_TRUE(guide.find(fmt::format("`{}` | ", key)) != std::string::npos ||
+                guide.find(fmt::format("/{}` | ", key)) != std::string::npos)
+        << key;
+  std::string headings;
+  for (const char c : guide) headings += c == ' ' ? '-' : static_cast<char>(std::tolower(c));
+  const std::regex link("\\]\\(#([^)]*)\\)");
+  std::set<std::string> anchors;
+  for (std::sregex_iterator i(guide.begin(), guide.end(), link), end; i != end; ++i) anchors.insert((*i)[1]);
+  EXPECT_GE(anchors.size(), 15U);
+  for (const std::string& anchor : anchors)
+    EXPECT_NE(headings.find("#-" + anchor + '\n'), std::string::npos) << anchor;
 }
 
 TEST_F(SchemaTest, ExamplesOfTheGuideLoad) {
