@@ -33,7 +33,7 @@ static Fields fields(Tag<Pinhole>) {
   return describe("pinhole", "A camera without a lens, sharp everywhere.",
                   {one_of(&Pinhole::view,
                           under<FocalLength>("focal_length", kLength, "Distance from the hole to the film."),
-                          under<FieldOfView>("fov_deg", {0, 180, true, true},
+                          under<FieldOfView>("fov_deg", Range{0, 180, true, true, "degrees"},
                                              "Field of view along the shorter image axis.")),
                    lent(&Pinhole::aperture)});
 }

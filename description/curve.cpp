@@ -14,8 +14,8 @@ using namespace schema;
 
 // Wavelengths of a table's samples: wide enough for tables beyond the rendered range, too high for
 // micrometres.
-constexpr Range kTableWavelength{100, 1e5};
-constexpr Range kLineWidth{1e-3, kMaxWavelengthNm - kMinWavelengthNm};
+constexpr Range kTableWavelength = Range{100, 1e5}.in("nm");
+constexpr Range kLineWidth = Range{1e-3, kMaxWavelengthNm - kMinWavelengthNm}.in("nm");
 
 }  // namespace
 
@@ -37,14 +37,14 @@ static Fields fields(Tag<Band>) {
 }
 
 static Fields fields(Tag<Gaussian>) {
-  return describe("gaussian", "peak x 2^(-(2 (wavelength - center)/fwhm)^2).",
+  return describe("gaussian", "A bell: peak x 2^(-(2 (wavelength - center)/fwhm)^2).",
                   {field("center_nm", &Gaussian::center_nm, kWavelength, "Where it is highest."),
                    field("fwhm_nm", &Gaussian::fwhm_nm, kLineWidth, "Full width at half maximum."),
                    defaulted("peak", &Gaussian::peak, kValue, "Its height.")});
 }
 
 static Fields fields(Tag<Line>) {
-  return describe("line", "A spectral line, which spreads its power evenly over its width.",
+  return describe("line", "A spectral line.",
                   {field("nm", &Line::nm, kWavelength, "Its middle."),
                    field("width_nm", &Line::width_nm, kLineWidth, "Its width."),
                    field("power", &Line::power, kPower, "Its integral.")});
@@ -59,14 +59,14 @@ static Fields fields(Tag<Scaled>) {
 Fields fields(Tag<CurveFormula>) {
   return describe(
       "curve_formula", "A curve given by a formula.",
-      {one_of(
-          &CurveFormula::of, under<TableCurve>("table", "Samples of the curve."), beside<Band>("band"),
-          under<Gaussian>("gaussian", "A bell."), under<Lines>("lines", "Spectral lines."),
-          under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance at this temperature [K]."),
-          under<Daylight>("daylight_K", kDaylight,
-                          "CIE daylight of this correlated colour temperature [K], relative."),
-          under<Product>("product", list<Curve>("curves", 1), "The product of all."),
-          under<Sum>("sum", list<Curve>("curves", 1), "The sum of all."), beside<Scaled>("of"))});
+      {one_of(&CurveFormula::of, under<TableCurve>("table"), beside<Band>("band"),
+              under<Gaussian>("gaussian"),
+              under<Lines>("lines", "Spectral lines, each of which spreads its power evenly over its width."),
+              under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance [W/(m2 sr nm)]."),
+              under<Daylight>("daylight_K", kDaylight,
+                              "CIE daylight of this correlated colour temperature, relative."),
+              under<Product>("product", list<Curve>("curves", 1), "The product of all."),
+              under<Sum>("sum", list<Curve>("curves", 1), "The sum of all."), beside<Scaled>("of"))});
 }
 
 Kind kind(Tag<Lines::Wrapped>) {

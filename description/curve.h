@@ -57,8 +57,8 @@ struct Curve : schema::Located<std::variant<double, std::string, CurveFormula>> 
 [[nodiscard]] schema::Fields fields(schema::Tag<CurveFormula>);
 [[nodiscard]] schema::Kind kind(schema::Tag<Curve::Wrapped>);
 [[nodiscard]] schema::Kind kind(schema::Tag<Lines::Wrapped>);
-inline constexpr Range kBlackbody{100, 1e6};    ///< [K]
-inline constexpr Range kDaylight{4000, 25000};  ///< [K]
+inline constexpr Range kBlackbody = Range{100, 1e6}.in("K");
+inline constexpr Range kDaylight = Range{4000, 25000}.in("K");
 
 }  // namespace abbe::spec
 

@@ -19,25 +19,27 @@ using namespace schema;
 
 struct QuantityText {
   std::string_view key;
+  std::string_view unit;
   std::string_view text;
 };
 constexpr QuantityText text_of(Quantity quantity) {
   constexpr std::array<QuantityText, 8> kTexts{{
-      {"radiant_flux_W", "Power that the lamp sends out [W]."},
-      {"luminous_flux_lm", "Luminous flux that the lamp sends out [lm]."},
-      {"radiance", "Radiance [W/(m2 sr)] over 300-1100 nm."},
-      {"luminance", "Luminance [cd/m2]."},
-      {"intensity", "Intensity [W/sr] over 300-1100 nm."},
-      {"luminous_intensity", "Luminous intensity [cd]."},
-      {"irradiance", "Irradiance of a surface that faces the light [W/m2] over 300-1100 nm."},
-      {"illuminance", "Illuminance of a surface that faces the light [lx]."},
+      {"radiant_flux_W", "W", "Power that the lamp sends out, from both sides together."},
+      {"luminous_flux_lm", "lm", "Luminous flux that the lamp sends out, from both sides together."},
+      {"radiance", "W/(m2 sr)", "Radiance over 300-1100 nm."},
+      {"luminance", "cd/m2", "Luminance."},
+      {"intensity", "W/sr", "Intensity over 300-1100 nm."},
+      {"luminous_intensity", "cd", "Luminous intensity."},
+      {"irradiance", "W/m2", "Irradiance of a surface that faces the light, over 300-1100 nm."},
+      {"illuminance", "lx", "Illuminance of a surface that faces the light."},
   }};
   return kTexts.at(static_cast<std::size_t>(quantity));
 }
 
 template <Quantity quantity>
 auto amount() {
-  return under<Amount<quantity>>(text_of(quantity).key, kPower, text_of(quantity).text);
+  return under<Amount<quantity>>(text_of(quantity).key, kPower.in(text_of(quantity).unit),
+                                 text_of(quantity).text);
 }
 template <Quantity quantity>
 auto amount_at() {
@@ -53,11 +55,12 @@ Fields describe_emission(std::string_view name, std::string_view text, bool has_
     return one_of(
         spectrum,
         under<Illuminant>("illuminant",
-                          "A relative spectrum: a name of data/illuminant, blackbody:<K>, daylight:<K>, or "
+                          "A relative spectrum, which needs a scale: a name of data/illuminant, "
+                          "blackbody:<K>, daylight:<K>, or "
                           "FILE.csv:COLUMN."),
-        under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance at this temperature [K]."),
+        under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance [W/(m2 sr nm)]."),
         under<Daylight>("daylight_K", kDaylight,
-                        "CIE daylight of this correlated colour temperature [K], relative."),
+                        "CIE daylight of this correlated colour temperature, relative: needs a scale."),
         under<Spectrum>("spectrum",
                         "Spectral radiance [W/(m2 sr nm)], intensity [W/(sr nm)] of a point or spot, or "
                         "irradiance [W/(m2 nm)] of a directional light; 0 or more."),
@@ -76,10 +79,11 @@ Fields describe_emission(std::string_view name, std::string_view text, bool has_
 template <Quantity quantity>
 Fields fields(Tag<AmountAt<quantity>>) {
   using At = AmountAt<quantity>;
-  return describe("", "",
-                  {field(text_of(quantity).key, &At::amount, kPower, text_of(quantity).text),
-                   field("distance", &At::distance, kLength,
-                         "Distance of that surface from the middle of the lamp, along its normal.")});
+  return describe(
+      "", "",
+      {field(text_of(quantity).key, &At::amount, kPower.in(text_of(quantity).unit), text_of(quantity).text),
+       field("distance", &At::distance, kLength,
+             "Distance of that surface from the middle of the lamp, along its normal.")});
 }
 
 Fields fields(Tag<MeshEmission>) {

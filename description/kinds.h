@@ -11,13 +11,14 @@ namespace abbe::spec {
 /// Lengths and coordinates, in scene units: beyond this the floats of the render overflow when squared and
 /// multiplied.
 inline constexpr double kMaxLength = 1e12;
-inline constexpr Range kCoordinate{-kMaxLength, kMaxLength};
-inline constexpr Range kLength{0, kMaxLength, true, false};
+inline constexpr Range kCoordinate = Range{-kMaxLength, kMaxLength}.in("units");
+inline constexpr Range kLength{0, kMaxLength, true, false, "units"};
 /// Values of curves and powers, safely inside float.
 inline constexpr Range kValue{-1e30, 1e30};
 inline constexpr Range kPower{0, 1e30};
-inline constexpr Range kExposure{0, 1e9, true, false};  ///< [s]
-inline constexpr Range kWavelength{kMinWavelengthNm, kMaxWavelengthNm};
+inline constexpr Range kAngle = kValue.in("degrees");
+inline constexpr Range kExposure{0, 1e9, true, false, "s"};
+inline constexpr Range kWavelength = Range{kMinWavelengthNm, kMaxWavelengthNm}.in("nm");
 
 /// A direction of any length but zero, as an Imath::V3d.
 [[nodiscard]] inline schema::Kind direction() {

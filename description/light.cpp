@@ -15,8 +15,9 @@ namespace {
 
 using namespace schema;
 
-constexpr Range kDiameter{0.01, 60};   // degrees: what looks smaller is as good as directional
-constexpr Range kHalfAngle{0.1, 180};  // degrees: below, a float's cosine no longer tells cones apart
+constexpr Range kDiameter = Range{0.01, 60}.in("degrees");  // what looks smaller is as good as directional
+constexpr Range kHalfAngle =
+    Range{0.1, 180}.in("degrees");  // below, a float's cosine no longer tells cones apart
 
 constexpr char kTowards[] = "Direction from the scene to where the light comes from, of any length.";
 
@@ -25,10 +26,10 @@ Field strength(DaylightStrength T::*member) {
   return at_most_one(
       member, "a light has one strength",
       under<DaylightIrradiance>(
-          "irradiance", kPower,
-          "Of a surface that faces the light [W/m2] over 300-1100 nm, as D65; in place of an emission."),
-      under<DaylightIlluminance>("illuminance", kPower,
-                                 "Of a surface that faces the light [lx], as D65; in place of an emission."));
+          "irradiance", kPower.in("W/m2"),
+          "Of a surface that faces the light, over 300-1100 nm, as D65; in place of an emission."),
+      under<DaylightIlluminance>("illuminance", kPower.in("lx"),
+                                 "Of a surface that faces the light, as D65; in place of an emission."));
 }
 
 // Where a light may say how strong it is: in its emission, which most need.
@@ -90,9 +91,9 @@ static Fields fields(Tag<Sun>) {
 static Fields fields(Tag<SkyImage>) {
   return describe("", "",
                   {field("image", &SkyImage::file,
-                         "An equirectangular EXR or HDR file with linear channels R, G, B, or Y."),
+                         "An equirectangular EXR or HDR file with linear Rec.709 channels R, G, B, or Y."),
                    defaulted("up", &SkyImage::up, direction(), "Direction of its top row."),
-                   defaulted("rotate_deg", &SkyImage::rotate_deg, kValue, "Right-handed turn about `up`.")});
+                   defaulted("rotate_deg", &SkyImage::rotate_deg, kAngle, "Right-handed turn about `up`.")});
 }
 static Fields fields(Tag<Sky>) {
   return describe("environment", "The same radiance from all directions, or an image's; one per scene.",

@@ -13,7 +13,7 @@ using namespace schema;
 
 // Beyond it a cosine's float says nothing about the peak.
 constexpr double kMostPeaked = 0.9999;
-constexpr Range kSigma{0, 90};  // [deg]
+constexpr Range kSigma = Range{0, 90}.in("degrees");
 constexpr Range kExponent{0, 1e4};
 
 constexpr char kCoating[] = "Coherent thin films on the surface, from the outside inwards.";
@@ -94,7 +94,8 @@ static Fields fields(Tag<Medium>) {
                   {field("absorption_per_m", &Medium::absorption_per_m,
                          "Absorption coefficient, 0 or more, 0 when absent."),
                    lent(&Medium::scattering),
-                   field("grid", &Medium::grid, "Where there is how much of it; everywhere 1 when absent.")});
+                   field("grid", &Medium::grid,
+                         "Densities that multiply absorption and scattering; 1 everywhere when absent.")});
 }
 
 static Fields fields(Tag<CoatedDiffuse>) {

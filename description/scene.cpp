@@ -31,15 +31,14 @@ Fields fields(Tag<Scene>) {
        field("abbe", &Scene::version, {kFormatVersion, kFormatVersion}, "Version of the scene format."),
        defaulted("units", &Scene::units, word<Unit>("unit of length", {"m", "cm", "mm", "um", "in"}),
                  "Unit of length."),
-       field("camera", &Scene::camera, "The camera.").with(Presence::required),
-       field("sensor", &Scene::sensor, "The sensor.").with(Presence::required),
+       field("camera", &Scene::camera).with(Presence::required),
+       field("sensor", &Scene::sensor).with(Presence::required),
        defaulted("materials", &Scene::materials, materials(), "Materials by name."),
        defaulted("objects", &Scene::objects, by_name<Object>("an object of objects by name", 0),
                  "Shapes by name, for instances to place."),
        defaulted("shapes", &Scene::shapes, list<Shape>("shapes", 0), "What is there."),
        defaulted("lights", &Scene::lights, list<Light>("lights", 0), "What shines."),
-       field("render", &Scene::render, "How to render."),
-       field("output", &Scene::output, "What is written.")});
+       field("render", &Scene::render), field("output", &Scene::output)});
 }
 
 }  // namespace abbe::spec

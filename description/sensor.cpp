@@ -16,9 +16,9 @@ using namespace schema;
 // Above 1 by what a measurement may err, far below a percentage.
 constexpr Range kEffectiveIndex{1, 10};
 constexpr Range kPixels{1};
-constexpr Range kPitch{0, 1e6, true, false};  // um
+constexpr Range kPitch{0, 1e6, true, false, "um"};
 constexpr Range kFill{0, 1, true, false};
-constexpr Range kStep{0.01, kMaxWavelengthNm - kMinWavelengthNm};
+constexpr Range kStep = Range{0.01, kMaxWavelengthNm - kMinWavelengthNm}.in("nm");
 
 Kind filters() {
   return list<Filter>(
@@ -81,7 +81,7 @@ Fields fields(Tag<Sensor>) {
            under<MeasuredCamera>("camera", "A measured camera, by its name in data/camera or as FILE.csv."),
            under<StandardObserver>("observer", word<Observer>("observer", {"1931", "1964"}, true),
                                    "A CIE standard observer: channels X, Y and Z."),
-           under<Bins>("spectral", "Bins of wavelength in place of channels.")),
+           under<Bins>("spectral")),
        field(
            "response", &Sensor::response, word<ResponseKind>("response", {"energy", "quantum"}),
            "What the channels, or a camera's curves, multiply; quantum when `quantum_efficiency` is given."),
@@ -92,7 +92,7 @@ Fields fields(Tag<Sensor>) {
              "Transmittance in [0, 1.05] before all filters."),
        field("mosaic", &Sensor::mosaic, mosaic(),
              "Channels of single pixels, rows of a pattern that repeats from the top left corner."),
-       field("readout", &Sensor::readout, "The electronics behind channels that count electrons.")});
+       field("readout", &Sensor::readout)});
 }
 
 }  // namespace abbe::spec

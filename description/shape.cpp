@@ -30,7 +30,7 @@ Fields fields(Tag<Body<Surface, Material, Emission>>) {
   using B = Body<Surface, Material, Emission>;
   Field surface;
   if constexpr (std::is_same_v<Surface, Mesh>)
-    surface = field("mesh", &B::surface, mesh(), "A PLY, OBJ, glTF or GLB file, or triangles.");
+    surface = field("mesh", &B::surface, mesh(), "A PLY, OBJ, glTF 2.0 or GLB file, or triangles.");
   else
     surface = field(fields_of<Surface>().name, &B::surface);
   return describe(
@@ -54,7 +54,7 @@ static Fields fields(Tag<Chart>) {
 }
 static Fields fields(Tag<ChartShape>) {
   return describe("chart_shape", "",
-                  {field("chart", &ChartShape::chart, "The shape is a colour chart."),
+                  {field("chart", &ChartShape::chart),
                    defaulted("transform", &ChartShape::transform, similarity_steps(), kTransform)});
 }
 

@@ -26,7 +26,8 @@ Fields fields(Tag<Disc>) {
 }
 
 Fields fields(Tag<Quad>) {
-  return describe("quad", "A parallelogram, which emits from the side edge_u x edge_v points to.",
+  return describe("quad",
+                  "A parallelogram, whose front is where edge_u x edge_v points; it emits from there.",
                   {field("corner", &Quad::corner, kCoordinate, "Position of a corner."),
                    field("edge_u", &Quad::edge_u, kCoordinate, "From the corner along one side."),
                    field("edge_v", &Quad::edge_v, kCoordinate,
@@ -34,11 +35,12 @@ Fields fields(Tag<Quad>) {
 }
 
 Fields fields(Tag<Prism>) {
-  return describe(
-      "prism", "A right prism along y with an isosceles cross-section, whose apex points along +z.",
-      {field("apex_deg", &Prism::apex_deg, {0, 180, true, true}, "Angle between the two equal faces."),
-       field("side", &Prism::side, kLength, "Width of the equal faces."),
-       field("length", &Prism::length, kLength, "Length along y.")});
+  return describe("prism",
+                  "A right prism along y with an isosceles cross-section, whose apex points along +z.",
+                  {field("apex_deg", &Prism::apex_deg, Range{0, 180, true, true, "degrees"},
+                         "Angle between the two equal faces."),
+                   field("side", &Prism::side, kLength, "Width of the equal faces."),
+                   field("length", &Prism::length, kLength, "Length along y.")});
 }
 
 Fields fields(Tag<InlineMesh>) {
@@ -52,7 +54,7 @@ Fields fields(Tag<InlineMesh>) {
        field("triangles", &InlineMesh::triangles,
              list<Triangle>(vector<Triangle>({0, 4294967295.0}), "rows", 1),
              "Three numbers of vertices each, which count from 0."),
-       field("uv", &InlineMesh::uv, list<Coordinates>(vector<Coordinates>(kCoordinate), "rows", 1),
+       field("uv", &InlineMesh::uv, list<Coordinates>(vector<Coordinates>(kCoordinate.in("")), "rows", 1),
              "Texture coordinates of each vertex.")});
 }
 

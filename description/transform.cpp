@@ -35,7 +35,7 @@ Field scale(std::optional<std::variant<double, Imath::V3d>> Stretch::*member) {
 static Fields fields(Tag<Rotation>) {
   return describe("rotation", "A right-handed rotation about an axis through the origin.",
                   {field("axis", &Rotation::axis, direction(), "Direction of the axis."),
-                   field("deg", &Rotation::deg, kValue, "Angle in degrees.")});
+                   field("deg", &Rotation::deg, kAngle, "Angle.")});
 }
 
 template <typename Scale>
@@ -49,7 +49,7 @@ Fields fields(Tag<Step<Scale>>) {
 
 static Fields fields(Tag<Matrix>) {
   return describe("matrix", "A step given as a matrix.",
-                  {field("matrix", &Matrix::rows, kCoordinate,
+                  {field("matrix", &Matrix::rows, kCoordinate.in(""),
                          "Rows of a matrix for column vectors: 12 numbers, or 16 of which the last are 0 0 0 "
                          "1. The fourth column translates.")});
 }

@@ -23,9 +23,13 @@ struct Range {
   double high = std::numeric_limits<double>::max();
   bool open_low = false;
   bool open_high = false;
+  std::string_view measured_in = {};  ///< Of the numbers, for guides.
 
   [[nodiscard]] bool contains(double x) const;
   [[nodiscard]] std::string text() const;
+
+  /// The same numbers in a unit.
+  [[nodiscard]] constexpr Range in(std::string_view of) const { return {low, high, open_low, open_high, of}; }
 
   static constexpr Range any() { return {}; }
   static constexpr Range positive() { return {0, std::numeric_limits<double>::max(), true, false}; }

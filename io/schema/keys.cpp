@@ -12,11 +12,12 @@ namespace {
 
 std::string kind_text(const Kind& kind, const Links& links);
 
-// "number in (0, 1e+12]", or the number itself where there is but one.
+// "number in (0, 1e+12] nm", or the number itself where there is but one.
 std::string within(std::string_view what, const Range& range) {
   if (range.low == range.high) return fmt::format("{}", range.low);
   std::string text = range.text();
   if (text == Range::any().text()) return std::string(what);
+  if (!range.measured_in.empty()) text += fmt::format(" {}", range.measured_in);
   for (std::size_t at = 0; (at = text.find("000000")) != std::string::npos;) {
     const std::size_t zeros = text.find_first_not_of('0', at) - at;
     text.replace(at, zeros, fmt::format("e+{:02}", zeros));
@@ -81,12 +82,10 @@ std::string kind_text(const Kind& kind, const Links& links) {
   return std::visit(KindText{kind, links}, kind.of);
 }
 
-// A key's own text and that of what is under it, where that adds to it.
+// A key's own text, or that of what is under it.
 std::string text_of(std::string_view own, const Kind& kind) {
   const auto* thing = std::get_if<Thing>(&kind.of);
-  const std::string_view under = thing ? thing->fields().text : std::string_view();
-  if (under.empty() || own == under) return std::string(own);
-  return own.empty() ? std::string(under) : fmt::format("{} {}", own, under);
+  return std::string(own.empty() && thing ? thing->fields().text : own);
 }
 
 std::string presence_of(const Field& field, const void* defaults) {
@@ -146,7 +145,8 @@ void tell_any_of(const Fields& fields, std::vector<Key>& keys) {
     if (std::find(fields.any_of.begin(), fields.any_of.end(), key.name) != fields.any_of.end()) {
       std::vector<std::string_view> others = fields.any_of;
       std::erase(others, key.name);
-      key.presence = fmt::format("required without {}", fmt::join(others, ", "));
+      key.presence = fmt::format("{} {}", fields.exclusive ? "in place of" : "required without",
+                                 fmt::join(others, ", "));
     }
 }
 

@@ -17,11 +17,11 @@ using Links = std::map<const Fields*, std::string>;
 /// A key of an object.
 struct Key {
   std::string_view name;
-  std::string text;                ///< What it means: its own text, and that of the thing it holds.
-  std::vector<const Kind*> kinds;  ///< Of its value; several where that depends on other keys.
-  std::string presence;            ///< "required", "default 4", or nothing.
-  const OneOf* group = nullptr;    ///< That it is a choice of,
-  int group_number = 0;            ///< which is this one of its object's, from 1 on.
+  std::string text;                           ///< What it means: its own text, or that of the thing it holds.
+  std::vector<const Kind*> kinds;             ///< Of its value; several where that depends on other keys.
+  std::string presence;                       ///< "required", "default 4", or nothing.
+  const OneOf* group = nullptr;               ///< That it is a choice of,
+  int group_number = 0;                       ///< which is this one of its object's, from 1 on.
   std::vector<std::string_view> beside = {};  ///< Keys of which one stands there too; none where it need not.
   std::vector<std::string_view> of = {};      ///< Things that have it; none where all asked of do.
 

@@ -9,9 +9,9 @@
 namespace abbe {
 namespace {
 
-constexpr Range kElectrons{0, 1e12};
-constexpr Range kHeldElectrons{0, kElectrons.high, true, false};
-constexpr Range kGain{0, 1e9, true, false};
+constexpr Range kElectrons = Range{0, 1e12}.in("electrons");
+constexpr Range kHeldElectrons{0, kElectrons.high, true, false, kElectrons.measured_in};
+constexpr Range kGain{0, 1e9, true, false, "electrons per digital number"};
 constexpr int kMostBits = 16;  // as the files that hold raw data
 
 std::optional<MonotoneCurve> build_curve(const schema::Located<std::vector<std::array<double, 2>>>& said,
@@ -33,14 +33,15 @@ static schema::Fields fields(schema::Tag<Readout>) {
   using namespace schema;
   return describe(
       "readout_numbers", "",
-      {field("gain_e_per_dn", &Readout::gain_e_per_dn, kGain, "Electrons per digital number."),
+      {field("gain_e_per_dn", &Readout::gain_e_per_dn, kGain, "Conversion gain K."),
        field("bits", &Readout::bits, {1, kMostBits}, "Bits of the codes."),
        defaulted("full_well_e", &Readout::full_well_e, kHeldElectrons,
                  "Electrons a pixel holds, unlimited when absent."),
        defaulted("read_noise_e", &Readout::read_noise_e, kElectrons, "Standard deviation of the read noise."),
-       defaulted("dark_e_per_s", &Readout::dark_e_per_s, kElectrons, "Mean dark current."),
-       defaulted("prnu_percent", &Readout::prnu_percent, {0, 100},
-                 "Standard deviation of the pixels' sensitivities, in per cent of their mean."),
+       defaulted("dark_e_per_s", &Readout::dark_e_per_s, kElectrons.in("electrons per s"),
+                 "Mean dark current."),
+       defaulted("prnu_percent", &Readout::prnu_percent, Range{0, 100}.in("%"),
+                 "Standard deviation of the pixels' sensitivities, of their mean."),
        defaulted("dsnu_e", &Readout::dsnu_e, kElectrons, "Standard deviation of the pixels' offsets."),
        defaulted("serial", &Readout::serial, {0, kLargestInteger},
                  "Which specimen of the sensor: it fixes the patterns of PRNU and DSNU, the same in every "
@@ -57,7 +58,7 @@ schema::Fields spec::fields(schema::Tag<Readout>) {
                    field("response_curve", &Readout::response_curve,
                          list<Point>(vector<Point>(Range::unit()), "points [in, out]", 0),
                          "Points [signal, code] in shares of the codes above the offset, linear between "
-                         "them, increasing from [0, 0] to [1, 1].")});
+                         "them, increasing from [0, 0] to [1, 1]; a straight line when absent.")});
 }
 
 std::optional<Readout> build(const spec::Readout& said, Diagnostics& diagnostics) {
