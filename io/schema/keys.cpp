@@ -166,11 +166,14 @@ std::vector<Key> keys_of(const Fields& fields) {
   return keys;
 }
 
-/// Finds the things of each kind.
+/// Finds the things of each kind, each once.
 struct CollectThings {
   std::vector<const Fields*>& things;
 
-  void operator()(const Thing& thing) const { things.push_back(&thing.fields()); }
+  void operator()(const Thing& thing) const {
+    const Fields* fields = &thing.fields();
+    if (std::find(things.begin(), things.end(), fields) == things.end()) things.push_back(fields);
+  }
   void operator()(const List& list) const { std::visit(*this, list.element->of); }
   void operator()(const ByName& group) const { std::visit(*this, group.element->of); }
   void operator()(const Forms& forms) const {
