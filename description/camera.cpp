@@ -56,7 +56,9 @@ static Fields fields(Tag<View>) {
   return describe("view", "Where a camera stands.",
                   {field("from", &View::from, kCoordinate, "Position of the camera."),
                    field("to", &View::to, kCoordinate, "Position it looks at."),
-                   field("up", &View::up, direction(), "Direction that is up in the image.")});
+                   field("up", &View::up, direction(), "Direction that is up in the image."),
+                   defaulted("roll_deg", &View::roll_deg, kAngle,
+                             "Turn of the camera about its direction of sight, clockwise as it looks.")});
 }
 
 // The name of the lens is its key.
@@ -132,8 +134,10 @@ std::optional<Placed> build(const spec::View& view, const SourcePosition& where,
     context.diagnostics.error(where, "up is parallel to the direction of sight");
     return std::nullopt;
   }
-  const Imath::V3d unit_right = right.normalized();
-  return Placed{{from, unit_right, unit_right.cross(forward), forward}, sight.length()};
+  const Imath::V3d level = right.normalized();
+  const double roll = view.roll_deg * std::numbers::pi / 180;
+  const Imath::V3d turned = level * std::cos(roll) - level.cross(forward) * std::sin(roll);
+  return Placed{{from, turned, turned.cross(forward), forward}, sight.length()};
 }
 
 std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosition& where,

@@ -34,6 +34,7 @@ struct View {
   Imath::V3d from{0, 0, 0};
   Imath::V3d to{0, 0, 0};
   Imath::V3d up{0, 0, 0};
+  double roll_deg = 0;
 };
 /// A camera of some lens.
 template <typename Lens>

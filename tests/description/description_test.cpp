@@ -70,6 +70,9 @@ TEST_F(DescriptionTest, PlacesCameras) {
   expect_near(pinhole.frame.forward, V3d(0, 0.6, 0.8));
   expect_near(pinhole.frame.right, V3d(1, 0, 0));
   expect_near(pinhole.frame.up, V3d(0, -0.8, 0.6));
+  const auto rolled = std::get<Pinhole>(lens(R"("roll_deg": 90, "pinhole": {"fov_deg": 90})"));
+  expect_near(rolled.frame.right, -pinhole.frame.up);
+  expect_near(rolled.frame.up, pinhole.frame.right);
 
   const auto near =
       std::get<ThinLens>(lens(R"("thin_lens": {"focal_length": 0.5, "f_number": 2, "focus_distance": 1})"));
