@@ -225,8 +225,9 @@ bool read_word(const JsonValue& json, const Word& word, void* value, Diagnostics
 
 template <typename T>
 bool store(std::optional<T> read, void* value) {
-  if (read) *static_cast<T*>(value) = *std::move(read);
-  return read.has_value();
+  if (!read) return false;
+  *static_cast<T*>(value) = *std::move(read);
+  return true;
 }
 
 /// How each kind reads.
