@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,15 +15,9 @@
 #include "description/load.h"
 #include "io/exr.h"
 #include "io/json.h"
+#include "tests/description/examples.h"
 
 namespace abbe::testing {
-
-namespace fs = std::filesystem;
-
-inline std::string file_text(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 inline void write(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
@@ -86,21 +77,6 @@ class DescriptionTest : public ::testing::Test {
   // The members of `fragment`, completed by the keys a scene needs.
   Loaded load(const std::string& fragment, const std::vector<Override>& overrides = {}) {
     return load_text(completed(fragment), overrides);
-  }
-
-  static std::string completed(const std::string& fragment) {
-    Diagnostics ignored;
-    const auto source = std::make_shared<const SourceText>(SourceText{"fragment", fragment});
-    const std::optional<JsonValue> parsed = parse_json(source, ignored);
-    if (!parsed) return fragment;
-    std::string text = "{";
-    for (const auto& [key, value] :
-         {std::pair{"abbe", "1"},
-          std::pair{"camera",
-                    R"({"pinhole": {"fov_deg": 40}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]})"},
-          std::pair{"sensor", R"({"resolution": [4, 3], "channels": {"all": 1}})"}})
-      if (!parsed->find(key)) text += fmt::format("\"{}\": {},\n", key, value);
-    return text + fragment.substr(fragment.find('{') + 1);
   }
 
   // The curve a reflectance describes.

@@ -24,32 +24,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using SchemaTest = testing::DescriptionTest;
+using testing::completed;
 using testing::file_text;
+using testing::guide_examples;
 using testing::Loaded;
-
-std::vector<fs::path> shipped_scenes() {
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::recursive_directory_iterator(data_directory() / "scenes"))
-    if (entry.path().extension() == ".json") paths.push_back(entry.path());
-  return paths;
-}
-
-std::string scene_guide_text() {
-  return file_text(data_directory().parent_path() / "docs" / "scene.md");
-}
-
-std::vector<std::string> guide_examples() {
-  const std::string guide = scene_guide_text();
-  const std::regex fence("```jsonc\n([^`]*)```");
-  std::vector<std::string> examples;
-  for (std::sregex_iterator i(guide.begin(), guide.end(), fence), end; i != end; ++i)
-    examples.push_back((*i)[1]);
-  return examples;
-}
+using testing::scene_files;
+using testing::scene_guide_text;
 
 TEST_F(SchemaTest, ShippedScenesLoad) {
-  ASSERT_GE(shipped_scenes().size(), 5U);
-  for (const fs::path& path : shipped_scenes()) {
+  ASSERT_GE(scene_files("scenes").size(), 5U);
+  for (const fs::path& path : scene_files("scenes")) {
     Diagnostics diagnostics;
     EXPECT_TRUE(load_scene(path, {}, diagnostics)) << diagnostics.text();
   }
@@ -131,7 +115,7 @@ TEST_F(SchemaTest, ScenesSurviveBeingWritten) {
     return scene ? to_text(schema::write(*scene)) : "";
   };
   std::vector<std::string> texts;
-  for (const fs::path& path : shipped_scenes()) texts.push_back(file_text(path));
+  for (const fs::path& path : scene_files("scenes")) texts.push_back(file_text(path));
   for (const std::string& example : guide_examples()) texts.push_back(completed(example));
   for (const std::string& text : texts) {
     const std::string once = said(text);
