@@ -1,0 +1,74 @@
+// Scenes read, written and read again render the same bits.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "description/scene.h"
+#include "io/schema/read.h"
+#include "io/schema/write.h"
+#include "tests/description/examples.h"
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A copy of a folder that a scene can be written into: its files are there as links.
+class Copy {
+ public:
+  explicit Copy(const fs::path& folder)
+      : path_(fs::temp_directory_path() / ("abbe_round_trip_" + std::to_string(::getpid()))) {
+    fs::create_directory(path_);
+    for (const auto& entry : fs::directory_iterator(folder))
+      fs::create_symlink(fs::absolute(entry.path()), path_ / entry.path().filename());
+  }
+  ~Copy() { fs::remove_all(path_); }
+  Copy(const Copy&) = delete;
+  Copy& operator=(const Copy&) = delete;
+
+  [[nodiscard]] fs::path file(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  fs::path path_;
+};
+
+// What is written of a scene that has been read.
+std::string written(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto json = parse_json(std::make_shared<const SourceText>(SourceText{"scene", text}), diagnostics);
+  const auto scene = json ? schema::read<spec::Scene>(*json, diagnostics) : std::nullopt;
+  if (!scene) throw Error(ErrorCode::internal, "scene", diagnostics.text());
+  return to_text(schema::write(*scene));
+}
+
+// Few samples of few pixels, or of the scene's own where these are few: a row of a spectrograph is.
+std::vector<Override> small(const Scene& scene) {
+  std::vector<Override> settings{{"/render/samples", "64"}};
+  if (scene.camera.width * scene.camera.height > 4096) settings.push_back({"/sensor/resolution", "[32, 18]"});
+  return settings;
+}
+
+TEST(RoundTrip, EveryShippedSceneRendersTheSameBits) {
+  const std::vector<fs::path> paths = testing::scene_files("scenes");
+  ASSERT_GE(paths.size(), 40U);
+  for (const fs::path& path : paths) {
+    SCOPED_TRACE(path);
+    const std::vector<Override> settings = small(test::load_file(path, {}));
+    const Scene scene = test::load_file(path, settings);
+    const Film film = render(scene, {}).film;
+    const Copy folder(path.parent_path());
+    const fs::path copy = folder.file("written_scene.json", written(testing::file_text(path)));
+    const Film again = render(test::load_file(copy, settings), {}).film;
+    EXPECT_TRUE(film.shape() == again.shape());
+    EXPECT_TRUE(film.bytes() == again.bytes());
+    const bool dark = film.bytes().find_first_not_of('\0') == std::string_view::npos;
+    EXPECT_EQ(dark, scene.lights.empty());
+  }
+}
+
+}  // namespace
+}  // namespace abbe
