@@ -1,12 +1,13 @@
 #include "calibration/chart/photographed_series.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "io/object_reader.h"
 #include "io/picture.h"
+#include "io/schema/read.h"
 #include "io/text.h"
 
 namespace abbe {
@@ -21,59 +22,71 @@ struct Region {
 };
 
 struct Photograph {
-  std::filesystem::path file;
+  std::string file;  // relative to the listing until that has been read
   double exposure_s = 0;
   SourcePosition where;
 };
 
+using Edges = std::array<int, 4>;
+
 struct Listing {
   std::vector<Photograph> photographs;
-  std::vector<Region> regions;
+  std::vector<schema::Located<Edges>> edges;
+  std::vector<Region> regions;  // of these edges
   double full_scale = 1;
   int bits = 0;
 };
 
-std::optional<Photograph> read_photograph(const JsonValue& json, const std::filesystem::path& folder,
-                                          Diagnostics& diagnostics) {
-  ObjectReader reader(json, diagnostics);
-  const auto file = reader.require_string("file");
-  const auto exposure_s = reader.require_number("exposure_s", Range::positive());
-  reader.finish();
-  if (!file || !exposure_s) return std::nullopt;
-  return Photograph{folder / *file, *exposure_s, json.where};
+schema::Fields fields(schema::Tag<Photograph>) {
+  using namespace schema;
+  return describe("photograph", "One photograph of a series.",
+                  {field("file", &Photograph::file, "A picture, relative to the listing."),
+                   field("exposure_s", &Photograph::exposure_s, Range::positive(), "Its exposure time.")});
 }
 
-std::optional<Region> read_region(const JsonValue& json, Diagnostics& diagnostics) {
-  const auto edges = read_numbers(json, 4, {0, kMaxImageEdge}, diagnostics);
-  if (!edges) return std::nullopt;
-  const auto edge = [&](std::size_t i) { return static_cast<int>((*edges)[i]); };
-  const Region region{edge(0), edge(1), edge(2), edge(3)};
-  if (region.x0 < region.x1 && region.y0 < region.y1) return region;
-  diagnostics.error(json.where, "expected whole pixels x0, y0, x1, y1 with x0 < x1 and y0 < y1",
-                    ErrorCode::input);
-  return std::nullopt;
+schema::Fields fields(schema::Tag<Listing>) {
+  using namespace schema;
+  return describe(
+      "series", "Photographs of one still scene.",
+      {field("exposures", &Listing::photographs, list<Photograph>("exposures", 1), "The photographs."),
+       defaulted("regions", &Listing::edges,
+                 list<Located<Edges>>(vector<Edges>({0, kMaxImageEdge}), "regions", 0),
+                 "Patches, each as its pixels [x0, y0, x1, y1], the last ones excluded."),
+       defaulted("full_scale", &Listing::full_scale, Range::positive(),
+                 "The value at which the camera clips."),
+       defaulted("bits", &Listing::bits, {0, 16}, "Bits that codes were rounded to, 0 if unknown.")});
 }
 
-const JsonValue::Array& elements(const JsonValue* json, const char* what, Diagnostics& diagnostics) {
-  static const JsonValue::Array kNone;
-  if (json == nullptr) return kNone;
-  const auto* const array = std::get_if<JsonValue::Array>(&json->value);
-  if (array == nullptr)
-    diagnostics.error(json->where, fmt::format("expected an array of {}", what), ErrorCode::input);
-  return array == nullptr ? kNone : *array;
+std::vector<Region> build_regions(const Listing& listing, Diagnostics& diagnostics) {
+  std::vector<Region> regions;
+  for (const auto& said : listing.edges) {
+    const auto& [x0, y0, x1, y1] = said.value;
+    regions.push_back({x0, y0, x1, y1});
+    if (x0 >= x1 || y0 >= y1)
+      diagnostics.error(said.where, "expected pixels x0, y0, x1, y1 with x0 < x1 and y0 < y1");
+  }
+  return regions;
 }
 
-Listing read_listing(const JsonValue& root, const std::filesystem::path& folder, Diagnostics& diagnostics) {
-  ObjectReader reader(root, diagnostics);
-  Listing listing;
-  for (const JsonValue& json : elements(reader.require("exposures"), "exposures", diagnostics))
-    if (auto photograph = read_photograph(json, folder, diagnostics))
-      listing.photographs.push_back(std::move(*photograph));
-  for (const JsonValue& json : elements(reader.find("regions"), "regions", diagnostics))
-    if (const auto region = read_region(json, diagnostics)) listing.regions.push_back(*region);
-  listing.full_scale = reader.number_or("full_scale", 1, Range::positive());
-  listing.bits = static_cast<int>(reader.integer("bits", {0, 16}).value_or(0));
-  reader.finish();
+std::optional<Listing> parse_listing(const std::shared_ptr<const SourceText>& source,
+                                     Diagnostics& diagnostics) {
+  const std::optional<JsonValue> root = parse_json(source, diagnostics);
+  auto listing = root ? schema::read<Listing>(*root, diagnostics) : std::nullopt;
+  if (listing) listing->regions = build_regions(*listing, diagnostics);
+  return diagnostics.has_errors() ? std::nullopt : listing;
+}
+
+// Its faults are those of an input, not of a scene.
+std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const auto source = read_text(path, diagnostics);
+  if (!source) return std::nullopt;
+  Diagnostics faults;
+  std::optional<Listing> listing = parse_listing(source, faults);
+  for (const Diagnostic& fault : faults.all())
+    diagnostics.error(fault.where, fault.message, ErrorCode::input);
+  if (listing)
+    for (Photograph& photograph : listing->photographs)
+      photograph.file = (path.parent_path() / photograph.file).string();
   return listing;
 }
 
@@ -178,13 +191,9 @@ void forget_certainty(ExposureSeries& series) {
 
 std::optional<PhotographedSeries> read_series(const std::filesystem::path& path, Diagnostics& diagnostics,
                                               Inputs* inputs) {
-  const auto source = read_text(path, diagnostics);
-  if (!source) return std::nullopt;
-  const std::optional<JsonValue> root = parse_json(source, diagnostics);
-  if (!root) return std::nullopt;
-  const Listing listing = read_listing(*root, path.parent_path(), diagnostics);
-  if (listing.photographs.empty()) diagnostics.error(root->where, "no exposures", ErrorCode::input);
-  if (diagnostics.has_errors()) return std::nullopt;
+  const std::optional<Listing> said = read_listing(path, diagnostics);
+  if (!said) return std::nullopt;
+  const Listing& listing = *said;
   if (inputs) {
     inputs->add_file(path);
     for (const Photograph& photograph : listing.photographs) inputs->add_file(photograph.file);
@@ -196,7 +205,7 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
     Image image = read_image(photograph.file, inputs);
     const std::string wrong = objection(image, first ? *first : image, listing);
     if (!wrong.empty()) {
-      diagnostics.error(photograph.where, photograph.file.string() + " " + wrong, ErrorCode::input);
+      diagnostics.error(photograph.where, photograph.file + " " + wrong, ErrorCode::input);
       return std::nullopt;
     }
     if (!first) {

@@ -76,6 +76,7 @@ class Photographs : public testing::Test {
     std::ofstream(folder_ / "bad.json") << json;
     EXPECT_FALSE(read(folder_ / "bad.json"));
     EXPECT_NE(diagnostics_.text().find(text), std::string::npos) << diagnostics_.text();
+    EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
   }
 
   fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_series_" + std::to_string(::getpid()));
@@ -130,9 +131,14 @@ TEST_F(Photographs, SaysWhatIsWrong) {
   write_exr(folder_ / "a.exr", {4, 1, {{"Y", {0, 0, 0, 0}}}, {}});
   write_exr(folder_ / "b.exr", {2, 1, {{"Y", {0, 0}}}, {}});
   write_exr(folder_ / "c.exr", {4, 1, {{"Z", {0, 0, 0, 0}}}, {}});
-  expect_complaint(R"({"exposures": []})", "no exposures");
-  expect_complaint(R"({"exposures": [{"file": "a.exr"}]})", "/exposures/0");
-  expect_complaint(R"({"exposures": [{"file": "a.exr", "exposure_s": 0}]})", "/exposures/0/exposure_s");
+  expect_complaint("{", "bad.json:1:2");
+  expect_complaint("{}", "missing key \"exposures\"");
+  expect_complaint(R"({"exposures": []})",
+                   "/exposures: error: expected an array of exposures (got 0 of them, allowed [1, inf))");
+  expect_complaint(R"({"exposures": [{"file": "a.exr"}]})",
+                   "/exposures/0: error: missing key \"exposure_s\"");
+  expect_complaint(R"({"exposures": [{"file": "a.exr", "exposure_s": 0}]})",
+                   "/exposures/0/exposure_s: error: expected a number (got 0, allowed (0, inf))");
   expect_complaint(
       R"({"exposures": [{"file": "a.exr", "exposure_s": 1}, {"file": "b.exr", "exposure_s": 1}]})",
       "b.exr has 2 x 1 pixels, the first 4 x 1");
@@ -142,8 +148,15 @@ TEST_F(Photographs, SaysWhatIsWrong) {
   expect_complaint(R"({"regions": [[0, 0, 5, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
                    "region [0, 0, 5, 1] lies beyond its 4 x 1 pixels");
   expect_complaint(R"({"regions": [[2, 0, 2, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
-                   "x0 < x1");
-  expect_complaint(R"({"exposure": [], "exposures": [{"file": "a.exr", "exposure_s": 1}]})", "exposure");
+                   "/regions/0: error: expected pixels x0, y0, x1, y1 with x0 < x1 and y0 < y1");
+  expect_complaint(R"({"regions": [[0, 0, 1.5, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
+                   "/regions/0/2: error: expected an integer (got 1.5");
+  expect_complaint(R"({"regions": [[0, 0, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
+                   "/regions/0: error: wrong number of elements (got 3, allowed 4)");
+  expect_complaint(R"({"full_scale": 0, "bits": 17, "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
+                   "/bits: error: expected an integer (got 17, allowed [0, 16])");
+  expect_complaint(R"({"exposure": [], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
+                   "unknown key \"exposure\"; did you mean \"exposures\"?");
 }
 
 }  // namespace
