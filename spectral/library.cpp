@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "io/data_directory.h"
-#include "io/object_reader.h"
+#include "io/json_values.h"
 #include "io/table.h"
 #include "io/text.h"
 #include "spectral/sources.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "io/diagnostics.h"
-#include "io/object_reader.h"
+#include "io/json_values.h"
 #include "io/table.h"
 #include "spectral/curve.h"
 #include "spectral/interpolation.h"

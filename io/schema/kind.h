@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/object_reader.h"
+#include "io/json_values.h"
 
 // What a value of a user's file may be. A kind says it once, for reading, writing and describing values; what
 // it needs to know of the C++ value it fills are plain functions over its address.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/json.h"
-#include "io/object_reader.h"
+#include "io/json_values.h"
 #include "io/text.h"
 
 namespace abbe {

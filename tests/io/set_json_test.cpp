@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "io/object_reader.h"
+#include "io/json_values.h"
 #include "test_files.h"
 
 namespace abbe {
@@ -64,8 +64,7 @@ TEST_F(SetJson, ReportsWhereThereIsNoWay) {
 TEST_F(SetJson, LaterComplaintsNameTheOption) {
   EXPECT_EQ(set("/render/samples", "many"), "");
   Diagnostics diagnostics;
-  ObjectReader reader(*root_.find("render"), diagnostics);
-  EXPECT_EQ(reader.integer("samples", {1}), std::nullopt);
+  EXPECT_EQ(read_integer(*root_.find("render")->find("samples"), {1}, diagnostics), std::nullopt);
   EXPECT_EQ(
       diagnostics.text(),
       "--set:1:1: /render/samples: error: expected an integer (got \"many\", allowed [1, inf))\nmany\n^\n");

@@ -6,7 +6,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-#include "io/object_reader.h"
+#include "io/json_values.h"
 #include "io/text.h"
 
 namespace abbe {

@@ -69,41 +69,4 @@ struct Range {
 void report_unknown_keys(const JsonValue::Object& object, std::span<const std::string> known,
                          Diagnostics& diagnostics);
 
-/// Reads the members of one JSON object. Every key asked for is a known key; `finish` reports the others,
-/// each with the nearest known name. "$schema" is known everywhere. Getters return nothing for an absent key
-/// (reporting it when the getter is `require_`) and for a malformed value (reporting that).
-class ObjectReader {
- public:
-  /// A `value` that is no object is reported here, and every getter then returns nothing silently.
-  ObjectReader(const JsonValue& value, Diagnostics& diagnostics);
-
-  [[nodiscard]] const JsonValue* find(std::string_view key);
-  [[nodiscard]] const JsonValue* require(std::string_view key);
-
-  [[nodiscard]] std::optional<double> number(std::string_view key, Range allowed = Range::any());
-  [[nodiscard]] std::optional<double> require_number(std::string_view key, Range allowed = Range::any());
-  [[nodiscard]] double number_or(std::string_view key, double otherwise, Range allowed = Range::any());
-  [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, Range allowed);
-  [[nodiscard]] std::optional<std::string> string(std::string_view key);
-  [[nodiscard]] std::optional<std::string> require_string(std::string_view key);
-  [[nodiscard]] bool boolean_or(std::string_view key, bool otherwise);
-  [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count,
-                                                           Range allowed = Range::any());
-  [[nodiscard]] std::optional<std::vector<double>> require_numbers(std::string_view key, std::size_t count,
-                                                                   Range allowed = Range::any());
-
-  /// The one present among `keys`; none (or a misspelt one), or more than one, is reported.
-  [[nodiscard]] std::optional<std::string> exactly_one(const std::vector<std::string_view>& keys);
-
-  /// Reports the unknown keys. Call once, after the last getter.
-  void finish();
-
-  [[nodiscard]] const SourcePosition& where() const { return value_.where; }
-
- private:
-  const JsonValue& value_;
-  Diagnostics& diagnostics_;
-  std::vector<std::string> known_;
-};
-
 }  // namespace abbe

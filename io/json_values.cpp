@@ -1,4 +1,4 @@
-#include "io/object_reader.h"
+#include "io/json_values.h"
 
 #include <fmt/format.h>
 
@@ -146,77 +146,6 @@ void report_unknown_keys(const JsonValue::Object& object, std::span<const std::s
   for (const auto& [key, member] : object)
     if (std::find(known.begin(), known.end(), key) == known.end())
       diagnostics.error(member.key_position(), unknown_name("key", key, known));
-}
-
-ObjectReader::ObjectReader(const JsonValue& value, Diagnostics& diagnostics)
-    : value_(value), diagnostics_(diagnostics), known_{"$schema"} {
-  (void)read_object(value, diagnostics);
-}
-
-const JsonValue* ObjectReader::find(std::string_view key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-  return value_.find(key);
-}
-
-const JsonValue* ObjectReader::require(std::string_view key) {
-  const JsonValue* member = find(key);
-  if (!member && std::holds_alternative<JsonValue::Object>(value_.value))
-    diagnostics_.error(value_.where, fmt::format("missing key \"{}\"", key));
-  return member;
-}
-
-std::optional<double> ObjectReader::number(std::string_view key, Range allowed) {
-  const JsonValue* member = find(key);
-  return member ? read_number(*member, allowed, diagnostics_) : std::nullopt;
-}
-
-std::optional<double> ObjectReader::require_number(std::string_view key, Range allowed) {
-  return require(key) ? number(key, allowed) : std::nullopt;
-}
-
-double ObjectReader::number_or(std::string_view key, double otherwise, Range allowed) {
-  return number(key, allowed).value_or(otherwise);
-}
-
-std::optional<std::int64_t> ObjectReader::integer(std::string_view key, Range allowed) {
-  const JsonValue* member = find(key);
-  return member ? read_integer(*member, allowed, diagnostics_) : std::nullopt;
-}
-
-std::optional<std::string> ObjectReader::string(std::string_view key) {
-  const JsonValue* member = find(key);
-  return member ? read_string(*member, diagnostics_) : std::nullopt;
-}
-
-std::optional<std::string> ObjectReader::require_string(std::string_view key) {
-  return require(key) ? string(key) : std::nullopt;
-}
-
-bool ObjectReader::boolean_or(std::string_view key, bool otherwise) {
-  const JsonValue* member = find(key);
-  return member ? read_boolean(*member, diagnostics_).value_or(otherwise) : otherwise;
-}
-
-std::optional<std::vector<double>> ObjectReader::numbers(std::string_view key, std::size_t count,
-                                                         Range allowed) {
-  const JsonValue* member = find(key);
-  return member ? read_numbers(*member, count, allowed, diagnostics_) : std::nullopt;
-}
-
-std::optional<std::vector<double>> ObjectReader::require_numbers(std::string_view key, std::size_t count,
-                                                                 Range allowed) {
-  return require(key) ? numbers(key, count, allowed) : std::nullopt;
-}
-
-std::optional<std::string> ObjectReader::exactly_one(const std::vector<std::string_view>& keys) {
-  for (const std::string_view key : keys) (void)find(key);
-  const auto key = choose_key(value_, keys, diagnostics_);
-  return key ? std::optional<std::string>(*key) : std::nullopt;
-}
-
-void ObjectReader::finish() {
-  if (const auto* object = std::get_if<JsonValue::Object>(&value_.value))
-    report_unknown_keys(*object, known_, diagnostics_);
 }
 
 }  // namespace abbe
