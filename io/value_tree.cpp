@@ -1,6 +1,7 @@
 #include "io/value_tree.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,7 +11,14 @@ namespace {
 
 std::string escaped(std::string_view key) {
   std::string token;
-  for (const char c : key) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  for (const char c : key) {
+    if (c == '~')
+      token += "~0";
+    else if (c == '/')
+      token += "~1";
+    else
+      token += c;
+  }
   return token;
 }
 
@@ -50,9 +58,12 @@ void ValueTree::close() {
 }
 
 void ValueTree::report_duplicates(const JsonValue::Object& object) {
+  if (object.size() < 2) return;
   std::vector<const JsonValue::Member*> members;
+  members.reserve(object.size());
   for (const auto& member : object) members.push_back(&member);
-  std::stable_sort(members.begin(), members.end(), [](auto* a, auto* b) { return a->first < b->first; });
+  std::sort(members.begin(), members.end(),
+            [](auto* a, auto* b) { return std::tie(a->first, a) < std::tie(b->first, b); });
   for (std::size_t i = 1; i < members.size(); ++i)
     if (members[i]->first == members[i - 1]->first)
       refuse(members[i]->second.key_offset, fmt::format("duplicate key \"{}\"", members[i]->first),
@@ -76,9 +87,11 @@ std::string ValueTree::pointer() const {
 std::string ValueTree::next_pointer() const {
   if (open_.empty()) return pointer_;
   const JsonValue& parent = *open_.back();
-  if (const auto* array = std::get_if<JsonValue::Array>(&parent.value))
-    return fmt::format("{}/{}", parent.where.pointer, array->size());
-  return fmt::format("{}/{}", parent.where.pointer, escaped(key_));
+  const auto* array = std::get_if<JsonValue::Array>(&parent.value);
+  const std::string token = array ? std::to_string(array->size()) : escaped(key_);
+  std::string pointer;
+  pointer.reserve(parent.where.pointer.size() + 1 + token.size());
+  return pointer.append(parent.where.pointer).append("/").append(token);
 }
 
 // The new value stays in place while it is open: its parent grows again only after it was closed.
