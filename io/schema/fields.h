@@ -173,6 +173,7 @@ template <typename T>
   using L = std::vector<T>;
   detail::require_same(*element.type, typeid(detail::ValueOf<T>), what);
   return {List{std::make_shared<const Kind>(std::move(element)), what, least, bare,
+               [](void* l, std::size_t count) { static_cast<L*>(l)->reserve(count); },
                [](void* l, const SourcePosition& where) -> void* {
                  return detail::open_at(static_cast<L*>(l)->emplace_back(), where);
                },

@@ -65,6 +65,7 @@ struct List {
   std::string_view what;  ///< As an error calls them, e.g. "layers".
   std::size_t least;
   bool bare;  ///< A single one may stand without brackets.
+  void (*reserve)(void* list, std::size_t count);
   void* (*append)(void* list, const SourcePosition& where);
   std::size_t (*size)(const void* list);
   const void* (*at)(const void* list, std::size_t i);

@@ -152,6 +152,7 @@ bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics
   if (!elements) return false;
   const bool rows =
       std::holds_alternative<Vector>(list.element->of);  // of which there may be many: one fault will do
+  list.reserve(value, elements->size());
   bool sound = true;
   for (const JsonValue& element : *elements) {
     sound = read(element, *list.element, list.append(value, element.where), diagnostics) && sound;
