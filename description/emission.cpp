@@ -1,5 +1,6 @@
 #include "description/emission.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -162,12 +163,15 @@ LampSpectrum* build_spectrum(const spec::Emission& emission, LoadContext& contex
   return &context.lamp_spectra.emplace(words, LampSpectrum{std::move(*curve), power, luminous}).first->second;
 }
 
+constexpr int kLeastExponent = -1000;  // so that its inverse is finite
+
 // A power of two keeps the digits of the first lamp, and all lamps within what a float holds.
 ScaledCurve times(LampSpectrum& spectrum, double factor) {
   if (!spectrum.held) {
     spectrum.held_for = factor > 0 ? factor : 1;
     const Curve first = scaled(spectrum.curve, spectrum.held_for);
     (void)std::frexp(first.max(), &spectrum.exponent);
+    spectrum.exponent = std::max(spectrum.exponent, kLeastExponent);
     spectrum.held = std::make_shared<const Curve>(scaled(first, std::ldexp(1.0, -spectrum.exponent)));
   }
   return {spectrum.held, std::ldexp(factor / spectrum.held_for, spectrum.exponent)};

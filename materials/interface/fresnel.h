@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "materials/interface/complex.h"
 #include "materials/interface/snell.h"
@@ -94,10 +95,12 @@ FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
   const T& c = cos_i;
   const T sin2 = (T(1) - c) * (T(1) + c);
   const T s = (a + c) * (a + c) + b * b;
-  const T p = (a * c + sin2) * (a * c + sin2) + b * c * (b * c);
+  // Of the perfect mirror, n = k = 0, p would vanish along the normal, where the polarisations are one.
+  const T least(std::numeric_limits<float>::min());
+  const T p = (a * c + sin2) * (a * c + sin2) + b * c * (b * c) + least;
   const T Rs = ((a - c) * (a - c) + b * b) / s;
   const T As = T(4) * a * c / s;
-  const T ratio = ((a * c - sin2) * (a * c - sin2) + b * c * (b * c)) / p;
+  const T ratio = ((a * c - sin2) * (a * c - sin2) + b * c * (b * c) + least) / p;
   return {Rs, Rs * ratio, As, As + T(4) * Rs * a * c * sin2 / p, T(0)};
 }
 

@@ -94,5 +94,13 @@ TEST(Fresnel, DifferentiatesWithDualNumbers) {
               1e-8);
 }
 
+TEST(Fresnel, ThePerfectMirrorReflectsAllAlongTheNormalToo) {
+  for (const double c : {1.0, 0.5, 1e-3}) {
+    const auto mirror = fresnel_conductor(c, 0.0, 0.0);
+    EXPECT_EQ(mirror.R(), 1) << c;
+    EXPECT_EQ(mirror.transmitted(), 0) << c;
+  }
+}
+
 }  // namespace
 }  // namespace abbe
