@@ -23,7 +23,7 @@ static Fields fields(Tag<Aperture>) {
       "aperture", "How much light a lens passes.",
       {field("f_number", &Aperture::f_number, kFNumber,
              "Focal length over the diameter of the opening; of a pinhole, which is sharp everywhere, it "
-             "sets the exposure only."),
+             "sets the exposure only and is 4 when neither it nor `t_stop` is given."),
        field("t_stop", &Aperture::t_stop, kFNumber,
              "f-number over the root of the lens's transmittance, at least the f-number: it exposes as a "
              "lens without losses of that f-number does, and alone stands for both.")});
@@ -45,8 +45,9 @@ static Fields fields(Tag<ThinLens>) {
       {field("focal_length", &ThinLens::focal_length, kLength, "The focal length."),
        lent(&ThinLens::aperture),
        field("focus_distance", &ThinLens::focus_distance,
-             forms<Focus>("", "a distance", form<Far>(Json::text, word<Far>("distance", {"infinity"})),
-                          form<double>(Json::any, kLength)),
+             forms<Focus>("", "a distance, or \"infinity\"",
+                          form<Far>(Json::text, word<Far>("distance", {"infinity"})),
+                          form<double>(Json::number, kLength)),
              "Distance from the lens to the plane in focus, beyond the focal length; that from `from` to "
              "`to` when absent.")},
       {"f_number", "t_stop"});

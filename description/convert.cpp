@@ -11,7 +11,11 @@ std::optional<std::string> canonical_scene(const std::filesystem::path& path,
                                            Inputs* inputs) {
   spec::Scene said;
   if (!load_scene(path, overrides, diagnostics, inputs, &said)) return std::nullopt;
-  return to_lines(schema::write(said), kJsonWidth);
+  std::string text = to_lines(schema::write(said), kJsonWidth);
+  // Overrides may nest what they put together deeper than a file may be.
+  const auto source = std::make_shared<const SourceText>(SourceText{path.string(), text});
+  if (!parse_json(source, diagnostics)) return std::nullopt;
+  return text;
 }
 
 }  // namespace abbe

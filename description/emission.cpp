@@ -25,8 +25,9 @@ struct QuantityText {
 };
 constexpr QuantityText text_of(Quantity quantity) {
   constexpr std::array<QuantityText, 8> kTexts{{
-      {"radiant_flux_W", "W", "Power that the lamp sends out, from both sides together."},
-      {"luminous_flux_lm", "lm", "Luminous flux that the lamp sends out, from both sides together."},
+      {"radiant_flux_W", "W", "Power that the lamp sends out, of a surface from all its sides together."},
+      {"luminous_flux_lm", "lm",
+       "Luminous flux that the lamp sends out, of a surface from all its sides together."},
       {"radiance", "W/(m2 sr)", "Radiance over 300-1100 nm."},
       {"luminance", "cd/m2", "Luminance."},
       {"intensity", "W/sr", "Intensity over 300-1100 nm."},
@@ -59,7 +60,8 @@ Fields describe_emission(std::string_view name, std::string_view text, bool has_
                           "A relative spectrum, which needs a scale: a name of data/illuminant, "
                           "blackbody:<K>, daylight:<K>, or "
                           "FILE.csv:COLUMN."),
-        under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance [W/(m2 sr nm)]."),
+        under<Blackbody>("blackbody_K", kBlackbody,
+                         "Planck's spectral radiance [W/(m2 sr nm)], in the unit of `spectrum`."),
         under<Daylight>("daylight_K", kDaylight,
                         "CIE daylight of this correlated colour temperature, relative: needs a scale."),
         under<Spectrum>("spectrum",
@@ -84,7 +86,7 @@ Fields fields(Tag<AmountAt<quantity>>) {
       "", "",
       {field(text_of(quantity).key, &At::amount, kPower.in(text_of(quantity).unit), text_of(quantity).text),
        field("distance", &At::distance, kLength,
-             "Distance of that surface from the middle of the lamp, along its normal.")});
+             "Distance of that surface from the middle of the lamp, along its normal if it has one.")});
 }
 
 Fields fields(Tag<MeshEmission>) {

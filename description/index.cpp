@@ -29,8 +29,9 @@ Fields describe_constant(std::string_view name, Range range) {
 
 template <typename Constant>
 Kind index(std::string_view name, Range range) {
-  return forms<Ior::Wrapped>(name, "an index", form<double>(Json::number, range),
-                             form<Constant>(Json::object), form<std::string>(Json::any));
+  return forms<Ior::Wrapped>(name, "an index: n, an object of n and k, or a name",
+                             form<double>(Json::number, range), form<Constant>(Json::object),
+                             form<std::string>(Json::text));
 }
 
 }  // namespace
@@ -49,12 +50,13 @@ Kind metal_ior() {
 }
 
 Fields fields(Tag<TintedIor>) {
-  return describe("tinted_index", "",
-                  {field("ior", &TintedIor::ior,
-                         "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
-                         "FILE.csv or FILE.yml."),
-                   field("absorption_per_m", &TintedIor::absorption_per_m,
-                         "Absorption coefficient inside, 0 or more, with a constant real index only.")});
+  return describe(
+      "tinted_index", "",
+      {field("ior", &TintedIor::ior,
+             "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
+             "FILE.csv or FILE.yml."),
+       field("absorption_per_m", &TintedIor::absorption_per_m,
+             "Absorption coefficient inside [1/m], 0 or more, with a constant real index only.")});
 }
 
 static Fields fields(Tag<Layer>) {
@@ -70,7 +72,7 @@ static Fields fields(Tag<LayerGroup>) {
 Kind kind(Tag<std::vector<LayerEntry>>) {
   return list<LayerEntry>(
       forms<LayerEntry::Wrapped>("layer_entry", "a layer", form<LayerGroup>(Json::object, {"layers"}),
-                                 form<Layer>(Json::any)),
+                                 form<Layer>(Json::object)),
       "layers", 1);
 }
 
@@ -79,17 +81,17 @@ static Fields fields(Tag<Facets>) {
   return describe(
       "facets", "Microfacets.",
       {field("alpha", &Facets::alpha,
-             forms<Alpha>("", "a width", form<Pair>(Json::list, vector<Pair>(Range::unit())),
-                          form<double>(Json::any, Range::unit())),
+             forms<Alpha>("", "a width, or two", form<Pair>(Json::list, vector<Pair>(Range::unit())),
+                          form<double>(Json::number, Range::unit())),
              "Width of their slopes, or widths along the surface coordinate u and across it."),
        defaulted("distribution", &Facets::distribution, word<FacetShape>("distribution", {"ggx", "beckmann"}),
                  "How their slopes are distributed.")});
 }
 Kind kind(Tag<Roughness::Wrapped>) {
   using Pair = std::array<double, 2>;
-  return forms<Roughness::Wrapped>("roughness", "a roughness", form<Facets>(Json::object),
-                                   form<Pair>(Json::list, vector<Pair>(Range::unit())),
-                                   form<double>(Json::any, Range::unit()));
+  return forms<Roughness::Wrapped>(
+      "roughness", "a roughness: a width, two, or an object", form<Facets>(Json::object),
+      form<Pair>(Json::list, vector<Pair>(Range::unit())), form<double>(Json::number, Range::unit()));
 }
 
 }  // namespace abbe::spec

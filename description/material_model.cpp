@@ -46,12 +46,12 @@ static Fields fields(Tag<Scattering>) {
   using Phase = std::variant<PhaseWord, HenyeyGreenstein>;
   return describe("scattering", "",
                   {field("scattering_per_m", &Scattering::per_m,
-                         "Scattering coefficient inside, 0 or more, 0 when absent."),
+                         "Scattering coefficient inside [1/m], 0 or more, 0 when absent."),
                    field("phase", &Scattering::phase,
-                         forms<Phase>("phase", "a phase function",
+                         forms<Phase>("phase", "a phase function: a name or an object",
                                       form<PhaseWord>(Json::text, word<PhaseWord>("phase function",
                                                                                   {"isotropic", "rayleigh"})),
-                                      form<HenyeyGreenstein>(Json::any)),
+                                      form<HenyeyGreenstein>(Json::object)),
                          "How matter scatters, isotropic when absent.")});
 }
 
@@ -92,7 +92,7 @@ static Fields fields(Tag<Film>) {
 static Fields fields(Tag<Medium>) {
   return describe("medium", "Matter without an interface, such as fog or smoke.",
                   {field("absorption_per_m", &Medium::absorption_per_m,
-                         "Absorption coefficient, 0 or more, 0 when absent."),
+                         "Absorption coefficient [1/m], 0 or more, 0 when absent."),
                    lent(&Medium::scattering),
                    field("grid", &Medium::grid,
                          "Densities that multiply absorption and scattering; 1 everywhere when absent.")});
@@ -106,9 +106,10 @@ static Fields fields(Tag<CoatedDiffuse>) {
 }
 
 static Fields fields(Tag<ThinGlass>) {
-  return describe("thin_glass", "A pane as one surface, which light crosses without being bent.",
-                  {lent(&ThinGlass::ior), defaulted("thickness", &ThinGlass::thickness, {0, kMaxLength},
-                                                    "Length of its thickness; 0 absorbs nothing.")});
+  return describe(
+      "thin_glass", "A pane as one surface, which light crosses without being bent.",
+      {lent(&ThinGlass::ior), defaulted("thickness", &ThinGlass::thickness, Range{0, kMaxLength}.in("units"),
+                                        "Length of its thickness; 0 absorbs nothing.")});
 }
 
 static Fields fields(Tag<Mirror>) {

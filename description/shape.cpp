@@ -20,7 +20,8 @@ using namespace schema;
 constexpr char kTransform[] = "Where the shape is moved, by steps in order.";
 
 Kind mesh() {
-  return forms<Mesh::Wrapped>("mesh", "a mesh", form<std::string>(Json::text), form<InlineMesh>(Json::any));
+  return forms<Mesh::Wrapped>("mesh", "a mesh: the name of a file, or triangles",
+                              form<std::string>(Json::text), form<InlineMesh>(Json::object));
 }
 
 }  // namespace
@@ -36,7 +37,9 @@ Fields fields(Tag<Body<Surface, Material, Emission>>) {
   return describe(
       "", "",
       {std::move(surface),
-       field("material", &B::material, "Name of its material; an OBJ or glTF mesh may bring its own."),
+       field("material", &B::material,
+             std::is_same_v<Surface, Mesh> ? "Name of its material; an OBJ or glTF file may bring its own."
+                                           : "Name of its material."),
        defaulted("transform", &B::transform, similarity_steps(), kTransform),
        field("emission", &B::emission, "What its surface sends out."),
        defaulted("two_sided", &B::two_sided, "Whether it emits from both sides.")});
@@ -68,7 +71,7 @@ static Fields fields(Tag<Instance>) {
 Fields fields(Tag<Shape>) {
   return describe(
       "shape", "A shape.",
-      {field("name", &Shape::name, "For messages."),
+      {field("name", &Shape::name, "For messages, and to name it as a white if it emits."),
        one_of(&Shape::kind, beside<MeshBody>("mesh"), beside<PlainBody<Sphere>>("sphere"),
               beside<PlainBody<Disc>>("disc"), beside<PlainBody<Quad>>("quad"), beside<PrismBody>("prism"),
               beside<ChartShape>("chart"), under<Instance>("instance"))});

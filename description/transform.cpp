@@ -23,11 +23,11 @@ Field scale(std::optional<double> Similarity::*member) {
   return field("scale", member, kScale, "Factor of all lengths.");
 }
 Field scale(std::optional<std::variant<double, Imath::V3d>> Stretch::*member) {
-  return field(
-      "scale", member,
-      forms<std::variant<double, Imath::V3d>>("", "a scale", form<Imath::V3d>(Json::list, kSignedScale),
-                                              form<double>(Json::any, kScale)),
-      "Factor of all lengths, or factors along x, y and z, which mirror where they are negative.");
+  return field("scale", member,
+               forms<std::variant<double, Imath::V3d>>("", "a scale: a factor or three",
+                                                       form<Imath::V3d>(Json::list, kSignedScale),
+                                                       form<double>(Json::number, kScale)),
+               "Factor of all lengths, or factors along x, y and z, which mirror where they are negative.");
 }
 
 }  // namespace
@@ -59,9 +59,9 @@ Kind similarity_steps() {
 }
 
 Kind affine_steps() {
-  return list<Affine>(
-      forms<Affine>("", "a step", form<Matrix>(Json::object, {"matrix"}), form<Stretch>(Json::any)), "steps",
-      0, true);
+  return list<Affine>(forms<Affine>("", "a step of a transform", form<Matrix>(Json::object, {"matrix"}),
+                                    form<Stretch>(Json::object)),
+                      "steps", 0, true);
 }
 
 }  // namespace spec

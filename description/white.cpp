@@ -33,8 +33,9 @@ bool may_be_illuminant(const std::string& name, const std::vector<std::string>& 
 schema::Kind spec::white() {
   using namespace schema;
   using Pair = std::array<double, 2>;
-  return forms<White::Wrapped>("white", "a white", form<Pair>(Json::list, vector<Pair>({0, 1, true, true})),
-                               form<std::string>(Json::any));
+  return forms<White::Wrapped>("white", "a white: a name or two coordinates",
+                               form<Pair>(Json::list, vector<Pair>({0, 1, true, true})),
+                               form<std::string>(Json::text));
 }
 
 std::optional<White> build(const spec::White& said, const WhiteNames& names, Diagnostics& diagnostics) {

@@ -1,6 +1,8 @@
 #include "io/schema/help.h"
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,20 +37,38 @@ std::string entry(const std::string& path, const Key& key) {
   throw Error(ErrorCode::usage, "", unknown_name("key", key, known));
 }
 
+// Whether values of these kinds hold others by number or by a name that the user chose.
+bool holds_elements(const Key& key) {
+  return std::any_of(key.kinds.begin(), key.kinds.end(), [](const Kind* kind) {
+    return std::holds_alternative<List>(kind->of) || std::holds_alternative<ByName>(kind->of);
+  });
+}
+
+// A path of keys, or a JSON pointer as complaints print it, with the numbers and names of elements.
 std::string entry_at(const Fields& root, const std::string& path) {
   std::vector<const Fields*> things{&root};
+  std::vector<std::string> steps = split(path, '/');
+  std::erase(steps, "");
   std::string text;
-  for (const std::string& step : split(path, '/')) {
+  std::string keys;
+  bool element = false;
+  for (const std::string& step : steps) {
     std::vector<std::string> known;
-    text.clear();
+    std::string found;
     std::vector<const Fields*> below;
+    bool elements = false;
     for (const Key& key : keys_of(things)) {
       known.emplace_back(key.name);
       if (key.name != step) continue;
-      text += entry(path, key);
+      found += entry(joined(keys, step), key);
+      elements = elements || holds_elements(key);
       for (const Fields* thing : things_in(key.kinds)) below.push_back(thing);
     }
-    if (text.empty()) refuse(step, known);
+    if (found.empty() && !std::exchange(element, false)) refuse(step, known);
+    if (found.empty()) continue;
+    element = elements;
+    text = std::move(found);
+    keys = joined(keys, step);
     things = std::move(below);
   }
   return text;

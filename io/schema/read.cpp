@@ -93,10 +93,13 @@ bool check_any_of(const ObjectReading& reading, const Fields& fields) {
   for (const std::string_view path : fields.any_of)
     if (find_path(reading.json, path)) present.push_back(path);
   if (present.empty()) {
-    reading.diagnostics.error(reading.json.where, fmt::format("missing key \"{}\"", fields.any_of.front()));
+    reading.diagnostics.error(reading.json.where,
+                              fmt::format("missing key \"{}\"", fmt::join(fields.any_of, "\" or \"")));
     return false;
   }
+  const auto parent = [](std::string_view path) { return path.substr(0, path.find('/')); };
   if (present.size() == 1 || !fields.exclusive) return true;
+  if (parent(present[0]) == parent(present[1])) return false;  // of which that one tells
   reading.diagnostics.error(find_path(reading.json, present[1])->where,
                             fmt::format("goes in place of \"{}\", and there is one", present[0]));
   return false;
@@ -182,9 +185,19 @@ bool fits(const JsonValue& json, const Form& form) {
                                           [&](std::string_view key) { return json.find(key) != nullptr; });
 }
 
+// Whether a key that tells a form is there but for a slip.
+bool fits_misspelt(const JsonValue& json, const Form& form) {
+  const auto* object = std::get_if<JsonValue::Object>(&json.value);
+  const std::vector<std::string> keys(form.keys.begin(), form.keys.end());
+  return object != nullptr &&
+         std::any_of(object->begin(), object->end(), [&](const JsonValue::Member& member) {
+           return nearest_name(member.first, keys).has_value();
+         });
+}
+
 bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnostics& diagnostics) {
   for (const Form& form : forms.forms)
-    if (fits(json, form))
+    if (fits(json, form) || fits_misspelt(json, form))
       return read(json, *form.alternative.kind, form.alternative.emplace(value, json.where), diagnostics);
   diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.kind()));
   return false;

@@ -53,6 +53,8 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
         {"scale", "\nshapes/instance/transform/scale\n"},
         {"scale", "\nshapes/transform/scale\n"}})
     EXPECT_NE(lines(arguments).find(expected), std::string::npos) << lines(arguments) << "lacks" << expected;
+  EXPECT_EQ(lines("/lights/0/sun/towards"), lines("lights/sun/towards"));
+  EXPECT_EQ(lines("materials/glass/dielectric/ior"), lines("materials/dielectric/ior"));
   EXPECT_EQ(abbe("help render resolution").code, 2);
 }
 

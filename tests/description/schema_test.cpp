@@ -15,6 +15,7 @@
 #include "description/scene_schema.h"
 #include "io/data_directory.h"
 #include "io/schema/help.h"
+#include "io/schema/keys.h"
 #include "io/schema/read.h"
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"
@@ -68,6 +69,27 @@ TEST_F(SchemaTest, LightsSayTheirStrengthOnce) {
                                                  {quad + emission + R"(, "distance": 1})", true},
                                                  {quad, false}})
     EXPECT_EQ(load(R"({"lights": [{)" + light + "}]}").scene.has_value(), allowed) << light;
+}
+
+// Keys that tables name as text are keys of theirs.
+TEST_F(SchemaTest, TablesHoldTogether) {
+  const auto has = [](const schema::Fields& fields, std::string_view key) {
+    const auto keys = schema::keys_of(std::vector{&fields});
+    return std::any_of(keys.begin(), keys.end(), [&](const schema::Key& known) { return known.name == key; });
+  };
+  for (const schema::Place& place : schema::places_below(schema::fields_of<spec::Scene>())) {
+    for (const std::string_view path : place.thing->any_of)
+      EXPECT_TRUE(has(*place.thing, path.substr(0, path.find('/')))) << path;
+    for (const schema::Field& field : place.thing->fields)
+      if (const auto* group = std::get_if<schema::OneOf>(field.part.get()))
+        for (const schema::Choice& choice : group->choices)
+          if (!choice.inside) {
+            const auto& beside = std::get<schema::Thing>(choice.alternative.kind->of).fields();
+            EXPECT_TRUE(has(beside, choice.key)) << choice.key;
+            for (const std::string_view path : beside.any_of)
+              EXPECT_TRUE(has(beside, path.substr(0, path.find('/')))) << path;
+          }
+  }
 }
 
 TEST_F(SchemaTest, TheSchemaIsThatOfTheTables) {

@@ -201,7 +201,7 @@ TEST(SchemaTest, SaysWhatIsWrong) {
   EXPECT_EQ(complaints(bulb + R"("bulbs": [], )"),
             "a.json:1:34: /bulbs: error: expected an array of bulbs (got 0 of them, allowed [1, inf))\n");
   EXPECT_EQ(read(R"({"bulb": {"radius": 1}, "at": [0, 0, 0]})").complaints,
-            "a.json:1:1: error: missing key \"watts\"\n");
+            "a.json:1:1: error: missing key \"watts\" or \"volts\"\n");
   EXPECT_EQ(complaints(R"("bulb": {"radius": -1}, "count": 0, "what": 0, )"),
             "a.json:1:21: /bulb/radius: error: expected a number (got -1, allowed (0, 1000000000000])\n"
             "a.json:1:35: /count: error: expected an integer (got 0, allowed [1, 9])\n"

@@ -33,6 +33,11 @@ TEST_F(SetJson, ReplacesAndKeepsTheRest) {
   EXPECT_EQ(list[1].find("a")->where.pointer, "/list/1/a");
 }
 
+TEST_F(SetJson, RefusesWhatNoFileMayHold) {
+  EXPECT_EQ(set("/render/name", "\xff"), "error: --set: invalid UTF-8\n");
+  EXPECT_EQ(set("/render/\xff", "1"), "error: --set: invalid UTF-8\n");
+}
+
 TEST_F(SetJson, CreatesTheObjectsOnTheWay) {
   EXPECT_EQ(set("/output/display/a~1b", "x"), "");
   const JsonValue& display = *root_.find("output")->find("display");
