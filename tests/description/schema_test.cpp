@@ -51,6 +51,14 @@ TEST_F(SchemaTest, CornellBoxIsSeenAsMeasured) {
   EXPECT_EQ(scene->triangle_count(), 32U);
 }
 
+TEST_F(SchemaTest, AMisspeltKeyStillTellsTheForm) {
+  const std::string film = R"({"materials": {"m": {"film": {"layers": [{"repeat": 3, "layer": []}]}}}})";
+  const std::string complaints = load(film).text();
+  EXPECT_NE(complaints.find("unknown key \"layer\"; did you mean \"layers\"?"), std::string::npos)
+      << complaints;
+  EXPECT_EQ(complaints.find("unknown key \"repeat\""), std::string::npos) << complaints;
+}
+
 TEST_F(SchemaTest, LightsSayTheirStrengthOnce) {
   const std::string sun = R"("sun": {"towards": [0, 0, 1])";
   const std::string beam = R"("directional": {"towards": [0, 0, 1])";
