@@ -65,7 +65,9 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
   if (options.stats != kStandardStream) outputs.stats = options.stats;
   if (outputs.film.empty()) outputs.film = scene.output.image;
   if (outputs.film.empty()) outputs.film = name_of(options.scene).stem().concat(".exr");
-  if (outputs.display.empty()) outputs.display = scene.output.display;
+  // A picture of some of the samples is not the scene's, and all parts would write the same file.
+  const bool part = outputs.film.extension() == kPartExtension;
+  if (outputs.display.empty() && !part) outputs.display = scene.output.display;
   require_film_output(outputs.film);
   for (const fs::path& picture : {outputs.display, outputs.gamut}) {
     if (picture.empty()) continue;

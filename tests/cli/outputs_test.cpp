@@ -1,7 +1,10 @@
+#include <set>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/exr.h"
+#include "io/file_lock.h"
 #include "io/part_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
@@ -100,6 +103,30 @@ TEST(Outputs, UnwritablePlacesAreFoundBeforeRendering) {
     ASSERT_EQ(here(ABBE_BINARY " render ball.json --quiet -o p.abbepart").code, 0);
     EXPECT_EQ(here(fmt::format(ABBE_BINARY " merge p.abbepart -o {}/a.exr", place)).code, 5);
   }
+}
+
+// The tasks of a job array run at once: whatever they shared but the scene would be locked by one of them.
+TEST(Outputs, APartIsAllThatItsRenderWrites) {
+  const fs::path folder = scratch() / "alone";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::string scene = ball_scene();
+  scene.insert(1, R"("output": {"image": "film.exr", "display": "picture.png"}, )");
+  std::ofstream(folder / "scene.json") << scene;
+  const FileLock film(folder / "film.exr");
+  const FileLock picture(folder / "picture.png");
+  const auto names = [&folder] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+    return names;
+  };
+  const std::string render = "cd alone && " ABBE_BINARY " render scene.json --quiet ";
+  EXPECT_EQ(here(render).code, 5);
+  std::set<std::string> expected = names();
+  const Outcome run = here(render + "--sample-range 0:4 -o part.abbepart");
+  EXPECT_EQ(run.code, 0) << run.err;
+  expected.insert("part.abbepart");
+  EXPECT_EQ(names(), expected);
 }
 
 TEST(Outputs, ACheckpointThatIsAFolderIsNoCheckpoint) {
