@@ -121,9 +121,12 @@ void add_scene_commands(CLI::App& app, Command& command) {
 void add_merge(CLI::App& app, Command& command) {
   const Sub<MergeOptions> sub(app, "merge", "Add up parts of one render", command, merge);
   sub.app->add_option("parts", sub->parts, "Parts, in any order")->required()->type_name("PART.abbepart...");
-  sub.app->add_option("-o,--output", sub->output, "Film to write")
+  sub.app->add_option("-o,--output", sub->outputs, "Film to write, or its exact sums; may be repeated")
       ->required()
+      ->allow_extra_args(false)
       ->type_name("FILE.exr|FILE.abbepart");
+  sub.app->add_flag("--partial", sub->partial,
+                    "Write the film though samples are missing of those that --spp or the scene states");
   add_max_memory(*sub.app, sub.options);
 }
 

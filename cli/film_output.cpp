@@ -33,6 +33,8 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
       {"replicates", fmt::format("{}", replicate_count(scene, how))},
   };
   identity.merge(sensor_identity(scene));
+  if (!how.time_limit_s && !how.target_error)
+    identity[kStatedSamplesKey] = fmt::format("{}", scene.render.samples);
   if (how.crop)
     identity["crop"] = fmt::format("{},{},{},{}", how.crop->x0, how.crop->y0, how.crop->x1, how.crop->y1);
   return identity;

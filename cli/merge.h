@@ -10,11 +10,13 @@ namespace abbe::cli {
 /// What `abbe merge` was asked for.
 struct MergeOptions {
   std::vector<std::filesystem::path> parts;
-  std::filesystem::path output;  ///< A film `.exr`, or a part again `.abbepart`.
+  std::vector<std::filesystem::path> outputs;  ///< Films `.exr`, and parts again `.abbepart`.
+  bool partial = false;                        ///< Whether samples may be missing of those that were stated.
   std::size_t max_memory_bytes = default_memory_limit();
 };
 
-/// Adds up parts of one render and writes their film. Returns the exit code.
+/// Adds up parts of one render and writes their film. Whatever their number, no more memory is taken than
+/// three films need: their sum, and what a part is read into and from. Returns the exit code.
 int merge(const MergeOptions& options);
 
 }  // namespace abbe::cli

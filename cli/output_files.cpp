@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "cli/answer.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
@@ -58,6 +60,19 @@ void require_distinct(std::span<const fs::path> outputs, std::span<const fs::pat
     if (!input.empty()) guard(input);
   if (replaces)
     for (const fs::path& table : data_tables()) guard(table);
+}
+
+void write_all(std::span<const std::function<void()>> writers) {
+  std::optional<Error> failure;
+  for (const auto& write : writers) try {
+      write();
+    } catch (const Error& error) {
+      if (failure)
+        say(error.what());
+      else
+        failure = error;
+    }
+  if (failure) throw *failure;
 }
 
 std::vector<fs::path> files_among(std::initializer_list<std::string> names) {

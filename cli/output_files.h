@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -15,6 +16,9 @@ void require_extension(const std::filesystem::path& path, std::initializer_list<
 /// the data directory, by whatever name or link, hard ones too; empty paths are none.
 void require_distinct(std::span<const std::filesystem::path> outputs,
                       std::span<const std::filesystem::path> inputs);
+
+/// Calls them all, since one that fails is no reason to lose the others; throws the first failure in the end.
+void write_all(std::span<const std::function<void()>> writers);
 
 /// The files among `names`, which may also be names of tables: "FILE", or "FILE.csv:COLUMN".
 [[nodiscard]] std::vector<std::filesystem::path> files_among(std::initializer_list<std::string> names);

@@ -153,20 +153,6 @@ RenderPart develop(const Scene& scene, const RenderOptions& options, const Inter
   return part;
 }
 
-// Tries them all, since one that fails is no reason to lose the others; throws the first failure in the end.
-void write_all(const std::vector<std::function<void()>>& writers) {
-  std::optional<Error> failure;
-  for (const auto& write : writers) try {
-      write();
-    } catch (const Error& error) {
-      if (failure)
-        say(error.what());
-      else
-        failure = error;
-    }
-  if (failure) throw *failure;
-}
-
 /// Of the command, and of what comes before and after the render itself.
 struct Costs {
   CostMeter command;

@@ -70,6 +70,28 @@ std::string take(std::map<std::string, std::string>& header, std::string_view ke
   return std::move(entry.mapped());
 }
 
+/// Read up to its bytes, of which there are as many as it states.
+struct OpenPartFile {
+  std::ifstream file;
+  std::map<std::string, std::string> header;  ///< Without what follows.
+  std::string hash;
+  std::size_t byte_count = 0;
+};
+
+OpenPartFile open_part_file(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) refuse(path, "no such file");
+  OpenPartFile open{std::ifstream(path, std::ios::binary), {}, {}};
+  if (!open.file) refuse(path, "cannot open the file");
+  open.header = read_header(open.file, path);
+  open.hash = take(open.header, kHash, path);
+  const std::string length = take(open.header, kBytes, path);
+  open.byte_count = fs::file_size(path, ignored) - static_cast<std::uintmax_t>(open.file.tellg());
+  if (length != fmt::format("{}", open.byte_count))  // before anything of that length is allocated
+    refuse(path, fmt::format("torn: it should hold {} bytes of sums and holds {}", length, open.byte_count));
+  return open;
+}
+
 }  // namespace
 
 void write_part_file(const fs::path& path, const std::map<std::string, std::string>& header,
@@ -82,21 +104,16 @@ void write_part_file(const fs::path& path, const std::map<std::string, std::stri
 }
 
 PartFile read_part_file(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) refuse(path, "no such file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(path, "cannot open the file");
-  PartFile part{read_header(file, path), {}};
-  const std::string expected = take(part.header, kHash, path);
-  const std::string length = take(part.header, kBytes, path);
-  const auto rest = fs::file_size(path, ignored) - static_cast<std::uintmax_t>(file.tellg());
-  if (length != fmt::format("{}", rest))  // before anything of that length is allocated
-    refuse(path, fmt::format("torn: it should hold {} bytes of sums and holds {}", length, rest));
-  part.bytes.resize(rest);
-  file.read(part.bytes.data(), static_cast<std::streamsize>(rest));
-  if (!file || hash(part.header, part.bytes) != expected)
+  OpenPartFile open = open_part_file(path);
+  PartFile part{std::move(open.header), std::string(open.byte_count, '\0')};
+  open.file.read(part.bytes.data(), static_cast<std::streamsize>(open.byte_count));
+  if (!open.file || hash(part.header, part.bytes) != open.hash)
     refuse(path, "damaged: its contents do not have the hash it states");
   return part;
+}
+
+std::map<std::string, std::string> read_part_file_header(const fs::path& path) {
+  return open_part_file(path).header;
 }
 
 }  // namespace abbe

@@ -21,5 +21,8 @@ void write_part_file(const std::filesystem::path& path, const std::map<std::stri
 
 /// Throws Error{input} for a file that is missing, of another format, torn or changed.
 [[nodiscard]] PartFile read_part_file(const std::filesystem::path& path);
+/// The header alone, which costs the same whatever the length of the bytes. Throws Error{input} as
+/// `read_part_file` does, but for changes, which the whole file alone tells.
+[[nodiscard]] std::map<std::string, std::string> read_part_file_header(const std::filesystem::path& path);
 
 }  // namespace abbe

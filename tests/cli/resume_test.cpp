@@ -69,6 +69,77 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
   EXPECT_TRUE(names(refusal("/nowhere/b.abbepart"), "no such file"));
 }
 
+TEST(Merge, SaysWhichOfTheStatedSamplesAreMissing) {
+  const std::string parts = part("a", "--sample-range 1:3") + " " + part("b", "--sample-range 5:7");
+  std::filesystem::remove(file("gaps.exr"));
+  const Outcome refused = merged(parts, file("gaps.exr"));
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_NE(refused.err.find("gaps.exr: samples 0:1,3:5,7:8 are missing"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(file("gaps.exr")));
+  const Outcome partial = merged(parts, file("gaps.exr") + " --partial");
+  EXPECT_EQ(partial.code, 0) << partial.err;
+  EXPECT_NE(partial.err.find("samples 1:3,5:7 of every pixel, 0:1,3:5,7:8 missing"), std::string::npos);
+  EXPECT_EQ(read_exr(file("gaps.exr")).metadata.at("samples_per_pixel"), "4");
+  EXPECT_EQ(read_exr(file("gaps.exr")).metadata.at("samples_stated"), "8");
+}
+
+// What some parts add up to is a part that knows how many samples its render is to have.
+TEST(Merge, AddsUpInATree) {
+  const auto sum_of = [](const std::string& parts, const std::string& name) {
+    const Outcome run = merged(parts, file(name) + " --partial");
+    EXPECT_EQ(run.code, 0) << run.err;
+    return file(name);
+  };
+  const std::string left =
+      sum_of(part("c", "--sample-range 4:6") + " " + part("a", "--sample-range 0:2"), "left.abbepart");
+  const std::string right =
+      sum_of(part("b", "--sample-range 2:4") + " " + part("d", "--sample-range 6:8"), "right.abbepart");
+  EXPECT_EQ(merged(left, file("tree.abbepart")).code, 4);
+  ASSERT_EQ(merged(right + " " + left, file("tree.abbepart") + " -o " + file("tree.exr")).code, 0);
+  EXPECT_EQ(read_file(file("tree.abbepart")), read_file(part("whole", "")));
+  ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
+  EXPECT_EQ(read_file(file("tree.exr")), read_file(file("whole.exr")));
+}
+
+// A finished render of which more samples were asked for later is as complete as the last of its parts
+// states.
+TEST(Merge, TheLargestStatedNumberHolds) {
+  const std::string first = part("first", "--spp 128");
+  const std::string more = part("more", "--spp 192 --sample-range 128:160");
+  const std::string rest = part("rest", "--spp 192 --sample-range 160:192");
+  EXPECT_EQ(merged(first, file("sum.abbepart")).code, 0);
+  for (const std::string& parts : {first + " " + more, more + " " + first}) {
+    const Outcome run = merged(parts, file("no.abbepart"));
+    EXPECT_NE(run.err.find("samples 160:192 are missing"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(merged(first + " " + rest + " " + more, file("sum.abbepart")).code, 0);
+  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(part("all", "--spp 192")));
+}
+
+// Where time decides, no number of samples is stated.
+TEST(Merge, WhatTimeEndedIsComplete) {
+  const std::string timed = part("timed", "--time 0.01s");
+  EXPECT_FALSE(read_part_file(timed).header.contains("samples_stated"));
+  EXPECT_EQ(merged(timed, file("timed.exr")).code, 0);
+}
+
+// What another process is still writing has another name until it is whole.
+TEST(Merge, ReadsPartsWhileOthersAreWritten) {
+  const std::string a = part("part-0", "--sample-range 0:4");
+  const std::string b = part("part-4", "--sample-range 4:8");
+  const std::string torn = file(".part-4.abbe-1-0.abbepart");
+  std::filesystem::rename(b, torn);
+  std::filesystem::resize_file(torn, 1000);
+  const Outcome by_pattern = merged(file("part-*.abbepart"), file("early.exr"));
+  EXPECT_NE(by_pattern.err.find("samples 4:8 are missing"), std::string::npos) << by_pattern.err;
+  const Outcome by_name = merged(a + " " + b + " " + file("part-8.abbepart"), file("early.exr"));
+  EXPECT_EQ(by_name.code, 4);
+  EXPECT_NE(by_name.err.find(b + ", " + file("part-8.abbepart") + ": no such file"), std::string::npos)
+      << by_name.err;
+  std::filesystem::remove(torn);
+  std::filesystem::remove(a);
+}
+
 TEST(Merge, UsageErrors) {
   const std::string render = "render " + ball() + " -o " + file("no.exr") + " ";
   for (const char* options :

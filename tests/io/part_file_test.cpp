@@ -32,6 +32,17 @@ TEST(PartFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(part.bytes, kBytes);
 }
 
+TEST(PartFile, ItsHeaderIsReadAlone) {
+  const auto path = written();
+  EXPECT_EQ(read_part_file_header(path), kHeader);
+  std::string bad = bytes_of(path);
+  bad.back() ^= 1;
+  put(path, bad);
+  EXPECT_EQ(read_part_file_header(path), kHeader);
+  put(path, bad.substr(0, bad.size() - 1));
+  EXPECT_THROW((void)read_part_file_header(path), Error);
+}
+
 TEST(PartFile, NoBytesAreBytesToo) {
   const auto path = test_folder() / "none.abbepart";
   write_part_file(path, {}, "");

@@ -52,6 +52,12 @@ TEST(SampleRanges, AgreeWithSetsOfSamples) {
       EXPECT_EQ(counts[r], static_cast<std::uint64_t>(std::count_if(samples.begin(), samples.end(),
                                                                     [r](auto s) { return s % 4 == r; })));
     SampleRange wanted{3, 40};
+    std::uint64_t missing_count = 0;
+    for (const SampleRange& gap : missing(ranges, wanted))
+      for (std::uint64_t s = gap.first; s < gap.last; ++s, ++missing_count)
+        EXPECT_TRUE(!samples.contains(s) && s >= wanted.first && s < wanted.last) << s;
+    const auto there = std::distance(samples.lower_bound(wanted.first), samples.lower_bound(wanted.last));
+    EXPECT_EQ(missing_count, wanted.last - wanted.first - static_cast<std::uint64_t>(there));
     for (auto gap = first_missing(ranges, wanted); gap; gap = first_missing(ranges, wanted)) {
       EXPECT_TRUE(gap->first == wanted.first || samples.contains(gap->first - 1));
       EXPECT_TRUE(gap->last == wanted.last || samples.contains(gap->last));

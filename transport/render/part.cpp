@@ -24,8 +24,8 @@ constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
-constexpr std::array<std::string_view, 5> kTellNothing{"scene", "to_xyz_d65", kWhiteKey, kWhiteXyKey,
-                                                       kLightsXyKey};
+constexpr std::array<std::string_view, 6> kTellNothing{"scene",   kStatedSamplesKey, "to_xyz_d65",
+                                                       kWhiteKey, kWhiteXyKey,       kLightsXyKey};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>
@@ -63,21 +63,62 @@ std::string take(FilmIdentity& header, const char* key) {
   return entry ? std::move(entry.mapped()) : "";
 }
 
+/// The header of a part or a checkpoint, parsed.
+struct ParsedHeader {
+  PartHeader header;
+  std::optional<UnfinishedPass> unfinished = {};
+  RenderStats stats = {};
+};
+
 // Takes the samples of a film, and those of a pass that are not among them. False for what cannot be.
-bool take_samples(FilmIdentity& header, RenderResult& result) {
+bool take_samples(FilmIdentity& header, ParsedHeader& parsed) {
   const std::string samples = take(header, kSamples);
   const std::string unfinished = take(header, kUnfinished);
   if (!samples.empty() || unfinished.empty()) {
     auto ranges = parse_sample_ranges(samples);
     if (!ranges) return false;
-    result.samples = *std::move(ranges);
+    parsed.header.samples = *std::move(ranges);
   }
   if (unfinished.empty()) return true;
   const auto n = parse_numbers<std::uint64_t>(unfinished, 3);
   if (!n || (*n)[0] >= (*n)[1] || (*n)[2] > std::numeric_limits<std::uint32_t>::max()) return false;
-  result.unfinished = UnfinishedPass{{(*n)[0], (*n)[1]}, static_cast<std::uint32_t>((*n)[2])};
-  SampleRanges both = result.samples;
-  return add(both, result.unfinished->samples);
+  parsed.unfinished = UnfinishedPass{{(*n)[0], (*n)[1]}, static_cast<std::uint32_t>((*n)[2])};
+  SampleRanges both = parsed.header.samples;
+  return add(both, parsed.unfinished->samples);
+}
+
+std::optional<ParsedHeader> parse_header(FilmIdentity header) {
+  const auto shape = parse_shape(take(header, kShape));
+  const auto counts = parse_numbers<std::uint64_t>(take(header, kCounts), 4);
+  const auto cut_sum = parse_numbers<std::uint64_t>(take(header, kCutSum), 2);
+  const bool named =
+      split(header["sensor_channels"], ',').size() == static_cast<std::size_t>(shape ? shape->channels : 0);
+  if (!shape || !counts || !cut_sum || !named) return std::nullopt;
+  ParsedHeader parsed{{{}, *shape, {}}};
+  if (!take_samples(header, parsed)) return std::nullopt;
+  parsed.header.identity = std::move(header);
+  parsed.stats.samples_per_pixel = count(parsed.header.samples);
+  parsed.stats.paths = (*counts)[0];
+  parsed.stats.rays = (*counts)[1];
+  parsed.stats.nonfinite_samples = (*counts)[2];
+  parsed.stats.cut = {(*counts)[3], static_cast<Int128>((*cut_sum)[0]) << 64 | (*cut_sum)[1]};
+  return parsed;
+}
+
+[[noreturn]] void refuse_contents(const fs::path& path) {
+  throw Error(ErrorCode::input, path.string(), "holds no part of a render");
+}
+
+void require_finished(const fs::path& path, const std::optional<UnfinishedPass>& unfinished) {
+  if (unfinished)
+    throw Error(ErrorCode::input, path.string(), "was saved amid a sample, which render --resume completes");
+}
+
+std::uint64_t stated_samples(const FilmIdentity& identity) {
+  const auto stated = identity.find(kStatedSamplesKey);
+  const auto number =
+      stated == identity.end() ? std::nullopt : parse_numbers<std::uint64_t>(stated->second, 1);
+  return number ? number->front() : 0;
 }
 
 }  // namespace
@@ -100,30 +141,25 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
 
 RenderPart read_checkpoint(const fs::path& path) {
   PartFile file = read_part_file(path);
-  const auto shape = parse_shape(take(file.header, kShape));
-  const auto counts = parse_numbers<std::uint64_t>(take(file.header, kCounts), 4);
-  const auto cut_sum = parse_numbers<std::uint64_t>(take(file.header, kCutSum), 2);
-  auto film = shape ? Film::from_bytes(*shape, file.bytes) : std::nullopt;
-  const bool named = split(file.header["sensor_channels"], ',').size() ==
-                     static_cast<std::size_t>(shape ? shape->channels : 0);
-  const auto refuse = [&path] { throw Error(ErrorCode::input, path.string(), "holds no part of a render"); };
-  if (!film || !counts || !cut_sum || !named) refuse();
-  RenderResult result{std::move(*film), {}, {}};
-  if (!take_samples(file.header, result)) refuse();
-  result.film.set_samples(count_per_replicate(result.samples, shape->replicates));
-  result.stats.samples_per_pixel = count(result.samples);
-  result.stats.paths = (*counts)[0];
-  result.stats.rays = (*counts)[1];
-  result.stats.nonfinite_samples = (*counts)[2];
-  result.stats.cut = {(*counts)[3], static_cast<Int128>((*cut_sum)[0]) << 64 | (*cut_sum)[1]};
-  return {std::move(file.header), std::move(result)};
+  auto parsed = parse_header(std::move(file.header));
+  auto film = parsed ? Film::from_bytes(parsed->header.shape, file.bytes) : std::nullopt;
+  if (!film) refuse_contents(path);
+  film->set_samples(count_per_replicate(parsed->header.samples, film->replicates()));
+  return {std::move(parsed->header.identity),
+          {std::move(*film), std::move(parsed->header.samples), parsed->stats, parsed->unfinished}};
 }
 
 RenderPart read_part(const fs::path& path) {
   RenderPart part = read_checkpoint(path);
-  if (part.result.unfinished)
-    throw Error(ErrorCode::input, path.string(), "was saved amid a sample, which render --resume completes");
+  require_finished(path, part.result.unfinished);
   return part;
+}
+
+PartHeader read_part_header(const fs::path& path) {
+  auto parsed = parse_header(read_part_file_header(path));
+  if (!parsed) refuse_contents(path);
+  require_finished(path, parsed->unfinished);
+  return std::move(parsed->header);
 }
 
 void require_same_film(const fs::path& path, const FilmIdentity& identity, const FilmIdentity& wanted) {
@@ -142,14 +178,22 @@ void require_same_film(const fs::path& path, const FilmIdentity& identity, const
   }
 }
 
-void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
+void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
   require_same_film(path, part.identity, sum.identity);
-  if (part.result.film.shape() != sum.result.film.shape())
-    throw Error(ErrorCode::input, path.string(), "has a film of another shape");
-  for (const SampleRange& range : part.result.samples)
-    if (!add(sum.result.samples, range))
+  if (part.shape != sum.shape) throw Error(ErrorCode::input, path.string(), "has a film of another shape");
+  for (const SampleRange& range : part.samples)
+    if (!add(sum.samples, range))
       throw Error(ErrorCode::input, path.string(),
                   fmt::format("has samples that are there already (got {}:{})", range.first, range.last));
+  if (stated_samples(part.identity) > stated_samples(sum.identity))
+    sum.identity[kStatedSamplesKey] = part.identity.at(kStatedSamplesKey);
+}
+
+void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
+  PartHeader header{sum.identity, sum.result.film.shape(), sum.result.samples};
+  merge(header, {part.identity, part.result.film.shape(), part.result.samples}, path);
+  sum.identity = std::move(header.identity);
+  sum.result.samples = std::move(header.samples);
   sum.result.film.add(part.result.film);
   sum.result.film.set_samples(count_per_replicate(sum.result.samples, sum.result.film.replicates()));
   RenderStats& stats = sum.result.stats;
@@ -158,6 +202,10 @@ void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   stats.rays += part.result.stats.rays;
   stats.nonfinite_samples += part.result.stats.nonfinite_samples;
   stats.cut += part.result.stats.cut;
+}
+
+SampleRanges missing_samples(const PartHeader& sum) {
+  return missing(sum.samples, {0, stated_samples(sum.identity)});
 }
 
 Image image_of(const RenderPart& part) {

@@ -8,10 +8,14 @@
 
 namespace abbe {
 
+/// The key under which a film's identity has the samples of the whole render, as `--spp` or its scene state
+/// them; absent where time or error decide.
+inline constexpr const char* kStatedSamplesKey = "samples_stated";
+
 /// What a film is a film of, by name: version, scene, seed and all else its values are a function of, besides
 /// the samples. `sensor_channels` lists the film's channels, separated by commas. Some tell no films apart:
-/// `scene`, the name of the scene file, and how pictures show it: `to_xyz_d65`, fitted on the machine that
-/// rendered, `white` and `white_xy`.
+/// `scene`, the name of the scene file, `kStatedSamplesKey`, and how pictures show it: `to_xyz_d65`, fitted
+/// on the machine that rendered, `white` and `white_xy`.
 using FilmIdentity = std::map<std::string, std::string>;
 
 /// Some samples of a render. Parts of one identity add up, in any order and grouping, to the film that one
@@ -21,6 +25,13 @@ struct RenderPart {
   RenderResult result;
 };
 
+/// What the file of a part tells before its sums.
+struct PartHeader {
+  FilmIdentity identity;
+  FilmShape shape;
+  SampleRanges samples;
+};
+
 /// Writes the exact sums, atomically. Throws Error{output}.
 void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result);
 
@@ -28,6 +39,8 @@ void write_part(const std::filesystem::path& path, const FilmIdentity& identity,
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
 /// Reads a part for a render to go on with, as `read_part` does, but it may have been saved amid a pass.
 [[nodiscard]] RenderPart read_checkpoint(const std::filesystem::path& path);
+/// Reads no sums, so that damage to them is not found; throws as `read_part` does otherwise.
+[[nodiscard]] PartHeader read_part_header(const std::filesystem::path& path);
 
 /// Throws Error{input} naming `path` and the first thing in which its film differs from the one wanted.
 void require_same_film(const std::filesystem::path& path, const FilmIdentity& identity,
@@ -36,6 +49,11 @@ void require_same_film(const std::filesystem::path& path, const FilmIdentity& id
 /// Adds the part read from `path`. Throws Error{input} when it is of another film or has samples that `sum`
 /// has already.
 void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path& path);
+/// Adds what a part tells to what others tell, as adding the parts does. Throws as that does.
+void merge(PartHeader& sum, const PartHeader& part, const std::filesystem::path& path);
+
+/// The samples that the renders of these parts stated and that are not among them.
+[[nodiscard]] SampleRanges missing_samples(const PartHeader& sum);
 
 /// The film with its variance, and its identity, sample count and error as metadata.
 [[nodiscard]] Image image_of(const RenderPart& part);

@@ -52,6 +52,16 @@ std::optional<SampleRange> first_missing(const SampleRanges& ranges, const Sampl
   return missing.first < missing.last ? std::optional(missing) : std::nullopt;
 }
 
+SampleRanges missing(const SampleRanges& ranges, const SampleRange& wanted) {
+  SampleRanges gaps;
+  SampleRange rest = wanted;
+  while (const auto gap = first_missing(ranges, rest)) {
+    gaps.push_back(*gap);
+    rest.first = gap->last;
+  }
+  return gaps;
+}
+
 std::uint64_t count(const SampleRanges& ranges) {
   return count_per_replicate(ranges, 1).front();
 }

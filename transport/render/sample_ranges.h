@@ -25,6 +25,9 @@ using SampleRanges = std::vector<SampleRange>;
 /// The first stretch of `wanted` that is not there.
 [[nodiscard]] std::optional<SampleRange> first_missing(const SampleRanges& ranges, const SampleRange& wanted);
 
+/// All stretches of `wanted` that are not there, in ascending order.
+[[nodiscard]] SampleRanges missing(const SampleRanges& ranges, const SampleRange& wanted);
+
 /// How many samples there are, and how many of them each replicate has: sample s belongs to s mod
 /// `replicates`.
 [[nodiscard]] std::uint64_t count(const SampleRanges& ranges);
