@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/build_id.h"
 #include "cli/film_identity.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
@@ -25,6 +26,8 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
   std::replace(name.begin(), name.end(), '\n', '?');  // headers have a line per entry
   FilmIdentity identity{
       {"version", ABBE_VERSION},
+      {kBuildKey, build_id()},
+      {kInstructionSetKey, instruction_set()},
       {"scene", name},
       {"scene_sha256", scene.sha256},
       {"data_sha256", data_sha256()},

@@ -55,7 +55,7 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
   EXPECT_TRUE(names(refusal(a), "has samples that are there already (got 0:2)"));
   PartFile older = read_part_file(part("old", "--sample-range 2:4"));
   for (const char* key : {"version", "data_sha256", "exposure_s", "scene_sha256", "seed", "integrator",
-                          "replicates", "channel.Y"}) {
+                          "replicates", "channel.Y", "build", "instruction_set"}) {
     PartFile other = older;
     ASSERT_TRUE(other.header.contains(key)) << key;
     other.header[key] = "0.0.9";

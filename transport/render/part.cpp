@@ -212,6 +212,7 @@ Image image_of(const RenderPart& part) {
   const RenderResult& result = part.result;
   Image image = result.film.image(split(part.identity.at("sensor_channels"), ','));
   image.metadata = part.identity;
+  for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
   image.metadata["renderer"] = "Abbe";
   image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
   image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));

@@ -11,6 +11,10 @@ namespace abbe {
 /// The key under which a film's identity has the samples of the whole render, as `--spp` or its scene state
 /// them; absent where time or error decide.
 inline constexpr const char* kStatedSamplesKey = "samples_stated";
+/// The keys of the machine code and the processor that a film's bits depend on. Images do not tell them, so
+/// that what different machines see alike is the same file.
+inline constexpr const char* kBuildKey = "build";
+inline constexpr const char* kInstructionSetKey = "instruction_set";
 
 /// What a film is a film of, by name: version, scene, seed and all else its values are a function of, besides
 /// the samples. `sensor_channels` lists the film's channels, separated by commas. Some tell no films apart:
