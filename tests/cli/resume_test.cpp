@@ -170,6 +170,16 @@ TEST(Merge, TheDocumentedParallelExampleWorks) {
   EXPECT_EQ(read_file(file("prism.exr")), read_file(file("whole64.exr")));
 }
 
+// Which the cluster's nightly test runs.
+TEST(Merge, TheDocumentedJobsAreTheirFiles) {
+  const std::string text = read_file(ABBE_DOCS "/distributed.md");
+  for (const char* name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
+    const std::string job = read_file(fmt::format("{}/distributed/{}", ABBE_DOCS, name));
+    EXPECT_FALSE(job.empty()) << name;
+    EXPECT_NE(text.find("```sh\n" + job + "```\n"), std::string::npos) << name;
+  }
+}
+
 /// A render with checkpoints that takes about a second.
 class Checkpoint : public testing::Test {
  protected:
