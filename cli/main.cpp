@@ -16,6 +16,7 @@
 
 #include "cli/answer.h"
 #include "cli/commands.h"
+#include "cli/crew.h"
 #include "cli/usage.h"
 
 namespace abbe::cli {
@@ -81,6 +82,7 @@ int guarded(int argc, char** argv) {
 int main(int argc, char** argv) {
   abbe::cli::prepare_streams();
   const int code = abbe::cli::guarded(argc, argv);
+  if (code != 0) abbe::cli::abandon_crew(code);
   // An answer that did not reach its reader is no answer; but one who leaves, as `head` does, has read
   // enough.
   const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush();

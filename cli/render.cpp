@@ -11,6 +11,7 @@
 #include "calibration/output/display.h"
 #include "cli/answer.h"
 #include "cli/cost.h"
+#include "cli/crew.h"
 #include "cli/film_identity.h"
 #include "cli/film_output.h"
 #include "cli/info.h"
@@ -136,12 +137,29 @@ void try_to_save(const fs::path& path, const FilmIdentity& identity, const Rende
   }
 }
 
+// Where all fail, the first process tells why and ends the others, which wait for it here.
+Scene load_together(const RenderOptions& options, Inputs& inputs, const Crew& crew) {
+  std::optional<Error> failure;
+  std::optional<Scene> scene;
+  try {
+    scene = load(options, inputs);
+  } catch (const Error& error) {
+    if (crew.rank == 0) throw;
+    failure = error;
+  }
+  if (crew.size > 1) (void)crew.follow(true);
+  if (failure) throw *failure;
+  return *std::move(scene);
+}
+
 RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch) {
   ProgressDisplay display;
   abbe::RenderOptions how = how_to_render(options);
   const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
   how.stop = &watch.stop();
-  if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
+  how.crew = crew();
+  if (!options.quiet && how.crew.rank == 0)
+    how.progress = [&display](const Progress& progress) { display(progress); };
   const fs::path& checkpoint = options.checkpoint;
   if (!checkpoint.empty())
     how.checkpoint = [&](const RenderResult& result) {
@@ -240,7 +258,12 @@ void write_pictures(const Outputs& outputs, const DisplayTransform& display, con
 int render(const RenderOptions& options) {
   Costs costs;
   Inputs inputs(options.max_memory_bytes);
-  Scene scene = load(options, inputs);
+  const LeaderTells silence(crew());
+  Scene scene = load_together(options, inputs, crew());
+  if (crew().rank != 0) {
+    (void)develop(scene, options, InterruptWatch());
+    return 0;
+  }
   const Outputs outputs = choose_outputs(options, scene, inputs);
   check_ranges(options, scene);
   const InterruptWatch watch;

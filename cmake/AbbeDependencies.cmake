@@ -14,6 +14,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 REQUIRED)
+find_package(MPI QUIET COMPONENTS CXX)  # for the module by which processes render together
 # Ceres is a static library of templates of Eigen compiled for any x86-64, where memory is aligned to 16 bytes. With
 # AVX Eigen would align to 32, and functions of one compilation would be linked into the other and crash.
 set_property(TARGET Ceres::ceres Eigen3::Eigen APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)

@@ -1,4 +1,4 @@
-# `cpack -G DEB` in the build folder makes the Debian package: component `tool`, laid out for /usr.
+# `cpack -G DEB` in the build folder makes the Debian packages, laid out for /usr: `abbe` of component `tool`, and `abbe-mpi`, where there is Open MPI.
 set(CPACK_PACKAGE_NAME abbe)
 set(CPACK_PACKAGE_VENDOR "The Abbe developers")
 set(CPACK_PACKAGE_CONTACT "The Abbe developers <abbe@packages.invalid>" CACHE STRING "Maintainer of the packages")
@@ -10,7 +10,17 @@ calibrated colour.
 It renders dispersion and prisms, simulates CCD sensors behind bandpass
 filters, and checks colourimetric accuracy against references.")
 set(CPACK_GENERATOR DEB)
-set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};abbe;tool;/")
+set(CPACK_COMPONENTS_ALL tool)
+if(TARGET abbe_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+endif()
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_TOOL_PACKAGE_NAME abbe)
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME abbe-mpi)
+set(CPACK_COMPONENT_MPI_DESCRIPTION "renders one film of Abbe with several processes
+This module lets mpirun start one render as several processes, of one
+machine or of many; the film has the same bits whatever their number.")
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "abbe (= ${PROJECT_VERSION})")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)

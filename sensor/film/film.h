@@ -58,6 +58,8 @@ class Film {
   void set_samples(std::vector<std::uint64_t> per_replicate);
   /// Adds the sums of a film of the same shape; its samples are for the caller to add.
   void add(const Film& other);
+  /// The sums themselves, for processes that add theirs up.
+  [[nodiscard]] std::span<Int128> sums() { return sums_; }
   /// The sums as bytes, 16 a sum, little-endian two's complement, in an order of their own; and the film that
   /// had these, or nothing if there are more or fewer than its shape needs.
   [[nodiscard]] std::string_view bytes() const;

@@ -1,6 +1,7 @@
 #include "transport/render/render.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -62,18 +63,19 @@ class Rendering {
     }
     RenderStats& stats = result_.stats;
     stats.threads = threads_;
-    if (!result_.unfinished) look_at_error();
+    if (!leads()) forget();
+    if (leads() && !result_.unfinished && look_is_due()) look_at_error();
   }
 
   RenderResult run() {
-    if (result_.unfinished) run_pass(result_.unfinished->samples);
-    for (auto next = first_missing(result_.samples, wanted_); next && !finished();
-         next = first_missing(result_.samples, wanted_)) {
-      run_pass({next->first, std::min(next->last, (next->first / step_ + 1) * step_)});
-      if (save_is_due()) save();
+    if (result_.unfinished) run_round({result_.unfinished->samples});
+    for (auto round = next_round(); !round.empty() && !all_follow(finished()); round = next_round()) {
+      run_round(round);
+      if (all_follow(save_is_due())) save();
     }
+    collect();
     RenderStats& stats = result_.stats;
-    if (asks_for_error() || options_.measure_error) stats.error = error_now();
+    if (leads() && (asks_for_error() || options_.measure_error)) stats.error = error_now();
     stats.wall_s = elapsed();
     stats.cpu_s = process_cpu_seconds() - cpu_start_;
     if (options_.measure_replay) stats.embree_replay_share = measure_replay_share(plan_);
@@ -86,13 +88,69 @@ class Rendering {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  // A pass may be long, so checkpoints interrupt it.
-  void run_pass(const SampleRange& range) {
+  [[nodiscard]] bool leads() const { return options_.crew.rank == 0; }
+  [[nodiscard]] bool alone() const { return options_.crew.size == 1; }
+  [[nodiscard]] bool all_follow(bool said) const { return alone() ? said : options_.crew.follow(said); }
+
+  // Passes that processes trace at the same time, one each. Where the error is to be looked at, a round ends,
+  // as a process alone would look there.
+  [[nodiscard]] std::vector<SampleRange> next_round() const {
+    std::vector<SampleRange> round;
+    SampleRanges done = result_.samples;
+    while (std::ssize(round) < options_.crew.size && (round.empty() || !look_is_due(count(done)))) {
+      const auto next = first_missing(done, wanted_);
+      if (!next) break;
+      round.push_back({next->first, std::min(next->last, (next->first / step_ + 1) * step_)});
+      (void)add(done, round.back());
+    }
+    return round;
+  }
+
+  void run_round(const std::vector<SampleRange>& round) {
+    const auto own = static_cast<std::size_t>(options_.crew.rank);
+    if (own < round.size()) trace(round[own]);
+    result_.unfinished.reset();
+    for (const SampleRange& range : round)
+      if (!add(result_.samples, range)) throw Error(ErrorCode::internal, "render", "a pass was done twice");
+    result_.stats.samples_per_pixel = count(result_.samples);
+    result_.film.set_samples(count_per_replicate(result_.samples, result_.film.replicates()));
+    if (all_follow(look_is_due() && asks_for_error())) {
+      collect();
+      if (leads()) look_at_error();
+    }
+    if (options_.progress) options_.progress({share(), samples(), elapsed(), result_.stats.error});
+  }
+
+  // Brings together what all have traced since the last time.
+  void collect() {
+    if (alone()) return;
+    RenderStats& stats = result_.stats;
+    options_.crew.collect(result_.film.sums());
+    std::array<Int128, 5> counts{stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths,
+                                 stats.cut.sum};
+    options_.crew.collect(counts);
+    const auto whole = [&](std::size_t i) { return static_cast<std::uint64_t>(counts.at(i)); };
+    stats.paths = whole(0);
+    stats.rays = whole(1);
+    stats.nonfinite_samples = whole(2);
+    stats.cut = {whole(3), counts[4]};
+  }
+
+  // What was read of an earlier run counts in the first process only.
+  void forget() {
+    std::ranges::fill(result_.film.sums(), Int128{0});
+    RenderStats& stats = result_.stats;
+    stats.paths = stats.rays = stats.nonfinite_samples = 0;
+    stats.cut = {};
+  }
+
+  // A pass may be long, so checkpoints interrupt it, but for those of a crew.
+  void trace(const SampleRange& range) {
     RenderStats& stats = result_.stats;
     Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0,
               scene_.render.seed);
     while (!pass.finished()) {
-      const PassCounts counts = pass.run(threads_, [this] { return save_is_due(); });
+      const PassCounts counts = pass.run(threads_, [this] { return alone() && save_is_due(); });
       stats.paths += counts.paths;
       stats.rays += counts.rays;
       stats.nonfinite_samples += counts.nonfinite;
@@ -100,24 +158,22 @@ class Rendering {
       result_.unfinished = {range, pass.done()};
       if (!pass.finished()) save();
     }
-    result_.unfinished.reset();
-    if (!add(result_.samples, range)) throw Error(ErrorCode::internal, "render", "a pass was done twice");
-    stats.samples_per_pixel = count(result_.samples);
-    result_.film.set_samples(count_per_replicate(result_.samples, result_.film.replicates()));
-    look_at_error();
-    if (options_.progress) options_.progress({share(), samples(), elapsed(), stats.error});
   }
 
   // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
   // and known once every replicate has some. When depends on nothing but the number of samples, so that a
   // render goes on after an interruption as it would have without.
-  void look_at_error() {
-    if (samples() < static_cast<std::uint64_t>(result_.film.replicates()) || !asks_for_error()) return;
+  [[nodiscard]] bool look_is_due(std::uint64_t samples) const {
+    if (samples < static_cast<std::uint64_t>(result_.film.replicates())) return false;
     const auto stage = [](std::uint64_t n) {
       return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
     };
-    const std::uint64_t before = (samples() - 1) / step_ * step_;
-    if (before == 0 || stage(before) != stage(samples())) result_.stats.error = error_now();
+    const std::uint64_t before = (samples - 1) / step_ * step_;
+    return before == 0 || stage(before) != stage(samples);
+  }
+  [[nodiscard]] bool look_is_due() const { return look_is_due(samples()); }
+  void look_at_error() {
+    if (asks_for_error()) result_.stats.error = error_now();
   }
 
   [[nodiscard]] bool asks_for_error() const { return options_.progress || options_.target_error; }
@@ -138,6 +194,8 @@ class Rendering {
   }
 
   void save() {
+    collect();
+    if (!leads()) return;
     const double begin = elapsed();
     saved_at_stop_ = stop_asked();
     options_.checkpoint(result_);

@@ -9,6 +9,7 @@
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
 #include "transport/path/truncated_paths.h"
+#include "transport/render/crew.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
@@ -51,6 +52,7 @@ struct RenderOptions {
   double checkpoint_interval_s = 60;
   const std::atomic<bool>* stop = nullptr;  ///< Stops after the pass that runs, so that the mean is right.
   std::function<void(const Progress&)> progress = {};
+  Crew crew = {};  ///< The processes that render this together.
 };
 
 /// What a render did.
@@ -77,7 +79,8 @@ struct RenderResult {
 };
 
 /// Renders the scene, or those of its samples that `start` does not have. For fixed samples the film is a
-/// pure function of scene, data, version and seed: threads, interruptions and their timing change nothing.
+/// pure function of scene, data, version and seed: threads, processes, interruptions and their timing change
+/// nothing. Of a crew, the result is that of its first process; the others are left with empty films.
 /// Throws Error{resource} when the film does not fit in memory.
 [[nodiscard]] RenderResult render(const Scene& scene, const RenderOptions& options,
                                   std::optional<RenderResult> start = {});

@@ -1,0 +1,64 @@
+#include "cli/crew.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "io/error.h"
+
+namespace abbe::cli {
+namespace {
+
+// Set by Open MPI's mpirun for each process it starts.
+constexpr const char* kProcesses = "OMPI_COMM_WORLD_SIZE";
+
+const CrewModule* load_module() {
+  const char* processes = std::getenv(kProcesses);
+  if (processes == nullptr || std::string_view(processes) == "1") return nullptr;
+  // Open MPI's own modules find its library among what is loaded for all.
+  void* module = dlopen(ABBE_MPI_MODULE, RTLD_NOW | RTLD_GLOBAL);
+  void* symbol = module != nullptr ? dlsym(module, kCrewSymbol) : nullptr;
+  if (symbol == nullptr)
+    throw Error(
+        ErrorCode::input, "mpirun",
+        std::string("the module by which processes render one film together does not load: ") + dlerror());
+  return reinterpret_cast<const CrewModule* (*)()>(symbol)();
+}
+
+const CrewModule*& joined() {
+  static const CrewModule* module = nullptr;
+  return module;
+}
+
+}  // namespace
+
+const Crew& crew() {
+  static const Crew kAlone;
+  static const bool kAsked = (joined() = load_module(), true);
+  (void)kAsked;
+  return joined() != nullptr ? joined()->crew : kAlone;
+}
+
+void abandon_crew(int code) {
+  if (joined() != nullptr) joined()->abandon(code);
+}
+
+LeaderTells::LeaderTells(const Crew& crew) {
+  if (crew.rank == 0) return;
+  stream_ = ::dup(STDERR_FILENO);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  (void)::dup2(nowhere, STDERR_FILENO);
+  (void)::close(nowhere);
+}
+
+LeaderTells::~LeaderTells() {
+  if (stream_ < 0) return;
+  (void)::dup2(stream_, STDERR_FILENO);
+  (void)::close(stream_);
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,87 @@
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "io/data_directory.h"
+#include "program.h"
+
+namespace abbe::test {
+namespace {
+
+// More processes than processors are no mistake here.
+constexpr char kRun[] =
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --bind-to none --quiet "
+    "-n {} " ABBE_BINARY " render {}";
+
+/// Renders with so many processes.
+Outcome together(int processes, const std::string& arguments) {
+  return shell(fmt::format(kRun, processes, arguments));
+}
+
+class Mpi : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (shell("command -v mpirun").code != 0 || !std::filesystem::exists(ABBE_MPI_MODULE_FILE))
+      GTEST_SKIP() << "Open MPI is not installed";
+  }
+};
+
+std::string scene(const std::string& name) {
+  return (data_directory() / "scenes" / (name + ".json")).string();
+}
+
+void expect_same_bits(const std::string& arguments, std::initializer_list<int> counts) {
+  const auto part = scratch() / "one.abbepart";
+  ASSERT_EQ(abbe(fmt::format("render {} --threads 1 --quiet -o {}", arguments, part.string())).code, 0);
+  const std::string film = read_file(part);
+  for (const int processes : counts) {
+    const auto other = scratch() / fmt::format("of-{}.abbepart", processes);
+    const Outcome run =
+        together(processes, fmt::format("{} --threads 1 --quiet -o {}", arguments, other.string()));
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(read_file(other) == film) << arguments << " by " << processes << " processes";
+    std::filesystem::remove(other);
+  }
+  std::filesystem::remove(part);
+}
+
+TEST_F(Mpi, AnyNumberOfProcessesGivesTheSameBits) {
+  expect_same_bits(scene("cornell") + " --spp 12", {1, 2, 3, 5});
+  expect_same_bits(scene("prism_spot") + " --spp 12", {2, 3});
+}
+
+TEST_F(Mpi, AnErrorAskedForEndsAtTheSameSample) {
+  expect_same_bits(scene("cornell") + " --error 12%", {2, 3});
+}
+
+TEST_F(Mpi, ALostProcessEndsAllAndLosesNoCheckpoint) {
+  const std::string save = (scratch() / "at.abbepart").string();
+  const std::string whole = scene("cornell") + " --spp 40 --threads 1 --quiet";
+  const std::string saving = fmt::format("{} --checkpoint {} --checkpoint-every 0.1s", whole, save);
+  const Outcome lost = shell(fmt::format(kRun, 2, saving + " -o " + (scratch() / "lost.exr").string()) +
+                             " & pid=$!; while [ ! -e " + save +
+                             " ]; do sleep 0.05; done; kill -9 $(pgrep -P $pid | tail -n 1); wait $pid");
+  EXPECT_NE(lost.code, 0);
+  ASSERT_TRUE(std::filesystem::exists(save));
+  const auto film = scratch() / "film.abbepart";
+  EXPECT_EQ(together(3, saving + " --resume -o " + film.string()).code, 0);
+  const auto alone = scratch() / "alone.abbepart";
+  EXPECT_EQ(abbe("render " + whole + " -o " + alone.string()).code, 0);
+  EXPECT_TRUE(read_file(film) == read_file(alone));
+}
+
+TEST_F(Mpi, WhatIsWrongIsToldOnce) {
+  const Outcome run = together(3, "nowhere.json");
+  EXPECT_EQ(run.code, 4);
+  const std::string complaint = "nowhere.json: error: cannot open the file";
+  const std::size_t first = run.err.find(complaint);
+  ASSERT_NE(first, std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find(complaint, first + 1), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace abbe::test
