@@ -20,6 +20,12 @@ others=$(grep -vE '^\./(usr/((bin|share)/.*|lib/(abbe/.*)?)?)?$' <<<"$files" || 
 equal "files outside usr/bin, usr/lib/abbe and usr/share" "$others" ""
 
 dpkg-deb -x "$package" "$scratch/root"
+if command -v mpirun >/dev/null; then
+  mpi=${package/abbe_/abbe-mpi_}
+  contains "Depends of abbe-mpi" "$(dpkg-deb -f "$mpi" Depends)" "abbe (= $(dpkg-deb -f "$package" Version))"
+  contains "files of abbe-mpi" "$(dpkg-deb -c "$mpi")" "./usr/lib/abbe/abbe_mpi-"
+  equal "package with the module of MPI" "$(grep -c abbe_mpi <<<"$files" || true)" 0
+fi
 cd /
 check_program "$scratch/root/usr/bin/abbe" "$scratch/root/usr/share/abbe/data"
 if command -v lintian >/dev/null; then
