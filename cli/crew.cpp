@@ -28,6 +28,7 @@ const CrewModule* load_module() {
   return reinterpret_cast<const CrewModule* (*)()>(symbol)();
 }
 
+// Nothing until a command has asked: what fails before has no others to end.
 const CrewModule*& joined() {
   static const CrewModule* module = nullptr;
   return module;
@@ -37,9 +38,8 @@ const CrewModule*& joined() {
 
 const Crew& crew() {
   static const Crew kAlone;
-  static const bool kAsked = (joined() = load_module(), true);
-  (void)kAsked;
-  return joined() != nullptr ? joined()->crew : kAlone;
+  static const CrewModule* const kModule = joined() = load_module();
+  return kModule != nullptr ? kModule->crew : kAlone;
 }
 
 void abandon_crew(int code) {

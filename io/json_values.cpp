@@ -141,11 +141,4 @@ std::optional<std::string_view> choose_key(const JsonValue& object, std::span<co
   return std::nullopt;
 }
 
-void report_unknown_keys(const JsonValue::Object& object, std::span<const std::string> known,
-                         Diagnostics& diagnostics) {
-  for (const auto& [key, member] : object)
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      diagnostics.error(member.key_position(), unknown_name("key", key, known));
-}
-
 }  // namespace abbe

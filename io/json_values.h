@@ -65,8 +65,5 @@ struct Range {
 [[nodiscard]] std::optional<std::string_view> choose_key(const JsonValue& object,
                                                          std::span<const std::string_view> keys,
                                                          Diagnostics& diagnostics);
-/// Reports the keys of an object that are not `known`, each with the nearest that is.
-void report_unknown_keys(const JsonValue::Object& object, std::span<const std::string> known,
-                         Diagnostics& diagnostics);
 
 }  // namespace abbe

@@ -53,6 +53,18 @@ TEST(Convert, WhatIsWrittenRendersTheSame) {
             read_file(out));
 }
 
+// A value on the command line may nest as deep as a file, and stands deeper than that in the scene.
+TEST(Convert, NothingIsWrittenThatCannotBeRead) {
+  std::string curve = "0.5";
+  for (int level = 0; level < 253; ++level) curve = R"({"scale":1,"of":)" + curve + "}";
+  const std::string out = file("meshed/deep.json");
+  const Outcome run =
+      abbe("convert " + meshed() + " --set '/materials/white/diffuse/reflectance=" + curve + "' -o " + out);
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_NE(run.err.find("nesting too deep"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(Convert, FilesAreLookedForWhereTheyWere) {
   const Outcome run = abbe("convert " + meshed() + " -o " + file("moved.json"));
   EXPECT_EQ(run.code, 2) << run.err;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -321,6 +322,14 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
   const Loaded within = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}},
     "sensor": {"resolution": [1, 1], "channels": {"a": {"band": [400, 500]}, "b": {"band": [600, 700]}}}})");
   EXPECT_EQ(within.text(), "");
+}
+
+TEST_F(DescriptionFaultsTest, TheLeastThatAFileCanSayIsHeld) {
+  const Loaded faint = load(R"({"lights": [{"directional": {"towards": [0, 0, 1], "irradiance": 5e-324}}]})");
+  ASSERT_TRUE(faint.scene) << faint.text();
+  EXPECT_TRUE(std::isfinite(faint->lights.at(0).emission.curve().max()));
+  const Loaded mirror = load(R"({"materials": {"m": {"schlick": {"ior": 0}}}})");
+  ASSERT_TRUE(mirror.scene) << mirror.text();
 }
 
 }  // namespace

@@ -49,14 +49,6 @@ TEST_F(JsonValues, AreReadAsTheirTypes) {
   EXPECT_EQ(complaints(), "");
 }
 
-TEST_F(JsonValues, UnknownKeysPointAtTheKeyWithTheNearestName) {
-  parse("{\"render\": 1,\n  \"sampels\": 4}");
-  report_unknown_keys(*read_object(root_, diagnostics_), std::vector<std::string>{"render", "samples"},
-                      diagnostics_);
-  EXPECT_EQ(complaints(),
-            "a.json:2:3: /sampels: error: unknown key \"sampels\"; did you mean \"samples\"?\n");
-}
-
 TEST_F(JsonValues, OfOtherTypesSayWhatWasThere) {
   parse(R"({"x": "abc", "s": 3, "b": null, "v": {}, "o": [1], "w": [1, "q"]})");
   EXPECT_EQ(read_number(at("x"), Range::positive(), diagnostics_), std::nullopt);
