@@ -325,9 +325,12 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
 }
 
 TEST_F(DescriptionFaultsTest, TheLeastThatAFileCanSayIsHeld) {
-  const Loaded faint = load(R"({"lights": [{"directional": {"towards": [0, 0, 1], "irradiance": 5e-324}}]})");
-  ASSERT_TRUE(faint.scene) << faint.text();
-  EXPECT_TRUE(std::isfinite(faint->lights.at(0).emission.curve().max()));
+  for (const char* least : {"5e-324", "1e-318", "1e-310"}) {
+    const Loaded faint = load(fmt::format(
+        R"({{"lights": [{{"directional": {{"towards": [0, 0, 1], "irradiance": {}}}}}]}})", least));
+    ASSERT_TRUE(faint.scene) << faint.text();
+    EXPECT_TRUE(std::isfinite(faint->lights.at(0).emission.curve().max())) << least;
+  }
   const Loaded mirror = load(R"({"materials": {"m": {"schlick": {"ior": 0}}}})");
   ASSERT_TRUE(mirror.scene) << mirror.text();
 }
