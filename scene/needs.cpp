@@ -335,9 +335,9 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
            looks_smaller(scene, lights[i], centers, kTinyLight_sr);
   };
   add(names_of(scene, [&](std::size_t i) { return tiny(i) && traced(i); }), "E S (S|D)* D (S|D)* S L",
-      "caustics of a tiny light, seen in mirrors or through glass, but for rare bright dots");
+      "caustics of a tiny light, seen in mirrors or through glass, that pilots have not shown");
   add(names_of(scene, [&](std::size_t i) { return tiny(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
-      "caustics of a tiny light, but for rare bright dots");
+      "caustics of a tiny light that pilots have not shown");
   return classes;
 }
 

@@ -296,10 +296,10 @@ TEST(Needs, SunsAndBeamsAreTracedUnlessTheyLookLarge) {
   const std::string caustic = "E (S|D)* D (S|D)* S L";
   EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", seen, seen}));
   EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", caustic, caustic}));
-  EXPECT_EQ(
-      unreached(scene, scene.needs, true).back(),
-      seen +
-          ": caustics of a tiny light, seen in mirrors or through glass, but for rare bright dots (\"sun\")");
+  EXPECT_EQ(unreached(scene, scene.needs, true).back(),
+            seen +
+                ": caustics of a tiny light, seen in mirrors or through glass, that pilots have not shown "
+                "(\"sun\")");
   scene.render.integrator = Integrator::light;
   EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E L", "E S (S|D)* L"}));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,10 @@ class PathRecorder {
   void connect_within(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& /*u*/) {
     keep(path, {.at = MediumVertex{path.ray.origin, path.ray.direction, phase}, .beyond = path.around.inside},
          path.around.medium.extinction_per_m);
+  }
+  [[nodiscard]] std::optional<BsdfSample> scatter(const RecordedPath& path, const SurfaceVertex& vertex,
+                                                  const BsdfRandom& u) const {
+    return vertex.scatter(u, path.packet.hero, mode);
   }
   [[nodiscard]] bool follows(RecordedPath& /*path*/, const BsdfSample& /*event*/) const { return true; }
   [[nodiscard]] bool follows_within(const RecordedPath& /*path*/) const { return true; }

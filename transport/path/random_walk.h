@@ -22,7 +22,8 @@ namespace abbe {
 template <typename T>
 concept WalkingTechnique = requires(T technique, typename T::Path& path, const SurfaceHit& hit,
                                     const SurfaceVertex& vertex, const PhaseFunction& phase,
-                                    const BsdfSample& event, const std::array<float, 4>& u) {
+                                    const BsdfSample& event, const BsdfRandom& random,
+                                    const std::array<float, 4>& u) {
   { T::kMode } -> std::convertible_to<TransportMode>;
   // A path leaves the scene, or comes to a surface.
   technique.escape(path);
@@ -32,6 +33,8 @@ concept WalkingTechnique = requires(T technique, typename T::Path& path, const S
   // It may be connected to the end of another, from a surface or from within matter.
   technique.connect(path, vertex, u);
   technique.connect_within(path, phase, u);
+  // An event there, drawn by the numbers given.
+  { technique.scatter(path, vertex, random) } -> std::same_as<std::optional<BsdfSample>>;
   // Whether it may go on after an event.
   { technique.follows(path, event) } -> std::same_as<bool>;
   { technique.follows_within(path) } -> std::same_as<bool>;
@@ -72,7 +75,7 @@ class RandomWalks {
     technique.reach(path, vertex);
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
     if (scatters(vertex.bsdf)) technique.connect(path, vertex, v);
-    const auto event = vertex.scatter({u[2], {u[0], u[1]}}, path.packet.hero, Technique::kMode);
+    const auto event = technique.scatter(path, vertex, BsdfRandom{u[2], {u[0], u[1]}});
     if (!event || !technique.follows(path, *event)) return false;
     path.connected = event->delta ? 0.0F : path.packet.lane_pdf.sum() / event->pdf;
     path.last = vertex.place();

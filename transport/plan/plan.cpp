@@ -81,36 +81,24 @@ std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, con
   return own;
 }
 
-}  // namespace
-
-std::optional<Error> refusal(const Scene& scene) {
-  if (auto faint = too_faint(nominal_value(scene, emissions_of(scene)))) return faint;
-  return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
-}
-
-Plan make_plan(const Scene& scene) {
-  const bool light_only = scene.render.integrator == Integrator::light;
-  const std::vector<Technique> techniques = chosen_techniques(scene);
+// Nothing being known of `refusal`.
+Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
+             const std::vector<bool>& traced) {
+  const bool light_only = techniques == std::vector{Technique::light};
   const bool traces_light = uses(techniques, Technique::light);
-  const Emissions emissions = emissions_of(scene);
-  const std::vector<double> powers = sensor_weighted_powers(scene, emissions);
-  const std::vector<bool> traced = traced_lights(scene);
-  std::vector<double> traced_powers(scene.lights.size(), 0.0);
+  std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (traced[i]) traced_powers[i] = powers[i];
-  if (const std::optional<Error> refused = refusal(scene, traced, light_only)) throw Error(*refused);
-  const double nominal = nominal_value(scene, emissions);
-  if (const std::optional<Error> faint = too_faint(nominal)) throw Error(*faint);
+    if (!traced[i]) traced_powers[i] = 0;
   Plan plan{scene,
             make_wavelengths(scene, emissions),
             LightSampler(scene, emissions.seen),
             PowerLightSampler(traced_powers),
             traced,
             traces_light ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
-            techniques,
+            std::move(techniques),
             static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
             1,
-            nominal,
+            nominal_value(scene, emissions),
             make_own_wavelengths(scene, emissions),
             around_camera(scene),
             std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
@@ -120,6 +108,25 @@ Plan make_plan(const Scene& scene) {
     plan.techniques.pop_back();
     plan.traced.assign(scene.lights.size(), false);
   }
+  return plan;
+}
+
+}  // namespace
+
+std::optional<Error> refusal(const Scene& scene) {
+  if (auto faint = too_faint(nominal_value(scene, emissions_of(scene)))) return faint;
+  return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
+}
+
+Plan make_plan(const Scene& scene) {
+  if (const std::optional<Error> refused = refusal(scene)) throw Error(*refused);
+  return plan_of(scene, chosen_techniques(scene), emissions_of(scene), traced_lights(scene));
+}
+
+std::optional<Plan> make_photon_plan(const Scene& scene, const std::vector<bool>& lights) {
+  if (refusal(scene, lights, false)) return std::nullopt;
+  Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions_of(scene), lights);
+  if (plan.traced_lights.empty()) return std::nullopt;
   return plan;
 }
 

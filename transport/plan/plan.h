@@ -9,6 +9,7 @@
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/medium_stack.h"
 #include "transport/plan/aim.h"
+#include "transport/plan/caustic_guide.h"
 #include "transport/plan/light_sampler.h"
 #include "transport/plan/power_light_sampler.h"
 #include "transport/plan/techniques.h"
@@ -31,6 +32,10 @@ struct Plan {
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
   MediumStack camera_inside;                            ///< Where camera paths start,
   std::vector<MediumStack> light_inside;                ///< and photons, likewise.
+  /// Where camera paths look for the caustics of lights that photons are not traced from,
+  CausticGuide caustics_of_paths = {};
+  /// and of all lights that they can meet, once they have come through specular matter from the camera.
+  CausticGuide caustics_seen_through = {};
 
   /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
   /// `wavelengths`.
@@ -48,5 +53,9 @@ struct Plan {
 /// What can be told without tracing a path: photons are aimed at all of their targets alike. Throws what
 /// `refusal` tells.
 [[nodiscard]] Plan make_plan(const Scene& scene);
+
+/// The plan of pilots that start photons from some lights, whatever techniques the scene asks for. Nothing
+/// where none of them has power, or their photons are refused.
+[[nodiscard]] std::optional<Plan> make_photon_plan(const Scene& scene, const std::vector<bool>& lights);
 
 }  // namespace abbe

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sampling/sampler.h"
+#include "transport/render/learn_caustics.h"
 #include "transport/render/threads.h"
 #include "transport/technique/light.h"
 
@@ -67,6 +68,7 @@ void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
 Plan make_learnt_plan(const Scene& scene, int threads, std::uint64_t seed) {
   Plan plan = make_plan(scene);
   if (plan.techniques.size() > 1) learn_aims(plan, seed, threads);
+  learn_caustics(plan, seed, threads);
   return plan;
 }
 

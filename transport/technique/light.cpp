@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "transport/path/mis_weight.h"
-#include "transport/technique/photon_start.h"
 
 namespace abbe {
 
@@ -29,27 +28,12 @@ void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit
   std::vector<LightPath>& paths = walks_.paths();
   paths.clear();
   for (std::uint32_t i = 0; i < photons.size(); ++i) {
-    paths.emplace_back(photons[i], i);
-    if (start(paths.back(), starts_[i])) walks_.going().push_back(i);
+    LightPath& path = paths.emplace_back(photons[i], i);
+    starts_[i] = start_photon(plan_, caster_, path);
+    path.power = path.packet.throughput.max();
+    if (!path.packet.throughput.is_zero()) walks_.going().push_back(i);
   }
   walks_.run(*this);
-}
-
-bool LightTracer::start(LightPath& path, PhotonStart& start) {
-  const std::array<float, 4> a = path.sampler.group(kAimGroup);
-  const std::array<float, 4> b = path.sampler.group(kEmissionGroup);
-  const PowerLightSampler::SampledLight pick = plan_.traced_lights.pick(b[3]);
-  const PhotonRay photon =
-      start_photon(plan_, caster_, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2], a[kTimeNumber]});
-  start = {pick.light, photon.cell};
-  if (!(photon.factor > 0)) return false;
-  path.packet = draw_packet(plan_.wavelengths, a[2]);
-  path.packet.throughput = scene_.lights[pick.light].emission(path.lambda_nm()) * photon.factor;
-  path.power = path.packet.throughput.max();
-  path.ray = photon.ray;
-  const MediumStack& inside = plan_.light_inside[pick.light];
-  if (!inside.empty()) path.around.enter(scene_, inside, path.lambda_nm());
-  return !path.packet.throughput.is_zero();  // at some of its wavelengths the light shines
 }
 
 void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {

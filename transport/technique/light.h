@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,14 +11,9 @@
 #include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
+#include "transport/technique/photon_start.h"
 
 namespace abbe {
-
-/// How a photon left its light.
-struct PhotonStart {
-  std::uint32_t light = 0;
-  int cell = -1;  ///< Of the light's aim, or -1.
-};
 
 /// A path from a light, under way: a photon.
 struct LightPath : Walk {
@@ -48,6 +44,10 @@ class LightTracer {
   void reach(LightPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  [[nodiscard]] std::optional<BsdfSample> scatter(const LightPath& path, const SurfaceVertex& vertex,
+                                                  const BsdfRandom& u) const {
+    return vertex.scatter(u, path.packet.hero, kMode);
+  }
   // Whether paths that scatter at their first vertex in more than a single direction go on.
   [[nodiscard]] bool follows(const LightPath& path, const BsdfSample& event) const {
     return event.delta || owned(path);
@@ -70,8 +70,6 @@ class LightTracer {
     FilmPoint at;
   };
 
-  // Whether the photon goes anywhere at all.
-  bool start(LightPath& path, PhotonStart& start);
   [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || alone_; }
   void connect_to(const LightPath& path, const CameraConnection& lens, const SampledSpectrum& scattered,
                   const Ray& ray, const Surroundings& around);

@@ -9,6 +9,14 @@
 namespace abbe {
 namespace {
 
+constexpr float kGuided = 0.5F;  // of the directions where a guide knows of caustics
+
+// The density of directions of which the guide draws some, `scattering` being that of the others.
+SampledSpectrum mixed_pdf(const SampledSpectrum& scattering, const CausticLobes& caustics,
+                          const Imath::V3f& point, const Imath::V3f& direction) {
+  return scattering * (1 - kGuided) + SampledSpectrum(kGuided * caustics.pdf(point, direction));
+}
+
 BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
   return std::isfinite(light.distance) ? way_between(ray.origin, light.end, ray.time) : way_along(ray);
 }
@@ -131,8 +139,10 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   SampledSpectrum contribution =
       f * (path.packet.throughput * emission_from(chosen->light, world, path.lambda_nm()) *
            (std::abs(wi.z) * chosen->towards.factor));
-  const SampledSpectrum scattering_pdf =
+  SampledSpectrum scattering_pdf =
       chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
+  if (!path.caustics.empty() && !chosen->light.is_delta())
+    scattering_pdf = mixed_pdf(scattering_pdf, path.caustics, vertex.hit.point, world);
   const Ray ray = spawn(vertex.hit, world, path.ray.time);
   const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
   if (walks_.has_free_paths()) {
@@ -179,6 +189,52 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
   const float weight = mis_weight(path.packet.lane_pdf * scattering_pdf * way->density, chosen.pdf,
                                   path.packet.lane_pdf.sum());
   if (std::isfinite(weight)) add(path, chosen.index, contribution * way->transmittance * weight, cos_film);
+}
+
+// The photons bring what comes through specular matter from traced lights, but for what is seen through it.
+void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
+  const CausticGuide& guide = path.first_delta ? plan_.caustics_seen_through : plan_.caustics_of_paths;
+  path.caustics = !guide.empty() && scatters(vertex.bsdf) ? guide.at(vertex.hit.point) : CausticLobes();
+}
+
+// A direction drawn by scattering or from the guide, by chance. Roulette must not take what the guide draws
+// the more often the less likely for what it carries less: what that is over is counted as still there.
+[[gnu::noinline]] std::optional<BsdfSample> PathTracer::scatter_guided(CameraPath& path,
+                                                                       const SurfaceVertex& vertex,
+                                                                       BsdfRandom u) {
+  const bool guided = u.lobe < kGuided;
+  u.lobe = guided ? u.lobe / kGuided : (u.lobe - kGuided) / (1 - kGuided);
+  std::optional<BsdfSample> event;
+  SampledSpectrum scattered;       // f cos
+  SampledSpectrum scattering_pdf;  // of each lane
+  Imath::V3f world;
+  if (guided) {
+    world = path.caustics.sample(vertex.hit.point, u.lobe, u.direction);
+    const auto [wi, f, crosses] = vertex.towards(world, kMode);
+    if (f.is_zero()) return std::nullopt;
+    scattered = f * std::abs(wi.z);
+    scattering_pdf = pdf(vertex.bsdf, vertex.wo, wi);
+    event.emplace().wi = wi;
+    event->transmitted = crosses;
+  } else {
+    event = vertex.scatter(u, path.packet.hero, kMode);
+    if (!event) return event;
+    if (event->delta) {
+      event->weight *= 1 / (1 - kGuided);
+      event->pdf *= 1 - kGuided;
+      return event;
+    }
+    world = vertex.frame.to_world(event->wi);
+    scattered = event->weight * event->pdf;
+    scattering_pdf = event->lane_pdf * event->pdf;
+  }
+  const SampledSpectrum mixed = mixed_pdf(scattering_pdf, path.caustics, vertex.hit.point, world);
+  event->pdf = mixed[path.packet.hero];
+  if (!(event->pdf > 0)) return std::nullopt;
+  event->weight = scattered * (1 / event->pdf);
+  event->lane_pdf = mixed * (1 / event->pdf);
+  path.eta_scale *= std::max(1.0F, event->pdf / scattering_pdf[path.packet.hero]);
+  return event;
 }
 
 bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {

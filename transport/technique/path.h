@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct CameraPath : Walk {
   FilmPoint at;
   SampledSpectrum scale;     ///< What radiance along its first ray exposes, times the exposure time.
   SampledSpectrum found;     ///< Light it has found so far, balanced over lanes and techniques.
-  float eta_scale = 1;       ///< What refraction has taken off radiance.
+  float eta_scale = 1;       ///< What refraction and guiding have taken off radiance.
   bool first_delta = false;  ///< The event next to the camera was of a single direction.
+  CausticLobes caustics;     ///< Where to look for them from the vertex it has come to.
 };
 
 /// One sample of a pixel.
@@ -31,8 +33,9 @@ struct PixelSample {
 };
 
 /// Path tracing [Kajiya1986]: from the camera, with a connection to a light at every vertex that is not
-/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Serves one
-/// thread.
+/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Half of the
+/// directions are drawn from the plan's guide where it knows of caustics that no other technique owns, and
+/// the density is that of both ways to draw one. Serves one thread.
 ///
 /// Owned: every path that ends on an area, environment or sun light or by a connection, except those whose
 /// vertex next to the camera is not specular while the one next to a traced light is.
@@ -53,9 +56,14 @@ class PathTracer {
   // What RandomWalks asks.
   void escape(CameraPath& path);
   void meet(CameraPath& path, const SurfaceHit& hit);
-  void reach(CameraPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  void reach(CameraPath& path, const SurfaceVertex& vertex) const;
   void connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  [[nodiscard]] std::optional<BsdfSample> scatter(CameraPath& path, const SurfaceVertex& vertex,
+                                                  const BsdfRandom& u) const {
+    return path.caustics.empty() ? vertex.scatter(u, path.packet.hero, kMode)
+                                 : scatter_guided(path, vertex, u);
+  }
   [[nodiscard]] bool follows(CameraPath& path, const BsdfSample& event) const;
   [[nodiscard]] bool follows_within(const CameraPath& /*path*/) const { return true; }
   [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
@@ -83,6 +91,8 @@ class PathTracer {
   };
 
   void trace_together(std::span<const PixelSample> samples);
+  [[nodiscard]] static std::optional<BsdfSample> scatter_guided(CameraPath& path, const SurfaceVertex& vertex,
+                                                                BsdfRandom u);
   // Whether there is more to find than what a meter sees directly.
   bool start(const PixelSample& sample, CameraPath& path);
   [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,

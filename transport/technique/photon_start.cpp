@@ -1,12 +1,29 @@
 #include "transport/technique/photon_start.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "scene/shapes/basis.h"
+#include "transport/path/dimensions.h"
 
 namespace abbe {
 namespace {
+
+// How a photon sets out: its power is the light's emission times `factor`, 0 if it gets nowhere.
+struct PhotonRay {
+  Ray ray;
+  float factor = 0;
+  int cell = -1;  // of the light's aim, or -1
+};
+
+// The random numbers a photon starts by, in [0, 1).
+struct PhotonRandom {
+  Imath::V2f aim;    // a direction, or a point aimed at
+  Imath::V2f start;  // a point of the light, or of a sun
+  float choice;      // between target and emission
+  float time;        // within the exposure
+};
 
 bool shines(const Light& light, const EmissionPoint& from, const Imath::V3f& wi) {
   if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->lights(wi);
@@ -62,13 +79,30 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLigh
   return {ray, cosine / (pick.probability * at.pdf * from.pdf), at.cell};
 }
 
-}  // namespace
-
-PhotonRay start_photon(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
-                       const PhotonRandom& u) {
+PhotonRay start_ray(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
+                    const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   if (light.at_infinity()) return start_at_infinity(plan, caster, pick, u);
   return plan.scene.is_far(light) ? start_far(plan, caster, pick, u) : start_near(plan, pick, u);
+}
+
+}  // namespace
+
+PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
+  const std::array<float, 4> a = photon.sampler.group(kAimGroup);
+  const std::array<float, 4> b = photon.sampler.group(kEmissionGroup);
+  const PowerLightSampler::SampledLight pick = plan.traced_lights.pick(b[3]);
+  const PhotonRay start = start_ray(plan, caster, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2], a[kTimeNumber]});
+  if (!(start.factor > 0)) {
+    photon.packet.throughput = SampledSpectrum();
+    return {pick.light, start.cell};
+  }
+  photon.packet = draw_packet(plan.wavelengths, a[2]);
+  photon.packet.throughput = plan.scene.lights[pick.light].emission(photon.lambda_nm()) * start.factor;
+  photon.ray = start.ray;
+  const MediumStack& inside = plan.light_inside[pick.light];
+  if (!inside.empty()) photon.around.enter(plan.scene, inside, photon.lambda_nm());
+  return {pick.light, start.cell};
 }
 
 }  // namespace abbe

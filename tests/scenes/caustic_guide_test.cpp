@@ -1,0 +1,143 @@
+// Caustics that camera paths find by what photons have shown them.
+#include "tests/scenes/scene_fixture.h"
+#include "transport/render/learn_aims.h"
+#include "transport/render/pass.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kLargestZ = 5.6;  // see technique_test.cpp
+
+Film film_of(const Scene& scene, const Plan& plan, std::uint64_t samples) {
+  Film film(scene.camera.width, scene.camera.height, static_cast<int>(scene.channels.size()), 8,
+            plan.nominal_value, uses(plan.techniques, Technique::light) ? plan.photons : 0, 1);
+  Pass(plan, film, {}, {0, samples}, 0, samples).run(2, [] { return false; });
+  film.set_samples(count_per_replicate({{0, samples}}, 8));
+  return film;
+}
+
+struct Mean {
+  double value = 0;
+  double variance = 0;
+};
+Mean mean_of(const Film& film) {
+  const test::Region all = test::region(film, 1, 0, 0, film.width(), film.height());
+  return {all.mean, all.variance};
+}
+
+// A small lamp in the middle of a bulb of thin glass over a grey floor. All light meets the glass along its
+// normal, where it lets T = (1 - R)/(1 + R) through, R = ((n - 1)/(n + 1))^2 = 1/25 of either face.
+std::string lamp_over_floor(bool bulb) {
+  return std::string(R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 8}, "from": [4, 2, 0], "to": [1, 0, 0], "up": [0, 1, 0]},
+    "sensor": {"resolution": [8, 8], "observer": "1931"},
+    "materials": {"grey": {"diffuse": {"reflectance": 0.5}}, "black": {"diffuse": {"reflectance": 0}},
+                  "glass": {"thin_glass": {"ior": 1.5}}},
+    "lights": [{"name": "lamp", "sphere": {"center": [0, 2, 0], "radius": 0.01},
+                "emission": {"spectrum": 1, "radiance": 100}}],
+    "shapes": [{"name": "floor", "quad": {"corner": [-9, 0, -9], "edge_u": [0, 0, 18], "edge_v": [18, 0, 0]},
+                "material": "grey"})") +
+         (bulb ? R"(, {"name": "bulb", "sphere": {"center": [0, 2, 0], "radius": 0.5}, "material": "glass"})"
+               : "") +
+         R"(], "render": {"integrator": "path"}})";
+}
+
+TEST(CausticGuide, ALampInABulbIsAsBrightAsItsGlassLetsThrough) {
+  constexpr double kThrough = 24.0 / 26;
+  const Scene open = test::load_text(lamp_over_floor(false));
+  const Scene closed = test::load_text(lamp_over_floor(true));
+  const Mean bare = mean_of(film_of(open, make_plan(open), 256));
+  const Plan guided_plan = make_learnt_plan(closed, 2, 0);
+  ASSERT_FALSE(guided_plan.caustics_of_paths.empty());
+  const Mean guided = mean_of(film_of(closed, guided_plan, 1024));
+  EXPECT_NEAR(guided.value / bare.value, kThrough, 4.5 * std::sqrt(guided.variance) / bare.value);
+  EXPECT_LT(std::sqrt(guided.variance) / guided.value, 0.01);
+
+  const Mean chance = mean_of(film_of(closed, make_plan(closed), 1024));
+  EXPECT_GT(chance.variance, 50 * guided.variance);
+}
+
+// Whatever scatters where the caustic falls, with the guide and without it the light is the same: diffuse
+// matter, facets, matter that mirrors as well, what lets light through.
+TEST(CausticGuide, ChangesNoiseOnly) {
+  for (const char* floor :
+       {R"({"diffuse": {"reflectance": 0.5}})", R"({"coated_diffuse": {"ior": 1.5, "reflectance": 0.5}})",
+        R"({"conductor": {"ior": "Au_Johnson", "roughness": 0.5}})",
+        R"({"mixture": [{"material": "mirror", "weight": 0.5}, {"material": "white", "weight": 0.5}]})"}) {
+    const Scene scene =
+        test::load("glass_sphere.json", {{"/sensor/resolution", "[48, 48]"},
+                                         {"/lights/0/sphere/radius", "1.2"},
+                                         {"/materials/mirror", R"({"mirror": {"reflectance": 0.9}})"},
+                                         {"/materials/white", R"({"diffuse": {"reflectance": 0.6}})"},
+                                         {"/materials/grey", floor},
+                                         {"/render/integrator", "path"}});
+    const Plan guided = make_learnt_plan(scene, 2, 0);
+    ASSERT_FALSE(guided.caustics_of_paths.empty());
+    const Film a = film_of(scene, make_plan(scene), 512);
+    const Film b = film_of(scene, guided, 504);
+    EXPECT_LT(test::compare_regions(a, b, 4).largest_z, kLargestZ) << floor;
+    const Mean chance = mean_of(a);
+    const Mean found = mean_of(b);
+    EXPECT_NEAR(found.value, chance.value, 4.5 * std::sqrt(found.variance + chance.variance)) << floor;
+    EXPECT_LT(std::sqrt(found.variance + chance.variance), 0.012 * found.value) << floor;
+  }
+}
+
+// Photons bring the caustic that is seen directly, and camera paths, guided, the one that is seen through a
+// pane: nothing twice.
+TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
+  const std::string pane =
+      R"({"name": "pane", "quad": {"corner": [1.5, 0.1, -6], "edge_u": [2, 0, 1], "edge_v": [0, 4, 0]}, )"
+      R"("material": "pane"})";
+  std::vector<Override> settings{{"/sensor/resolution", "[48, 48]"},
+                                 {"/lights/0/sphere/radius", "0.45"},
+                                 {"/materials/pane", R"({"thin_glass": {"ior": 1.5}})"},
+                                 {"/shapes/2", pane}};
+  Scene both = test::load("glass_sphere.json", settings);
+  both.needs.light_tracing = true;
+  both.needs.light_is_traced[0] = true;
+  settings.push_back({"/render/integrator", "path"});
+  const Scene paths = test::load("glass_sphere.json", settings);
+  const Plan plan = make_learnt_plan(both, 2, 0);
+  ASSERT_TRUE(uses(plan.techniques, Technique::light));
+  ASSERT_TRUE(plan.caustics_of_paths.empty());
+  ASSERT_FALSE(plan.caustics_seen_through.empty());
+  const Film guided = film_of(both, plan, 512);
+  const Film chance = film_of(paths, make_plan(paths), 2048);
+  const test::Comparison c = test::compare_regions(chance, guided, 4);
+  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_NEAR(c.ratio, 1, 0.01);
+}
+
+// A scene that asks for no guide has none: nothing specular, nothing that scatters behind it, a light that
+// photons bring wherever the camera sees it, or one that no path can meet.
+TEST(CausticGuide, IsNotMadeWhereItFindsNothing) {
+  const auto guides = [](const Scene& scene) {
+    const Plan plan = make_learnt_plan(scene, 2, 0);
+    return !plan.caustics_of_paths.empty() || !plan.caustics_seen_through.empty();
+  };
+  EXPECT_FALSE(guides(test::load("cornell.json")));
+  EXPECT_FALSE(guides(test::load("prism_area.json")));
+  EXPECT_FALSE(guides(test::load("spectrograph.json")));
+  EXPECT_TRUE(guides(test::load("glass_sphere.json")));
+}
+
+TEST(CausticGuide, IsTheSameOnAnyNumberOfThreads) {
+  const Scene scene = test::load("glass_sphere.json", {{"/sensor/resolution", "[8, 8]"}});
+  const Plan one = make_learnt_plan(scene, 1, 7);
+  const Plan four = make_learnt_plan(scene, 4, 7);
+  EXPECT_EQ(one.caustics_seen_through.memory_bytes(), four.caustics_seen_through.memory_bytes());
+  int lobes = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Imath::V3f point(static_cast<float>(i % 10) * 4e-4F, -0.000515F,
+                           static_cast<float>(i / 10) * 4e-5F);
+    const Imath::V3f up = Imath::V3f(-0.4F, 1, -0.3F).normalized();
+    const CausticLobes a = one.caustics_seen_through.at(point);
+    ASSERT_EQ(a.pdf(point, up), four.caustics_seen_through.at(point).pdf(point, up));
+    lobes += a.empty() ? 0 : 1;
+  }
+  EXPECT_GT(lobes, 50);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,104 @@
+// The directions that a guide of caustics proposes.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "transport/plan/caustic_guide.h"
+#include "validation/goniometer/lobes.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V2f;
+using Imath::V3f;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Photons on a floor of 2 m x 2 m, from a lamp of that radius at `lamp` as a mirror shows it, by way of a
+// surface half way.
+std::vector<CausticPhoton> photons_from(const V3f& lamp, float radius, int count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> across(-1, 1);
+  std::vector<CausticPhoton> photons;
+  for (int i = 0; i < count; ++i) {
+    const V3f at(across(random), 0, across(random));
+    const V3f way = lamp + V3f(across(random), across(random), across(random)) * radius - at;
+    photons.push_back({at, way.normalized(), way.length() / 2, way.length(), 1 + across(random) / 2});
+  }
+  return photons;
+}
+
+TEST(CausticLobes, AreDrawnAsTheySay) {
+  for (const float radius : {0.01F, 0.5F}) {
+    const CausticGuide guide(photons_from({0.5F, 3, -1}, radius, 500));
+    const V3f point(0.3F, 0, 0.1F);
+    const CausticLobes lobes = guide.at(point);
+    ASSERT_FALSE(lobes.empty());
+    const DensityCheck check = check_density(
+        [&](const BsdfRandom& u, int) {
+          BsdfSample event;
+          event.wi = lobes.sample(point, u.lobe, u.direction);
+          return event;
+        },
+        [&](const V3f& w) { return static_cast<double>(lobes.pdf(point, w)); }, 0);
+    EXPECT_NEAR(check.integral, 1, 1e-3) << radius;
+    EXPECT_GT(check.p, 1e-4) << radius;
+  }
+}
+
+// What few photons have shown at other places points to the lamp from every place.
+TEST(CausticGuide, PointsToTheLampFromWhereNoPhotonWas) {
+  const V3f lamp(0.5F, 3, -1);
+  const CausticGuide guide(photons_from(lamp, 0.001F, 2000));
+  for (const V3f& point : {V3f(-0.9F, 0, 0.9F), V3f(0, 0, 0), V3f(0.7F, 0, 0.31F)}) {
+    const CausticLobes lobes = guide.at(point);
+    ASSERT_FALSE(lobes.empty());
+    // Of the lamp's 3e-7 sr, or nearly so.
+    EXPECT_GT(lobes.pdf(point, (lamp - point).normalized()), 1e5F);
+  }
+  EXPECT_TRUE(guide.at({0, 0.9F, 0}).empty()) << "far above the floor";
+  EXPECT_TRUE(guide.at({5, 0, 0}).empty());
+}
+
+TEST(CausticGuide, KnowsLightFromInfinity) {
+  std::vector<CausticPhoton> photons = photons_from({0, 1e6F, 0}, 4600, 500);
+  for (CausticPhoton& photon : photons) photon.whole_distance = kInfinity;
+  const CausticGuide guide(std::move(photons));
+  const CausticLobes lobes = guide.at({0.2F, 0, 0.2F});
+  ASSERT_FALSE(lobes.empty());
+  EXPECT_GT(lobes.pdf({0.2F, 0, 0.2F}, {0, 1, 0}), 2e3F);
+  EXPECT_LT(lobes.pdf({0.2F, 0, 0.2F}, V3f(0.1F, 1, 0).normalized()), 30.0F);
+}
+
+// Many photons on a floor and a few on a stone above it: those of the floor, all of one height, are divided
+// among regions that hold every place of it.
+TEST(CausticGuide, LeavesNoGapsOnAFloor) {
+  std::vector<CausticPhoton> photons = photons_from({0, 4, 0}, 0.02F, 3000);
+  for (const CausticPhoton& photon : photons_from({0, 4, 0}, 0.02F, 9))
+    photons.push_back({photon.point * 0.1F + V3f(0, 2.5F, 0), photon.from, 1, 1, 1});
+  const CausticGuide guide(std::move(photons));
+  int gaps = 0;
+  for (int i = 0; i < 100 * 100; ++i) {
+    const V3f point(static_cast<float>(i % 100) / 50 - 0.99F, 0, static_cast<float>(i / 100) / 50 - 0.99F);
+    gaps += guide.at(point).empty() ? 1 : 0;
+  }
+  EXPECT_EQ(gaps, 0);
+}
+
+TEST(CausticGuide, KeepsOutOfWhatScatteringFinds) {
+  EXPECT_TRUE(CausticGuide(photons_from({0, 1, 0}, 1, 2000)).empty()) << "light from all around";
+  EXPECT_TRUE(CausticGuide(photons_from({0, 3, 0}, 0.01F, 7)).empty()) << "too few to tell";
+  EXPECT_TRUE(CausticGuide(std::vector<CausticPhoton>()).empty());
+  EXPECT_TRUE(CausticGuide().at({0, 0, 0}).empty());
+}
+
+// Many photons that come to the very same place are one region.
+TEST(CausticGuide, HoldsPhotonsOfASinglePoint) {
+  std::vector<CausticPhoton> photons = photons_from({0, 300, 0}, 0.01F, 1000);
+  for (CausticPhoton& photon : photons) photon = {{1, 2, 3}, photon.from, 1, 2, 1};
+  const CausticGuide guide(std::move(photons));
+  EXPECT_FALSE(guide.at({1, 2, 3}).empty());
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,254 @@
+#include "transport/plan/caustic_guide.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "scene/shapes/basis.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3f;
+using Photons = std::span<const CausticPhoton>;
+using Lobes = CausticLobes::Lobes;
+
+constexpr std::size_t kMostPhotons = 32;  // of a region,
+constexpr std::size_t kLeastPhotons = 8;  // and fewer than these tell nothing
+constexpr float kLeastWidth = 1e-4F;
+constexpr float kMargin = 0.25F;  // of a region's diagonal: how far beyond its photons they are asked
+// Lobes that are no denser than this times a white surface's own are left.
+constexpr float kLeastGain = 8;
+
+// Where a lobe points to: a point, or of one that points the same way from everywhere the direction.
+struct Target {
+  V3f at;
+  float near;  // 1, or 0
+};
+
+V3f axis_from(const V3f& point, const Target& target) {
+  return (target.at - point * target.near).normalized();
+}
+
+// tan^2 of the angle between two unit vectors, infinite from a right angle on: of a small one by their
+// difference, which keeps its digits.
+float tan2_between(const V3f& a, const V3f& b) {
+  const float cosine = a.dot(b);
+  if (!(cosine > 0)) return std::numeric_limits<float>::infinity();
+  return (a - b).length2() / 2 * (1 + cosine) / (cosine * cosine);
+}
+
+// A point on a photon's way back, at a distance that may be infinite.
+Target target_of(const CausticPhoton& photon, float distance) {
+  if (!std::isfinite(distance)) return {photon.from, 0};
+  return {photon.point + photon.from * distance, 1};
+}
+
+// The mean logarithm of the angle between each photon's way and the nearest axis of the others: how sharply
+// they predict one another.
+float log_spread(Photons photons, std::span<const Target> targets) {
+  constexpr float kWidest = 10;  // of a tangent: beyond, they tell nothing
+  float sum = 0;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    float nearest = kWidest * kWidest;
+    for (std::size_t j = 0; j < photons.size(); ++j)
+      if (j != i)
+        nearest = std::min(nearest, tan2_between(photons[i].from, axis_from(photons[i].point, targets[j])));
+    sum += std::log(std::max(nearest, kLeastWidth * kLeastWidth)) / 2;
+  }
+  return sum / static_cast<float>(photons.size());
+}
+
+struct Focus {
+  std::vector<Target> targets;
+  float width;
+};
+
+// Of the choices of targets the one that predicts best.
+Focus sharpest(Photons photons) {
+  Focus best;
+  float least = std::numeric_limits<float>::infinity();
+  for (const auto distance : {&CausticPhoton::last_distance, &CausticPhoton::whole_distance}) {
+    std::vector<Target> targets;
+    for (const CausticPhoton& photon : photons) targets.push_back(target_of(photon, photon.*distance));
+    const float spread = log_spread(photons, targets);
+    if (!(spread < least)) continue;
+    least = spread;
+    best.targets = std::move(targets);
+  }
+  // Twice the distance of neighbours, so that the lobes leave no gaps.
+  best.width = std::max(kLeastWidth, 2 * std::exp(least));
+  return best;
+}
+
+// Density of what the photons have shown, over that of a white surface: its mean logarithm, as a factor.
+float gain(Photons photons, const CausticLobes& lobes) {
+  float sum = 0;
+  for (const CausticPhoton& photon : photons)
+    sum += std::log(std::numbers::pi_v<float> * lobes.pdf(photon.point, photon.from));
+  return std::exp(sum / static_cast<float>(photons.size()));
+}
+
+// Chosen by the power of their photons.
+std::vector<Lobes> lobes_of(Photons photons, std::span<const Target> targets) {
+  float whole = 0;
+  for (const CausticPhoton& photon : photons) whole += photon.power;
+  std::vector<Lobes> lobes((targets.size() + CausticLobes::kTogether - 1) / CausticLobes::kTogether);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Lobes& some = lobes[i / CausticLobes::kTogether];
+    const std::size_t k = i % CausticLobes::kTogether;
+    some.x[k] = targets[i].at.x;
+    some.y[k] = targets[i].at.y;
+    some.z[k] = targets[i].at.z;
+    some.near[k] = targets[i].near;
+    some.share[k] = photons[i].power / whole;
+  }
+  return lobes;
+}
+
+// The coordinate of photons that halves them, as nearly as can be where many have the same, as on a floor:
+// those below it, and the others; infinite where all have the same.
+float middle_of(std::span<CausticPhoton> photons, int axis) {
+  const auto coordinate = [axis](const CausticPhoton& photon) { return photon.point[axis]; };
+  const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
+  std::ranges::nth_element(photons, middle, {}, coordinate);
+  const float at = coordinate(*middle);
+  if (std::ranges::any_of(photons, [&](const CausticPhoton& photon) { return coordinate(photon) < at; }))
+    return at;
+  float next = std::numeric_limits<float>::infinity();
+  for (const CausticPhoton& photon : photons)
+    if (coordinate(photon) > at) next = std::min(next, coordinate(photon));
+  return next;
+}
+
+struct Division {
+  int axis;
+  float at;
+  std::size_t below;
+};
+
+// Divides photons that are too many for a region, those below coming first: along the longest axis that
+// leaves enough on both sides, if any does.
+std::optional<Division> divide(std::span<CausticPhoton> photons) {
+  if (photons.size() <= kMostPhotons) return std::nullopt;
+  Imath::Box3f box;
+  for (const CausticPhoton& photon : photons) box.extendBy(photon.point);
+  std::array<int, 3> axes{0, 1, 2};
+  std::ranges::sort(axes, std::ranges::greater(), [&box](int axis) { return box.size()[axis]; });
+  for (const int axis : axes) {
+    const float at = middle_of(photons, axis);
+    const auto others = std::ranges::partition(
+        photons, [axis, at](const CausticPhoton& photon) { return photon.point[axis] < at; });
+    const std::size_t below = photons.size() - others.size();
+    if (std::min(below, others.size()) >= kLeastPhotons) return Division{axis, at, below};
+  }
+  return std::nullopt;
+}
+
+// The lobe that `u` in [0, 1) falls to; the last one if rounding leaves something over.
+Target chosen(std::span<const Lobes> lobes, float u) {
+  Target target{};
+  for (const Lobes& some : lobes)
+    for (std::size_t k = 0; k < CausticLobes::kTogether; ++k) {
+      if (!(some.share[k] > 0)) continue;
+      target = {{some.x[k], some.y[k], some.z[k]}, some.near[k]};
+      u -= some.share[k];
+      if (u < 0) return target;
+    }
+  return target;
+}
+
+}  // namespace
+
+V3f CausticLobes::sample(const V3f& point, float lobe, Imath::V2f u) const {
+  const float radius = width_ * std::sqrt(u.x / (1 - u.x));
+  const float phi = 2 * std::numbers::pi_v<float> * u.y;
+  return Basis<float>(axis_from(point, chosen(lobes_, lobe)))
+      .to_world({radius * std::cos(phi), radius * std::sin(phi), 1})
+      .normalized();
+}
+
+// With c the cosine and h the chord of the angle, tan^2 is h^2 (1 + c)/(2 c^2), so that the density of a lobe
+// is a^2 c / (pi (a^2 c^2 + h^2 (1 + c)/2)^2).
+float CausticLobes::pdf(const V3f& point, const V3f& direction) const {
+  const float a2 = width_ * width_;
+  float sum = 0;
+  for (const Lobes& some : lobes_) {
+    Lobes::Numbers density;
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const float x = some.x[k] - some.near[k] * point.x;
+      const float y = some.y[k] - some.near[k] * point.y;
+      const float z = some.z[k] - some.near[k] * point.z;
+      const float scale = 1 / std::sqrt(x * x + y * y + z * z + std::numeric_limits<float>::min());
+      const float dx = x * scale - direction.x;
+      const float dy = y * scale - direction.y;
+      const float dz = z * scale - direction.z;
+      const float cosine = std::max(0.0F, (x * direction.x + y * direction.y + z * direction.z) * scale);
+      const float spread = a2 * cosine * cosine + (dx * dx + dy * dy + dz * dz) * (1 + cosine) / 2;
+      density[k] = some.share[k] * a2 * cosine / (spread * spread);
+    }
+    for (const float one : density) sum += one;
+  }
+  return sum / std::numbers::pi_v<float>;
+}
+
+CausticGuide::CausticGuide(std::vector<CausticPhoton> photons) {
+  std::erase_if(photons, [](const CausticPhoton& photon) {
+    return !(photon.power > 0 && std::isfinite(photon.power));
+  });
+  if (photons.size() < kLeastPhotons) return;
+  build(photons);
+  if (lobes_.empty()) *this = {};
+}
+
+void CausticGuide::build(std::span<CausticPhoton> photons) {
+  const std::size_t here = nodes_.size();
+  nodes_.push_back({.region = static_cast<std::uint32_t>(regions_.size())});
+  const std::optional<Division> division = divide(photons);
+  if (!division) return add_region(photons);
+  nodes_[here].axis = division->axis;
+  nodes_[here].at = division->at;
+  build(photons.first(division->below));
+  nodes_[here].above = static_cast<std::uint32_t>(nodes_.size());
+  build(photons.subspan(division->below));
+}
+
+// Of photons that could not be divided some.
+void CausticGuide::add_region(Photons photons) {
+  photons = photons.first(std::min(photons.size(), kMostPhotons));
+  Region region;
+  region.first = static_cast<std::uint32_t>(lobes_.size());
+  for (const CausticPhoton& photon : photons) region.box.extendBy(photon.point);
+  const V3f margin(kMargin * region.box.size().length());
+  region.box = {region.box.min - margin, region.box.max + margin};
+  const Focus focus = sharpest(photons);
+  const std::vector<Lobes> lobes = lobes_of(photons, focus.targets);
+  if (gain(photons, CausticLobes(lobes, focus.width)) > kLeastGain) {
+    region.count = static_cast<std::uint32_t>(lobes.size());
+    region.width = focus.width;
+    lobes_.insert(lobes_.end(), lobes.begin(), lobes.end());
+  }
+  regions_.push_back(region);
+}
+
+CausticLobes CausticGuide::at(const V3f& point) const {
+  if (nodes_.empty()) return {};
+  std::uint32_t node = 0;
+  while (nodes_[node].axis >= 0)
+    node = point[nodes_[node].axis] < nodes_[node].at ? node + 1 : nodes_[node].above;
+  const Region& region = regions_[nodes_[node].region];
+  if (region.count == 0 || !region.box.intersects(point)) return {};
+  return {std::span(lobes_).subspan(region.first, region.count), region.width};
+}
+
+std::size_t CausticGuide::memory_bytes() const {
+  return nodes_.capacity() * sizeof(Node) + regions_.capacity() * sizeof(Region) +
+         lobes_.capacity() * sizeof(Lobes);
+}
+
+}  // namespace abbe

@@ -1,0 +1,35 @@
+#include "transport/technique/caustic_photons.h"
+
+#include <limits>
+
+namespace abbe {
+
+CausticPhotonTracer::CausticPhotonTracer(const Plan& plan, RayCaster& caster)
+    : plan_(plan), caster_(caster), walks_(plan.scene, caster) {}
+
+std::span<const CausticPhotonTracer::Arrival> CausticPhotonTracer::trace(std::span<const Sampler> photons) {
+  arrivals_.clear();
+  std::vector<CausticPath>& paths = walks_.paths();
+  paths.clear();
+  for (std::uint32_t i = 0; i < photons.size(); ++i) {
+    CausticPath& path = paths.emplace_back(photons[i], i);
+    path.start = start_photon(plan_, caster_, path);
+    if (path.packet.throughput.is_zero()) continue;
+    path.last.point = path.ray.origin;
+    if (plan_.scene.lights[path.start.light].at_infinity())
+      path.distance = std::numeric_limits<float>::infinity();
+    walks_.going().push_back(i);
+  }
+  walks_.run(*this);
+  return arrivals_;
+}
+
+void CausticPhotonTracer::reach(CausticPath& path, const SurfaceVertex& vertex) {
+  const float last = (vertex.hit.point - path.last.point).length();
+  path.distance += last;
+  if (path.events > 0 && scatters(vertex.bsdf))
+    arrivals_.push_back(
+        {path.start, {vertex.hit.point, -path.ray.direction, last, path.distance, path.packet.carried()}});
+}
+
+}  // namespace abbe
