@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "io/invalid_input.h"
+
 namespace abbe::cli {
 namespace {
 
@@ -84,20 +86,8 @@ void say(const std::string& message) {
 }
 
 void check(const Diagnostics& diagnostics) {
-  if (!diagnostics.has_errors()) {
-    tell(diagnostics.text());
-    return;
-  }
-  std::string all = diagnostics.text();
-  if (all.ends_with('\n')) all.pop_back();
-  const auto first =
-      std::find_if(diagnostics.all().begin(), diagnostics.all().end(),
-                   [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
-  const bool placed = first->where.source != nullptr;
-  const ErrorCode code =
-      !placed && diagnostics.code() == ErrorCode::scene ? ErrorCode::input : diagnostics.code();
-  // Complaints with a place each begin their own line, as editors look for them.
-  throw Error(code, "", placed ? "invalid input\n" + all : all);
+  require_sound(diagnostics);
+  tell(diagnostics.text());
 }
 
 }  // namespace abbe::cli

@@ -33,8 +33,7 @@ void tell(const std::string& text);
 /// Tells one line, after "abbe: ".
 void say(const std::string& message);
 
-/// Prints the warnings, if any; throws the errors as one Error when there are some. A name given on the
-/// command line that is not found counts as a missing input.
+/// Prints the warnings, if any; throws as `require_sound` does.
 void check(const Diagnostics& diagnostics);
 
 /// What a loader gave, its complaints treated as by `check`.

@@ -8,8 +8,8 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "cli/white.h"
 #include "description/load.h"
+#include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/picture.h"

@@ -6,11 +6,11 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "cli/spectral.h"
-#include "cli/white.h"
 #include "develop/develop.h"
 #include "develop/film_file.h"
 #include "develop/radiance.h"
+#include "film/spectral.h"
+#include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
@@ -77,7 +77,9 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
     std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics, &inputs);
     if (!scene) check(diagnostics);  // warnings are about what nobody renders here
     settle_white(*scene, options.scene, told, white);
-    Image film = seen_by(*scene, image, options.film);
+    Diagnostics of_bands;
+    Image film = seen_by(*scene, image, options.film, of_bands);
+    check(of_bands);
     FilmSensor sensor = sensor_of(film, options.scene, others, options);
     return {std::move(film), std::move(sensor)};
   }

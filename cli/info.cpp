@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "cli/film_output.h"
 #include "cli/warnings.h"
-#include "cli/white.h"
 #include "description/load.h"
+#include "film/rendered_film.h"
+#include "film/white.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/technique_shares.h"
 #include "transport/render/threads.h"

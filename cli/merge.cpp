@@ -10,9 +10,9 @@
 #include <fmt/ranges.h>
 
 #include "cli/answer.h"
-#include "cli/film_output.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "film/rendered_film.h"
 #include "io/error.h"
 #include "io/file_lock.h"
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "film/rendered_film.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
@@ -39,6 +40,11 @@ void require_extension(const fs::path& path, std::initializer_list<const char*> 
     throw Error(
         ErrorCode::usage, path.string(),
         fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
+}
+
+void require_film_output(const fs::path& path) {
+  require_extension(path, {".exr", kPartExtension});
+  require_writable(path);
 }
 
 void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {

@@ -20,13 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 NamedIndex find(const std::string& name, const std::vector<double>& at_nm) {
   Diagnostics diagnostics;
   NamedIndex found = accepted(load_index(name, {}, diagnostics), diagnostics);
-  const double low = std::max<double>(found.index.low_nm(), kMinWavelengthNm);
-  const double high = std::min<double>(found.index.high_nm(), kMaxWavelengthNm);
-  for (const double nm : at_nm)
-    if (!(nm >= low && nm <= high))
-      throw Error(ErrorCode::usage, "--at",
-                  fmt::format("{} has no data there (got {} nm, allowed [{:g}, {:g}] nm)", found.name, nm,
-                              low, high));
+  require_data_at(found, at_nm, "--at");
   return found;
 }
 

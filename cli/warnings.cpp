@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "cli/film_output.h"
+#include "film/rendered_film.h"
 #include "io/error.h"
 #include "scene/dark_enclosure.h"
 #include "transport/plan/plan.h"

@@ -5,6 +5,8 @@ function(abbe_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;HIDES" ${ARGN})
   add_library(abbe_${name} STATIC ${ROOM_SOURCES})
   add_library(abbe::${name} ALIAS abbe_${name})
+  # One machine code for programs and for the module of Python, so that both give the same bits.
+  set_target_properties(abbe_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_include_directories(abbe_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/abbe>)
   target_compile_features(abbe_${name} PUBLIC cxx_std_20)

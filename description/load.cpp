@@ -82,10 +82,16 @@ std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<con
                           : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
   if (!source) return std::nullopt;
   if (inputs && path != kStandardStream) inputs->add_file(path);
+  return load_scene(source, path.parent_path(), overrides, diagnostics, inputs, asked);
+}
+
+std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
+                                const std::filesystem::path& folder, std::span<const Override> overrides,
+                                Diagnostics& diagnostics, Inputs* inputs, spec::Scene* asked) {
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
-  description::LoadContext context{diagnostics, path.parent_path(), inputs};
+  description::LoadContext context{diagnostics, folder, inputs};
   if (!description::check_version(*root, diagnostics)) return std::nullopt;
   spec::Scene own;
   spec::Scene& said = asked != nullptr ? *asked : own;

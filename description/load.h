@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,12 @@ namespace abbe {
 /// images, grids and meshes: throws Error{resource} for one that is too large. `said` is given what the file
 /// says.
 [[nodiscard]] std::optional<Scene> load_scene(const std::filesystem::path& path,
+                                              std::span<const Override> overrides, Diagnostics& diagnostics,
+                                              Inputs* inputs = nullptr, spec::Scene* said = nullptr);
+
+/// The same of a text; the files it names are looked for in `folder`.
+[[nodiscard]] std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
+                                              const std::filesystem::path& folder,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
                                               Inputs* inputs = nullptr, spec::Scene* said = nullptr);
 

@@ -92,6 +92,17 @@ void report_unknown(const std::string& name, const SourcePosition& where, Diagno
 
 }  // namespace
 
+void require_data_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
+                     const std::string& where) {
+  const double low = std::max<double>(material.index.low_nm(), kMinWavelengthNm);
+  const double high = std::min<double>(material.index.high_nm(), kMaxWavelengthNm);
+  for (const double nm : wavelengths_nm)
+    if (!(nm >= low && nm <= high))
+      throw Error(ErrorCode::usage, where,
+                  fmt::format("{} has no data there (got {} nm, allowed [{:g}, {:g}] nm)", material.name, nm,
+                              low, high));
+}
+
 bool is_refractiveindex_info(const std::string& name) {
   return name.ends_with(".yml") || name.ends_with(".yaml");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ namespace abbe {
 /// all of them, and a formula with a pole or n^2 <= 1 inside its range.
 [[nodiscard]] std::optional<NamedIndex> load_index(const std::string& name, const SourcePosition& where,
                                                    Diagnostics& diagnostics);
+
+/// Throws Error{usage} naming `where` for a wavelength [nm] at which the material has no data, or that Abbe
+/// does not carry.
+void require_data_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
+                     const std::string& where);
 
 /// Whether a name is that of a file in the format of refractiveindex.info.
 [[nodiscard]] bool is_refractiveindex_info(const std::string& name);

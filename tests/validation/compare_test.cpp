@@ -7,8 +7,8 @@
 #include "calibration/chart/patches.h"
 #include "calibration/output/color_spaces.h"
 #include "cli/compare.h"
-#include "cli/film_identity.h"
 #include "description/load.h"
+#include "film/sensor_identity.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
@@ -104,7 +104,7 @@ TEST(CompareCommand, MapsAreWritten) {
 // A film that holds exactly what the chart's spectra give, times 3, but for the first patch, which is
 // brighter.
 Image planted_film(const Scene& scene, double brighter, std::size_t lamp = 0) {
-  Image film{scene.camera.width, scene.camera.height, {}, cli::sensor_identity(scene)};
+  Image film{scene.camera.width, scene.camera.height, {}, sensor_identity(scene)};
   for (const Channel& channel : scene.channels) film.channels.push_back({channel.name, {}});
   const Curve light = scene.lights[lamp].emission.curve();
   for (ImageChannel& channel : film.channels) channel.values.assign(film.pixels(), 0);

@@ -1,20 +1,22 @@
-#include "cli/white.h"
+#include "film/white.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "calibration/output/color_spaces.h"
-#include "cli/answer.h"
 #include "description/white.h"
 #include "io/standard_stream.h"
 #include "scene/colors.h"
 #include "sensor/film/recorded_white.h"
 #include "transport/render/white.h"
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
+
+using Json = nlohmann::ordered_json;  // keys keep their order
 
 constexpr std::size_t kMostLights = 256;
 
@@ -108,4 +110,4 @@ Chromaticity asked_white(const std::string& text, const Image& film) {
   return white.xy;
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

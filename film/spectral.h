@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <string>
 
+#include "io/diagnostics.h"
 #include "io/spectral_exr.h"
 #include "scene/scene.h"
 #include "transport/render/part.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 /// What it takes to make radiances of the films of a scene whose sensor is spectral.
 void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
@@ -16,10 +17,10 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
 [[nodiscard]] Image spectral_film_image(const Image& film);
 
 /// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
-/// the metadata of both; with a mosaic, its one plane. Says which channels respond beyond the image's bands.
-/// Throws Error{input} when sensor and image have different pixels or fields of view, or a channel sees
-/// nothing of the bands, Error{usage} for a scene whose sensor is spectral itself.
-[[nodiscard]] Image seen_by(const Scene& scene, const SpectralImage& image,
-                            const std::filesystem::path& path);
+/// the metadata of both; with a mosaic, its one plane. Warns of channels that respond beyond the image's
+/// bands. Throws Error{input} when sensor and image have different pixels or fields of view, or a channel
+/// sees nothing of the bands, Error{usage} for a scene whose sensor is spectral itself.
+[[nodiscard]] Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path,
+                            Diagnostics& diagnostics);
 
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "transport/render/part.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 /// The extension of files that hold exact sums.
 inline constexpr const char* kPartExtension = ".abbepart";
@@ -16,16 +16,12 @@ inline constexpr const char* kPartExtension = ".abbepart";
 
 /// What tells the film of this scene from any other, from its scene file's name to its crop.
 [[nodiscard]] FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
-                                       const abbe::RenderOptions& how);
-
-/// Checks before any work that a film can be written to `path`, an `.exr` or an `.abbepart`: throws
-/// Error{usage} for another extension, Error{output} for a place that cannot be written.
-void require_film_output(const std::filesystem::path& path);
+                                       const RenderOptions& how);
 
 /// Memory that the exact sums of the scene's film take.
-[[nodiscard]] std::size_t film_bytes(const Scene& scene, const abbe::RenderOptions& how = {});
+[[nodiscard]] std::size_t film_bytes(const Scene& scene, const RenderOptions& how = {});
 
 /// Writes the exact sums to an `.abbepart`, the film's image to anything else. Throws Error{output}.
 void write_film(const std::filesystem::path& path, const RenderPart& part);
 
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "transport/render/part.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 /// Decides what pictures of the scene's film show as white (`white_of`), once for all that ask. Throws
 /// Error{scene} when the scene asks for one to which no eye adapts.
@@ -27,4 +27,4 @@ void settle_white(Scene& scene, const std::filesystem::path& path, const Image& 
 /// Error{usage} for an unknown one, and for one to which no eye adapts.
 [[nodiscard]] Chromaticity asked_white(const std::string& text, const Image& film);
 
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace abbe::cli {
+namespace abbe {
 
 /// A hash of the build ids of all machine code that film values come from: of this program, of Embree and of
 /// the C library's mathematics. Films of one scene have the same bits if it and `instruction_set` are equal.
@@ -12,4 +12,4 @@ namespace abbe::cli {
 /// "x86-64-v4" or "x86-64-v3".
 [[nodiscard]] std::string instruction_set();
 
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -1,4 +1,4 @@
-#include "cli/build_id.h"
+#include "film/build_id.h"
 
 #include <link.h>
 
@@ -8,7 +8,7 @@
 
 #include "io/text.h"
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 // Padded to a multiple of four bytes.
@@ -33,14 +33,25 @@ std::string_view build_id_among(std::string_view notes) {
   return {};
 }
 
-// The program has no name here.
-bool decides_bits(std::string_view object) {
-  const std::string_view name = object.substr(object.rfind('/') + 1);
-  return name.empty() || name.starts_with("libembree") || name.starts_with("libm.so");
+// Whether this code is in the object: in the program itself, or in a module of another program.
+bool is_ours(const dl_phdr_info& object) {
+  const auto here = reinterpret_cast<ElfW(Addr)>(&padded);
+  for (int i = 0; i < object.dlpi_phnum; ++i) {
+    const ElfW(Phdr)& segment = object.dlpi_phdr[i];
+    const ElfW(Addr) begin = object.dlpi_addr + segment.p_vaddr;
+    if (segment.p_type == PT_LOAD && here >= begin && here < begin + segment.p_memsz) return true;
+  }
+  return false;
+}
+
+bool decides_bits(const dl_phdr_info& object) {
+  const std::string_view path = object.dlpi_name;
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  return is_ours(object) || name.starts_with("libembree") || name.starts_with("libm.so");
 }
 
 int add_build_id(dl_phdr_info* object, std::size_t, void* ids) {
-  if (!decides_bits(object->dlpi_name)) return 0;
+  if (!decides_bits(*object)) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE || segment.p_align > 4) continue;
@@ -66,4 +77,4 @@ std::string instruction_set() {
   return v4 ? "x86-64-v4" : "x86-64-v3";
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

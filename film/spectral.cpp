@@ -1,4 +1,4 @@
-#include "cli/spectral.h"
+#include "film/spectral.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,14 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/answer.h"
-#include "cli/film_identity.h"
 #include "develop/radiance.h"
+#include "film/sensor_identity.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "sensor/film/spectral_film.h"
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 // What a film says of the unit of a bin, beside the `emissiveUnits` of the layout.
@@ -98,7 +97,8 @@ Image spectral_film_image(const Image& film) {
   return spectral_layout(image);
 }
 
-Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path) {
+Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path,
+              Diagnostics& diagnostics) {
   const Camera& camera = scene.camera;
   if (scene.spectral)
     throw Error(ErrorCode::usage, "--scene", "its sensor is spectral itself (allowed: one that counts)");
@@ -107,13 +107,10 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
                 fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
                             image.height, camera.width, camera.height));
   require_same_view(image, camera, path);
-  Diagnostics diagnostics;
-  Image film = exposed_film(
+  return exposed_film(
       image,
       {scene.channels, scene.mosaic, exposure_per_radiance(camera, scene.exposure_s), sensor_identity(scene)},
       path, diagnostics);
-  check(diagnostics);
-  return film;
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

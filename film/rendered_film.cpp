@@ -1,19 +1,16 @@
-#include "cli/film_output.h"
+#include "film/rendered_film.h"
 
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
-#include "cli/build_id.h"
-#include "cli/film_identity.h"
-#include "cli/output_files.h"
-#include "io/atomic_file.h"
+#include "film/build_id.h"
+#include "film/sensor_identity.h"
 #include "io/data_directory.h"
-#include "io/error.h"
 #include "io/exr.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 const char* integrator_name(Integrator integrator) {
   constexpr std::array kNames{"auto", "path", "light"};
@@ -21,7 +18,7 @@ const char* integrator_name(Integrator integrator) {
 }
 
 FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
-                         const abbe::RenderOptions& how) {
+                         const RenderOptions& how) {
   std::string name = scene_file.filename().string();
   std::replace(name.begin(), name.end(), '\n', '?');  // headers have a line per entry
   FilmIdentity identity{
@@ -43,12 +40,7 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
   return identity;
 }
 
-void require_film_output(const std::filesystem::path& path) {
-  require_extension(path, {".exr", kPartExtension});
-  require_writable(path);
-}
-
-std::size_t film_bytes(const Scene& scene, const abbe::RenderOptions& how) {
+std::size_t film_bytes(const Scene& scene, const RenderOptions& how) {
   return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
          scene.film_planes().size() * static_cast<std::size_t>(replicate_count(scene, how)) * sizeof(Int128);
 }
@@ -60,4 +52,4 @@ void write_film(const std::filesystem::path& path, const RenderPart& part) {
     write_exr(path, film_image(part));
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

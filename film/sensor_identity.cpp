@@ -1,14 +1,13 @@
-#include "cli/film_identity.h"
+#include "film/sensor_identity.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "cli/answer.h"
-#include "cli/spectral.h"
-#include "cli/white.h"
 #include "develop/radiance.h"
+#include "film/spectral.h"
+#include "film/white.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "scene/colors.h"
@@ -18,7 +17,7 @@
 #include "spectral/library.h"
 #include "transport/render/white.h"
 
-namespace abbe::cli {
+namespace abbe {
 namespace {
 
 constexpr const char* kDaylight = "D55";
@@ -48,7 +47,7 @@ void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
     return;
   Diagnostics diagnostics;
   const auto daylight = load_curve("illuminant", kDaylight, {}, diagnostics);
-  check(diagnostics);
+  if (!daylight) throw Error(diagnostics.code(), "", diagnostics.text());
   const double sensitivity = sensitivity_e_per_lx_s(scene.channels, area_m2, daylight->curve);
   identity["electrons_per_lx_s"] = fmt::format("{}", sensitivity);
   if (scene.readout) identity["isoSpeed"] = single(saturation_speed(*scene.readout, sensitivity));
@@ -110,4 +109,4 @@ Image shown_film(const Scene& scene, const RenderPart& part) {
   return scene.mosaic ? demosaic(film, kRawPlane, *scene.mosaic, scene.channel_names()) : film;
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe

@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 #include "transport/render/part.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 /// What a scene's sensor adds to the metadata of its films.
 [[nodiscard]] FilmIdentity sensor_identity(const Scene& scene);
@@ -19,4 +19,4 @@ namespace abbe::cli {
 /// What a display shows of it: of a mosaic, a plane for each channel.
 [[nodiscard]] Image shown_film(const Scene& scene, const RenderPart& part);
 
-}  // namespace abbe::cli
+}  // namespace abbe
