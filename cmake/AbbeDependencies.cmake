@@ -15,6 +15,12 @@ find_package(nlohmann_json REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(MPI QUIET COMPONENTS CXX)  # for the module by which processes render together
+# For the package of Python: Debian's own, unless another is named.
+set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the package abbe is for")
+find_package(Python QUIET COMPONENTS Interpreter Development.Module)
+if(Python_FOUND)
+  find_package(pybind11 2.10 QUIET CONFIG)
+endif()
 # Ceres is a static library of templates of Eigen compiled for any x86-64, where memory is aligned to 16 bytes. With
 # AVX Eigen would align to 32, and functions of one compilation would be linked into the other and crash.
 set_property(TARGET Ceres::ceres Eigen3::Eigen APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+
+#include <pybind11/numpy.h>
+
+namespace abbe::python {
+
+/// What functions take for numbers: a number, or anything that numpy makes an array of.
+using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+[[nodiscard]] inline std::span<const double> all(const Numbers& numbers) {
+  return {numbers.data(), static_cast<std::size_t>(numbers.size())};
+}
+
+/// A new array of the shape of another.
+[[nodiscard]] inline Numbers alike(const Numbers& numbers) {
+  return Numbers(std::vector<pybind11::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
+}
+
+/// `f` of each number, without Python's lock; a number for a number.
+template <typename F>
+[[nodiscard]] pybind11::object each(const Numbers& numbers, F f) {
+  Numbers results = alike(numbers);
+  double* to = results.mutable_data();
+  const std::span<const double> from = all(numbers);
+  {
+    const pybind11::gil_scoped_release released;
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = f(from[i]);
+  }
+  return results[pybind11::tuple()];  // of an array without axes, its number
+}
+
+/// Two arrays of one shape, by the rules of numpy.
+[[nodiscard]] inline std::pair<Numbers, Numbers> broadcast(const Numbers& a, const Numbers& b) {
+  const auto both =
+      pybind11::module_::import("numpy").attr("broadcast_arrays")(a, b).cast<pybind11::sequence>();
+  return {both[0].cast<Numbers>(), both[1].cast<Numbers>()};
+}
+
+}  // namespace abbe::python

@@ -1,0 +1,172 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "calibration/chart/delta_e.h"
+#include "io/table.h"
+#include "materials/index/library.h"
+#include "python/arrays.h"
+#include "python/errors.h"
+#include "python/query.h"
+#include "sensor/response/channel.h"
+#include "spectral/library.h"
+#include "validation/statistics/image_difference.h"
+
+namespace abbe::python {
+namespace {
+
+namespace py = pybind11;
+
+Observer observer_of(const std::string& name) {
+  if (name == "1931") return Observer::cie1931;
+  if (name == "1964") return Observer::cie1964;
+  throw Error(ErrorCode::usage, "observer", fmt::format("got \"{}\", allowed 1931, 1964", name));
+}
+
+py::object values_of(const Curve& curve, const Numbers& wavelengths_nm) {
+  return each(wavelengths_nm, [&](double nm) { return curve(nm); });
+}
+
+Curve named_illuminant(const std::string& name) {
+  Diagnostics diagnostics;
+  return accepted(load_illuminant(name, {}, diagnostics), diagnostics).curve;
+}
+
+Curve named_reflectance(const std::string& name) {
+  Diagnostics diagnostics;
+  return accepted(load_curve("reflectance", name, {}, diagnostics), diagnostics).curve;
+}
+
+py::object illuminant(const std::string& name, const Numbers& wavelengths_nm) {
+  return values_of(named_illuminant(name), wavelengths_nm);
+}
+
+py::object curve(const std::string& kind, const std::string& name, const Numbers& wavelengths_nm) {
+  Diagnostics diagnostics;
+  return values_of(accepted(load_curve(kind, name, {}, diagnostics), diagnostics).curve, wavelengths_nm);
+}
+
+py::dict observer(const std::string& name, const Numbers& wavelengths_nm) {
+  const ColorMatching& matching = color_matching(observer_of(name));
+  py::dict values;
+  values["x"] = values_of(matching.x, wavelengths_nm);
+  values["y"] = values_of(matching.y, wavelengths_nm);
+  values["z"] = values_of(matching.z, wavelengths_nm);
+  return values;
+}
+
+py::dict camera(const std::string& name, const Numbers& wavelengths_nm) {
+  Diagnostics diagnostics;
+  py::dict values;
+  for (const Channel& channel : accepted(load_camera(name, {}, diagnostics), diagnostics))
+    values[py::str(channel.name)] = values_of(channel.weight, wavelengths_nm);
+  return values;
+}
+
+// A spectrum that a caller has as samples, linear between them.
+Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
+  const std::span<const double> nm = all(wavelengths_nm);
+  if (nm.size() != all(values).size() || nm.size() < 2)
+    throw Error(ErrorCode::usage, "spectrum",
+                fmt::format("got {} wavelengths and {} values, allowed two or more of each, as many of both",
+                            nm.size(), all(values).size()));
+  for (std::size_t i = 0; i < nm.size(); ++i)
+    if (!std::isfinite(nm[i]) || !std::isfinite(all(values)[i]) || (i > 0 && !(nm[i] > nm[i - 1])))
+      throw Error(ErrorCode::usage, "spectrum",
+                  fmt::format("got {} at {} nm, allowed finite values at ascending wavelengths",
+                              all(values)[i], nm[i]));
+  return table_curve(nm, all(values), Outside::zero);
+}
+
+// A name, or a pair of wavelengths and values.
+template <typename Load>
+Curve curve_of(const py::handle& spectrum, Load load) {
+  if (py::isinstance<py::str>(spectrum)) return load(spectrum.cast<std::string>());
+  const auto [nm, values] = spectrum.cast<std::pair<Numbers, Numbers>>();
+  return sampled(nm, values);
+}
+
+py::dict color(const py::object& illuminant, const py::object& reflectance, const std::string& observer) {
+  const Observer eye = observer_of(observer);
+  const Curve light = curve_of(illuminant, named_illuminant);
+  const Curve surface = reflectance.is_none() ? Curve(1.0) : curve_of(reflectance, named_reflectance);
+  const XYZ xyz = tristimulus(light, surface, eye);
+  const XYZ white = tristimulus(light, Curve(1.0), eye);
+  if (!std::isfinite(white[1]))
+    throw Error(ErrorCode::input, "illuminant", "has no light that an observer sees, hence no colour");
+  py::dict told;
+  told["XYZ"] = py::array(py::cast(xyz));
+  told["xy"] = py::array(py::cast(chromaticity(xyz)));
+  told["Lab"] = py::array(py::cast(xyz_to_lab(xyz, white)));
+  return told;
+}
+
+py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::string& formula) {
+  const DeltaE how = formula == "2000" ? DeltaE::cie2000 : formula == "94" ? DeltaE::cie94 : DeltaE::cie76;
+  if (formula != "2000" && formula != "94" && formula != "76")
+    throw Error(ErrorCode::usage, "formula", fmt::format("got \"{}\", allowed 2000, 94, 76", formula));
+  const auto [standard, sample] = broadcast(lab1, lab2);
+  const py::ssize_t axes = standard.ndim();
+  if (axes == 0 || standard.shape(axes - 1) != 3)
+    throw Error(ErrorCode::usage, "lab1", "expected arrays whose last axis is L*, a*, b*");
+  Numbers differences(std::vector<py::ssize_t>(standard.shape(), standard.shape() + axes - 1));
+  const auto at = [](const Numbers& labs, py::ssize_t i) {
+    const double* lab = labs.data() + 3 * i;
+    return Lab{lab[0], lab[1], lab[2]};
+  };
+  for (py::ssize_t i = 0; i < differences.size(); ++i)
+    differences.mutable_data()[i] = delta_e(how, at(standard, i), at(sample, i));
+  return differences[py::tuple()];
+}
+
+std::vector<std::string> names(const std::string& kind) {
+  if (kind == "material") return index_names();
+  if (kind == "glass") return glass_names();
+  const std::vector<std::string> kinds{"material", "glass",  "illuminant", "reflectance",
+                                       "camera",   "filter", "observer"};
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+    throw Error(ErrorCode::usage, "kind", unknown_name("kind", kind, kinds));
+  return table_names(kind);
+}
+
+}  // namespace
+
+void add_curves(py::module_& module) {
+  module.def("names", names, py::arg("kind"),
+             "Returns the names that Abbe knows of a kind: material, glass, illuminant, reflectance, camera, "
+             "filter or "
+             "observer. Raises UsageError for another kind.");
+  module.def(
+      "illuminant", illuminant, py::arg("name"), py::arg("wavelengths_nm"),
+      "Returns the relative power of an illuminant at wavelengths, in the unit of its table. "
+      "\"blackbody:3000\" "
+      "and \"daylight:6500\" are made of their temperature in K. Raises InputError for an unknown name.");
+  module.def("curve", curve, py::arg("kind"), py::arg("name"), py::arg("wavelengths_nm"),
+             "Returns a measured curve of one of the kinds of `names` but material and glass, such as a "
+             "reflectance, "
+             "at wavelengths. Raises InputError for an unknown name.");
+  module.def("observer", observer, py::arg("name") = "1931", py::kw_only(), py::arg("wavelengths_nm"),
+             "Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at "
+             "wavelengths, as a "
+             "dict of x, y, z.");
+  module.def("camera", camera, py::arg("name"), py::arg("wavelengths_nm"),
+             "Returns the responses of a measured camera at wavelengths as a dict by channel: relative to "
+             "energy, or "
+             "electrons per J for a quantum efficiency. Raises InputError for an unknown name.");
+  module.def(
+      "color", color, py::arg("illuminant"), py::arg("reflectance") = py::none(),
+      py::arg("observer") = "1931",
+      "Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the "
+      "perfect diffuser), xy and Lab, summed every nanometre from 380 to 780 nm.\n\nIlluminant and "
+      "reflectance "
+      "are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. "
+      "Raises "
+      "InputError for an unknown name.");
+  module.def("delta_e", lab_difference, py::arg("lab1"), py::arg("lab2"), py::arg("formula") = "2000",
+             "Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of "
+             "2000, 94 or "
+             "76; the first is the standard.");
+}
+
+}  // namespace abbe::python

@@ -1,0 +1,259 @@
+#include "python/film.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "develop/film_file.h"
+#include "film/rendered_film.h"
+#include "film/sensor_identity.h"
+#include "io/exr.h"
+#include "io/picture.h"
+#include "io/text.h"
+#include "python/errors.h"
+#include "python/picture.h"
+#include "sensor/film/variance_name.h"
+
+namespace abbe::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+struct BandChannel {
+  double center_nm;
+  std::string name;
+};
+
+// The radiances of a spectral film, by ascending wavelength.
+std::vector<BandChannel> band_channels(const Image& image) {
+  std::vector<BandChannel> bands;
+  if (!is_spectral(image)) return bands;
+  for (const ImageChannel& channel : image.channels)
+    if (const auto name = parse_spectral_channel(channel.name, "film"); name && name->kind == '0')
+      bands.push_back({name->center_nm, channel.name});
+  std::sort(bands.begin(), bands.end(),
+            [](const BandChannel& a, const BandChannel& b) { return a.center_nm < b.center_nm; });
+  return bands;
+}
+
+// What a sensor lists; of other images every channel that is no variance, in the order of the file.
+std::vector<std::string> sensor_channels(const Image& image) {
+  if (const auto listed = image.metadata.find("sensor_channels"); listed != image.metadata.end())
+    return split(listed->second, ',');
+  std::vector<std::string> names;
+  for (const ImageChannel& channel : image.channels)
+    if (!channel.name.starts_with(variance_of(""))) names.push_back(channel.name);
+  return names;
+}
+
+py::object wavelengths(const FilmHandle& film) {
+  const std::vector<BandChannel> bands = band_channels(film.image());
+  if (bands.empty()) return py::none();
+  std::vector<double> centers;
+  for (const BandChannel& band : bands) centers.push_back(band.center_nm);
+  return py::array_t<double>(static_cast<py::ssize_t>(centers.size()), centers.data());
+}
+
+py::object spectrum(const FilmHandle& film, int x, int y) {
+  const Image& image = film.image();
+  if (!is_spectral(image))
+    throw Error(ErrorCode::usage, "spectrum",
+                "the film's sensor is not spectral: it has channels, no wavelengths");
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height)
+    throw Error(ErrorCode::usage, "spectrum",
+                fmt::format("no such pixel (got {}, {}, allowed up to {}, {})", x, y, image.width - 1,
+                            image.height - 1));
+  return film.array()[py::make_tuple(y, x)];
+}
+
+FilmHandle read(const fs::path& path) {
+  const py::gil_scoped_release released;
+  if (path.extension() == kPartExtension) return FilmHandle(read_part(path));
+  return FilmHandle(read_film(path));
+}
+
+void write(const FilmHandle& film, const fs::path& path) {
+  const bool is_part = path.extension() == kPartExtension;
+  if (is_part && !film.part())
+    throw Error(ErrorCode::usage, path.string(),
+                "the film was read from an image: only a film with its exact sums can be written as a part");
+  if (!is_part && path.extension() != ".exr") return write_picture(path, shown(film).image);
+  const py::gil_scoped_release released;
+  if (is_part)
+    write_part(path, film.part()->identity, film.part()->result);
+  else
+    write_exr(path, film.image());
+}
+
+// The exact sums that a film of Python has.
+const RenderPart& sums_of(const py::handle& film, const fs::path& name) {
+  const auto& part = film.cast<const FilmHandle&>().part();
+  if (!part) throw Error(ErrorCode::usage, name, "was read from an image, which has no exact sums to add");
+  return *part;
+}
+
+RenderPart copy_of(const RenderPart& part) {
+  const RenderResult& result = part.result;
+  Film film = Film::from_bytes(result.film.shape(), result.film.bytes()).value();
+  film.set_samples(count_per_replicate(result.samples, film.replicates()));
+  return {part.identity, {std::move(film), result.samples, result.stats}};
+}
+
+// Adds one of the films that `merge` is given: a film of Python, or the path of a part.
+void add(std::optional<RenderPart>& sum, const py::handle& film, std::size_t i) {
+  if (py::isinstance<FilmHandle>(film)) {
+    const fs::path name = fmt::format("films[{}]", i);
+    if (!sum)
+      sum = copy_of(sums_of(film, name));
+    else
+      merge(*sum, sums_of(film, name), name);
+    return;
+  }
+  const auto path = film.cast<fs::path>();
+  if (!sum)
+    sum = read_part(path);
+  else
+    merge(*sum, read_part(path), path);
+}
+
+FilmHandle merge_films(const py::sequence& films, bool partial) {
+  if (films.empty()) throw Error(ErrorCode::usage, "merge", "needs one film or more");
+  std::optional<RenderPart> total;
+  for (std::size_t i = 0; i < films.size(); ++i) add(total, films[i], i);
+  RenderPart& sum = *total;
+  const SampleRanges absent = missing_samples({sum.identity, sum.result.film.shape(), sum.result.samples});
+  if (!absent.empty() && !partial)
+    throw Error(ErrorCode::input, "merge",
+                fmt::format("samples {} are missing of those that the render is to have; partial=True gives "
+                            "what the others make",
+                            to_text(absent)));
+  return FilmHandle(std::move(sum));
+}
+
+py::object stats(const FilmHandle& film) {
+  if (!film.part()) return py::none();
+  const RenderStats& stats = film.part()->result.stats;
+  py::dict all;
+  all["wall_s"] = stats.wall_s;
+  all["cpu_s"] = stats.cpu_s;
+  all["threads"] = stats.threads;
+  all["samples_per_pixel"] = stats.samples_per_pixel;
+  all["paths"] = stats.paths;
+  all["rays"] = stats.rays;
+  all["relative_error"] = stats.error.median;
+  all["frame_mean_error"] = stats.error.frame_mean;
+  all["nonfinite_samples"] = stats.nonfinite_samples;
+  return all;
+}
+
+std::string repr(const FilmHandle& film) {
+  return fmt::format("<abbe.Film: {} x {} pixels, {} channels>", film.image().width, film.image().height,
+                     film.channels().size());
+}
+
+void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
+  film.def_property_readonly(
+          "array", &FilmHandle::array,
+          "The film's values as a read-only array of float32: rows, columns, channels. It is made of the "
+          "exact sums "
+          "the first time it is asked for, with the values that a file has; after that nothing is copied.")
+      .def_property_readonly(
+          "variance", &FilmHandle::variance,
+          "The variance of each of these values, of the same shape; None for an image that does "
+          "not tell it.")
+      .def_property_readonly("channels", &FilmHandle::channels,
+                             "The names of the channels, in the order of `array`.")
+      .def_property_readonly(
+          "wavelengths", wavelengths,
+          "The middles of the bands of a spectral film in nm, in the order of `array`; None for "
+          "other films.")
+      .def("spectrum", spectrum, py::arg("x"), py::arg("y"),
+           "Returns the radiance in each band at the pixel of column x and row y, in W/(m^2 sr), a view of "
+           "`array`. "
+           "Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it.");
+}
+
+}  // namespace
+
+FilmHandle::FilmHandle(RenderPart part) : part_(std::move(part)) {}
+
+FilmHandle::FilmHandle(Image image) : image_(std::move(image)) {}
+
+const Image& FilmHandle::image() const {
+  if (!image_) image_ = film_image(*part_);
+  return *image_;
+}
+
+std::vector<std::string> FilmHandle::channels() const {
+  const std::vector<BandChannel> bands = band_channels(image());
+  if (bands.empty()) return sensor_channels(image());
+  std::vector<std::string> names;
+  for (const BandChannel& band : bands) names.push_back(band.name);
+  return names;
+}
+
+py::object FilmHandle::array() const {
+  if (!array_) array_ = planes_of(image(), channels());
+  return array_;
+}
+
+py::object FilmHandle::variance() const {
+  std::vector<std::string> names = channels();
+  for (std::string& name : names) name = variance_of(name);
+  if (!variance_) variance_ = planes_of(image(), names);
+  return variance_;
+}
+
+py::object planes_of(const Image& image, const std::vector<std::string>& names) {
+  std::vector<const ImageChannel*> planes;
+  for (const std::string& name : names) planes.push_back(image.find(name));
+  if (planes.empty() || std::find(planes.begin(), planes.end(), nullptr) != planes.end()) return py::none();
+  py::array_t<float> array(
+      {static_cast<std::size_t>(image.height), static_cast<std::size_t>(image.width), planes.size()});
+  float* values = array.mutable_data();
+  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)
+    for (const ImageChannel* plane : planes) *values++ = plane->values[pixel];
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+void add_film(py::module_& module) {
+  py::class_<FilmHandle, std::shared_ptr<FilmHandle>> film(
+      module, "Film",
+      "The film of a scene's sensor: values per pixel and channel with their variance, before noise.\n\n"
+      "`abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from "
+      "files. Jupyter "
+      "shows a film as its display picture.");
+  add_values(film);
+  film.def_static(
+          "read", read, py::arg("path"),
+          "Reads a film: an .abbepart with its exact sums, or an .exr. Raises InputError for a file that is "
+          "missing, damaged or no film.")
+      .def("write", write, py::arg("path"),
+           "Writes the film: to .exr with its variance, to .abbepart with its exact sums, to .png, .jpg or "
+           ".tif its "
+           "display picture. The file is the one that `abbe render` writes, and appears whole or not at all. "
+           "Raises "
+           "OutputError.")
+      .def_property_readonly("metadata", &FilmHandle::metadata,
+                             "What the film's file tells of it, as strings by name.")
+      .def_property_readonly("stats", stats,
+                             "What the render did, as a dict; None for a film read from an image.")
+      .def_property_readonly(
+          "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
+      .def_property_readonly(
+          "height", [](const FilmHandle& f) { return f.image().height; }, "The film's rows of pixels.")
+      .def("__repr__", repr);
+  add_pictures(film);
+  module.def(
+      "merge", merge_films, py::arg("films"), py::kw_only(), py::arg("partial") = false,
+      "Adds up films of one render, or the .abbepart files of paths, to the film that one render of all "
+      "their "
+      "samples gives, bit for bit. Raises InputError for films of different renders, for samples that two of "
+      "them have, and, unless `partial`, where samples are missing of those the render is to have.");
+}
+
+}  // namespace abbe::python

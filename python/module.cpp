@@ -1,0 +1,24 @@
+// The module `abbe._abbe`: all that the package `abbe` offers.
+#include <filesystem>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "io/data_directory.h"
+#include "python/errors.h"
+#include "python/film.h"
+#include "python/query.h"
+#include "python/render.h"
+#include "python/scene.h"
+
+PYBIND11_MODULE(_abbe, module) {
+  module.doc() = "Abbe, a spectral renderer validated against measured colour science.";
+  module.attr("__version__") = ABBE_VERSION;
+  module.def("_set_data_directory", abbe::set_data_directory);
+  abbe::python::add_errors(module);
+  abbe::python::add_scene(module);
+  abbe::python::add_film(module);
+  abbe::python::add_render(module);
+  abbe::python::add_matter(module);
+  abbe::python::add_curves(module);
+}

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace abbe::python {
+
+/// Adds `render` and what it tells its callback.
+void add_render(pybind11::module_& module);
+
+}  // namespace abbe::python

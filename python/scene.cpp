@@ -1,0 +1,130 @@
+#include "python/scene.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "description/load.h"
+#include "description/scene_schema.h"
+#include "film/white.h"
+#include "io/schema/help.h"
+#include "io/schema/keys.h"
+#include "io/schema/write.h"
+#include "python/errors.h"
+#include "python/json.h"
+#include "transport/render/threads.h"
+
+namespace abbe::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+// What messages call a scene that no file holds.
+constexpr const char* kDict = "dict";
+
+const schema::Fields& scene_fields() {
+  return schema::fields_of<spec::Scene>();
+}
+
+// Keywords over a file are what `--set` is to the command, so that films tell the same hash.
+std::vector<Override> overrides_of(const py::dict& keywords) {
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : keywords)
+    overrides.push_back({"/" + key.cast<std::string>(), to_text(to_json(value))});
+  return overrides;
+}
+
+// The text of a scene said in Python, so that complaints show the line concerned.
+std::shared_ptr<const SourceText> text_of(const py::object& source, const py::dict& keywords) {
+  py::dict all;
+  all["abbe"] = spec::kFormatVersion;  // which only files need to tell
+  if (!source.is_none())
+    for (const auto& [key, value] : py::dict(source)) all[key] = value;
+  for (const auto& [key, value] : keywords) all[key] = value;
+  return std::make_shared<const SourceText>(SourceText{kDict, to_lines(to_json(all), kJsonWidth)});
+}
+
+// The keywords of the class, from the table of the scene's keys.
+std::string class_text() {
+  std::string text =
+      "A scene, ready to render.\n\n"
+      "Scene(path) reads a scene file; Scene(dict) takes what such a file would hold, and files it names are "
+      "looked for in `folder`, by default the current one. Keywords are keys at the top of the scene and "
+      "replace "
+      "those of the file or dict. What is wrong is raised as abbe.SceneError or abbe.InputError, whose "
+      "`diagnostics` tell all of it.\n\nKeywords:\n";
+  const schema::Fields* const root = &scene_fields();
+  for (const schema::Key& key : schema::keys_of({&root, 1}))
+    text += fmt::format("  {}: {} ({})\n", key.name, key.meaning(), key.allowed());
+  return text + "\nabbe.help(\"camera\") tells what may stand in them.";
+}
+
+std::string repr(const SceneHandle& handle) {
+  const abbe::Scene& scene = handle.scene();
+  return fmt::format("<abbe.Scene {}: {} x {} pixels, {} shapes, {} lights>", handle.name().string(),
+                     scene.camera.width, scene.camera.height, scene.shapes.size(), scene.lights.size());
+}
+
+}  // namespace
+
+SceneHandle::SceneHandle(const py::object& source, const py::object& folder, const py::dict& keywords) {
+  Diagnostics diagnostics;
+  std::optional<abbe::Scene> scene;
+  if (py::isinstance<py::dict>(source) || source.is_none()) {
+    const auto text = text_of(source, keywords);
+    const fs::path place = folder.is_none() ? fs::path() : folder.cast<fs::path>();
+    name_ = kDict;
+    const py::gil_scoped_release released;
+    scene = load_scene(text, place, {}, diagnostics, &inputs_, &said_);
+  } else {
+    const std::vector<Override> overrides = overrides_of(keywords);
+    name_ = source.cast<fs::path>();
+    const py::gil_scoped_release released;
+    scene = load_scene(name_, overrides, diagnostics, &inputs_, &said_);
+  }
+  scene_ = accepted(std::move(scene), diagnostics);
+}
+
+const abbe::Scene& SceneHandle::with_white(int threads) {
+  const std::scoped_lock lock(mutex_);
+  if (!has_white_) settle_white(scene_, name_, thread_count(threads));
+  has_white_ = true;
+  return scene_;
+}
+
+void add_scene(py::module_& module) {
+  static const std::string kText = class_text();
+  py::class_<SceneHandle, std::shared_ptr<SceneHandle>>(module, "Scene", kText.c_str())
+      .def(py::init([](const py::object& source, const py::object& folder, const py::kwargs& keywords) {
+             return std::make_shared<SceneHandle>(source, folder, keywords);
+           }),
+           py::arg("source") = py::none(), py::kw_only(), py::arg("folder") = py::none(),
+           "Reads a scene from a path or a dict; keywords replace keys at its top.")
+      .def(
+          "to_dict", [](const SceneHandle& s) { return to_python(schema::write(s.said())); },
+          "Returns the scene as a dict that makes the same scene, without what is as by default.")
+      .def_property_readonly(
+          "width", [](const SceneHandle& s) { return s.scene().camera.width; },
+          "The film's columns of pixels.")
+      .def_property_readonly(
+          "height", [](const SceneHandle& s) { return s.scene().camera.height; },
+          "The film's rows of pixels.")
+      .def_property_readonly(
+          "channels", [](const SceneHandle& s) { return s.scene().film_planes(); },
+          "The names of the film's planes.")
+      .def_property_readonly(
+          "samples", [](const SceneHandle& s) { return s.scene().render.samples; },
+          "How many samples a pixel gets unless `render` is told otherwise.")
+      .def_property_readonly(
+          "seed", [](const SceneHandle& s) { return s.scene().render.seed; },
+          "The seed of the random numbers unless `render` is told otherwise.")
+      .def("__repr__", repr);
+  module.def(
+      "help", [](const std::string& key) { return schema::help(scene_fields(), key); }, py::arg("key") = "",
+      "Returns what a key of scenes means, its range and its default, as `abbe help scene KEY` prints it.");
+}
+
+}  // namespace abbe::python

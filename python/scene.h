@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+
+#include <pybind11/pybind11.h>
+
+#include "description/scene.h"
+#include "io/inputs.h"
+#include "scene/scene.h"
+
+namespace abbe::python {
+
+/// A scene as Python holds it: built, and as it was described. It never changes once its white is settled, so
+/// threads may render one scene at once.
+class SceneHandle {
+ public:
+  /// What `pybind11` is asked for: a path, a dict or nothing, and keywords that replace keys at the top.
+  SceneHandle(const pybind11::object& source, const pybind11::object& folder, const pybind11::dict& keywords);
+
+  /// The scene without what pictures need; with it, once some call has settled the white on that many
+  /// threads.
+  [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
+  [[nodiscard]] const abbe::Scene& with_white(int threads);
+
+  [[nodiscard]] const spec::Scene& said() const { return said_; }
+  /// What films call their scene after, and messages its text.
+  [[nodiscard]] const std::filesystem::path& name() const { return name_; }
+  /// What was read, with the memory it took.
+  [[nodiscard]] const Inputs& inputs() const { return inputs_; }
+
+ private:
+  std::filesystem::path name_;
+  Inputs inputs_;
+  spec::Scene said_;
+  abbe::Scene scene_;
+  std::mutex mutex_;
+  bool has_white_ = false;
+};
+
+/// Adds the class `Scene`, and `help`.
+void add_scene(pybind11::module_& module);
+
+}  // namespace abbe::python

@@ -1,0 +1,36 @@
+"""What the tests of the package share: scenes, the command, a scratch folder."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SCENES = pathlib.Path(os.environ["ABBE_DATA"]) / "scenes"
+CORNELL = SCENES / "cornell.json"
+
+
+def box(**keys):
+    """A grey floor under an even sky, seen by two channels of 8 x 6 pixels."""
+    scene = {
+        "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -5, 2], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "sensor": {"resolution": [8, 6], "pixel_pitch_um": 10,
+                   "channels": {"long": {"band": [600, 700]}, "short": {"band": [400, 500]}}},
+        "materials": {"grey": {"diffuse": {"reflectance": 0.5}}},
+        "shapes": [{"quad": {"corner": [-9, -9, 0], "edge_u": [18, 0, 0], "edge_v": [0, 18, 0]}, "material": "grey"}],
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "render": {"samples": 4},
+    }
+    return {**scene, **keys}
+
+
+class Test(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.scratch = pathlib.Path(folder.name)
+
+    def command(self, *arguments):
+        """What the command line prints."""
+        return subprocess.run([os.environ["ABBE_BINARY"], *map(str, arguments)], check=True, capture_output=True, text=True).stdout

@@ -1,0 +1,94 @@
+"""What films tell, how they are written, read and added up."""
+import unittest
+
+import numpy
+
+import abbe
+from common import CORNELL, Test, box
+
+
+def spectral():
+    return abbe.Scene(box(sensor={"resolution": [8, 6], "spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 100}}))
+
+
+class Films(Test):
+    def test_files_are_those_of_the_command(self):
+        film = abbe.render(abbe.Scene(CORNELL), spp=3, seed=5)
+        self.command("render", CORNELL, "--spp", 3, "--seed", 5, "--quiet", "-o", self.scratch / "c.exr", "--display", self.scratch / "c.png")
+        for name in ("c.exr", "c.png"):
+            film.write(self.scratch / ("own_" + name))
+            self.assertEqual((self.scratch / name).read_bytes(), (self.scratch / ("own_" + name)).read_bytes(), name)
+        self.assertEqual(film._repr_png_(), (self.scratch / "c.png").read_bytes())
+
+    def test_keywords_over_a_file_are_what_set_is_to_the_command(self):
+        abbe.render(abbe.Scene(CORNELL, render={"samples": 2, "seed": 1})).write(self.scratch / "own.exr")
+        self.command("render", CORNELL, "--set", '/render={"samples":2,"seed":1}', "--quiet", "-o", self.scratch / "c.exr")
+        self.assertEqual((self.scratch / "c.exr").read_bytes(), (self.scratch / "own.exr").read_bytes())
+
+    def test_arrays_have_rows_columns_and_channels_and_are_made_once(self):
+        film = abbe.render(abbe.Scene(box()))
+        self.assertEqual((film.array.shape, film.array.dtype, film.channels), ((6, 8, 2), numpy.float32, ["long", "short"]))
+        self.assertIs(film.array, film.array)
+        self.assertFalse(film.array.flags.writeable)
+        self.assertEqual(film.variance.shape, film.array.shape)
+        self.assertTrue((film.array > 0).all() and (film.variance >= 0).all())
+        self.assertIsNone(film.wavelengths)
+        with self.assertRaisesRegex(abbe.UsageError, "not spectral"):
+            film.spectrum(0, 0)
+
+    def test_spectra_of_a_spectral_film(self):
+        film = abbe.render(spectral(), spp=1024)
+        self.assertEqual(film.wavelengths.tolist(), [450, 550, 650])
+        self.assertEqual(film.array.shape, (6, 8, 3))
+        numpy.testing.assert_array_equal(film.spectrum(7, 2), film.array[2, 7])
+        numpy.testing.assert_allclose(film.spectrum(0, 0), 100, rtol=0.05)  # a sky of 1 W/(m^2 sr nm)
+        with self.assertRaisesRegex(abbe.UsageError, "no such pixel"):
+            film.spectrum(8, 0)
+        self.assertEqual(film.picture().shape, (6, 8, 3))
+        film.write(self.scratch / "s.exr")
+        numpy.testing.assert_array_equal(abbe.Film.read(self.scratch / "s.exr").array, film.array)
+
+    def test_films_are_read_as_they_were_written(self):
+        film = abbe.render(abbe.Scene(box()))
+        for name in ("f.exr", "f.abbepart"):
+            film.write(self.scratch / name)
+            read = abbe.Film.read(self.scratch / name)
+            self.assertEqual(read.channels, film.channels)
+            numpy.testing.assert_array_equal(read.array, film.array)
+            numpy.testing.assert_array_equal(read.variance, film.variance)
+        with self.assertRaisesRegex(abbe.UsageError, "exact sums"):
+            abbe.Film.read(self.scratch / "f.exr").write(self.scratch / "g.abbepart")
+        with self.assertRaises(abbe.InputError):
+            abbe.Film.read(self.scratch / "absent.exr")
+        with self.assertRaises(abbe.OutputError):
+            film.write(self.scratch / "absent" / "f.exr")
+
+    def test_parts_merge_to_the_bits_of_the_whole(self):
+        scene = abbe.Scene(box(render={"samples": 16}))
+        whole = abbe.render(scene)
+        parts = [abbe.render(scene, sample_range=(first, first + 8)) for first in (0, 8)]
+        parts[1].write(self.scratch / "p.abbepart")
+        for films in (parts, [parts[0], self.scratch / "p.abbepart"], [str(self.scratch / "p.abbepart"), parts[0]]):
+            merged = abbe.merge(films)
+            numpy.testing.assert_array_equal(merged.array, whole.array)
+            merged.write(self.scratch / "m.exr")
+            whole.write(self.scratch / "w.exr")
+            self.assertEqual((self.scratch / "m.exr").read_bytes(), (self.scratch / "w.exr").read_bytes())
+        with self.assertRaisesRegex(abbe.InputError, "samples 8:16 are missing"):
+            abbe.merge(parts[:1])
+        self.assertEqual(abbe.merge(parts[:1], partial=True).stats["samples_per_pixel"], 8)
+        with self.assertRaisesRegex(abbe.InputError, r"films\[1\]"):
+            abbe.merge([parts[0], parts[0]])
+        with self.assertRaisesRegex(abbe.UsageError, "read from an image"):
+            abbe.merge([abbe.Film.read(self.scratch / "w.exr")])
+
+    def test_pictures_are_code_values(self):
+        picture = abbe.render(abbe.Scene(CORNELL), spp=1).picture()
+        self.assertEqual(picture.shape, (256, 256, 3))
+        self.assertTrue(0 <= picture.min() and 0.9 < picture.max() <= 1)
+        with self.assertRaisesRegex(abbe.UsageError, "one or three channels"):
+            abbe.render(abbe.Scene(box())).picture()
+
+
+if __name__ == "__main__":
+    unittest.main()

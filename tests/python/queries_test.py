@@ -1,0 +1,85 @@
+"""What matter does, tables and colours, over arrays: the numbers of the command."""
+import json
+import time
+import unittest
+
+import numpy
+
+import abbe
+from common import Test
+
+LINES = [486.1327, 587.5618, 656.2725]
+
+
+class Queries(Test):
+    def query(self, *arguments):
+        return json.loads(self.command("query", *arguments, "--json"))
+
+    def test_indices_are_those_of_the_command(self):
+        for name in ("N-BK7", "Au_Johnson", "schott/N-SF11"):
+            told = self.query("ior", name, "--at", ",".join(map(str, LINES)))
+            self.assertEqual(abbe.ior(name, LINES).tolist(), told["n"], name)
+            self.assertEqual(abbe.extinction(name, LINES).tolist(), told["k"], name)
+        self.assertAlmostEqual(abbe.ior("N-BK7", 587.5618), 1.5168, places=7)
+        self.assertEqual(abbe.ior("N-BK7", numpy.full((2, 3), 500)).shape, (2, 3))
+        self.assertEqual(abbe.material("N-BK7")["medium"], "air")
+
+    def test_reflectances_are_broadcast_and_those_of_the_command(self):
+        told = self.query("reflectance", "Ag_Johnson", "--at", "500,600", "--angle", "0,60,90", "--coating", "MgF2:100", "--arrays")
+        rs, rp = abbe.reflectance("Ag_Johnson", [[500], [600]], [0, 60, 90], coating=[("MgF2", 100)])
+        self.assertEqual(rs.tolist(), told["Rs"])
+        self.assertEqual(rp.tolist(), told["Rp"])
+
+    def test_prisms_deviate_as_by_the_command(self):
+        told = self.query("prism", "N-SF11", "--apex", "60", "--at", "486.1327,587.5618")
+        self.assertEqual(abbe.prism_deviation("N-SF11", LINES[:2]).tolist(), told["deviation_deg"])
+        self.assertTrue(numpy.isnan(abbe.prism_deviation("N-SF11", 500.0, apex_deg=120)))
+
+    def test_colours_are_those_of_the_command(self):
+        told = self.query("color", "--illuminant", "A", "--observer", "1964", "--reflectance", "Blue Sky")
+        for key, values in abbe.color("A", "Blue Sky", "1964").items():
+            self.assertEqual(values.tolist(), told[key], key)
+        grid = numpy.arange(300, 1101, 1.0)
+        sampled = abbe.color((grid, abbe.illuminant("A", grid)), (grid, abbe.curve("reflectance", "Blue Sky", grid)), "1964")
+        numpy.testing.assert_allclose(sampled["XYZ"], told["XYZ"], rtol=1e-12)
+
+    def test_colour_differences_are_those_of_the_command(self):
+        labs = [[50, 2.6772, -79.7751], [50, 0, -82.7485]]
+        told = self.query("delta-e", *(",".join(map(str, lab)) for lab in labs))
+        for formula, key in (("2000", "dE00"), ("94", "dE94"), ("76", "dE76")):
+            self.assertEqual(abbe.delta_e(*labs, formula=formula), told[key])
+        self.assertEqual(abbe.delta_e(numpy.zeros((4, 5, 3)), labs[0]).shape, (4, 5))
+
+    def test_tables_at_wavelengths(self):
+        self.assertEqual(abbe.illuminant("A", 560.0), 100)
+        self.assertEqual(abbe.observer(wavelengths_nm=555.0)["y"], 1)
+        self.assertEqual(list(abbe.camera("Nikon_D5100", [550])), ["R", "G", "B"])
+        self.assertIn("D65", abbe.names("illuminant"))
+        self.assertEqual(json.loads(self.command("query", "--list", "glass", "--json"))["glass"], abbe.names("glass"))
+
+    def test_what_is_wrong_is_told(self):
+        for call, error, message in ((lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
+                                     (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data there"),
+                                     (lambda: abbe.ior("N-BK7", [numpy.nan]), abbe.UsageError, "got nan nm"),
+                                     (lambda: abbe.reflectance("N-BK7", 500, 91), abbe.UsageError, "angle_deg: got 91"),
+                                     (lambda: abbe.names("lens"), abbe.UsageError, "unknown kind"),
+                                     (lambda: abbe.color("D65", ([400, 390], [1, 1])), abbe.UsageError, "ascending"),
+                                     (lambda: abbe.color("D65", ([400], [1])), abbe.UsageError, "two or more"),
+                                     (lambda: abbe.delta_e([1, 2], [1, 2]), abbe.UsageError, "last axis")):
+            with self.subTest(message=message), self.assertRaisesRegex(error, message):
+                call()
+
+    def test_a_million_sellmeier_formulas_take_50_ms(self):
+        wavelengths = numpy.linspace(400, 1000, 1_000_000)
+        abbe.ior("N-BK7", 500.0)  # which reads the table
+        costs = []
+        for _ in range(5):
+            begin = time.process_time()
+            abbe.ior("N-BK7", wavelengths)
+            costs.append(time.process_time() - begin)
+        print(f"a million indices: {1000 * min(costs):.1f} ms")
+        self.assertLess(min(costs), 0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,82 @@
+"""Scenes from paths, dicts and keywords, and what is wrong with them."""
+import pathlib
+import unittest
+import warnings
+
+import numpy
+
+import abbe
+from common import CORNELL, SCENES, Test, box
+
+
+class Scenes(Test):
+    def test_a_dict_makes_the_scene_that_its_file_makes(self):
+        scene = abbe.Scene(CORNELL, render={"samples": 2})
+        again = abbe.Scene(scene.to_dict(), folder=CORNELL.parent)
+        self.assertEqual(scene.to_dict(), again.to_dict())
+        numpy.testing.assert_array_equal(abbe.render(scene).array, abbe.render(again).array)
+
+    def test_keywords_are_keys_and_replace_those_of_what_is_given(self):
+        words = abbe.Scene(**box())
+        self.assertEqual(words.to_dict(), abbe.Scene(box()).to_dict())
+        self.assertEqual(abbe.Scene(box(), render={"samples": 7}).samples, 7)
+        self.assertEqual(abbe.Scene(CORNELL, render={"samples": 7, "seed": 3}).seed, 3)
+
+    def test_arrays_tuples_and_paths_stand_for_lists_and_texts(self):
+        camera = {**box()["camera"], "from": numpy.array([0.0, -5, 2]), "to": (0, 0, numpy.float32(0))}
+        scene = abbe.Scene(box(camera=camera, output={"image": pathlib.Path("film.exr")}))
+        self.assertEqual(scene.to_dict()["camera"], abbe.Scene(box()).to_dict()["camera"])
+        self.assertEqual(scene.to_dict()["output"], {"image": "film.exr"})
+        self.assertEqual((scene.width, scene.height, scene.channels), (8, 6, ["long", "short"]))
+
+    def test_what_is_wrong_has_its_pointer_and_its_message(self):
+        with self.assertRaises(abbe.SceneError) as caught:
+            abbe.Scene(box(shapes=[{"sphere": {"radius": -1}, "material": "grey"}], rendr={}))
+        told = {d.pointer: d.message for d in caught.exception.diagnostics}
+        self.assertEqual(told["/shapes/0/sphere/radius"], "expected a number (got -1, allowed (0, 1000000000000])")
+        self.assertIn('did you mean "render"?', told["/rendr"])
+        self.assertEqual({(d.file, d.severity) for d in caught.exception.diagnostics}, {("dict", "error")})
+        self.assertRegex(str(caught.exception), r"dict:\d+:\d+: /shapes/0/sphere/radius: error: expected a number")
+
+    def test_complaints_of_a_file_are_those_of_the_command(self):
+        file = self.scratch / "wrong.json"
+        file.write_text('{"abbe": 1,\n "camera": {"pinhole": {"fov_deg": 400}}}')
+        with self.assertRaises(abbe.SceneError) as caught:
+            abbe.Scene(file)
+        self.assertIn(f"{file}:2:36: /camera/pinhole/fov_deg: error: expected a number (got 400, allowed (0, 180))", str(caught.exception))
+
+    def test_what_json_cannot_hold_is_refused_where_it_stands(self):
+        endless = []
+        endless.append(endless)
+        for value, message in ((float("nan"), "expected a finite number (got nan)"), ({1, 2}, "expected what JSON can hold (got a set)"),
+                               ({1: 2}, "expected keys that are strings (got a int)"), (10 ** 400, "expected a finite number")):
+            with self.subTest(value=str(value)[:9]), self.assertRaises(abbe.SceneError) as caught:
+                abbe.Scene(box(lights=[{"a/b": value}]))
+            self.assertEqual(caught.exception.diagnostics[0].pointer, "/lights/0/a~1b")
+            self.assertIn(message, caught.exception.diagnostics[0].message)
+        with self.assertRaisesRegex(abbe.SceneError, "nested deeper than 256"):
+            abbe.Scene(box(lights=endless))
+
+    def test_a_missing_file_is_an_input_error(self):
+        with self.assertRaises(abbe.InputError):
+            abbe.Scene(self.scratch / "absent.json")
+        with self.assertRaises(abbe.InputError) as caught:
+            abbe.Scene(box(shapes=[{"mesh": "absent.ply", "material": "grey"}]), folder=self.scratch)
+        self.assertIn(str(self.scratch / "absent.ply"), str(caught.exception))
+
+    def test_warnings_are_those_of_python(self):
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            abbe.Scene(SCENES / "spectrograph.json")
+        self.assertEqual([w.category for w in heard], [abbe.SceneWarning])
+        self.assertIn("F2 holds on [320, 2500] nm", str(heard[0].message))
+
+    def test_docstrings_tell_what_the_tables_of_keys_say(self):
+        self.assertIn("  camera: What looks at the scene. (object, required)", abbe.Scene.__doc__)
+        self.assertEqual(abbe.help("sensor/readout/bits"), self.command("help", "scene", "sensor/readout/bits"))
+        with self.assertRaisesRegex(abbe.UsageError, "did you mean"):
+            abbe.help("camra")
+
+
+if __name__ == "__main__":
+    unittest.main()
