@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "io/data_directory.h"
+#include "python/develop.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/query.h"
@@ -19,6 +20,9 @@ PYBIND11_MODULE(_abbe, module) {
   abbe::python::add_scene(module);
   abbe::python::add_film(module);
   abbe::python::add_render(module);
+  abbe::python::add_develop(module);
+  abbe::python::add_compare(module);
+  abbe::python::add_calibrate(module);
   abbe::python::add_matter(module);
   abbe::python::add_curves(module);
 }

@@ -4,7 +4,7 @@ import unittest
 import numpy
 
 import abbe
-from common import CORNELL, Test, box
+from common import CORNELL, SCENES, Test, box
 
 
 def spectral():
@@ -19,6 +19,12 @@ class Films(Test):
             film.write(self.scratch / ("own_" + name))
             self.assertEqual((self.scratch / name).read_bytes(), (self.scratch / ("own_" + name)).read_bytes(), name)
         self.assertEqual(film._repr_png_(), (self.scratch / "c.png").read_bytes())
+
+    def test_colours_of_a_camera_are_fitted_to_the_same_bits(self):
+        furnace = SCENES / "furnace.json"
+        abbe.render(abbe.Scene(furnace), spp=2).write(self.scratch / "own.exr")
+        self.command("render", furnace, "--spp", 2, "--quiet", "-o", self.scratch / "c.exr")
+        self.assertEqual((self.scratch / "c.exr").read_bytes(), (self.scratch / "own.exr").read_bytes())
 
     def test_keywords_over_a_file_are_what_set_is_to_the_command(self):
         abbe.render(abbe.Scene(CORNELL, render={"samples": 2, "seed": 1})).write(self.scratch / "own.exr")

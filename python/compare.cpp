@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "film/white.h"
+#include "python/develop.h"
+#include "python/errors.h"
+#include "python/film.h"
+#include "python/json.h"
+#include "python/scene.h"
+#include "sensor/film/recorded_white.h"
+#include "validation/statistics/chart_difference.h"
+#include "validation/statistics/image_difference.h"
+
+namespace abbe::python {
+namespace {
+
+namespace py = pybind11;
+
+py::dict compare(const FilmHandle& film, const FilmHandle& reference, const py::object& white) {
+  std::optional<Chromaticity> asked;
+  if (!white.is_none())
+    asked = asked_white(to_text(to_json(white)),
+                        recorded_white(reference.image()) ? reference.image() : film.image());
+  const Comparison found = compare_images(film.image(), reference.image(), asked);
+  py::dict told;
+  told["relMSE"] = found.rel_mse;
+  told["rmse"] = found.rmse;
+  told["mean_ratio"] = found.mean_ratio;
+  const auto color = [&](double ColorDifference::*figure) {
+    return found.color ? py::object(py::float_((*found.color).*figure)) : py::object(py::none());
+  };
+  told["dE00_mean"] = color(&ColorDifference::mean);
+  told["dE00_p95"] = color(&ColorDifference::p95);
+  told["dE00_max"] = color(&ColorDifference::max);
+  return told;
+}
+
+py::list measure(const SceneHandle& scene, const FilmHandle& film, const FilmHandle* reference) {
+  py::list patches;
+  const Image* other = reference != nullptr ? &reference->image() : nullptr;
+  for (const PatchDifference& patch : compare_chart(scene.scene(), film.image(), other, DeltaE::cie2000)) {
+    py::dict told;
+    told["patch"] = patch.name;
+    told["pixels"] = patch.pixels;
+    told["Lab"] = patch.image;
+    told["reference_Lab"] = patch.reference;
+    told["dE00"] = patch.delta_e;
+    patches.append(told);
+  }
+  return patches;
+}
+
+}  // namespace
+
+void add_compare(py::module_& module) {
+  module.def(
+      "compare", compare, py::arg("film"), py::arg("reference"), py::kw_only(), py::arg("white") = py::none(),
+      "Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: "
+      "relative "
+      "and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not "
+      "known. Raises InputError for films of different size.");
+  module.def("measure", measure, py::arg("scene"), py::arg("film"), py::arg("reference") = py::none(),
+             "Reads the first chart of a scene out of a film of it: a dict for each patch, with its L*a*b*, "
+             "that of the "
+             "chart's own spectra (or of a reference film), and CIEDE2000 between them. Raises InputError "
+             "for a scene "
+             "without a chart.");
+}
+
+}  // namespace abbe::python

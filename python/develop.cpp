@@ -1,0 +1,179 @@
+#include "develop/develop.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "develop/film_file.h"
+#include "develop/radiance.h"
+#include "film/spectral.h"
+#include "film/white.h"
+#include "io/picture.h"
+#include "python/develop.h"
+#include "python/errors.h"
+#include "python/film.h"
+#include "python/json.h"
+#include "python/scene.h"
+#include "sensor/film/recorded_white.h"
+
+namespace abbe::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+constexpr const char* kWhere = "film";  // what messages call the film
+
+/// A film that was read out, with the sensor that did.
+struct Developed {
+  FilmSensor sensor;
+  DevelopedFilm planes;
+
+  [[nodiscard]] Image display() const { return display_planes(sensor, planes.calibrated); }
+  [[nodiscard]] std::optional<double> scale() const {
+    return sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
+  }
+  [[nodiscard]] Image picture() const {
+    if (!sensor.display)
+      throw Error(ErrorCode::usage, kWhere, "a picture needs a sensor of one or three channels, and a light");
+    return (*sensor.display)(display(), scale()).image;
+  }
+};
+
+std::vector<std::string> names_of(const Image& image, const std::string& prefix) {
+  std::vector<std::string> names;
+  for (const ImageChannel& channel : image.channels)
+    if (channel.name.starts_with(prefix)) names.push_back(channel.name);
+  return names;
+}
+
+py::object array_of(const Image& image, std::vector<std::string> planes, const std::string& prefix = "") {
+  for (std::string& name : planes) name = prefix + name;
+  return planes_of(image, planes);
+}
+
+FilmSensor sensor_of(const Image& film, const py::object& readout, std::optional<Chromaticity> white) {
+  std::vector<Override> overrides;
+  if (!readout.is_none()) overrides.push_back({"/readout", to_text(to_json(readout))});
+  Diagnostics diagnostics;
+  FilmSensor sensor = accepted(film_sensor(film, kWhere, overrides, {}, white, diagnostics), diagnostics);
+  require_planes(film, sensor, kWhere);
+  return sensor;
+}
+
+// What the sensor of another scene sees of radiances.
+ExposedFilm seen(const FilmHandle& film, SceneHandle& looker, const py::object& readout,
+                 const std::optional<std::string>& white) {
+  abbe::Scene scene = looker.scene();
+  const Image told{0, 0, {}, film.metadata()};
+  settle_white(scene, looker.name(), told, white);
+  Diagnostics diagnostics;
+  Image image = seen_by(scene, spectral_image(film.image(), kWhere), kWhere, diagnostics);
+  check(diagnostics);
+  FilmSensor sensor = sensor_of(image, readout, std::nullopt);
+  return {std::move(image), std::move(sensor)};
+}
+
+ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::object& readout,
+                    const std::optional<std::string>& white) {
+  const Image& image = film.image();
+  if (is_spectral(image) && looker != nullptr) return seen(film, *looker, readout, white);
+  if (looker != nullptr)
+    throw Error(ErrorCode::usage, "scene", "only a spectral film takes a sensor: this one has its own");
+  const auto asked = white ? std::optional(asked_white(*white, image)) : std::nullopt;
+  if (is_spectral(image))
+    return observed_film(spectral_image(image, kWhere), {}, asked ? asked : recorded_white(image));
+  return {image, sensor_of(image, readout, asked)};
+}
+
+Developed develop_film(const FilmHandle& film, const py::object& readout, const py::object& white,
+                       std::optional<std::uint64_t> seed, SceneHandle* scene) {
+  const auto asked = white.is_none() ? std::nullopt : std::optional(to_text(to_json(white)));
+  ExposedFilm source = exposed(film, scene, readout, asked);
+  const std::uint64_t noise = seed.value_or(render_seed(source.film));
+  const py::gil_scoped_release released;
+  DevelopedFilm planes = develop(source, noise);
+  return {std::move(source.sensor), std::move(planes)};
+}
+
+void write(const Developed& developed, const fs::path& path) {
+  if (path.extension() == ".exr")
+    return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
+  if (!developed.sensor.readout)
+    throw Error(ErrorCode::usage, path.string(), "the film has no read-out to make codes with");
+  write_raw(path, developed.planes);
+}
+
+py::list figures(const Developed& developed) {
+  py::list all;
+  const std::vector<PlaneFigures> planes = plane_figures(developed.sensor, developed.planes);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const PlaneFigures& plane = planes[i];
+    py::dict told;
+    told["plane"] = developed.sensor.planes.at(i);
+    told["mean"] = plane.mean;
+    told["render_error"] = plane.render_error;
+    if (developed.sensor.readout) {
+      told["photon_noise_e"] = plane.noise.photon_e;
+      told["dark_noise_e"] = plane.noise.dark_e;
+      told["read_noise_e"] = plane.noise.read_e;
+      told["quantisation_noise_e"] = plane.noise.quantisation_e;
+      told["sensor_noise_e"] = plane.noise.total_e;
+      told["saturated_share"] = plane.saturated_share;
+    }
+    all.append(told);
+  }
+  return all;
+}
+
+py::object picture_array(const Developed& developed) {
+  const Image picture = developed.picture();
+  return planes_of(picture, names_of(picture, ""));
+}
+
+}  // namespace
+
+void add_develop(py::module_& module) {
+  py::class_<Developed>(
+      module, "Developed",
+      "A film that was read out: arrays of rows, columns and planes for each step from light to "
+      "numbers; what the film's sensor does not have is None.")
+      .def_property_readonly(
+          "planes", [](const Developed& d) { return d.sensor.planes; },
+          "The names of the planes of the arrays.")
+      .def_property_readonly(
+          "exposure", [](const Developed& d) { return array_of(d.planes.exposure, d.sensor.planes); },
+          "The film values that were read out.")
+      .def_property_readonly(
+          "electrons", [](const Developed& d) { return array_of(d.planes.electrons, d.sensor.planes); },
+          "The electrons that each pixel expects from light.")
+      .def_property_readonly(
+          "codes", [](const Developed& d) { return array_of(d.planes.codes, d.sensor.planes); },
+          "The digital numbers, with all noise.")
+      .def_property_readonly(
+          "saturated",
+          [](const Developed& d) { return array_of(d.planes.codes, d.sensor.planes, "Saturated."); },
+          "1 where a pixel saturated, 0 elsewhere.")
+      .def_property_readonly(
+          "calibrated", [](const Developed& d) { return array_of(d.planes.calibrated, d.sensor.planes); },
+          "What the digital numbers say of the exposure; without a read-out the exposure itself.")
+      .def_property_readonly(
+          "figures", figures,
+          "For each plane a dict of its mean, the error of the render and the noise of the sensor, "
+          "in electrons where there is a read-out.")
+      .def("picture", picture_array, "Returns the result as an sRGB display shows it, code values in [0, 1].")
+      .def(
+          "write", write, py::arg("path"),
+          "Writes the codes to a 16-bit .tif or .png, or all planes to an .exr of parts. Raises OutputError.")
+      .def("_repr_png_", [](const Developed& d) { return py::bytes(encoded_picture(".png", d.picture())); });
+  module.def("develop", develop_film, py::arg("film"), py::kw_only(), py::arg("readout") = py::none(),
+             py::arg("white") = py::none(), py::arg("seed") = py::none(), py::arg("scene") = py::none(),
+             "Reads a film out without rendering: noise, digital numbers, and what these say.\n\n`readout` "
+             "replaces the "
+             "sensor's, as a dict with the keys of `help(\"sensor/readout\")`; `white` is what pictures show "
+             "as white, "
+             "as `output/white` of a scene; `seed` is that of the noise, by default the render's. At a "
+             "spectral film the "
+             "sensor of `scene` may look.");
+}
+
+}  // namespace abbe::python
