@@ -1,4 +1,5 @@
-# `cpack -G DEB` in the build folder makes the Debian packages, laid out for /usr: `abbe` of component `tool`, and `abbe-mpi`, where there is Open MPI.
+# `cpack -G DEB` in the build folder makes the Debian packages, laid out for /usr: `abbe` of component `tool`; `abbe-mpi`, where there is
+# Open MPI; and `python3-abbe`, where there is pybind11.
 set(CPACK_PACKAGE_NAME abbe)
 set(CPACK_PACKAGE_VENDOR "The Abbe developers")
 set(CPACK_PACKAGE_CONTACT "The Abbe developers <abbe@packages.invalid>" CACHE STRING "Maintainer of the packages")
@@ -14,6 +15,9 @@ set(CPACK_COMPONENTS_ALL tool)
 if(TARGET abbe_mpi)
   list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
+if(TARGET abbe_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME abbe)
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME abbe-mpi)
@@ -21,6 +25,14 @@ set(CPACK_COMPONENT_MPI_DESCRIPTION "renders one film of Abbe with several proce
 This module lets mpirun start one render as several processes, of one
 machine or of many; the film has the same bits whatever their number.")
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "abbe (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-abbe)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "renders with Abbe from Python
+The package abbe: scenes from dicts, films as arrays of numpy, indices and
+colours over arrays of wavelengths.")
+math(EXPR next_python "0${Python_VERSION_MINOR} + 1")  # a module is for one minor version
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "abbe (= ${PROJECT_VERSION}), python3-numpy, \
+python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_python})")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)

@@ -6,6 +6,7 @@ from . import _abbe
 from ._abbe import *  # noqa: F401,F403
 from ._abbe import __version__  # noqa: F401
 from .errors import *  # noqa: F401,F403
+from .plots import plot_spectrum  # noqa: F401
 
 
 def _data_directory():

@@ -1,0 +1,259 @@
+"""Types of the compiled module; written by write_stub.py from its docstrings."""
+from __future__ import annotations
+
+import os
+import typing
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+
+class Developed:
+    """A film that was read out: arrays of rows, columns and planes for each step from light to numbers; what the film's sensor does not have is None."""
+
+    @property
+    def planes(self) -> typing.List[str]:
+        """The names of the planes of the arrays."""
+
+    @property
+    def exposure(self) -> NDArray[numpy.float32] | None:
+        """The film values that were read out."""
+
+    @property
+    def electrons(self) -> NDArray[numpy.float32] | None:
+        """The electrons that each pixel expects from light."""
+
+    @property
+    def codes(self) -> NDArray[numpy.float32] | None:
+        """The digital numbers, with all noise."""
+
+    @property
+    def saturated(self) -> NDArray[numpy.float32] | None:
+        """1 where a pixel saturated, 0 elsewhere."""
+
+    @property
+    def calibrated(self) -> NDArray[numpy.float32] | None:
+        """What the digital numbers say of the exposure; without a read-out the exposure itself."""
+
+    @property
+    def figures(self) -> list:
+        """For each plane a dict of its mean, the error of the render and the noise of the sensor, in electrons where there is a read-out."""
+
+    def picture(self: Developed) -> NDArray[numpy.float32]:
+        """Returns the result as an sRGB display shows it, code values in [0, 1]."""
+
+    def write(self: Developed, path: str | os.PathLike[str]) -> None:
+        """Writes the codes to a 16-bit .tif or .png, or all planes to an .exr of parts. Raises OutputError."""
+
+
+class Diagnostic:
+    """One complaint about an input: what is wrong, and where it stands."""
+
+    @property
+    def file(self) -> typing.Optional[str]:
+        """The name of the text complained about, None where there is none."""
+
+    @property
+    def pointer(self) -> str:
+        """The JSON pointer of the value complained about, such as "/camera/from"."""
+
+    @property
+    def message(self) -> str:
+        """What is wrong, as a sentence without its place."""
+
+    @property
+    def severity(self) -> str:
+        """"error" or "warning"."""
+
+
+class Film:
+    """The film of a scene's sensor: values per pixel and channel with their variance, before noise.
+
+    `abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from files. Jupyter shows a film as its display picture."""
+
+    @property
+    def array(self) -> NDArray[numpy.float32]:
+        """The film's values as a read-only array of float32: rows, columns, channels. It is made of the exact sums the first time it is asked for, with the values that a file has; after that nothing is copied."""
+
+    @property
+    def variance(self) -> NDArray[numpy.float32] | None:
+        """The variance of each of these values, of the same shape; None for an image that does not tell it."""
+
+    @property
+    def channels(self) -> typing.List[str]:
+        """The names of the channels, in the order of `array`."""
+
+    @property
+    def wavelengths(self) -> NDArray[numpy.float64] | None:
+        """The middles of the bands of a spectral film in nm, in the order of `array`; None for other films."""
+
+    def spectrum(self: Film, x: int, y: int) -> NDArray[numpy.float32]:
+        """Returns the radiance in each band at the pixel of column x and row y, in W/(m^2 sr), a view of `array`. Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it."""
+
+    @staticmethod
+    def read(path: str | os.PathLike[str]) -> Film:
+        """Reads a film: an .abbepart with its exact sums, or an .exr. Raises InputError for a file that is missing, damaged or no film."""
+
+    def write(self: Film, path: str | os.PathLike[str]) -> None:
+        """Writes the film: to .exr with its variance, to .abbepart with its exact sums, to .png, .jpg or .tif its display picture. The file is the one that `abbe render` writes, and appears whole or not at all. Raises OutputError."""
+
+    @property
+    def metadata(self) -> typing.Dict[str, str]:
+        """What the film's file tells of it, as strings by name."""
+
+    @property
+    def stats(self) -> dict[str, typing.Any] | None:
+        """What the render did, as a dict; None for a film read from an image."""
+
+    @property
+    def width(self) -> int:
+        """The film's columns of pixels."""
+
+    @property
+    def height(self) -> int:
+        """The film's rows of pixels."""
+
+    def picture(self: Film) -> NDArray[numpy.float32]:
+        """Returns the film as an sRGB display shows it: rows, columns, and R, G, B or grey, code values in [0, 1]. Raises UsageError for a film that no display can show."""
+
+
+class Progress:
+    """How far a render has come."""
+
+    @property
+    def share(self) -> float:
+        """The share of the work that is done, in [0, 1]; an estimate where time or error decides."""
+
+    @property
+    def samples(self) -> int:
+        """How many samples of each pixel are finished."""
+
+    @property
+    def elapsed_s(self) -> float:
+        """The time since the render began, in s."""
+
+    @property
+    def error(self) -> float:
+        """The median relative error of the lit values so far; infinite while it is not known."""
+
+
+class Scene:
+    """A scene, ready to render.
+
+    Scene(path) reads a scene file; Scene(dict) takes what such a file would hold, and files it names are looked for in `folder`, by default the current one. Keywords are keys at the top of the scene and replace those of the file or dict. What is wrong is raised as abbe.SceneError or abbe.InputError, whose `diagnostics` tell all of it."""
+
+    def __init__(self: Scene, source: typing.Any = None, *, folder: typing.Any = None, **keywords: typing.Any) -> None:
+        """Reads a scene from a path or a dict; keywords replace keys at its top."""
+
+    def to_dict(self: Scene) -> dict[str, typing.Any]:
+        """Returns the scene as a dict that makes the same scene, without what is as by default."""
+
+    @property
+    def width(self) -> int:
+        """The film's columns of pixels."""
+
+    @property
+    def height(self) -> int:
+        """The film's rows of pixels."""
+
+    @property
+    def channels(self) -> typing.List[str]:
+        """The names of the film's planes."""
+
+    @property
+    def samples(self) -> int:
+        """How many samples a pixel gets unless `render` is told otherwise."""
+
+    @property
+    def seed(self) -> int:
+        """The seed of the random numbers unless `render` is told otherwise."""
+
+
+def calibrate(camera: str, illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = 'gamma:2.2', bits: int = 12) -> dict:
+    """Calibrates a measured camera on a chart under an illuminant, as `abbe calibrate` does: the chart is photographed through a planted response ("linear", "gamma:G" or "s-curve") at so many bits, the response is recovered without knowing it, and the white-preserving matrix with the least mean CIEDE2000 is fitted.
+
+    Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the largest error of each recovered response as a share of full scale, and the matrix from linear camera values to XYZ relative to D65. Raises InputError for an unknown name."""
+
+
+def camera(name: str, wavelengths_nm: ArrayLike) -> dict:
+    """Returns the responses of a measured camera at wavelengths as a dict by channel: relative to energy, or electrons per J for a quantum efficiency. Raises InputError for an unknown name."""
+
+
+def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str = '1931') -> dict:
+    """Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the perfect diffuser), xy and Lab, summed every nanometre from 380 to 780 nm.
+
+    Illuminant and reflectance are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. Raises InputError for an unknown name."""
+
+
+def compare(film: Film, reference: Film, *, white: typing.Any = None) -> dict:
+    """Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: relative and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not known. Raises InputError for films of different size."""
+
+
+def curve(kind: str, name: str, wavelengths_nm: ArrayLike) -> typing.Any:
+    """Returns a measured curve of one of the kinds of `names` but material and glass, such as a reflectance, at wavelengths. Raises InputError for an unknown name."""
+
+
+def delta_e(lab1: ArrayLike, lab2: ArrayLike, formula: str = '2000') -> typing.Any:
+    """Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of 2000, 94 or 76; the first is the standard."""
+
+
+def develop(film: Film, *, readout: typing.Any = None, white: typing.Any = None, seed: typing.Optional[int] = None, scene: Scene | None = None) -> Developed:
+    """Reads a film out without rendering: noise, digital numbers, and what these say.
+
+    `readout` replaces the sensor's, as a dict with the keys of `help("sensor/readout")`; `white` is what pictures show as white, as `output/white` of a scene; `seed` is that of the noise, by default the render's. At a spectral film the sensor of `scene` may look."""
+
+
+def extinction(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
+    """Returns the extinction coefficient k of a material, the imaginary part of its index n + ik. Raises as `ior` does."""
+
+
+def help(key: str = '') -> str:
+    """Returns what a key of scenes means, its range and its default, as `abbe help scene KEY` prints it."""
+
+
+def illuminant(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
+    """Returns the relative power of an illuminant at wavelengths, in the unit of its table. "blackbody:3000" and "daylight:6500" are made of their temperature in K. Raises InputError for an unknown name."""
+
+
+def ior(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
+    """Returns the real refractive index n of a material at wavelengths in standard air, as catalogued: relative to air or vacuum, as `material(name)` tells.
+
+    Names are those of `names("material")` and `names("glass")`, or files. Raises InputError for an unknown name and UsageError for a wavelength without data."""
+
+
+def material(name: str) -> dict:
+    """Returns a dict of what is known of a material: its full name, the source of its data, the medium its index is relative to, and the wavelengths between which it holds."""
+
+
+def measure(scene: Scene, film: Film, reference: Film | None = None) -> list:
+    """Reads the first chart of a scene out of a film of it: a dict for each patch, with its L*a*b*, that of the chart's own spectra (or of a reference film), and CIEDE2000 between them. Raises InputError for a scene without a chart."""
+
+
+def merge(films: typing.Sequence[typing.Any], *, partial: bool = False) -> Film:
+    """Adds up films of one render, or the .abbepart files of paths, to the film that one render of all their samples gives, bit for bit. Raises InputError for films of different renders, for samples that two of them have, and, unless `partial`, where samples are missing of those the render is to have."""
+
+
+def names(kind: str) -> typing.List[str]:
+    """Returns the names that Abbe knows of a kind: material, glass, illuminant, reflectance, camera, filter or observer. Raises UsageError for another kind."""
+
+
+def observer(name: str = '1931', *, wavelengths_nm: ArrayLike) -> dict:
+    """Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at wavelengths, as a dict of x, y, z."""
+
+
+def prism_deviation(name: str, wavelengths_nm: ArrayLike, apex_deg: float = 60.0, incidence_deg: typing.Optional[float] = None) -> typing.Any:
+    """Returns by how many degrees a prism in air deviates light: the least deviation, or that at one angle of incidence; NaN where the light is totally reflected. Raises as `ior` does."""
+
+
+def reflectance(name: str, wavelengths_nm: ArrayLike, angle_deg: ArrayLike = 0.0, coating: typing.List[typing.Tuple[str, float]] = []) -> tuple:
+    """Returns (Rs, Rp), the reflectance of a smooth surface for light from air polarised across and in the plane of incidence, by Fresnel's formulas.
+
+    Wavelengths and angles of incidence are broadcast against one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises as `ior` does."""
+
+
+def render(scene: Scene, *, spp: typing.Optional[int] = None, seed: typing.Optional[int] = None, threads: int = 0, error: typing.Optional[float] = None, time: typing.Optional[float] = None, progress: typing.Any = None, sample_range: typing.Optional[typing.Tuple[int, int]] = None) -> Film:
+    """Renders a scene and returns its film, of the bits that `abbe render` gives, whatever the threads.
+
+    `spp` and `seed` replace what the scene says; `threads` is one per processor unless given. `error` ends the render at that median relative error (0.01 for a percent), `time` after so many seconds, both at the end of a pass. `progress` is called after passes with a Progress, on the calling thread. `sample_range` (first, last) renders these samples only, for `merge`. Other threads of Python run meanwhile. Ctrl-C, and what `progress` raises, end the render after the pass that runs and are raised here."""
