@@ -1,0 +1,32 @@
+"""The notebooks of docs/notebooks: they hold no outputs, and every cell runs."""
+import os
+import pathlib
+import unittest
+import warnings
+
+warnings.simplefilter("default")  # nbconvert's own are none of ours
+os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # of which the kernel would tell
+os.environ["MPLBACKEND"] = "agg"
+try:
+    import nbformat
+    from nbconvert.preprocessors import ExecutePreprocessor
+except ImportError:
+    raise unittest.SkipTest("nbconvert is not installed")
+
+FOLDER = pathlib.Path(__file__).resolve().parent.parent.parent / "docs" / "notebooks"
+
+
+class Notebooks(unittest.TestCase):
+    def test_every_notebook_runs(self):
+        paths = sorted(FOLDER.glob("*.ipynb"))
+        self.assertGreaterEqual(len(paths), 6)
+        for path in paths:
+            with self.subTest(path.name):
+                notebook = nbformat.read(path, as_version=4)
+                for cell in notebook.cells:
+                    self.assertFalse(cell.get("outputs"), "stored outputs")
+                ExecutePreprocessor(timeout=200, kernel_name="python3").preprocess(notebook, {"metadata": {"path": FOLDER}})
+
+
+if __name__ == "__main__":
+    unittest.main()
