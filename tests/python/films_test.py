@@ -88,6 +88,12 @@ class Films(Test):
         with self.assertRaisesRegex(abbe.UsageError, "read from an image"):
             abbe.merge([abbe.Film.read(self.scratch / "w.exr")])
 
+    def test_parts_of_the_program_are_of_another_build(self):
+        abbe.render(abbe.Scene(CORNELL), spp=2, sample_range=(0, 1)).write(self.scratch / "a.abbepart")
+        self.command("render", CORNELL, "--spp", 2, "--sample-range", "1:2", "--quiet", "-o", self.scratch / "b.abbepart")
+        with self.assertRaisesRegex(abbe.InputError, "build"):
+            abbe.merge([self.scratch / "a.abbepart", self.scratch / "b.abbepart"])
+
     def test_pictures_are_code_values(self):
         picture = abbe.render(abbe.Scene(CORNELL), spp=1).picture()
         self.assertEqual(picture.shape, (256, 256, 3))
