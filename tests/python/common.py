@@ -33,4 +33,4 @@ class Test(unittest.TestCase):
 
     def command(self, *arguments):
         """What the command line prints."""
-        return subprocess.run([os.environ["ABBE_BINARY"], *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+        return subprocess.run([os.environ["ABBE_BINARY"], *map(str, arguments)], check=True, capture_output=True, text=True, cwd=self.scratch).stdout
