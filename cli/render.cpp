@@ -19,13 +19,13 @@
 #include "cli/warnings.h"
 #include "film/rendered_film.h"
 #include "film/sensor_identity.h"
+#include "film/shortcomings.h"
 #include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
 #include "io/standard_stream.h"
-#include "transport/path/roulette.h"
 #include "transport/render/threads.h"
 
 namespace abbe::cli {
@@ -303,14 +303,7 @@ int render(const RenderOptions& options) {
   if (options.target_error && !options.time_limit_s && !stats.interrupted &&
       !std::isfinite(stats.error.median))
     say("warning: a pilot found no light on the film: --error had nothing to wait for");
-  if (stats.nonfinite_samples > 0)
-    say(fmt::format("warning: {} samples were not finite and were left out", stats.nonfinite_samples));
-  if (stats.cut.paths > 0 && !scene.render.max_depth)
-    say(fmt::format(
-        "warning: {} of {} paths were cut after {} events, with {:.3g} % of what all set out with: "
-        "their light is missing",
-        stats.cut.paths, stats.paths, kMostEvents,
-        100 * stats.cut.throughput() / static_cast<double>(stats.paths)));
+  for (const std::string& loss : left_out(scene, stats)) say("warning: " + loss);
   if (stats.interrupted) return kSignalExit + watch.signal();
   return options.strict && stats.nonfinite_samples > 0 ? static_cast<int>(ErrorCode::internal) : 0;
 }

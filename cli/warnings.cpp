@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "film/rendered_film.h"
+#include "film/shortcomings.h"
 #include "io/error.h"
-#include "scene/dark_enclosure.h"
-#include "transport/plan/plan.h"
 
 namespace abbe::cli {
 namespace {
@@ -21,20 +19,12 @@ void warn(const std::string& message, bool is_error) {
 }  // namespace
 
 void warn_of_lost_light(const Scene& scene, bool strict) {
-  const auto lost = unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
-  if (lost.empty()) return;
   const bool chosen = scene.render.integrator != Integrator::automatic;
-  const std::string by =
-      chosen ? fmt::format("integrator \"{}\" does not reach", integrator_name(scene.render.integrator))
-             : "no technique reaches";
-  warn(fmt::format("light that {} is missing: {}", by, fmt::join(lost, "; ")), strict && chosen);
+  if (const auto lost = lost_light(scene)) warn(*lost, strict && chosen);
 }
 
 void warn_of_dark_camera(const Scene& scene, bool strict) {
-  if (const auto shape = dark_enclosure(scene))
-    warn(fmt::format("the camera stands within \"{}\", which is opaque and has no light inside",
-                     scene.shapes[*shape].name),
-         strict);
+  if (const auto dark = dark_camera(scene)) warn(*dark, strict);
 }
 
 void note_polarisation(const Needs& needs) {

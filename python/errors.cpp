@@ -32,6 +32,7 @@ void raise(const Error& error, const std::vector<Diagnostic>& diagnostics) {
   PyErr_SetObject(type.ptr(), type(error.what(), diagnostics).ptr());
 }
 
+// With the parameter that pybind11 calls it with. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void translate(std::exception_ptr thrown) {
   if (!thrown) return;
   try {
@@ -50,13 +51,15 @@ std::optional<std::string> file_of(const Diagnostic& diagnostic) {
 
 }  // namespace
 
+void warn(const std::string& text) {
+  const py::gil_scoped_acquire held;
+  const py::object category = py::module_::import(kErrors).attr("SceneWarning");
+  if (PyErr_WarnEx(category.ptr(), text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 void check(const Diagnostics& diagnostics) {
   require_sound(diagnostics);
-  const py::gil_scoped_acquire held;
-  for (const Diagnostic& warning : diagnostics.all()) {
-    const py::object category = py::module_::import(kErrors).attr("SceneWarning");
-    if (PyErr_WarnEx(category.ptr(), format(warning).c_str(), 1) != 0) throw py::error_already_set();
-  }
+  for (const Diagnostic& warning : diagnostics.all()) warn(format(warning));
 }
 
 void add_errors(py::module_& module) {

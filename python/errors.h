@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <pybind11/pybind11.h>
@@ -12,6 +13,9 @@ namespace abbe::python {
 
 /// Throws the errors; issues each warning as a `warnings.warn` of Python.
 void check(const Diagnostics& diagnostics);
+
+/// Issues a `warnings.warn` of Python of the class SceneWarning; throws where the user made it an exception.
+void warn(const std::string& text);
 
 /// What a loader gave, its complaints treated as by `check`.
 template <typename T>

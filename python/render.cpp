@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include "film/rendered_film.h"
+#include "film/shortcomings.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/render.h"
@@ -142,8 +143,11 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   Inputs inputs = handle.inputs();
   inputs.take_memory("the film", film_bytes(scene, how));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
+  for (const auto& shortcoming : {dark_camera(scene), lost_light(scene)})
+    if (shortcoming) warn(*shortcoming);
   Job job(scene, how, !progress.is_none());
   RenderResult result = job.wait([&](const std::optional<Progress>& news) { listen(progress, news); });
+  for (const std::string& loss : left_out(scene, result.stats)) warn(loss);
   return FilmHandle(RenderPart{std::move(identity), std::move(result)});
 }
 

@@ -71,6 +71,14 @@ class Scenes(Test):
         self.assertEqual([w.category for w in heard], [abbe.SceneWarning])
         self.assertIn("F2 holds on [320, 2500] nm", str(heard[0].message))
 
+    def test_renders_warn_of_light_that_is_missing(self):
+        lamp = {"name": "lamp", "point": {"at": [0, 0, 3]}, "emission": {"spectrum": 1}}
+        glass = {"sphere": {"center": [0, 0, 1], "radius": 0.5}, "material": "glass"}
+        scene = abbe.Scene(box(lights=[lamp], materials={**box()["materials"], "glass": {"dielectric": {"ior": 1.5}}},
+                               shapes=[*box()["shapes"], glass], render={"samples": 1, "integrator": "path"}))
+        with self.assertWarnsRegex(abbe.SceneWarning, 'light that integrator "path" does not reach is missing'):
+            abbe.render(scene)
+
     def test_docstrings_tell_what_the_tables_of_keys_say(self):
         self.assertIn("  camera: What looks at the scene. (object, required)", abbe.Scene.__doc__)
         self.assertEqual(abbe.help("sensor/readout/bits"), self.command("help", "scene", "sensor/readout/bits"))

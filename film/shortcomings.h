@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "transport/render/render.h"
+
+namespace abbe {
+
+/// Which light the film of the scene will lack, because no technique or not the chosen integrator reaches it,
+/// as a sentence; nothing when it will lack none.
+[[nodiscard]] std::optional<std::string> lost_light(const Scene& scene);
+
+/// That the camera stands within opaque matter where no light is, as a sentence; nothing when it does not.
+[[nodiscard]] std::optional<std::string> dark_camera(const Scene& scene);
+
+/// What a render left out of the scene's film, a sentence each: samples that were not finite, and paths that
+/// were cut although the scene does not say so.
+[[nodiscard]] std::vector<std::string> left_out(const Scene& scene, const RenderStats& stats);
+
+}  // namespace abbe
