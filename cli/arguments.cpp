@@ -84,12 +84,9 @@ double parse_share(const std::string& option, const std::string& text) {
 }
 
 Crop parse_crop(const std::string& option, const std::string& text) {
-  std::vector<int> edges;
-  for (const std::string& piece : split(text, ','))
-    edges.push_back(static_cast<int>(parse_integer(option, piece, 0, kMaxImageEdge)));
-  if (edges.size() != 4 || edges[0] >= edges[2] || edges[1] >= edges[3])
-    refuse(option, "\"" + text + "\"", "whole pixels x0,y0,x1,y1 with x0 < x1 and y0 < y1");
-  return {edges[0], edges[1], edges[2], edges[3]};
+  const std::optional<Crop> crop = abbe::parse_crop(text);
+  if (!crop) refuse(option, "\"" + text + "\"", "whole pixels x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+  return *crop;
 }
 
 SampleRange parse_sample_range(const std::string& option, const std::string& text) {

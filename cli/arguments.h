@@ -8,6 +8,7 @@
 
 #include "description/load.h"
 #include "transport/render/render.h"
+#include "transport/render/sampled_areas.h"
 
 namespace abbe::cli {
 

@@ -125,6 +125,10 @@ void add_merge(CLI::App& app, Command& command) {
       ->required()
       ->allow_extra_args(false)
       ->type_name("FILE.exr|FILE.abbepart");
+  add_parsed(
+      *sub.app, "--crop", sub->crop,
+      [](const auto& option, const auto& text) { return parse_crop(option, text); },
+      "Make the film of these pixels (default: of all)", "X0,Y0,X1,Y1");
   sub.app->add_flag("--partial", sub->partial,
                     "Write the film though samples are missing of those that --spp or the scene states");
   add_max_memory(*sub.app, sub.options);

@@ -121,6 +121,9 @@ std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIden
     throw Error(ErrorCode::output, path.string(), "holds an earlier render: --resume goes on with it");
   RenderPart part = read_checkpoint(path);
   require_same_film(path, part.identity, identity);
+  if (!part.areas.empty())
+    throw Error(ErrorCode::input, path.string(),
+                "has pixels with different samples, which merge alone completes");
   if (!options.quiet)
     say(fmt::format("{}: going on after samples {}{}", path.string(), to_text(part.result.samples),
                     part.result.unfinished ? " and a part of the next" : ""));
@@ -184,8 +187,8 @@ Json json_of(const Cost& cost) {
 }
 
 // Of the planes over what was rendered.
-Json film_figures(const Scene& scene, const Film& film, const std::optional<Crop>& crop) {
-  const Crop of = crop.value_or(Crop{0, 0, film.width(), film.height()});
+Json film_figures(const Scene& scene, const Film& film) {
+  const Crop of = film.crop();
   const std::vector<std::string> planes = scene.film_planes();
   Json figures;
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -198,8 +201,7 @@ Json film_figures(const Scene& scene, const Film& film, const std::optional<Crop
   return figures;
 }
 
-std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
-                       const std::optional<Crop>& crop) {
+std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs) {
   const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
@@ -220,7 +222,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["nonfinite_samples"] = stats.nonfinite_samples;
   answer["cut_paths"] = stats.cut.paths;
   answer["cut_throughput"] = stats.cut.throughput();
-  answer["film"] = film_figures(scene, result.film, crop);
+  answer["film"] = film_figures(scene, result.film);
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;
@@ -294,8 +296,7 @@ int render(const RenderOptions& options) {
   writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
   if (display) writers.emplace_back(metered(costs.display, write_display));
   if (!options.stats.empty())
-    writers.emplace_back(
-        [&] { write_stats(outputs.stats, stats_text(scene, part.result, costs, options.crop)); });
+    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
   write_all(writers);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),

@@ -35,19 +35,23 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
   identity.merge(sensor_identity(scene));
   if (!how.time_limit_s && !how.target_error)
     identity[kStatedSamplesKey] = fmt::format("{}", scene.render.samples);
-  if (how.crop)
-    identity["crop"] = fmt::format("{},{},{},{}", how.crop->x0, how.crop->y0, how.crop->x1, how.crop->y1);
+  if (how.crop && *how.crop != Crop{0, 0, scene.camera.width, scene.camera.height})
+    identity[kCropKey] = to_text(*how.crop);
   return identity;
 }
 
 std::size_t film_bytes(const Scene& scene, const RenderOptions& how) {
-  return static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height) *
-         scene.film_planes().size() * static_cast<std::size_t>(replicate_count(scene, how)) * sizeof(Int128);
+  return bytes_of_sums({.width = scene.camera.width,
+                        .height = scene.camera.height,
+                        .channels = static_cast<int>(scene.film_planes().size()),
+                        .replicates = replicate_count(scene, how),
+                        .unit_exponent = 0,
+                        .crop = how.crop});
 }
 
 void write_film(const std::filesystem::path& path, const RenderPart& part) {
   if (path.extension() == kPartExtension)
-    write_part(path, part.identity, part.result);
+    write_part(path, part.identity, part.result, part.areas);
   else
     write_exr(path, film_image(part));
 }

@@ -16,8 +16,14 @@ constexpr int kFractionBits = 80;
 constexpr int kHeadroomBits = 44;
 
 std::size_t sums_of(const FilmShape& shape) {
-  return static_cast<std::size_t>(shape.width) * static_cast<std::size_t>(shape.height) *
+  const Crop crop = pixels_of(shape);
+  return static_cast<std::size_t>(crop.x1 - crop.x0) * static_cast<std::size_t>(crop.y1 - crop.y0) *
          static_cast<std::size_t>(shape.channels) * static_cast<std::size_t>(shape.replicates);
+}
+
+FilmShape without_needless_crop(FilmShape shape) {
+  if (shape.crop == Crop{0, 0, shape.width, shape.height}) shape.crop.reset();
+  return shape;
 }
 
 // As exact as a sum of doubles can be told, and of no bound, where the integers of many pixels have one.
@@ -34,7 +40,40 @@ struct CompensatedSum {
   }
 };
 
+// Mean, and its variance, of what has the sums `sum_of(replicate)` of so many samples each.
+template <typename SumOf>
+double mean_of(std::span<const std::uint64_t> samples, SumOf sum_of) {
+  double total = 0;
+  for (std::size_t r = 0; r < samples.size(); ++r) total += sum_of(static_cast<int>(r));
+  const std::uint64_t count = std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
+  return count == 0 ? 0 : total / static_cast<double>(count);
+}
+
+template <typename SumOf>
+double variance_of(std::span<const std::uint64_t> samples, SumOf sum_of) {
+  const double center = mean_of(samples, sum_of);
+  const auto count = static_cast<double>(std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
+  double spread = 0;
+  int filled = 0;
+  for (std::size_t r = 0; r < samples.size(); ++r) {
+    const auto n = static_cast<double>(samples[r]);
+    if (n == 0) continue;
+    ++filled;
+    const double m = sum_of(static_cast<int>(r)) / n;
+    spread += n / count * (m - center) * (m - center);
+  }
+  return filled < 2 ? 0 : spread / (filled - 1);
+}
+
 }  // namespace
+
+Crop pixels_of(const FilmShape& shape) {
+  return shape.crop.value_or(Crop{0, 0, shape.width, shape.height});
+}
+
+std::size_t bytes_of_sums(const FilmShape& shape) {
+  return sums_of(shape) * sizeof(Int128);
+}
 
 Int128 to_fixed(double value, int unit_exponent) {
   // value = mantissa 2^exponent, read from its bits; subnormal numbers have no leading 1.
@@ -54,12 +93,13 @@ double from_fixed(Int128 fixed, int unit_exponent) {
 }
 
 Film::Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons,
-           std::uint32_t path_interval)
+           std::uint32_t path_interval, std::optional<Crop> crop)
     : Film(FilmShape{width, height, channels, replicates,
-                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits, photons, path_interval}) {}
+                     (nominal > 0 ? std::ilogb(nominal) : 0) - kFractionBits, photons, path_interval, crop}) {
+}
 
 Film::Film(const FilmShape& shape)
-    : shape_(shape),
+    : shape_(without_needless_crop(shape)),
       samples_(static_cast<std::size_t>(shape.replicates), 0),
       limit_(std::ldexp(1.0, shape.unit_exponent + kFractionBits + kHeadroomBits)),
       locks_(std::make_unique<std::atomic_flag[]>(kLocks)) {
@@ -70,7 +110,20 @@ Film::Film(const FilmShape& shape)
   }
 }
 
+bool Film::has(std::size_t pixel) const {
+  if (!shape_.crop) return true;
+  const auto x = static_cast<int>(pixel % static_cast<std::size_t>(shape_.width));
+  const auto y = static_cast<int>(pixel / static_cast<std::size_t>(shape_.width));
+  const Crop& c = *shape_.crop;
+  return x >= c.x0 && x < c.x1 && y >= c.y0 && y < c.y1;
+}
+
 std::size_t Film::index(std::size_t pixel, int replicate) const {
+  if (const std::optional<Crop>& c = shape_.crop) {
+    const auto width = static_cast<std::size_t>(shape_.width);
+    pixel = (pixel / width - static_cast<std::size_t>(c->y0)) * static_cast<std::size_t>(c->x1 - c->x0) +
+            pixel % width - static_cast<std::size_t>(c->x0);
+  }
   return (pixel * static_cast<std::size_t>(shape_.replicates) + static_cast<std::size_t>(replicate)) *
          static_cast<std::size_t>(shape_.channels);
 }
@@ -92,7 +145,13 @@ void Film::set_samples(std::vector<std::uint64_t> per_replicate) {
 }
 
 void Film::add(const Film& other) {
-  std::transform(sums_.begin(), sums_.end(), other.sums_.begin(), sums_.begin(), std::plus<>());
+  const Crop from = other.crop();
+  const std::size_t row = other.sums_.size() / static_cast<std::size_t>(from.y1 - from.y0);
+  for (int y = from.y0; y < from.y1; ++y) {
+    const Int128* more = &other.sums_[other.index(pixel_at(from.x0, y), 0)];
+    Int128* sums = &sums_[index(pixel_at(from.x0, y), 0)];
+    std::transform(more, more + row, sums, sums, std::plus<>());
+  }
 }
 
 std::string_view Film::bytes() const {
@@ -113,36 +172,16 @@ int Film::filled_replicates() const {
       std::count_if(samples_.begin(), samples_.end(), [](std::uint64_t n) { return n > 0; }));
 }
 
-template <typename SumOf>
-double Film::mean_of(SumOf sum_of) const {
-  double total = 0;
-  for (int r = 0; r < shape_.replicates; ++r) total += sum_of(r);
-  const std::uint64_t count = std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0});
-  return count == 0 ? 0 : total / static_cast<double>(count);
-}
-
-template <typename SumOf>
-double Film::variance_of(SumOf sum_of) const {
-  const double center = mean_of(sum_of);
-  const auto count = static_cast<double>(std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}));
-  double spread = 0;
-  int filled = 0;
-  for (int r = 0; r < shape_.replicates; ++r) {
-    const auto n = static_cast<double>(samples_[static_cast<std::size_t>(r)]);
-    if (n == 0) continue;
-    ++filled;
-    const double m = sum_of(r) / n;
-    spread += n / count * (m - center) * (m - center);
-  }
-  return filled < 2 ? 0 : spread / (filled - 1);
+double Film::value(std::size_t pixel, int replicate, int channel) const {
+  return from_fixed(sums_[index(pixel, replicate) + static_cast<std::size_t>(channel)], shape_.unit_exponent);
 }
 
 double Film::mean(std::size_t pixel, int channel) const {
-  return mean_of([&](int r) { return from_fixed(sum(pixel, r, channel), shape_.unit_exponent); });
+  return has(pixel) ? mean_of(samples_, [&](int r) { return value(pixel, r, channel); }) : 0;
 }
 
 double Film::variance(std::size_t pixel, int channel) const {
-  return variance_of([&](int r) { return from_fixed(sum(pixel, r, channel), shape_.unit_exponent); });
+  return has(pixel) ? variance_of(samples_, [&](int r) { return value(pixel, r, channel); }) : 0;
 }
 
 Film::Average Film::average(int channel) const {
@@ -154,39 +193,50 @@ Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
   const auto sum_of = [&sums](int r) { return sums[static_cast<std::size_t>(r)].value; };
   double variances = 0;
   double squares = 0;
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      const auto pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);
+  const Crop own = crop();
+  for (int y = std::max(y0, own.y0); y < std::min(y1, own.y1); ++y)
+    for (int x = std::max(x0, own.x0); x < std::min(x1, own.x1); ++x) {
+      const std::size_t pixel = pixel_at(x, y);
       for (int r = 0; r < shape_.replicates; ++r)
-        sums[static_cast<std::size_t>(r)].add(from_fixed(sum(pixel, r, channel), shape_.unit_exponent));
-      const double own = shape_.photons > 0 ? 0 : variance(pixel, channel);
-      variances += own;
-      squares += own * own;
+        sums[static_cast<std::size_t>(r)].add(value(pixel, r, channel));
+      const double of_pixel = shape_.photons > 0 ? 0 : variance(pixel, channel);
+      variances += of_pixel;
+      squares += of_pixel * of_pixel;
     }
   const double pixels = static_cast<double>(x1 - x0) * (y1 - y0);
   const double f = filled_replicates() - 1;
   if (shape_.photons > 0) {
-    variances = variance_of(sum_of);
+    variances = variance_of(samples_, sum_of);
     squares = variances * variances;
   }
   // The sum's variance squared is to that of its estimate as half its degrees are to 1; an estimate of f
   // degrees squared is 1 + 2/f times too large in the mean.
   const double degrees = squares > 0 ? (f + 2) * variances * variances / squares - 2 : std::max(f, 0.0);
-  return {mean_of(sum_of) / pixels, std::sqrt(variances) / pixels, degrees};
+  return {mean_of(samples_, sum_of) / pixels, std::sqrt(variances) / pixels, degrees};
 }
 
 Image Film::image(std::span<const std::string> names) const {
   Image image{shape_.width, shape_.height, {}, {}};
   for (const bool variances : {false, true})
-    for (int channel = 0; channel < shape_.channels; ++channel) {
-      const std::string& name = names[static_cast<std::size_t>(channel)];
-      ImageChannel plane{variances ? "Variance." + name : name, std::vector<float>(image.pixels())};
-      for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)
-        plane.values[pixel] = static_cast<float>(variances ? variance(pixel, channel) : mean(pixel, channel));
-      image.channels.push_back(std::move(plane));
-    }
+    for (const std::string& name : names.first(static_cast<std::size_t>(shape_.channels)))
+      image.channels.push_back({variances ? "Variance." + name : name, std::vector<float>(image.pixels())});
+  develop(image, crop(), samples_);
   return image;
+}
+
+void Film::develop(Image& image, const Crop& area, std::span<const std::uint64_t> samples) const {
+  for (int channel = 0; channel < shape_.channels; ++channel) {
+    std::vector<float>& means = image.channels[static_cast<std::size_t>(channel)].values;
+    std::vector<float>& variances =
+        image.channels[static_cast<std::size_t>(channel + shape_.channels)].values;
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x) {
+        const std::size_t pixel = pixel_at(x, y);
+        const auto sum_of = [&](int r) { return value(pixel, r, channel); };
+        means[pixel] = static_cast<float>(mean_of(samples, sum_of));
+        variances[pixel] = static_cast<float>(variance_of(samples, sum_of));
+      }
+  }
 }
 
 }  // namespace abbe

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/image.h"
+#include "sensor/film/crop.h"
 
 namespace abbe {
 
@@ -32,9 +33,15 @@ struct FilmShape {
   /// Of each sample. One may add to many pixels, so that these are not independent; 0 where none are traced.
   std::uint64_t photons = 0;
   std::uint32_t path_interval = 1;  ///< A pixel has a camera path in one of so many samples.
+  std::optional<Crop> crop = {};    ///< Whose pixels alone have sums, the others being 0; absent for all.
 
   bool operator==(const FilmShape&) const = default;
 };
+
+/// The pixels that a film of this shape has sums of.
+[[nodiscard]] Crop pixels_of(const FilmShape& shape);
+/// Memory of those sums.
+[[nodiscard]] std::size_t bytes_of_sums(const FilmShape& shape);
 
 /// Sums of film values per pixel, channel and replicate, in 128-bit fixed point: integer addition is
 /// associative, so the sums do not depend on the order, the threads or the partition that made them.
@@ -45,18 +52,19 @@ class Film {
   /// `nominal` is the order of magnitude of a film value: values from 2^-80 to 2^44 times it are kept exactly
   /// to 2^-80 of it.
   Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons = 0,
-       std::uint32_t path_interval = 1);
-  /// Throws Error{resource} when there is no memory for the sums.
+       std::uint32_t path_interval = 1, std::optional<Crop> crop = {});
+  /// A crop of all pixels is none. Throws Error{resource} when there is no memory for the sums.
   explicit Film(const FilmShape& shape);
 
-  /// Adds one sample's or splat's values; any thread may, at any time.
+  /// Adds one sample's or splat's values to a pixel of the crop; any thread may, at any time.
   void add(std::size_t pixel, int replicate, std::span<const double> values);
   /// Whether a value is finite and within what the film can hold.
   [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
 
   /// Sets how many samples per pixel each replicate has received.
   void set_samples(std::vector<std::uint64_t> per_replicate);
-  /// Adds the sums of a film of the same shape; its samples are for the caller to add.
+  /// Adds the sums of a film that differs in its crop at most, which lies within that of this film; its
+  /// samples are for the caller to add.
   void add(const Film& other);
   /// The sums themselves, for processes that add theirs up.
   [[nodiscard]] std::span<Int128> sums() { return sums_; }
@@ -85,8 +93,15 @@ class Film {
 
   /// The film as an image: one channel per name, and `Variance.<name>` beside each.
   [[nodiscard]] Image image(std::span<const std::string> names) const;
+  /// Of such an image the pixels of an area that has received other samples than `set_samples` tells.
+  void develop(Image& image, const Crop& area, std::span<const std::uint64_t> samples) const;
 
   [[nodiscard]] const FilmShape& shape() const { return shape_; }
+  [[nodiscard]] Crop crop() const { return pixels_of(shape_); }
+  /// The number of a pixel, whatever the crop.
+  [[nodiscard]] std::size_t pixel_at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);
+  }
   [[nodiscard]] int width() const { return shape_.width; }
   [[nodiscard]] int height() const { return shape_.height; }
   [[nodiscard]] int channels() const { return shape_.channels; }
@@ -94,15 +109,9 @@ class Film {
   [[nodiscard]] std::size_t memory_bytes() const { return sums_.size() * sizeof(Int128); }
 
  private:
+  [[nodiscard]] bool has(std::size_t pixel) const;
   [[nodiscard]] std::size_t index(std::size_t pixel, int replicate) const;
-  [[nodiscard]] Int128 sum(std::size_t pixel, int replicate, int channel) const {
-    return sums_[index(pixel, replicate) + static_cast<std::size_t>(channel)];
-  }
-  // Mean and its variance of what has the sums `sum_of(replicate)`.
-  template <typename SumOf>
-  [[nodiscard]] double mean_of(SumOf sum_of) const;
-  template <typename SumOf>
-  [[nodiscard]] double variance_of(SumOf sum_of) const;
+  [[nodiscard]] double value(std::size_t pixel, int replicate, int channel) const;
 
   FilmShape shape_;
   std::vector<Int128> sums_;  // pixel-major, then replicate, then channel

@@ -143,13 +143,15 @@ Deviations deviations_of(const Film& film, std::span<const std::size_t> values) 
 }  // namespace
 
 std::vector<std::size_t> lit_values(const Film& pilot) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(pilot.width()) * static_cast<std::size_t>(pilot.height());
+  const Crop crop = pilot.crop();
+  const auto planes = static_cast<std::size_t>(pilot.channels());
   std::vector<std::size_t> lit;
-  std::size_t index = 0;
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    for (int channel = 0; channel < pilot.channels(); ++channel, ++index)
-      if (pilot.mean(pixel, channel) != 0) lit.push_back(index);
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const std::size_t pixel = pilot.pixel_at(x, y);
+      for (std::size_t plane = 0; plane < planes; ++plane)
+        if (pilot.mean(pixel, static_cast<int>(plane)) != 0) lit.push_back(pixel * planes + plane);
+    }
   if (lit.size() <= kMostValues) return lit;
   // One of each of as many runs of equal length, anywhere in it: an even step would keep to one plane, or to
   // one colour of a mosaic, wherever it is a multiple of their number.

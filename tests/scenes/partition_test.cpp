@@ -208,15 +208,16 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   const FilmIdentity own{{"sensor_channels", "X,Y,Z"}, {"seed", "1"}, {"scene", "a.json"}};
   FilmIdentity other = own;
   other["seed"] = "2";
-  FilmIdentity cropped = own;
-  cropped["crop"] = "0,0,4,4";
   FilmIdentity renamed = own;
   renamed["scene"] = "b.json";
   RenderPart sum = part(own, {0, 2});
   EXPECT_EQ(refusal(sum, part(other, {2, 3})),
             "b.abbepart: is a part of another render: another seed (got 2, allowed 1)");
-  EXPECT_EQ(refusal(sum, part(cropped, {2, 3})),
-            "b.abbepart: is a part of another render: another crop (got 0,0,4,4, allowed none)");
+  options.crop = Crop{0, 0, 4, 4};
+  RenderPart corner = part(own, {2, 3});
+  options.crop = Crop{4, 0, 5, 4};
+  EXPECT_EQ(refusal(corner, part(own, {2, 3})), "b.abbepart: has pixels beyond the film that it is added to");
+  options.crop.reset();
   EXPECT_EQ(refusal(sum, part(own, {1, 3})), "b.abbepart: has samples that are there already (got 1:3)");
   const Scene smaller = test::load("cornell.json", {{"/sensor/resolution", "[8, 8]"}});
   const RenderPart misshapen{own, render(smaller, {.samples = SampleRange{2, 3}})};

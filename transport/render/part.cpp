@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 // Keys of the header that belong to the sums; all others are the identity.
 constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";
+constexpr const char* kAreas = "areas";  // in place of samples, where the pixels do not all have the same
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
 constexpr std::array<std::string_view, 6> kTellNothing{"scene",   kStatedSamplesKey, "to_xyz_d65",
@@ -66,38 +67,57 @@ std::string take(FilmIdentity& header, const char* key) {
 /// The header of a part or a checkpoint, parsed.
 struct ParsedHeader {
   PartHeader header;
+  SampleRanges samples = {};  ///< Of all pixels alike; else none.
   std::optional<UnfinishedPass> unfinished = {};
   RenderStats stats = {};
 };
 
+// Of a film that crops were joined to. False for areas beyond it.
+bool take_areas(FilmIdentity& header, ParsedHeader& parsed) {
+  auto areas = parse_sampled_areas(take(header, kAreas));
+  if (!areas || bounds(*areas) != pixels_of(parsed.header.shape)) return false;
+  parsed.header.areas = *std::move(areas);
+  return true;
+}
+
 // Takes the samples of a film, and those of a pass that are not among them. False for what cannot be.
 bool take_samples(FilmIdentity& header, ParsedHeader& parsed) {
+  if (header.contains(kAreas)) return take_areas(header, parsed);
   const std::string samples = take(header, kSamples);
   const std::string unfinished = take(header, kUnfinished);
   if (!samples.empty() || unfinished.empty()) {
     auto ranges = parse_sample_ranges(samples);
     if (!ranges) return false;
-    parsed.header.samples = *std::move(ranges);
+    parsed.samples = *std::move(ranges);
   }
+  parsed.header.areas = {{pixels_of(parsed.header.shape), parsed.samples}};
   if (unfinished.empty()) return true;
   const auto n = parse_numbers<std::uint64_t>(unfinished, 3);
   if (!n || (*n)[0] >= (*n)[1] || (*n)[2] > std::numeric_limits<std::uint32_t>::max()) return false;
   parsed.unfinished = UnfinishedPass{{(*n)[0], (*n)[1]}, static_cast<std::uint32_t>((*n)[2])};
-  SampleRanges both = parsed.header.samples;
+  SampleRanges both = parsed.samples;
   return add(both, parsed.unfinished->samples);
 }
 
+// False for a crop beyond the film.
+bool read_crop(const FilmIdentity& header, FilmShape& shape) {
+  const auto text = header.find(kCropKey);
+  if (text == header.end()) return true;
+  shape.crop = parse_crop(text->second);
+  return shape.crop && contains({0, 0, shape.width, shape.height}, *shape.crop);
+}
+
 std::optional<ParsedHeader> parse_header(FilmIdentity header) {
-  const auto shape = parse_shape(take(header, kShape));
+  auto shape = parse_shape(take(header, kShape));
   const auto counts = parse_numbers<std::uint64_t>(take(header, kCounts), 4);
   const auto cut_sum = parse_numbers<std::uint64_t>(take(header, kCutSum), 2);
   const bool named =
       split(header["sensor_channels"], ',').size() == static_cast<std::size_t>(shape ? shape->channels : 0);
-  if (!shape || !counts || !cut_sum || !named) return std::nullopt;
+  if (!shape || !counts || !cut_sum || !named || !read_crop(header, *shape)) return std::nullopt;
   ParsedHeader parsed{{{}, *shape, {}}};
   if (!take_samples(header, parsed)) return std::nullopt;
   parsed.header.identity = std::move(header);
-  parsed.stats.samples_per_pixel = count(parsed.header.samples);
+  parsed.stats.samples_per_pixel = count(parsed.samples);
   parsed.stats.paths = (*counts)[0];
   parsed.stats.rays = (*counts)[1];
   parsed.stats.nonfinite_samples = (*counts)[2];
@@ -121,14 +141,55 @@ std::uint64_t stated_samples(const FilmIdentity& identity) {
   return number ? number->front() : 0;
 }
 
+FilmIdentity without_crop(FilmIdentity identity) {
+  identity.erase(kCropKey);
+  return identity;
+}
+
+FilmShape without_crop(FilmShape shape) {
+  shape.crop.reset();
+  return shape;
+}
+
+void set_crop(PartHeader& header, const Crop& crop) {
+  const bool whole = crop == Crop{0, 0, header.shape.width, header.shape.height};
+  header.shape.crop = whole ? std::nullopt : std::optional(crop);
+  header.identity.erase(kCropKey);
+  if (!whole) header.identity[kCropKey] = to_text(crop);
+}
+
+// For messages; nothing for the whole film.
+std::string of_pixels(const Crop& pixels, const FilmShape& shape) {
+  const bool whole = pixels == pixels_of(without_crop(shape));
+  return whole ? "" : fmt::format(" of pixels {}", to_text(pixels));
+}
+
+SampledAreas areas_of(const RenderPart& part) {
+  if (!part.areas.empty() || part.result.samples.empty()) return part.areas;
+  return {{part.result.film.crop(), part.result.samples}};
+}
+
+void set_areas(RenderPart& part, SampledAreas areas) {
+  RenderResult& result = part.result;
+  const bool same = std::all_of(areas.begin(), areas.end(), [&areas](const SampledArea& area) {
+    return area.samples == areas.front().samples;
+  });
+  result.samples = same ? areas.front().samples : SampleRanges{};
+  result.stats.samples_per_pixel = count(result.samples);
+  result.film.set_samples(count_per_replicate(result.samples, result.film.replicates()));
+  const bool everywhere = areas.size() == 1 && areas.front().pixels == result.film.crop();
+  part.areas = everywhere ? SampledAreas{} : std::move(areas);
+}
+
 }  // namespace
 
-void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result) {
+void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result,
+                const SampledAreas& areas) {
   FilmIdentity header = identity;
   const FilmShape& s = result.film.shape();
   header[kShape] = fmt::format("{} {} {} {} {} {} {}", s.width, s.height, s.channels, s.replicates,
                                s.unit_exponent, s.photons, s.path_interval);
-  header[kSamples] = to_text(result.samples);
+  header[areas.empty() ? kSamples : kAreas] = areas.empty() ? to_text(result.samples) : to_text(areas);
   if (const auto& pass = result.unfinished)
     header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);
   const RenderStats& stats = result.stats;
@@ -144,9 +205,10 @@ RenderPart read_checkpoint(const fs::path& path) {
   auto parsed = parse_header(std::move(file.header));
   auto film = parsed ? Film::from_bytes(parsed->header.shape, file.bytes) : std::nullopt;
   if (!film) refuse_contents(path);
-  film->set_samples(count_per_replicate(parsed->header.samples, film->replicates()));
-  return {std::move(parsed->header.identity),
-          {std::move(*film), std::move(parsed->header.samples), parsed->stats, parsed->unfinished}};
+  RenderPart part{std::move(parsed->header.identity),
+                  {std::move(*film), {}, parsed->stats, parsed->unfinished}};
+  set_areas(part, std::move(parsed->header.areas));
+  return part;
 }
 
 RenderPart read_part(const fs::path& path) {
@@ -179,41 +241,60 @@ void require_same_film(const fs::path& path, const FilmIdentity& identity, const
 }
 
 void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
-  require_same_film(path, part.identity, sum.identity);
-  if (part.shape != sum.shape) throw Error(ErrorCode::input, path.string(), "has a film of another shape");
-  for (const SampleRange& range : part.samples)
-    if (!add(sum.samples, range))
+  require_same_film(path, without_crop(part.identity), without_crop(sum.identity));
+  if (without_crop(part.shape) != without_crop(sum.shape))
+    throw Error(ErrorCode::input, path.string(), "has a film of another shape");
+  for (const SampledArea& area : part.areas)
+    if (const auto there = add(sum.areas, area))
       throw Error(ErrorCode::input, path.string(),
-                  fmt::format("has samples that are there already (got {}:{})", range.first, range.last));
+                  fmt::format("has samples that are there already (got {}{})", to_text(there->samples),
+                              of_pixels(there->pixels, part.shape)));
   if (stated_samples(part.identity) > stated_samples(sum.identity))
     sum.identity[kStatedSamplesKey] = part.identity.at(kStatedSamplesKey);
+  set_crop(sum, bounds(sum.areas));
+}
+
+RenderPart empty_part(const PartHeader& header) {
+  return {header.identity, {Film(header.shape), {}, {}}};
 }
 
 void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
-  PartHeader header{sum.identity, sum.result.film.shape(), sum.result.samples};
-  merge(header, {part.identity, part.result.film.shape(), part.result.samples}, path);
-  sum.identity = std::move(header.identity);
-  sum.result.samples = std::move(header.samples);
+  PartHeader header{sum.identity, sum.result.film.shape(), areas_of(sum)};
+  merge(header, {part.identity, part.result.film.shape(), areas_of(part)}, path);
+  if (!contains(sum.result.film.crop(), part.result.film.crop()))
+    throw Error(ErrorCode::input, path.string(), "has pixels beyond the film that it is added to");
   sum.result.film.add(part.result.film);
-  sum.result.film.set_samples(count_per_replicate(sum.result.samples, sum.result.film.replicates()));
+  set_areas(sum, std::move(header.areas));
+  if (const auto stated = header.identity.find(kStatedSamplesKey); stated != header.identity.end())
+    sum.identity[kStatedSamplesKey] = stated->second;
   RenderStats& stats = sum.result.stats;
-  stats.samples_per_pixel = count(sum.result.samples);
   stats.paths += part.result.stats.paths;
   stats.rays += part.result.stats.rays;
   stats.nonfinite_samples += part.result.stats.nonfinite_samples;
   stats.cut += part.result.stats.cut;
 }
 
-SampleRanges missing_samples(const PartHeader& sum) {
-  return missing(sum.samples, {0, stated_samples(sum.identity)});
+SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& crop) {
+  SampledArea wanted{crop.value_or(Crop{0, 0, sum.shape.width, sum.shape.height}), {}};
+  if (const std::uint64_t stated = stated_samples(sum.identity); stated > 0)
+    wanted.samples = {{0, stated}};
+  else
+    for (const SampledArea& area : sum.areas)
+      for (const SampleRange& range : area.samples)
+        for (const SampleRange& more : missing(wanted.samples, range)) (void)add(wanted.samples, more);
+  return missing(sum.areas, wanted);
 }
 
 Image image_of(const RenderPart& part) {
   const RenderResult& result = part.result;
   Image image = result.film.image(split(part.identity.at("sensor_channels"), ','));
+  if (result.samples.empty())
+    for (const SampledArea& area : part.areas)
+      result.film.develop(image, area.pixels, count_per_replicate(area.samples, result.film.replicates()));
   image.metadata = part.identity;
   for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
   image.metadata["renderer"] = "Abbe";
+  if (result.samples.empty()) return image;
   image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
   image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));
   return image;

@@ -2,15 +2,19 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "transport/render/render.h"
+#include "transport/render/sampled_areas.h"
 
 namespace abbe {
 
 /// The key under which a film's identity has the samples of the whole render, as `--spp` or its scene state
 /// them; absent where time or error decide.
 inline constexpr const char* kStatedSamplesKey = "samples_stated";
+/// The key of the pixels that a film has, "x0,y0,x1,y1"; absent where it has all.
+inline constexpr const char* kCropKey = "crop";
 /// The keys of the machine code and the processor that a film's bits depend on. Images do not tell them, so
 /// that what different machines see alike is the same file.
 inline constexpr const char* kBuildKey = "build";
@@ -22,22 +26,24 @@ inline constexpr const char* kInstructionSetKey = "instruction_set";
 /// on the machine that rendered, `white` and `white_xy`.
 using FilmIdentity = std::map<std::string, std::string>;
 
-/// Some samples of a render. Parts of one identity add up, in any order and grouping, to the film that one
-/// render of all their samples gives, bit for bit.
+/// Some samples of some pixels of a render. Parts of one identity but for their crops add up, in any order
+/// and grouping, to the film that one render of all their samples gives, bit for bit.
 struct RenderPart {
   FilmIdentity identity;
-  RenderResult result;
+  RenderResult result;      ///< Of which `samples` are those of every area; none where they differ.
+  SampledAreas areas = {};  ///< Empty where all pixels of the film hold the samples of the result.
 };
 
 /// What the file of a part tells before its sums.
 struct PartHeader {
   FilmIdentity identity;
   FilmShape shape;
-  SampleRanges samples;
+  SampledAreas areas;
 };
 
 /// Writes the exact sums, atomically. Throws Error{output}.
-void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result);
+void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result,
+                const SampledAreas& areas = {});
 
 /// Throws Error{input} for a file that is missing, torn, damaged, no part, or saved amid a pass.
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
@@ -50,16 +56,22 @@ void write_part(const std::filesystem::path& path, const FilmIdentity& identity,
 void require_same_film(const std::filesystem::path& path, const FilmIdentity& identity,
                        const FilmIdentity& wanted);
 
-/// Adds the part read from `path`. Throws Error{input} when it is of another film or has samples that `sum`
-/// has already.
-void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path& path);
-/// Adds what a part tells to what others tell, as adding the parts does. Throws as that does.
+/// Adds what a part tells to what others tell: the crop of the sum is the smallest around theirs. Throws
+/// Error{input} naming `path` when it is of another film or has samples that pixels of `sum` have already.
 void merge(PartHeader& sum, const PartHeader& part, const std::filesystem::path& path);
 
-/// The samples that the renders of these parts stated and that are not among them.
-[[nodiscard]] SampleRanges missing_samples(const PartHeader& sum);
+/// Nothing yet of what the header tells, for parts to be added to.
+[[nodiscard]] RenderPart empty_part(const PartHeader& header);
+/// Adds the part read from `path`, whose crop lies within the film of `sum`. Throws as for headers, and for
+/// pixels beyond it.
+void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path& path);
 
-/// The film with its variance, and its identity, sample count and error as metadata.
+/// What pixels of the film, or of a crop of it, lack of the samples that the renders of these parts stated;
+/// of the samples that others have where none were stated.
+[[nodiscard]] SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& crop = {});
+
+/// The film with its variance, and its identity, sample count and error as metadata; without the latter two
+/// where pixels have different samples.
 [[nodiscard]] Image image_of(const RenderPart& part);
 
 }  // namespace abbe

@@ -57,7 +57,7 @@ std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop
                                const std::function<bool()>& stop) {
   const Camera& camera = plan.scene.camera;
   Film film(camera.width, camera.height, static_cast<int>(plan.scene.film_planes().size()), 1,
-            plan.nominal_value);
+            plan.nominal_value, 0, 1, crop);
   const auto pixels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixels, 1, kMostSamples);
   Pass pass(plan, film, crop, {0, samples}, 0, kSeedOfPilots);

@@ -53,7 +53,8 @@ class Rendering {
                                                        static_cast<std::uint64_t>(scene.camera.height)))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
                      replicate_count(scene, options), plan_.nominal_value,
-                     uses(plan_.techniques, Technique::light) ? plan_.photons : 0, plan_.path_interval),
+                     uses(plan_.techniques, Technique::light) ? plan_.photons : 0, plan_.path_interval,
+                     options.crop),
                 {},
                 {}} {
     if (start) {

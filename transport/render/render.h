@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/scene.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
 #include "transport/path/truncated_paths.h"
@@ -13,11 +14,6 @@
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
-
-/// A part of the film in pixels, x0 <= x < x1.
-struct Crop {
-  int x0, y0, x1, y1;
-};
 
 /// How far a render has come.
 struct Progress {
