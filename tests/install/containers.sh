@@ -36,16 +36,18 @@ array=$(sed -n 's/^#SBATCH.*--array=0-\([0-9]*\).*/\1/p' "$scratch/array")
 cpus=$(sed -n 's/^#SBATCH.*--cpus-per-task=\([0-9]*\).*/\1/p' "$scratch/array")
 . "$scratch/environment"
 equal "tasks" "$TASKS" "$((array + 1))"
-next=0
-for task in $(seq 0 "$array"); do
-  words=$(JOB_COMPLETION_INDEX=$task PATH=$scratch/said:$PATH sh -eu "$scratch/render")
-  documented=$(SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_TASK_COUNT=$TASKS SLURM_CPUS_PER_TASK=$cpus PATH=$scratch/said:$PATH sh "$scratch/array")
-  equal "task $task" "$words" "$documented"
-  contains "first sample of task $task" "$words" "--sample-range $next:"
-  next=${words#*--sample-range "$next":}
-  next=${next%% *}
+for count in "$TASKS" 7; do  # by which the samples divide, and do not
+  next=0
+  for task in $(seq 0 $((count - 1))); do
+    words=$(TASKS=$count JOB_COMPLETION_INDEX=$task PATH=$scratch/said:$PATH sh -eu "$scratch/render")
+    documented=$(SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_TASK_COUNT=$count SLURM_CPUS_PER_TASK=$cpus PATH=$scratch/said:$PATH sh "$scratch/array")
+    equal "task $task" "$words" "$documented"
+    contains "first sample of task $task" "$documented" "--sample-range $next:"
+    next=${documented#*--sample-range "$next":}
+    next=${next%% *}
+  done
+  equal "end of the samples of $count tasks" "$next" "$SPP"
 done
-equal "end of the samples" "$next" "$SPP"
 
 # Merging begins before the parts are there; one task runs twice, and the samples do not divide by the tasks.
 mkdir "$scratch/volume" "$scratch/quick"
