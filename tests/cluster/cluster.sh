@@ -1,15 +1,33 @@
-# To be sourced: a Slurm cluster of two nodes, n1 and n2 with a processor each, on the loopback interface. All its files are in `$folder`, and
-# what it starts ends with the shell.
+# To be sourced: a Slurm cluster of three nodes, n1 to n3 with a processor each, on the loopback interface. Jobs of the partition `urgent` send
+# those of `all` back into the queue. All its files are in `$folder`, and what it starts ends with the shell.
 
 port=$((20000 + RANDOM % 20000))
 host=$(hostname -s)
 daemons=()
+declare -A node_daemon
 
 # Of slurmstepd, those that the daemons of this cluster have left: by the configuration in their environment.
 steps_left() {
   local process
   for process in $(pgrep -x slurmstepd); do
     grep -qsF "$folder/slurm.conf" "/proc/$process/environ" && echo "$process"
+  done
+}
+
+start_node() {
+  start "slurmd-$1" slurmd -D -N "$1"
+  node_daemon[$1]=${daemons[-1]}
+}
+
+# As when its machine loses power: the daemon and all that runs for jobs there, by the node's name in their environment, at once.
+lose_node() {
+  local process lost=("${node_daemon[$1]}")
+  for process in $(pgrep -u "$(id -u)"); do
+    grep -qszFx "SLURMD_NODENAME=$1" "/proc/$process/environ" && grep -qszFx "SLURM_CONF=$folder/slurm.conf" "/proc/$process/environ" &&
+      lost+=("$process" "$(ps -o ppid= -p "$process")")
+  done
+  for process in "${lost[@]}"; do
+    case $(ps -o comm= -p $process) in slurmctld | munged | bash | "") ;; *) kill -KILL $process 2>/dev/null || true ;; esac
   done
 }
 
@@ -67,7 +85,11 @@ ReturnToService=2
 KillWait=5
 NodeName=n1 NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + 1)) CPUs=1
 NodeName=n2 NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + 2)) CPUs=1
-PartitionName=all Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
+NodeName=n3 NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + 3)) CPUs=1
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
+PartitionName=all Nodes=n1,n2,n3 Default=YES MaxTime=INFINITE State=UP PriorityTier=1 GraceTime=20
+PartitionName=urgent Nodes=n1,n2,n3 MaxTime=INFINITE State=UP PriorityTier=2 PreemptMode=OFF
 EOF
   : >"$folder/cgroup.conf"
   export SLURM_CONF=$folder/slurm.conf
@@ -75,7 +97,7 @@ EOF
 
 start_cluster() {
   local node
-  mkdir -p "$folder/state" "$folder/spool-n1" "$folder/spool-n2"
+  mkdir -p "$folder/state" "$folder/spool-n1" "$folder/spool-n2" "$folder/spool-n3"
   chmod 711 "$folder"  # for whom munged answers
   write_configuration
   dd if=/dev/urandom of="$folder/munge.key" bs=128 count=1 status=none
@@ -84,6 +106,6 @@ start_cluster() {
     --pid-file "$folder/munge.pid" --log-file "$folder/munge.log" --seed-file "$folder/munge.seed"
   until_true 10 munge --socket "$folder/munge.socket" --no-input
   start slurmctld slurmctld -D
-  for node in n1 n2; do start "slurmd-$node" slurmd -D -N $node; done
-  until_true 25 eval '[ "$(sinfo --noheader --Node --states=idle --format=%N | wc -l)" -eq 2 ]'
+  for node in n1 n2 n3; do start_node $node; done
+  until_true 25 eval '[ "$(sinfo --noheader --Node --partition=all --states=idle --format=%N | wc -l)" -eq 3 ]'
 }
