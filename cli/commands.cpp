@@ -125,6 +125,8 @@ void add_merge(CLI::App& app, Command& command) {
       ->required()
       ->allow_extra_args(false)
       ->type_name("FILE.exr|FILE.abbepart");
+  sub.app->add_option("--display", sub->display, "Also write a picture for displays, as render does")
+      ->type_name("FILE.png");
   add_parsed(
       *sub.app, "--crop", sub->crop,
       [](const auto& option, const auto& text) { return parse_crop(option, text); },

@@ -14,7 +14,6 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
-#include "io/picture.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/readout/speed.h"
 
@@ -31,7 +30,7 @@ std::vector<fs::path> check_outputs(const DevelopOptions& options) {
   std::vector<fs::path> files = options.outputs;
   for (const fs::path& output : options.outputs) require_extension(output, {".exr", ".tif", ".tiff", ".png"});
   if (!options.display.empty()) {
-    require_extension(options.display, {".png", ".jpg", ".tif"});
+    require_picture_extension(options.display);
     files.push_back(options.display);
   }
   for (const fs::path& file : files) require_writable(file);
@@ -139,9 +138,7 @@ int develop(const DevelopOptions& options) {
   if (wants_raw && !sensor.readout)
     throw Error(ErrorCode::usage, "-o",
                 "the film has no read-out to make codes with (allowed: --set '/readout={...}', or a .exr)");
-  if (!options.display.empty() && !sensor.display)
-    throw Error(ErrorCode::usage, "--display",
-                "a picture needs a sensor of one or three channels, and a light");
+  if (!options.display.empty()) require_display(sensor);
 
   // At most three planes beside each of the film and of its variance.
   inputs.take_memory("developing", 3 * exposed.film.memory_bytes());
@@ -154,7 +151,7 @@ int develop(const DevelopOptions& options) {
       write_parts(output, developed, planes, sensor, scale);
     else
       write_raw(output, developed);
-  if (!options.display.empty()) write_picture(options.display, (*sensor.display)(planes, scale).image);
+  if (!options.display.empty()) write_display(options.display, planes, sensor);
   print(report(sensor, plane_figures(sensor, developed)), options.json);
   return 0;
 }

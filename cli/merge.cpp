@@ -13,9 +13,15 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "develop/film_file.h"
+#include "develop/radiance.h"
 #include "film/rendered_film.h"
+#include "film/white.h"
+#include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
+#include "io/text.h"
+#include "sensor/film/recorded_white.h"
 
 namespace abbe::cli {
 namespace {
@@ -74,13 +80,43 @@ std::string in_words(const SampledAreas& areas, const FilmShape& shape, std::str
   return text;
 }
 
+// Of the sensor whose film it is, told before any sums are read, what a picture takes. As `render`, it shows
+// what the light gave, without the noise of a read-out.
+FilmSensor shown_sensor(const FilmIdentity& identity, const fs::path& part) {
+  const Image told{0, 0, {}, identity};
+  const ViewOptions view{users_configuration(), {}, {}};
+  FilmSensor sensor;
+  if (identity.contains(kSpectralBinsKey)) {
+    sensor.display = display_of_radiance(view, recorded_white(told));
+    if (const auto exposure = identity.find("display_exposure"); exposure != identity.end())
+      sensor.display_exposure = parse_number(exposure->second);
+  } else {
+    Diagnostics diagnostics;
+    sensor = accepted(film_sensor(told, part, {}, view, {}, diagnostics), diagnostics);
+    sensor.readout.reset();
+  }
+  require_display(sensor);
+  return sensor;
+}
+
+// Where to write, checked before any part is read.
+std::vector<fs::path> check_outputs(const MergeOptions& options) {
+  std::vector<fs::path> files = options.outputs;
+  for (const fs::path& output : options.outputs) require_film_output(output);
+  if (!options.display.empty()) {
+    require_picture_extension(options.display);
+    require_writable(options.display);
+    files.push_back(options.display);
+  }
+  require_distinct(files, options.parts);
+  return files;
+}
+
 }  // namespace
 
 int merge(const MergeOptions& options) {
-  for (const fs::path& output : options.outputs) require_film_output(output);
-  require_distinct(options.outputs, options.parts);
   std::deque<FileLock> locks;
-  for (const fs::path& output : options.outputs) locks.emplace_back(output);
+  for (const fs::path& file : check_outputs(options)) locks.emplace_back(file);
   const Headers headers = read_headers(options);
   const PartHeader& all = headers.sum;
   const SampledAreas missing = missing_samples(all, options.crop);
@@ -90,9 +126,14 @@ int merge(const MergeOptions& options) {
         fmt::format(
             "{} are missing of those that the render is to have; --partial writes what the others give",
             in_words(missing, all.shape, "")));
+  std::optional<FilmSensor> shown;
+  if (!options.display.empty()) shown = shown_sensor(all.identity, options.parts.front());
   const RenderPart sum = sum_of(options, headers);
   std::vector<std::function<void()>> writers;
   for (const fs::path& output : options.outputs) writers.emplace_back([&] { write_film(output, sum); });
+  if (shown)
+    writers.emplace_back(
+        [&] { write_display(options.display, display_planes(*shown, film_image(sum)), *shown); });
   write_all(writers);
   say(fmt::format("{} from {} parts: {}{}{}", options.outputs.front().string(), options.parts.size(),
                   in_words(all.areas, all.shape, " of every pixel"),

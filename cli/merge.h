@@ -14,6 +14,7 @@ struct MergeOptions {
   std::vector<std::filesystem::path> parts;
   std::vector<std::filesystem::path> outputs;  ///< Films `.exr`, and parts again `.abbepart`.
   std::optional<Crop> crop;                    ///< Which pixels there are to be; all when absent.
+  std::filesystem::path display;               ///< Picture of the film; empty when none is wanted.
   bool partial = false;                        ///< Whether samples may be missing of those that were stated.
   std::size_t max_memory_bytes = default_memory_limit();
 };

@@ -47,6 +47,10 @@ void require_film_output(const fs::path& path) {
   require_writable(path);
 }
 
+void require_picture_extension(const fs::path& path) {
+  require_extension(path, {".png", ".jpg", ".tif"});
+}
+
 void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {
   constexpr std::string_view kIsRead = ", which is read: an output needs a place of its own";
   std::map<std::string, fs::path> written;

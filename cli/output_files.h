@@ -16,6 +16,9 @@ void require_extension(const std::filesystem::path& path, std::initializer_list<
 /// Error{usage} for another extension, Error{output} for a place that cannot be written.
 void require_film_output(const std::filesystem::path& path);
 
+/// The same for pictures that displays show.
+void require_picture_extension(const std::filesystem::path& path);
+
 /// Throws Error{usage} for an output that is the same file as another output, as an input or as a table of
 /// the data directory, by whatever name or link, hard ones too; empty paths are none.
 void require_distinct(std::span<const std::filesystem::path> outputs,

@@ -68,11 +68,14 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
   if (outputs.film.empty()) outputs.film = name_of(options.scene).stem().concat(".exr");
   // A picture of some of the samples is not the scene's, and all parts would write the same file.
   const bool part = outputs.film.extension() == kPartExtension;
+  if (part && !(outputs.display.empty() && outputs.gamut.empty()))
+    throw Error(ErrorCode::usage, outputs.film.string(),
+                "a part is all that its render writes: merge --display shows the film of all parts");
   if (outputs.display.empty() && !part) outputs.display = scene.output.display;
   require_film_output(outputs.film);
   for (const fs::path& picture : {outputs.display, outputs.gamut}) {
     if (picture.empty()) continue;
-    require_extension(picture, {".png", ".jpg", ".tif"});
+    require_picture_extension(picture);
     require_writable(picture);
   }
   if (!outputs.stats.empty()) require_writable(outputs.stats);

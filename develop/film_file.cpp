@@ -69,6 +69,12 @@ void write_parts(const std::filesystem::path& path, const DevelopedFilm& develop
   write_exr(path, parts);
 }
 
+void write_display(const std::filesystem::path& path, const Image& planes, const FilmSensor& sensor) {
+  require_display(sensor);
+  const std::optional<double> white = sensor.display_exposure;
+  write_picture(path, (*sensor.display)(planes, white ? std::optional(1 / *white) : std::nullopt).image);
+}
+
 void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed) {
   Image raw{developed.codes.width, developed.codes.height, {}, developed.codes.metadata};
   for (const ImageChannel& channel : developed.codes.channels)

@@ -19,6 +19,10 @@ namespace abbe {
 void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
                  const FilmSensor& sensor, std::optional<double> scale);
 
+/// Writes a picture of the `planes` of `display_planes` for displays. Throws what `require_display` does, and
+/// Error{output}.
+void write_display(const std::filesystem::path& path, const Image& planes, const FilmSensor& sensor);
+
 /// Writes the codes, a plane each, as a 16-bit picture. Throws Error{output}.
 void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed);
 

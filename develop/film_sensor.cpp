@@ -113,6 +113,12 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   return sensor;
 }
 
+void require_display(const FilmSensor& sensor) {
+  if (!sensor.display)
+    throw Error(ErrorCode::usage, "--display",
+                "a picture needs a sensor of one or three channels, and a light");
+}
+
 void require_planes(const Image& film, const FilmSensor& sensor, const std::filesystem::path& path) {
   for (const std::string& plane : sensor.planes)
     for (const std::string& name : {plane, variance_of(plane)})

@@ -44,6 +44,9 @@ struct ExposedFilm {
                                                     std::optional<Chromaticity> white,
                                                     Diagnostics& diagnostics);
 
+/// Throws Error{usage} unless displays can show what the sensor sees.
+void require_display(const FilmSensor& sensor);
+
 /// Throws Error{input} naming `path` unless the film has each plane of the sensor, and its variance.
 void require_planes(const Image& film, const FilmSensor& sensor, const std::filesystem::path& path);
 

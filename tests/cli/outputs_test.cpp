@@ -127,6 +127,13 @@ TEST(Outputs, APartIsAllThatItsRenderWrites) {
   EXPECT_EQ(run.code, 0) << run.err;
   expected.insert("part.abbepart");
   EXPECT_EQ(names(), expected);
+  for (const char* picture : {"--display some.png", "--gamut some.png"}) {
+    const Outcome refused = here(render + "--sample-range 4:8 -o more.abbepart " + picture);
+    EXPECT_EQ(refused.code, 2) << picture;
+    EXPECT_NE(refused.err.find("more.abbepart: a part is all that its render writes"), std::string::npos)
+        << refused.err;
+  }
+  EXPECT_EQ(names(), expected);
 }
 
 TEST(Outputs, ACheckpointThatIsAFolderIsNoCheckpoint) {

@@ -1,0 +1,70 @@
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// The picture that `merge` writes of a film is the one that a render of all its samples writes.
+
+namespace abbe::test {
+namespace {
+
+constexpr const char* kCounting =
+    R"("response": "quantum", "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]},
+       "B": {"band": [400, 500]}}, "readout": {"gain_e_per_dn": 3, "bits": 12, "read_noise_e": 6})";
+
+struct Shown {
+  const char* name;
+  std::string sensor;
+  std::string options;
+};
+
+class MergeDisplay : public testing::TestWithParam<Shown> {};
+
+TEST_P(MergeDisplay, IsThatOfTheRender) {
+  const std::string render = fmt::format(
+      R"(render {} --quiet --spp 4 --set '/sensor={{"resolution": [24, 16], "pixel_pitch_um": 600, {}}}' {} )",
+      ball(), GetParam().sensor, GetParam().options);
+  ASSERT_EQ(abbe(render + "-o " + file("whole.exr") + " --display " + file("whole.png")).code, 0);
+  const std::string a = file("a.abbepart");
+  const std::string b = file("b.abbepart");
+  ASSERT_EQ(abbe(render + "--crop 0,0,24,7 -o " + a).code, 0);
+  ASSERT_EQ(abbe(render + "--crop 0,7,24,16 -o " + b).code, 0);
+  const Outcome run =
+      abbe(fmt::format("merge {} {} -o {} --display {}", a, b, file("sum.exr"), file("sum.png")));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(read_file(file("sum.png")) == read_file(file("whole.png")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sensors, MergeDisplay,
+    testing::Values(Shown{"observer", R"("observer": "1931")", ""},
+                    Shown{"exposed", R"("observer": "1931")", "--set /output/exposure=2"},
+                    Shown{"counting", kCounting, ""},
+                    Shown{"mosaic", kCounting + std::string(R"(, "mosaic": [["R", "G"], ["G", "B"]])"), ""},
+                    Shown{"spectral", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 20})", ""},
+                    Shown{"spectral_exposed", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 20})",
+                          "--set /output/exposure=2"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(MergeDisplay, IsRefusedBeforeAnySumIsRead) {
+  const std::string part = file("two.abbepart");
+  ASSERT_EQ(
+      abbe(
+          "render " + ball() +
+          R"( --quiet --set '/sensor={"resolution": [24, 16], "pixel_pitch_um": 600, "channels": {"a": 1, "b": 1}}' -o )" +
+          part)
+          .code,
+      0);
+  const Outcome two = abbe("merge " + part + " -o " + file("two.exr") + " --display " + file("two.png"));
+  EXPECT_EQ(two.code, 2);
+  EXPECT_NE(two.err.find("a picture needs a sensor of one or three channels"), std::string::npos) << two.err;
+  EXPECT_FALSE(std::filesystem::exists(file("two.exr")));
+  EXPECT_EQ(abbe("merge " + part + " -o " + file("two.exr") + " --display " + file("two.exr")).code, 2);
+  EXPECT_EQ(abbe("merge " + part + " -o " + file("two.exr") + " --display /nowhere/two.png").code, 5);
+}
+
+}  // namespace
+}  // namespace abbe::test
