@@ -213,6 +213,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["overhead"] = {
       {"load", json_of(costs.load)}, {"display", json_of(costs.display)}, {"write", json_of(costs.write)}};
   answer["threads"] = stats.threads;
+  answer["processes"] = stats.processes;
   answer["samples_per_pixel"] = stats.samples_per_pixel;
   answer["photons_per_sample"] = result.film.shape().photons;
   answer["path_interval"] = result.film.shape().path_interval;

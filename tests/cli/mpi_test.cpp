@@ -54,6 +54,20 @@ TEST_F(Mpi, AnyNumberOfProcessesGivesTheSameBits) {
   expect_same_bits(scene("prism_spot") + " --spp 12", {2, 3});
 }
 
+TEST_F(Mpi, StatsAreOfAllProcesses) {
+  const auto film = scratch() / "film.abbepart";
+  const std::string arguments =
+      fmt::format("{} --spp 4096 --threads 1 --quiet -o {} --stats -", scene("furnace"), film.string());
+  const nlohmann::json alone = abbe("render " + arguments).json();
+  const nlohmann::json crew = together(3, arguments).json();
+  EXPECT_EQ(alone["processes"], 1);
+  EXPECT_EQ(crew["processes"], 3);
+  EXPECT_EQ(crew["threads"], 1);
+  EXPECT_EQ(crew["paths"], alone["paths"]);
+  EXPECT_EQ(crew["rays"], alone["rays"]);
+  EXPECT_GT(crew["cpu_s"], 0.75 * alone["cpu_s"].get<double>()) << "for the same work";
+}
+
 TEST_F(Mpi, AnErrorAskedForEndsAtTheSameSample) {
   expect_same_bits(scene("cornell") + " --error 12%", {2, 3});
 }

@@ -1,6 +1,8 @@
 #include <cstring>
+#include <span>
 
 #include "tests/scenes/scene_fixture.h"
+#include "transport/render/replay.h"
 
 namespace abbe {
 namespace {
@@ -71,6 +73,25 @@ TEST(Crop, PixelsInsideAreThoseOfTheWholeFilm) {
       const bool inside = x >= 10 && x < 30 && y >= 20 && y < 40;
       EXPECT_EQ(part.film.mean(pixel, 0), inside ? whole.film.mean(pixel, 0) : 0) << x << ", " << y;
     }
+}
+
+// Of two processes, the other of which does as much as the first.
+TEST(Crew, CostsAreThoseOfAll) {
+  const Scene scene =
+      test::load("cornell.json", {{"/sensor/resolution", "[64, 64]"}, {"/render/samples", "256"}});
+  RenderOptions options;
+  options.crew = {.rank = 0,
+                  .size = 2,
+                  .collect =
+                      [](std::span<Int128> numbers) {
+                        for (Int128& n : numbers) n *= 2;
+                      },
+                  .follow = [](bool said) { return said; }};
+  const double before = process_cpu_seconds();
+  const RenderResult result = render(scene, options);
+  const double own = process_cpu_seconds() - before;
+  EXPECT_EQ(result.stats.processes, 2);
+  EXPECT_NEAR(result.stats.cpu_s, 2 * own, 0.1 * own);
 }
 
 TEST(Stop, ARequestEndsAfterAPassWithAValidFilm) {

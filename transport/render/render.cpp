@@ -25,6 +25,9 @@ namespace {
 // enough to make threads worth starting.
 constexpr std::uint64_t kPassPaths = 1U << 18;
 
+// As a power of two [s].
+constexpr int kNanosecond = -30;
+
 // Of the time, at most.
 constexpr double kCheckpointShare = 0.01;
 
@@ -64,6 +67,7 @@ class Rendering {
     }
     RenderStats& stats = result_.stats;
     stats.threads = threads_;
+    stats.processes = options_.crew.size;
     if (!leads()) forget();
     if (leads() && !result_.unfinished && look_is_due()) look_at_error();
   }
@@ -78,7 +82,7 @@ class Rendering {
     RenderStats& stats = result_.stats;
     if (leads() && (asks_for_error() || options_.measure_error)) stats.error = error_now();
     stats.wall_s = elapsed();
-    stats.cpu_s = process_cpu_seconds() - cpu_start_;
+    stats.cpu_s = cpu_of_all();
     if (options_.measure_replay) stats.embree_replay_share = measure_replay_share(plan_);
     return std::move(result_);
   }
@@ -135,6 +139,15 @@ class Rendering {
     stats.rays = whole(1);
     stats.nonfinite_samples = whole(2);
     stats.cut = {whole(3), counts[4]};
+  }
+
+  // Of all processes together, to the nanosecond.
+  [[nodiscard]] double cpu_of_all() const {
+    const double own = process_cpu_seconds() - cpu_start_;
+    if (alone()) return own;
+    std::array<Int128, 1> sum{to_fixed(own, kNanosecond)};
+    options_.crew.collect(sum);
+    return from_fixed(sum[0], kNanosecond);
   }
 
   // What was read of an earlier run counts in the first process only.

@@ -55,7 +55,8 @@ struct RenderOptions {
 struct RenderStats {
   double wall_s = 0;
   double cpu_s = 0;
-  int threads = 1;
+  int threads = 1;    ///< Of each process.
+  int processes = 1;  ///< Of the crew, whose work these figures count.
   std::uint64_t samples_per_pixel = 0;
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
