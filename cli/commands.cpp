@@ -19,6 +19,7 @@
 #include "cli/material_commands.h"
 #include "cli/merge.h"
 #include "cli/render.h"
+#include "cli/slurm_help.h"
 #include "cli/trace.h"
 #include "cli/usage.h"
 #include "cli/validate.h"
@@ -299,11 +300,12 @@ void add_validate(CLI::App& app, Command& command) {
 
 std::string help_text(const CLI::App& app, const std::string& topic, const std::string& key) {
   if (topic == "scene") return schema::help(schema::fields_of<spec::Scene>(), key);
-  if (!key.empty()) throw Error(ErrorCode::usage, key, "only help scene takes a key");
+  if (topic == "slurm") return slurm_help(key);
+  if (!key.empty()) throw Error(ErrorCode::usage, key, "only help scene and help slurm take another word");
   return topic.empty() ? help_of(app, "abbe") : help_of(find_command(app, topic), "abbe " + topic);
 }
 
-// `abbe help [COMMAND]`, and `abbe help scene [KEY]`.
+// `abbe help [COMMAND]`, `abbe help scene [KEY]` and `abbe help slurm [FILE]`.
 void add_help(CLI::App& app, Command& command) {
   struct Options {
     std::string command;
@@ -313,10 +315,14 @@ void add_help(CLI::App& app, Command& command) {
   CLI::App* help = app.add_subcommand("help", "Show how to use Abbe, one command, or a key of scene files");
   auto options = std::make_shared<Options>();
   CLI::Option* name =
-      help->add_option("command", options->command, "Command, or scene for the keys of scene files")
-          ->type_name("COMMAND|scene");
-  help->add_option("key", options->key,
-                   "With scene: a key, wherever it may stand, or a path of keys, as sensor/readout")
+      help->add_option(
+              "command", options->command,
+              "Command, scene for the keys of scene files, or slurm for the jobs of a render in parts")
+          ->type_name("COMMAND|scene|slurm");
+  help->add_option(
+          "key", options->key,
+          "With scene: a key, wherever it may stand, or a path of keys, as sensor/readout; with slurm: "
+          "a file, to be printed alone")
       ->type_name("KEY");
   add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
              "Write the reference of all commands", "markdown|man|bash")

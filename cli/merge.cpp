@@ -16,7 +16,6 @@
 #include "develop/film_file.h"
 #include "develop/radiance.h"
 #include "film/rendered_film.h"
-#include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"

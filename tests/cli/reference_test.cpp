@@ -1,6 +1,9 @@
 #include "cli/reference.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
 
 namespace abbe::cli {
 namespace {
@@ -48,6 +51,18 @@ TEST(Reference, CompletionKnowsWhatValuesAre) {
   EXPECT_NE(script.find("    'tool cut 2') kind='words $schema "), std::string::npos) << script;
   EXPECT_TRUE(has_line(script, "    'tool cut 3') kind='words all cut' ;;")) << script;
   EXPECT_EQ(script.find("--dry')"), std::string::npos) << script;  // takes no value
+}
+
+TEST(Help, TellsTheDocumentedJobs) {
+  const std::string all = test::abbe("help slurm").out;
+  for (const std::string name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
+    const std::string job = test::read_file(fmt::format("{}/distributed/{}", ABBE_DOCS, name));
+    EXPECT_EQ(test::abbe("help slurm " + name).out, job);
+    EXPECT_NE(all.find(fmt::format("\n{}:\n{}", name, job)), std::string::npos) << all;
+  }
+  const test::Outcome unknown = test::abbe("help slurm render.sbatsh");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("did you mean \"render.sbatch\""), std::string::npos) << unknown.err;
 }
 
 }  // namespace
