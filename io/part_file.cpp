@@ -78,6 +78,15 @@ struct OpenPartFile {
   std::size_t byte_count = 0;
 };
 
+// How many bytes follow in the file that is open: by its name there may be another by now.
+std::size_t rest_of(std::ifstream& file) {
+  const std::streampos here = file.tellg();
+  file.seekg(0, std::ios::end);
+  const std::streamoff rest = file.tellg() - here;
+  file.seekg(here);
+  return static_cast<std::size_t>(rest);
+}
+
 OpenPartFile open_part_file(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) refuse(path, "no such file");
@@ -86,7 +95,7 @@ OpenPartFile open_part_file(const fs::path& path) {
   open.header = read_header(open.file, path);
   open.hash = take(open.header, kHash, path);
   const std::string length = take(open.header, kBytes, path);
-  open.byte_count = fs::file_size(path, ignored) - static_cast<std::uintmax_t>(open.file.tellg());
+  open.byte_count = rest_of(open.file);
   if (length != fmt::format("{}", open.byte_count))  // before anything of that length is allocated
     refuse(path, fmt::format("torn: it should hold {} bytes of sums and holds {}", length, open.byte_count));
   return open;

@@ -1,5 +1,7 @@
 #include "io/part_file.h"
 
+#include <thread>
+
 #include "io/error.h"
 #include "test_files.h"
 
@@ -100,6 +102,19 @@ TEST(PartFile, OtherFilesAreRefusedByName) {
   EXPECT_EQ(complaint_about(path), path.string() + ": not a part file (\"abbepart 1\")");
   put(path, "abbepart 1\nbytes: 99999999999999\nsha256: 00\n\n");  // nothing of that size is allocated
   EXPECT_NE(complaint_about(path).find("torn"), std::string::npos);
+}
+
+// As one who merges meets the checkpoint of another process.
+TEST(PartFile, IsReadWholeWhileItIsWrittenAnew) {
+  const auto path = written();
+  std::jthread writer([&path](const std::stop_token& stop) {
+    for (std::size_t i = 0; !stop.stop_requested(); ++i)
+      write_part_file(path, {{"samples", std::string(i % 7, '1')}}, kBytes);
+  });
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_EQ(complaint_about(path), "");
+    ASSERT_NO_THROW((void)read_part_file_header(path));
+  }
 }
 
 TEST(PartFile, AFullDiskLeavesTheOldFile) {
