@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -60,6 +61,26 @@ TEST(CropParts, AddUpWherePhotonsAreTraced) {
   ASSERT_EQ(whole.code, 0) << whole.err;
   EXPECT_GT(whole.json()["photons_per_sample"], 0);
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
+}
+
+// On a smaller film.
+TEST(CropParts, TheDocumentedExampleWorks) {
+  std::string text = read_file(ABBE_DOCS "/distributed.md");
+  const std::size_t begin = text.find("```sh\n", text.find("\nFilms are cut by `--crop`")) + 6;
+  text = text.substr(begin, text.find("```", begin) - begin);
+  for (const auto& [from, to] : {std::pair{std::string("./abbe"), std::string(ABBE_BINARY)},
+                                 {"data/scenes/prism.json", ball()},
+                                 {"400", "10"},
+                                 {"640", "24"},
+                                 {"360", "16"}}) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  }
+  const Outcome run = shell("cd " + file("") + "\n" + text);
+  ASSERT_EQ(run.code, 0) << run.err;
+  ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
+  EXPECT_EQ(read_file(file("prism.exr")), read_file(file("whole.exr")));
 }
 
 TEST(CropParts, HoldNoOtherPixels) {
