@@ -51,16 +51,20 @@ EOF
 merge=$(sh submit.sh --array=0-4 --cpus-per-task=1 --time=1 --signal=TERM@50 | sed 's/.* //')
 array=$((merge - 1))
 until_true 60 grep -q "starting from the first sample" "slurm-${array}_0.out" || fail "the first task does not start"
+before=0
 scancel --signal=KILL "$(field "${array}_0" JobId).0"
+back 0 "a kill"
 
-# What makes way has time to save what it has.
-saved() { [ -s "at-$(($1 * 4096 / 5)).abbepart" ] || fail "task $1 saved nothing before $2"; }
-until_true 60 on n1 || fail "no task on n1"
+# What makes way has time to save what it has, once it is at work.
+has_saved() { [ -s "at-$(($1 * 4096 / 5)).abbepart" ]; }
+at_work() { on "$1" && { has_saved "$task" || tail -n 1 "slurm-${array}_$task.out" | grep "starting from the first sample"; }; }
+saved() { until_true 20 has_saved "$1" || fail "task $1 saved nothing before $2"; }
+until_true 60 at_work n1 || fail "no task on n1"
 urgent=$(sbatch --parsable --partition=urgent --nodelist=n1 --wrap="sleep 1")
 until_true 120 is "$urgent" JobState COMPLETED || fail "the urgent job did not run"
 back "$task" "an urgent job"
 saved "$task" "an urgent job"
-until_true 120 on n2 || fail "no task on n2"
+until_true 120 at_work n2 || fail "no task on n2"
 scontrol requeue "$(field "${array}_$task" JobId)"
 back "$task" "a requeue by hand"
 saved "$task" "a requeue by hand"
@@ -81,7 +85,6 @@ for task in 0 1 2 3 4; do
   is "${array}_$task" JobState COMPLETED || fail "task $task is $(field "${array}_$task" JobState)"
   total=$((total + $(restarts $task)))
 done
-[ "$(restarts 0)" -ge 1 ] || fail "the killed task was not requeued"
 [ $total -ge 5 ] || fail "no task was requeued at its time limit"
 [ "$(sinfo --noheader --partition=all --nodes=n2 --format=%T)" = drained ] || fail "n2 is not drained"
 [ ! -e picture.png ] || fail "a part wrote the picture"
