@@ -16,6 +16,7 @@
 #include "develop/film_file.h"
 #include "develop/radiance.h"
 #include "film/rendered_film.h"
+#include "film/sensor_identity.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
@@ -68,17 +69,6 @@ RenderPart sum_of(const MergeOptions& options, const Headers& headers) {
   return sum;
 }
 
-// Which samples of which pixels.
-std::string in_words(const SampledAreas& areas, const FilmShape& shape, std::string_view of_all) {
-  std::string text;
-  for (const auto& [pixels, samples] : areas) {
-    const bool all = pixels == Crop{0, 0, shape.width, shape.height};
-    text += fmt::format("{}samples {}{}", text.empty() ? "" : ", ", to_text(samples),
-                        all ? std::string(of_all) : fmt::format(" of pixels {}", to_text(pixels)));
-  }
-  return text;
-}
-
 // Of the sensor whose film it is, told before any sums are read, what a picture takes. As `render`, it shows
 // what the light gave, without the noise of a read-out.
 FilmSensor shown_sensor(const FilmIdentity& identity, const fs::path& part) {
@@ -124,7 +114,7 @@ int merge(const MergeOptions& options) {
         ErrorCode::input, options.outputs.front().string(),
         fmt::format(
             "{} are missing of those that the render is to have; --partial writes what the others give",
-            in_words(missing, all.shape, "")));
+            in_words(missing, all.shape)));
   std::optional<FilmSensor> shown;
   if (!options.display.empty()) shown = shown_sensor(all.identity, options.parts.front());
   const RenderPart sum = sum_of(options, headers);
@@ -136,7 +126,7 @@ int merge(const MergeOptions& options) {
   write_all(writers);
   say(fmt::format("{} from {} parts: {}{}{}", options.outputs.front().string(), options.parts.size(),
                   in_words(all.areas, all.shape, " of every pixel"),
-                  missing.empty() ? "" : fmt::format("; missing: {}", in_words(missing, all.shape, "")),
+                  missing.empty() ? "" : fmt::format("; missing: {}", in_words(missing, all.shape)),
                   error_text({.frame_mean = frame_mean_error(sum.result.film)}, ", ")));
   return 0;
 }

@@ -83,7 +83,7 @@ void write(const FilmHandle& film, const fs::path& path) {
   if (!is_part && path.extension() != ".exr") return write_picture(path, shown(film).image);
   const py::gil_scoped_release released;
   if (is_part)
-    write_part(path, film.part()->identity, film.part()->result);
+    write_part(path, film.part()->identity, film.part()->result, film.part()->areas);
   else
     write_exr(path, film.image());
 }
@@ -95,41 +95,45 @@ const RenderPart& sums_of(const py::handle& film, const fs::path& name) {
   return *part;
 }
 
-RenderPart copy_of(const RenderPart& part) {
-  const RenderResult& result = part.result;
-  Film film = Film::from_bytes(result.film.shape(), result.film.bytes()).value();
-  film.set_samples(count_per_replicate(result.samples, film.replicates()));
-  return {part.identity, {std::move(film), result.samples, result.stats}};
-}
+// What `merge` is given: a film of Python, or the path of a part; with a name for messages.
+struct Given {
+  const RenderPart* film;  // nullptr of a path
+  fs::path name;
 
-// Adds one of the films that `merge` is given: a film of Python, or the path of a part.
-void add(std::optional<RenderPart>& sum, const py::handle& film, std::size_t i) {
-  if (py::isinstance<FilmHandle>(film)) {
-    const fs::path name = fmt::format("films[{}]", i);
-    if (!sum)
-      sum = copy_of(sums_of(film, name));
-    else
-      merge(*sum, sums_of(film, name), name);
-    return;
+  [[nodiscard]] PartHeader header() const {
+    return film != nullptr ? header_of(*film) : read_part_header(name);
   }
-  const auto path = film.cast<fs::path>();
-  if (!sum)
-    sum = read_part(path);
-  else
-    merge(*sum, read_part(path), path);
+  void add_to(RenderPart& sum) const {
+    if (film != nullptr)
+      merge(sum, *film, name);
+    else
+      merge(sum, read_part(name), name);
+  }
+};
+
+std::vector<Given> given(const py::sequence& films) {
+  std::vector<Given> all;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const fs::path name = fmt::format("films[{}]", i);
+    all.push_back(py::isinstance<FilmHandle>(films[i]) ? Given{&sums_of(films[i], name), name}
+                                                       : Given{nullptr, films[i].cast<fs::path>()});
+  }
+  return all;
 }
 
 FilmHandle merge_films(const py::sequence& films, bool partial) {
-  if (films.empty()) throw Error(ErrorCode::usage, "merge", "needs one film or more");
-  std::optional<RenderPart> total;
-  for (std::size_t i = 0; i < films.size(); ++i) add(total, films[i], i);
-  RenderPart& sum = *total;
-  const SampleRanges absent = missing_samples({sum.identity, sum.result.film.shape(), sum.result.samples});
+  const std::vector<Given> all = given(films);
+  if (all.empty()) throw Error(ErrorCode::usage, "merge", "needs one film or more");
+  PartHeader whole = all.front().header();
+  for (std::size_t i = 1; i < all.size(); ++i) merge(whole, all[i].header(), all[i].name);
+  const SampledAreas absent = missing_samples(whole);
   if (!absent.empty() && !partial)
     throw Error(ErrorCode::input, "merge",
-                fmt::format("samples {} are missing of those that the render is to have; partial=True gives "
-                            "what the others make",
-                            to_text(absent)));
+                fmt::format("{} are missing of those that the render is to have; partial=True gives what the "
+                            "others make",
+                            in_words(absent, whole.shape)));
+  RenderPart sum = empty_part(whole);
+  for (const Given& one : all) one.add_to(sum);
   return FilmHandle(std::move(sum));
 }
 

@@ -183,6 +183,10 @@ void set_areas(RenderPart& part, SampledAreas areas) {
 
 }  // namespace
 
+PartHeader header_of(const RenderPart& part) {
+  return {part.identity, part.result.film.shape(), areas_of(part)};
+}
+
 void write_part(const fs::path& path, const FilmIdentity& identity, const RenderResult& result,
                 const SampledAreas& areas) {
   FilmIdentity header = identity;
@@ -283,6 +287,16 @@ SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& c
       for (const SampleRange& range : area.samples)
         for (const SampleRange& more : missing(wanted.samples, range)) (void)add(wanted.samples, more);
   return missing(sum.areas, wanted);
+}
+
+std::string in_words(const SampledAreas& areas, const FilmShape& shape, std::string_view of_all) {
+  std::string text;
+  for (const auto& [pixels, samples] : areas) {
+    const std::string where = of_pixels(pixels, shape);
+    text += fmt::format("{}samples {}{}", text.empty() ? "" : ", ", to_text(samples),
+                        where.empty() ? std::string(of_all) : where);
+  }
+  return text;
 }
 
 Image image_of(const RenderPart& part) {

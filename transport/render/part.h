@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "transport/render/render.h"
 #include "transport/render/sampled_areas.h"
@@ -41,6 +42,9 @@ struct PartHeader {
   SampledAreas areas;
 };
 
+/// What the file of a part would tell before its sums.
+[[nodiscard]] PartHeader header_of(const RenderPart& part);
+
 /// Writes the exact sums, atomically. Throws Error{output}.
 void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result,
                 const SampledAreas& areas = {});
@@ -69,6 +73,10 @@ void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path&
 /// What pixels of the film, or of a crop of it, lack of the samples that the renders of these parts stated;
 /// of the samples that others have where none were stated.
 [[nodiscard]] SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& crop = {});
+
+/// Which samples of which pixels of a film, for messages; `of_all` stands for all pixels.
+[[nodiscard]] std::string in_words(const SampledAreas& areas, const FilmShape& shape,
+                                   std::string_view of_all = "");
 
 /// The film with its variance, and its identity, sample count and error as metadata; without the latter two
 /// where pixels have different samples.
