@@ -63,7 +63,8 @@ Headers read_headers(const MergeOptions& options) {
 // Beside the sum are the film of a part and the bytes it is read from.
 RenderPart sum_of(const MergeOptions& options, const Headers& headers) {
   Inputs inputs(options.max_memory_bytes);
-  inputs.take_memory("merge", bytes_of_sums(headers.sum.shape) + 2 * headers.largest_bytes);
+  inputs.take_memory(options.parts.front().string(),
+                     bytes_of_sums(headers.sum.shape) + 2 * headers.largest_bytes);
   RenderPart sum = empty_part(headers.sum);
   for (const fs::path& path : options.parts) abbe::merge(sum, read_part(path), path);
   return sum;

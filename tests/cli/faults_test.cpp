@@ -49,6 +49,8 @@ TEST(FullDisk, NoOldOutputIsLost) {
     std::ofstream(there / film) << "old";
     Outputs outputs = kOutputs;
     outputs.front().second = film;
+    // Beside a part no picture is written.
+    if (fs::path(film).extension() == ".abbepart") outputs.erase(outputs.begin() + 1);
     outputs.emplace_back("--checkpoint", kCheckpoint);
     const Outcome run = shell("cd " + there.string() + "; (trap '' XFSZ; ulimit -f 0; " + render(outputs) +
                               "; echo $?) 2>&1 | cat");

@@ -30,7 +30,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 22U);
+  EXPECT_EQ(stats.size(), 23U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["seed"], 7);
