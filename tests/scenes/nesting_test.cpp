@@ -195,16 +195,17 @@ constexpr const char* kRoom =
 constexpr const char* kLamp =
     R"({"sphere": {"center": [2, 3, -2], "radius": 0.8}, "emission": {"spectrum": 1}, "two_sided": false})";
 
-// A ball of glass in a room full of water, and one of their ratio in a room of air.
+// A ball of glass in a room full of water, and one of their ratio in a room of air: the same paths, of plans
+// that pilots have taught nothing, as theirs meet the surface of the water.
 TEST(Nesting, OnlyTheRatioOfIndicesIsSeen) {
   const char* settings = R"("max_depth": 12)";
-  const Film wet =
-      render(scene_of(fmt::format("{}, {}, {}", kRoom, ball("water", 9), ball("glass", 1)), settings, kLamp),
-             {})
-          .film;
+  const Scene wet_scene =
+      scene_of(fmt::format("{}, {}, {}", kRoom, ball("water", 9), ball("glass", 1)), settings, kLamp);
+  const auto samples = static_cast<std::uint64_t>(wet_scene.render.samples);
+  const Film wet = test::film_of(wet_scene, make_plan(wet_scene), samples);
   const Scene dry_scene = scene_of(fmt::format("{}, {}", kRoom, ball("ratio", 1)), settings, kLamp);
   EXPECT_FALSE(dry_scene.needs.nesting);
-  const Film dry = render(dry_scene, {}).film;
+  const Film dry = test::film_of(dry_scene, make_plan(dry_scene), samples);
   double apart = 0;
   for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)
     apart = std::max(apart, std::abs(wet.mean(pixel, 0) / dry.mean(pixel, 0) - 1));

@@ -14,6 +14,7 @@
 
 #include "description/load.h"
 #include "io/data_directory.h"
+#include "transport/render/pass.h"
 #include "transport/render/render.h"
 
 namespace abbe::test {
@@ -38,6 +39,17 @@ inline Scene load_text(const std::string& text, const std::vector<Override>& set
   Scene scene = load_file(path, settings);
   std::filesystem::remove(path);
   return scene;
+}
+
+/// The film of a plan, whatever pilots have taught it: so many samples, with that number as their seed.
+inline Film film_of(const Scene& scene, const Plan& plan, std::uint64_t samples) {
+  constexpr int kReplicates = 8;
+  Film film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
+            kReplicates, plan.nominal_value, uses(plan.techniques, Technique::light) ? plan.photons : 0,
+            plan.path_interval);
+  Pass(plan, film, {}, {0, samples}, 0, samples).run(2, [] { return false; });
+  film.set_samples(count_per_replicate({{0, samples}}, kReplicates));
+  return film;
 }
 
 /// Mean of a channel over pixels [x0, x1) x [y0, y1), and the variance of that mean.

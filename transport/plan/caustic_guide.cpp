@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "scene/shapes/basis.h"
@@ -21,7 +19,7 @@ using Lobes = CausticLobes::Lobes;
 constexpr std::size_t kMostPhotons = 32;  // of a region,
 constexpr std::size_t kLeastPhotons = 8;  // and fewer than these tell nothing
 constexpr float kLeastWidth = 1e-4F;
-constexpr float kMargin = 0.25F;  // of a region's diagonal: how far beyond its photons they are asked
+constexpr float kMargin = 0.5F;  // of a region's diagonal: how far beyond its photons they are asked
 // Lobes that are no denser than this times a white surface's own are left.
 constexpr float kLeastGain = 8;
 
@@ -111,45 +109,6 @@ std::vector<Lobes> lobes_of(Photons photons, std::span<const Target> targets) {
   return lobes;
 }
 
-// The coordinate of photons that halves them, as nearly as can be where many have the same, as on a floor:
-// those below it, and the others; infinite where all have the same.
-float middle_of(std::span<CausticPhoton> photons, int axis) {
-  const auto coordinate = [axis](const CausticPhoton& photon) { return photon.point[axis]; };
-  const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
-  std::ranges::nth_element(photons, middle, {}, coordinate);
-  const float at = coordinate(*middle);
-  if (std::ranges::any_of(photons, [&](const CausticPhoton& photon) { return coordinate(photon) < at; }))
-    return at;
-  float next = std::numeric_limits<float>::infinity();
-  for (const CausticPhoton& photon : photons)
-    if (coordinate(photon) > at) next = std::min(next, coordinate(photon));
-  return next;
-}
-
-struct Division {
-  int axis;
-  float at;
-  std::size_t below;
-};
-
-// Divides photons that are too many for a region, those below coming first: along the longest axis that
-// leaves enough on both sides, if any does.
-std::optional<Division> divide(std::span<CausticPhoton> photons) {
-  if (photons.size() <= kMostPhotons) return std::nullopt;
-  Imath::Box3f box;
-  for (const CausticPhoton& photon : photons) box.extendBy(photon.point);
-  std::array<int, 3> axes{0, 1, 2};
-  std::ranges::sort(axes, std::ranges::greater(), [&box](int axis) { return box.size()[axis]; });
-  for (const int axis : axes) {
-    const float at = middle_of(photons, axis);
-    const auto others = std::ranges::partition(
-        photons, [axis, at](const CausticPhoton& photon) { return photon.point[axis] < at; });
-    const std::size_t below = photons.size() - others.size();
-    if (std::min(below, others.size()) >= kLeastPhotons) return Division{axis, at, below};
-  }
-  return std::nullopt;
-}
-
 // The lobe that `u` in [0, 1) falls to; the last one if rounding leaves something over.
 Target chosen(std::span<const Lobes> lobes, float u) {
   Target target{};
@@ -197,33 +156,51 @@ float CausticLobes::pdf(const V3f& point, const V3f& direction) const {
   return sum / std::numbers::pi_v<float>;
 }
 
-CausticGuide::CausticGuide(std::vector<CausticPhoton> photons) {
+CausticGuide::CausticGuide(std::vector<CausticPhoton> photons, const Imath::Box3d& scene) {
   std::erase_if(photons, [](const CausticPhoton& photon) {
     return !(photon.power > 0 && std::isfinite(photon.power));
   });
   if (photons.size() < kLeastPhotons) return;
-  build(photons);
+  // So placed that no cell ends on what is flat: a floor's photons would fall to either side by rounding.
+  const Imath::V3d size(1.3 * scene.size()[static_cast<int>(scene.majorAxis())]);
+  const V3f low(scene.min - size * 0.1057);
+  build({photons, photons, {low, low + V3f(size)}, 0});
   if (lobes_.empty()) *this = {};
 }
 
-void CausticGuide::build(std::span<CausticPhoton> photons) {
+// Where the cell is divided does not depend on the photons, so that one more or less changes no region but
+// its own. A cell of too few has the lobes of the one around it.
+void CausticGuide::build(Cell cell) {
+  constexpr int kDeepest =
+      60;  // a millionth of the whole, where photons that are at one place are left together
   const std::size_t here = nodes_.size();
   nodes_.push_back({.region = static_cast<std::uint32_t>(regions_.size())});
-  const std::optional<Division> division = divide(photons);
-  if (!division) return add_region(photons);
-  nodes_[here].axis = division->axis;
-  nodes_[here].at = division->at;
-  build(photons.first(division->below));
+  if (cell.photons.size() >= kLeastPhotons) cell.around = cell.photons;
+  if (cell.photons.size() <= kMostPhotons || cell.depth == kDeepest) return add_region(cell.around);
+  const int axis = cell.depth % 3;
+  const float at = (cell.box.min[axis] + cell.box.max[axis]) / 2;
+  const auto above =
+      std::stable_partition(cell.photons.begin(), cell.photons.end(),
+                            [axis, at](const CausticPhoton& photon) { return photon.point[axis] < at; });
+  const auto below = static_cast<std::size_t>(above - cell.photons.begin());
+  nodes_[here].axis = axis;
+  nodes_[here].at = at;
+  Cell part{cell.photons.first(below), cell.around, cell.box, cell.depth + 1};
+  part.box.max[axis] = at;
+  build(part);
   nodes_[here].above = static_cast<std::uint32_t>(nodes_.size());
-  build(photons.subspan(division->below));
+  part = {cell.photons.subspan(below), cell.around, cell.box, cell.depth + 1};
+  part.box.min[axis] = at;
+  build(part);
 }
 
-// Of photons that could not be divided some.
-void CausticGuide::add_region(Photons photons) {
-  photons = photons.first(std::min(photons.size(), kMostPhotons));
+void CausticGuide::add_region(Photons all) {
+  std::vector<CausticPhoton> photons;
+  const std::size_t count = std::min(all.size(), kMostPhotons);
+  for (std::size_t i = 0; i < count; ++i) photons.push_back(all[i * all.size() / count]);
   Region region;
   region.first = static_cast<std::uint32_t>(lobes_.size());
-  for (const CausticPhoton& photon : photons) region.box.extendBy(photon.point);
+  for (const CausticPhoton& photon : all) region.box.extendBy(photon.point);
   const V3f margin(kMargin * region.box.size().length());
   region.box = {region.box.min - margin, region.box.max + margin};
   const Focus focus = sharpest(photons);

@@ -61,7 +61,8 @@ class CausticLobes {
 class CausticGuide {
  public:
   CausticGuide() = default;
-  explicit CausticGuide(std::vector<CausticPhoton> photons);
+  /// `scene` is a box around the shapes, which cells of space are divided from.
+  CausticGuide(std::vector<CausticPhoton> photons, const Imath::Box3d& scene);
 
   /// Whether there is nothing to look for anywhere.
   [[nodiscard]] bool empty() const { return regions_.empty(); }
@@ -86,8 +87,16 @@ class CausticGuide {
     std::uint32_t region = 0;
   };
 
-  void build(std::span<CausticPhoton> photons);
-  void add_region(std::span<const CausticPhoton> photons);
+  // A part of space, its photons, and those of the smallest part around it that has enough.
+  struct Cell {
+    std::span<CausticPhoton> photons;
+    std::span<const CausticPhoton> around;
+    Imath::Box3f box;
+    int depth;
+  };
+
+  void build(Cell cell);
+  void add_region(std::span<const CausticPhoton> all);
 
   std::vector<Node> nodes_;
   std::vector<Region> regions_;

@@ -107,8 +107,8 @@ void learn_caustics(Plan& plan, std::uint64_t seed, int threads) {
         all.push_back(photon);
         if (!plan.traced[start.light]) of_paths.push_back(photon);
       }
-  plan.caustics_of_paths = CausticGuide(std::move(of_paths));
-  plan.caustics_seen_through = CausticGuide(std::move(all));
+  plan.caustics_of_paths = CausticGuide(std::move(of_paths), plan.scene.bounds);
+  plan.caustics_seen_through = CausticGuide(std::move(all), plan.scene.bounds);
 }
 
 }  // namespace abbe
