@@ -1,9 +1,12 @@
 // The directions that a guide of caustics proposes.
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
+#include "tests/scene/scenes.h"
 #include "transport/plan/caustic_guide.h"
+#include "transport/technique/path.h"
 #include "validation/goniometer/lobes.h"
 
 namespace abbe {
@@ -45,6 +48,29 @@ TEST(CausticLobes, AreDrawnAsTheySay) {
     EXPECT_NEAR(check.integral, 1, 1e-3) << radius;
     EXPECT_GT(check.p, 1e-4) << radius;
   }
+}
+
+// Of the directions in which a guided path goes on half are the surface's and half the guide's.
+TEST(CausticLobes, AreHalfOfWhatAPathDraws) {
+  const CausticGuide guide(photons_from({0.5F, 3, -1}, 0.3F, 500), kRoom);
+  const Scene scene = testing::scene_of({Sphere{{0, 0, 5}, 1}});
+  const Plan plan = make_plan(scene);
+  RayCaster caster(scene);
+  const PathTracer tracer(plan, caster);
+  const V3f point(0.3F, 0, 0.1F);
+  const SurfaceVertex vertex = SurfaceVertex::meter(point, {0, 1, 0});
+  CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
+  path.caustics = guide.at(point);
+  ASSERT_FALSE(path.caustics.empty());
+  const auto density = [&](const V3f& local) {
+    const V3f world = vertex.frame.to_world(local);
+    return static_cast<double>((vertex.wo.z * local.z > 0 ? local.z / (2 * std::numbers::pi_v<float>) : 0) +
+                               path.caustics.pdf(point, world) / 2);
+  };
+  const DensityCheck check =
+      check_density([&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0);
+  EXPECT_GT(check.p, 1e-4);
+  EXPECT_NEAR(check.integral, 1, 1e-3);
 }
 
 // What few photons have shown at other places points to the lamp from every place.
