@@ -3,7 +3,9 @@
 
 #include <numbers>
 #include <random>
+#include <typeinfo>
 
+#include "tests/materials/bsdf_examples.h"
 #include "tests/scene/scenes.h"
 #include "transport/plan/caustic_guide.h"
 #include "transport/technique/path.h"
@@ -50,27 +52,39 @@ TEST(CausticLobes, AreDrawnAsTheySay) {
   }
 }
 
-// Of the directions in which a guided path goes on half are the surface's and half the guide's.
+// Of the directions in which a guided path goes on half are the surface's, single ones among them, and half
+// the guide's.
+template <typename Model>
+void expect_half_guided(const PathTracer& tracer, const CausticGuide& guide) {
+  const V3f point(0.3F, 0, 0.1F);
+  const V3f normal(0, 1, 0);
+  CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
+  path.caustics = guide.at(point);
+  ASSERT_FALSE(path.caustics.empty());
+  for (const Model& model : examples<Model>()) {
+    const SurfaceVertex vertex({point, normal, 0, 0}, Basis<float>(normal), V3f(0.6F, 0, 0.8F), Bsdf(model));
+    const auto density = [&](const V3f& local) {
+      const bool goes_on = !vertex.f(vertex.frame.to_world(local), local, TransportMode::radiance).is_zero();
+      const float guided = path.caustics.pdf(point, vertex.frame.to_world(local));
+      return goes_on ? static_cast<double>((pdf(vertex.bsdf, vertex.wo, local)[0] + guided) / 2) : 0.0;
+    };
+    const DensityCheck check = check_density(
+        [&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0, 50000);
+    EXPECT_GT(check.p, 1e-4) << typeid(Model).name();
+  }
+}
+
 TEST(CausticLobes, AreHalfOfWhatAPathDraws) {
   const CausticGuide guide(photons_from({0.5F, 3, -1}, 0.3F, 500), kRoom);
   const Scene scene = testing::scene_of({Sphere{{0, 0, 5}, 1}});
   const Plan plan = make_plan(scene);
   RayCaster caster(scene);
   const PathTracer tracer(plan, caster);
-  const V3f point(0.3F, 0, 0.1F);
-  const SurfaceVertex vertex = SurfaceVertex::meter(point, {0, 1, 0});
-  CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
-  path.caustics = guide.at(point);
-  ASSERT_FALSE(path.caustics.empty());
-  const auto density = [&](const V3f& local) {
-    const V3f world = vertex.frame.to_world(local);
-    return static_cast<double>((vertex.wo.z * local.z > 0 ? local.z / (2 * std::numbers::pi_v<float>) : 0) +
-                               path.caustics.pdf(point, world) / 2);
-  };
-  const DensityCheck check =
-      check_density([&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0);
-  EXPECT_GT(check.p, 1e-4);
-  EXPECT_NEAR(check.integral, 1, 1e-3);
+  expect_half_guided<DiffuseBsdf>(tracer, guide);
+  expect_half_guided<CoatedDiffuseBsdf>(tracer, guide);
+  expect_half_guided<RoughDielectricBsdf>(tracer, guide);
+  expect_half_guided<PrincipledBsdf>(tracer, guide);
+  expect_half_guided<MixtureBsdf>(tracer, guide);
 }
 
 // What few photons have shown at other places points to the lamp from every place.
