@@ -1,6 +1,7 @@
 // Caustics that camera paths find by what photons have shown them.
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learn_aims.h"
+#include "transport/technique/caustic_photons.h"
 
 namespace abbe {
 namespace {
@@ -30,7 +31,7 @@ std::string lamp_over_floor(bool bulb) {
                 "material": "grey"})") +
          (bulb ? R"(, {"name": "bulb", "sphere": {"center": [0, 2, 0], "radius": 0.5}, "material": "glass"})"
                : "") +
-         R"(], "render": {"integrator": "path"}})";
+         R"(], "render": {"integrator": "path", "roulette_depth": 1}})";
 }
 
 TEST(CausticGuide, ALampInABulbIsAsBrightAsItsGlassLetsThrough) {
@@ -98,6 +99,32 @@ TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
   const test::Comparison c = test::compare_regions(chance, guided, 4);
   EXPECT_LT(c.largest_z, kLargestZ);
   EXPECT_NEAR(c.ratio, 1, 0.01);
+}
+
+// What the guide learns from has come through glass or by a mirror alone.
+TEST(CausticPhotons, ComeThroughSpecularMatterAlone) {
+  const Scene scene = test::load(
+      "glass_sphere.json",
+      {{"/shapes/2",
+        R"({"name": "wall", "quad": {"corner": [-9, 0, 3], "edge_u": [18, 0, 0], "edge_v": [0, 9, 0]}, "material": "grey"})"}});
+  std::vector<bool> lamp(scene.lights.size(), false);
+  lamp[0] = true;
+  const std::optional<Plan> plan = make_photon_plan(scene, lamp);
+  ASSERT_TRUE(plan);
+  RayCaster caster(scene);
+  CausticPhotonTracer tracer(*plan, caster);
+  std::vector<Sampler> photons;
+  for (std::uint32_t i = 0; i < 4096; ++i) photons.emplace_back(1, Purpose::pilot, 0, 0, i);
+  const auto arrived = tracer.trace(photons);
+  EXPECT_GT(arrived.size(), 200U);
+  for (const auto& [start, photon] : arrived) {
+    const auto back = scene.intersect(ray_at(photon.point + photon.from * 1e-6F, photon.from, 0));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(scene.shapes[back->shape].name, "ball");
+    EXPECT_NEAR(photon.last_distance, back->t, 3e-6F);
+    EXPECT_GT(photon.whole_distance, photon.last_distance);
+    EXPECT_GT(photon.power, 0);
+  }
 }
 
 // A scene that asks for no guide has none: nothing specular, nothing that scatters behind it, a light that

@@ -71,6 +71,20 @@ void expect_half_guided(const PathTracer& tracer, const CausticGuide& guide) {
     const DensityCheck check = check_density(
         [&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0, 50000);
     EXPECT_GT(check.p, 1e-4) << typeid(Model).name();
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      const auto u = Sampler(1, Purpose::camera, 0, 0, i).group(0);
+      const auto event = tracer.scatter(path, vertex, {u[2], {u[0], u[1]}});
+      if (!event || event->delta) continue;
+      const V3f world = vertex.frame.to_world(event->wi);
+      const SampledSpectrum scattered = pdf(vertex.bsdf, vertex.wo, event->wi);
+      const SampledSpectrum f = vertex.f(world, event->wi, TransportMode::radiance);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const float expected = (scattered[lane] + path.caustics.pdf(point, world)) / 2;
+        EXPECT_NEAR(event->lane_pdf[lane] * event->pdf, expected, 2e-3F * expected);
+        const float sent = f[lane] * std::abs(event->wi.z);
+        EXPECT_NEAR(event->weight[lane] * event->pdf, sent, 2e-3F * sent + 1e-6F * event->pdf);
+      }
+    }
   }
 }
 
