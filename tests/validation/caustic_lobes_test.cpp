@@ -29,7 +29,7 @@ std::vector<CausticPhoton> photons_from(const V3f& lamp, float radius, int count
   for (int i = 0; i < count; ++i) {
     const V3f at(across(random), 0, across(random));
     const V3f way = lamp + V3f(across(random), across(random), across(random)) * radius - at;
-    photons.push_back({at, way.normalized(), way.length() / 2, way.length(), 1 + across(random) / 2});
+    photons.push_back({at, way.normalized(), way.length() / 2, way.length(), 1 + across(random) / 2, 1});
   }
   return photons;
 }
@@ -52,21 +52,24 @@ TEST(CausticLobes, AreDrawnAsTheySay) {
   }
 }
 
-// Of the directions in which a guided path goes on half are the surface's, single ones among them, and half
-// the guide's.
+// Of the directions in which a guided path goes on a share is the guide's, the others the surface's, single
+// ones among them.
 template <typename Model>
-void expect_half_guided(const PathTracer& tracer, const CausticGuide& guide) {
+void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
   const V3f point(0.3F, 0, 0.1F);
   const V3f normal(0, 1, 0);
   CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
   path.caustics = guide.at(point);
   ASSERT_FALSE(path.caustics.empty());
+  const float share = path.caustics.share();
   for (const Model& model : examples<Model>()) {
     const SurfaceVertex vertex({point, normal, 0, 0}, Basis<float>(normal), V3f(0.6F, 0, 0.8F), Bsdf(model));
     const auto density = [&](const V3f& local) {
       const bool goes_on = !vertex.f(vertex.frame.to_world(local), local, TransportMode::radiance).is_zero();
       const float guided = path.caustics.pdf(point, vertex.frame.to_world(local));
-      return goes_on ? static_cast<double>((pdf(vertex.bsdf, vertex.wo, local)[0] + guided) / 2) : 0.0;
+      return goes_on
+                 ? static_cast<double>((1 - share) * pdf(vertex.bsdf, vertex.wo, local)[0] + share * guided)
+                 : 0.0;
     };
     const DensityCheck check = check_density(
         [&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0, 50000);
@@ -79,7 +82,7 @@ void expect_half_guided(const PathTracer& tracer, const CausticGuide& guide) {
       const SampledSpectrum scattered = pdf(vertex.bsdf, vertex.wo, event->wi);
       const SampledSpectrum f = vertex.f(world, event->wi, TransportMode::radiance);
       for (int lane = 0; lane < kLanes; ++lane) {
-        const float expected = (scattered[lane] + path.caustics.pdf(point, world)) / 2;
+        const float expected = (1 - share) * scattered[lane] + share * path.caustics.pdf(point, world);
         EXPECT_NEAR(event->lane_pdf[lane] * event->pdf, expected, 2e-3F * expected);
         const float sent = f[lane] * std::abs(event->wi.z);
         EXPECT_NEAR(event->weight[lane] * event->pdf, sent, 2e-3F * sent + 1e-6F * event->pdf);
@@ -88,17 +91,17 @@ void expect_half_guided(const PathTracer& tracer, const CausticGuide& guide) {
   }
 }
 
-TEST(CausticLobes, AreHalfOfWhatAPathDraws) {
+TEST(CausticLobes, AreTheirShareOfWhatAPathDraws) {
   const CausticGuide guide(photons_from({0.5F, 3, -1}, 0.3F, 500), kRoom);
   const Scene scene = testing::scene_of({Sphere{{0, 0, 5}, 1}});
   const Plan plan = make_plan(scene);
   RayCaster caster(scene);
   const PathTracer tracer(plan, caster);
-  expect_half_guided<DiffuseBsdf>(tracer, guide);
-  expect_half_guided<CoatedDiffuseBsdf>(tracer, guide);
-  expect_half_guided<RoughDielectricBsdf>(tracer, guide);
-  expect_half_guided<PrincipledBsdf>(tracer, guide);
-  expect_half_guided<MixtureBsdf>(tracer, guide);
+  expect_guided<DiffuseBsdf>(tracer, guide);
+  expect_guided<CoatedDiffuseBsdf>(tracer, guide);
+  expect_guided<RoughDielectricBsdf>(tracer, guide);
+  expect_guided<PrincipledBsdf>(tracer, guide);
+  expect_guided<MixtureBsdf>(tracer, guide);
 }
 
 // What few photons have shown at other places points to the lamp from every place.
@@ -130,7 +133,7 @@ TEST(CausticGuide, KnowsLightFromInfinity) {
 TEST(CausticGuide, LeavesNoGapsOnAFloor) {
   std::vector<CausticPhoton> photons = photons_from({0, 4, 0}, 0.02F, 3000);
   for (const CausticPhoton& photon : photons_from({0, 4, 0}, 0.02F, 9))
-    photons.push_back({photon.point * 0.1F + V3f(0, 2.5F, 0), photon.from, 1, 1, 1});
+    photons.push_back({photon.point * 0.1F + V3f(0, 2.5F, 0), photon.from, 1, 1, 1, 1});
   const CausticGuide guide(std::move(photons), kRoom);
   int gaps = 0;
   for (int i = 0; i < 100 * 100; ++i) {
@@ -147,10 +150,31 @@ TEST(CausticGuide, KeepsOutOfWhatScatteringFinds) {
   EXPECT_TRUE(CausticGuide().at({0, 0, 0}).empty());
 }
 
+// As much as the caustics are of themselves and a quarter of the light unhindered, in 64ths to a half.
+TEST(CausticGuide, LooksAsOftenAsItPays) {
+  const auto share = [](float unhindered) {
+    std::vector<CausticPhoton> photons = photons_from({0, 3, 0}, 0.01F, 2000);
+    for (CausticPhoton& photon : photons) {
+      photon.power = 4.0F / 2000;  // an irradiance of 1 on the floor
+      photon.unhindered = unhindered;
+    }
+    float sum = 0;
+    const CausticGuide guide(std::move(photons), kRoom);
+    for (int i = 0; i < 64; ++i)
+      sum +=
+          guide.at({static_cast<float>(i % 8) / 5 - 0.7F, 0, static_cast<float>(i / 8) / 5 - 0.7F}).share();
+    return sum / 64;
+  };
+  EXPECT_EQ(share(0), 0.5F);
+  EXPECT_NEAR(share(12), 0.25F, 0.04F);
+  EXPECT_NEAR(share(76), 0.05F, 0.015F);
+  EXPECT_EQ(share(1e9F), 1 / 64.0F);
+}
+
 // Many photons that come to the very same place are one region.
 TEST(CausticGuide, HoldsPhotonsOfASinglePoint) {
   std::vector<CausticPhoton> photons = photons_from({0, 300, 0}, 0.01F, 1000);
-  for (CausticPhoton& photon : photons) photon = {{1, 2, 3}, photon.from, 1, 2, 1};
+  for (CausticPhoton& photon : photons) photon = {{1, 2, 3}, photon.from, 1, 2, 1, 1};
   const CausticGuide guide(std::move(photons), kRoom);
   EXPECT_FALSE(guide.at({1, 2, 3}).empty());
 }

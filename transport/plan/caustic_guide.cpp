@@ -109,6 +109,35 @@ std::vector<Lobes> lobes_of(Photons photons, std::span<const Target> targets) {
   return lobes;
 }
 
+// Area of the surface that photons lie on: of a rectangle that holds them as a larger one would hold more.
+float area_of(Photons photons) {
+  Imath::Box3f box;
+  for (const CausticPhoton& photon : photons) box.extendBy(photon.point);
+  const V3f size = box.size();
+  const float least = std::min({size.x, size.y, size.z});
+  const float area = least > 0 ? size.x * size.y * size.z / least
+                               : std::max({size.x * size.y, size.y * size.z, size.z * size.x});
+  const auto n = static_cast<float>(photons.size());
+  return area * (n + 1) * (n + 1) / ((n - 1) * (n - 1));
+}
+
+// What is found in lobes has the variance C^2/q and what scattering finds B^2/(1 - q), where C is the
+// irradiance of caustics and B stands for how far the rest scatters: least for q = C/(C + B). Lights are
+// connected to, so that the rest is what comes by way of other surfaces: taken as a quarter of what all
+// lights would give unhindered.
+float share_of(Photons photons) {
+  constexpr float kSteps = 64;  // so that shares of numbers in [0, 1) are exact
+  float power = 0;
+  float unhindered = 0;
+  for (const CausticPhoton& photon : photons) {
+    power += photon.power;
+    unhindered += photon.unhindered / static_cast<float>(photons.size());
+  }
+  const float caustic = power / area_of(photons);
+  const float other = unhindered / 4;
+  return std::clamp(std::round(kSteps * caustic / (caustic + other)), 1.0F, kSteps / 2) / kSteps;
+}
+
 // The lobe that `u` in [0, 1) falls to; the last one if rounding leaves something over.
 Target chosen(std::span<const Lobes> lobes, float u) {
   Target target{};
@@ -205,7 +234,8 @@ void CausticGuide::add_region(Photons all) {
   region.box = {region.box.min - margin, region.box.max + margin};
   const Focus focus = sharpest(photons);
   const std::vector<Lobes> lobes = lobes_of(photons, focus.targets);
-  if (gain(photons, CausticLobes(lobes, focus.width)) > kLeastGain) {
+  if (gain(photons, CausticLobes(lobes, focus.width, 1)) > kLeastGain) {
+    region.share = share_of(all);
     region.count = static_cast<std::uint32_t>(lobes.size());
     region.width = focus.width;
     lobes_.insert(lobes_.end(), lobes.begin(), lobes.end());
@@ -220,7 +250,7 @@ CausticLobes CausticGuide::at(const V3f& point) const {
     node = point[nodes_[node].axis] < nodes_[node].at ? node + 1 : nodes_[node].above;
   const Region& region = regions_[nodes_[node].region];
   if (region.count == 0 || !region.box.intersects(point)) return {};
-  return {std::span(lobes_).subspan(region.first, region.count), region.width};
+  return {std::span(lobes_).subspan(region.first, region.count), region.width, region.share};
 }
 
 std::size_t CausticGuide::memory_bytes() const {

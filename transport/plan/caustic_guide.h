@@ -17,7 +17,8 @@ struct CausticPhoton {
   Imath::V3f from;       ///< The unit direction to where it came from.
   float last_distance;   ///< To the surface that sent it here [m],
   float whole_distance;  ///< and to its light along the way it took, perhaps infinite.
-  float power;           ///< Any measure, the same for all.
+  float power;           ///< Over the number of photons that set out.
+  float unhindered;      ///< Irradiance here [power/m^2] of all lights, were nothing in between.
 };
 
 /// Directions in which to look for light that comes to a place through specular matter: lobes around the
@@ -38,9 +39,12 @@ class CausticLobes {
   };
 
   CausticLobes() = default;
-  CausticLobes(std::span<const Lobes> lobes, float width) : lobes_(lobes), width_(width) {}
+  CausticLobes(std::span<const Lobes> lobes, float width, float share)
+      : lobes_(lobes), width_(width), share_(share) {}
 
   [[nodiscard]] bool empty() const { return lobes_.empty(); }
+  /// Of the directions of a path, how many are to be drawn from the lobes.
+  [[nodiscard]] float share() const { return share_; }
   /// A direction to look in from a point, by `lobe` and `u` in [0, 1).
   [[nodiscard]] Imath::V3f sample(const Imath::V3f& point, float lobe, Imath::V2f u) const;
   /// Its density [1/sr], of any unit direction.
@@ -49,6 +53,7 @@ class CausticLobes {
  private:
   std::span<const Lobes> lobes_;
   float width_ = 0;
+  float share_ = 0;
 };
 
 /// Tells from where caustics come at a place, as photons have shown [Jensen1995]: space is halved until few
@@ -78,6 +83,7 @@ class CausticGuide {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
     float width = 0;
+    float share = 0;
   };
   // Halves space at `at` along `axis`; below it the next node, above it `above`. A leaf has no axis.
   struct Node {

@@ -57,6 +57,7 @@ LightSampler::LightSampler(const Scene& scene, const std::vector<double>& seen) 
   if (near.empty()) return;
   lights_ = static_cast<std::uint32_t>(near.size());
   const LightScale scale = scale_of(near, scene_radius(scene.bounds));
+  unit_ = 1 / scale.strength;
   const auto first_far = std::stable_partition(
       near.begin(), near.end(), [](const LightLeaf& leaf) { return !leaf.bounds.at_infinity; });
   std::vector<LightLeaf> far(first_far, near.end());
@@ -102,6 +103,13 @@ void LightSampler::note_ways() {
     stops.push_back({first, turns + 1, way});
     stops.push_back({second, turns + 1, {way.turns | std::uint64_t{1} << turns, way.root, true}});
   }
+}
+
+double LightSampler::irradiance(const Imath::V3f& point, const Imath::V3f* normal) const {
+  double sum = 0;
+  for (const std::uint32_t root : roots_)
+    sum += static_cast<double>(nodes_[root].importance.irradiance(point, normal));
+  return sum * unit_;
 }
 
 LightSampler::Pick LightSampler::pick(const Imath::V3f& point, const Imath::V3f* normal, float u) const {

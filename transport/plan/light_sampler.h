@@ -26,6 +26,10 @@ class LightSampler {
   /// Whether the choice depends on the place: there is more than one light.
   [[nodiscard]] bool asks_for_places() const { return lights_ > 1; }
 
+  /// Irradiance at a place by all lights together, nothing standing in between, as `pick` weighs them, in the
+  /// unit of `seen` times what `light_bounds` measures by.
+  [[nodiscard]] double irradiance(const Imath::V3f& point, const Imath::V3f* normal) const;
+
   /// A light for what is at `point`. `normal`, of unit length, says which side of a surface can be lit;
   /// without one light may come from everywhere. `u` is in [0, 1); the lights follow each other along it,
   /// neighbours in space mostly near.
@@ -49,6 +53,7 @@ class LightSampler {
   std::vector<std::uint32_t> roots_;  // nodes that stand for all lights together; empty when no light is seen
   std::vector<Way> ways_;             // of each light of the scene
   std::uint32_t lights_ = 0;          // that can be chosen
+  double unit_ = 0;                   // of what the nodes send
 };
 
 }  // namespace abbe

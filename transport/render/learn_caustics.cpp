@@ -99,14 +99,18 @@ void learn_caustics(Plan& plan, std::uint64_t seed, int threads) {
   const std::vector<Arrivals> first = trace_photons(*photons, {seed, kAimStage, 1U << 7}, threads);
   if (count(first) < kTooFew) return;
   learn_aims(*photons, first);
+  std::vector<Arrivals> arrived;
+  for (std::uint32_t round = 0; round < kRounds && count(arrived) < kEnough; ++round)
+    for (Arrivals& batch : trace_photons(*photons, {seed, kAimStage + 1 + round, 1U << 8}, threads))
+      arrived.push_back(std::move(batch));
   std::vector<CausticPhoton> of_paths;
   std::vector<CausticPhoton> all;
-  for (std::uint32_t round = 0; round < kRounds && all.size() < kEnough; ++round)
-    for (const Arrivals& batch : trace_photons(*photons, {seed, kAimStage + 1 + round, 1U << 8}, threads))
-      for (const auto& [start, photon] : batch) {
-        all.push_back(photon);
-        if (!plan.traced[start.light]) of_paths.push_back(photon);
-      }
+  for (const Arrivals& batch : arrived)
+    for (const auto& [start, photon] : batch) {
+      all.push_back(photon);
+      all.back().power /= static_cast<float>(arrived.size() * kBatch);
+      if (!plan.traced[start.light]) of_paths.push_back(all.back());
+    }
   plan.caustics_of_paths = CausticGuide(std::move(of_paths), plan.scene.bounds);
   plan.caustics_seen_through = CausticGuide(std::move(all), plan.scene.bounds);
 }

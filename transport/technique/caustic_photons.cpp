@@ -2,10 +2,12 @@
 
 #include <limits>
 
+#include "transport/plan/emissions.h"
+
 namespace abbe {
 
 CausticPhotonTracer::CausticPhotonTracer(const Plan& plan, RayCaster& caster)
-    : plan_(plan), caster_(caster), walks_(plan.scene, caster) {}
+    : plan_(plan), caster_(caster), walks_(plan.scene, caster), seen_(emissions_of(plan.scene).seen) {}
 
 std::span<const CausticPhotonTracer::Arrival> CausticPhotonTracer::trace(std::span<const Sampler> photons) {
   arrivals_.clear();
@@ -16,6 +18,9 @@ std::span<const CausticPhotonTracer::Arrival> CausticPhotonTracer::trace(std::sp
     path.start = start_photon(plan_, caster_, path);
     if (path.packet.throughput.is_zero()) continue;
     path.last.point = path.ray.origin;
+    path.seen = static_cast<float>(
+        seen_[path.start.light] /
+        static_cast<double>(plan_.scene.lights[path.start.light].emission(path.lambda_nm()).max()));
     if (plan_.scene.lights[path.start.light].at_infinity())
       path.distance = std::numeric_limits<float>::infinity();
     walks_.going().push_back(i);
@@ -27,9 +32,12 @@ std::span<const CausticPhotonTracer::Arrival> CausticPhotonTracer::trace(std::sp
 void CausticPhotonTracer::reach(CausticPath& path, const SurfaceVertex& vertex) {
   const float last = (vertex.hit.point - path.last.point).length();
   path.distance += last;
-  if (path.events > 0 && scatters(vertex.bsdf))
-    arrivals_.push_back(
-        {path.start, {vertex.hit.point, -path.ray.direction, last, path.distance, path.packet.carried()}});
+  if (path.events == 0 || !scatters(vertex.bsdf)) return;
+  const LightSampleContext place = vertex.place();
+  const double unhindered = plan_.path_lights.irradiance(place.point, place.normal());
+  arrivals_.push_back({path.start,
+                       {vertex.hit.point, -path.ray.direction, last, path.distance,
+                        path.packet.carried() * path.seen, static_cast<float>(unhindered)}});
 }
 
 }  // namespace abbe

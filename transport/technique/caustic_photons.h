@@ -18,6 +18,7 @@ namespace abbe {
 struct CausticPath : Walk {
   using Walk::Walk;
   PhotonStart start;
+  float seen = 0;      ///< What its lanes carry is multiplied by to be as the sensor sees it.
   float distance = 0;  ///< It has come [m]; infinite from a light that is there.
 };
 
@@ -66,6 +67,7 @@ class CausticPhotonTracer {
   const Plan& plan_;
   RayCaster& caster_;
   RandomWalks<CausticPhotonTracer> walks_;
+  std::vector<double> seen_;  // of each light, what its emission is to the sensor
   std::vector<Arrival> arrivals_;
 };
 

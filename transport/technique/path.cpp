@@ -9,12 +9,11 @@
 namespace abbe {
 namespace {
 
-constexpr float kGuided = 0.5F;  // of the directions where a guide knows of caustics
-
 // The density of directions of which the guide draws some, `scattering` being that of the others.
 SampledSpectrum mixed_pdf(const SampledSpectrum& scattering, const CausticLobes& caustics,
                           const Imath::V3f& point, const Imath::V3f& direction) {
-  return scattering * (1 - kGuided) + SampledSpectrum(kGuided * caustics.pdf(point, direction));
+  return scattering * (1 - caustics.share()) +
+         SampledSpectrum(caustics.share() * caustics.pdf(point, direction));
 }
 
 BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
@@ -202,8 +201,9 @@ void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
 [[gnu::noinline]] std::optional<BsdfSample> PathTracer::scatter_guided(CameraPath& path,
                                                                        const SurfaceVertex& vertex,
                                                                        BsdfRandom u) {
-  const bool guided = u.lobe < kGuided;
-  u.lobe = guided ? u.lobe / kGuided : (u.lobe - kGuided) / (1 - kGuided);
+  const float share = path.caustics.share();
+  const bool guided = u.lobe < share;
+  u.lobe = guided ? u.lobe / share : (u.lobe - share) / (1 - share);
   std::optional<BsdfSample> event;
   SampledSpectrum scattered;       // f cos
   SampledSpectrum scattering_pdf;  // of each lane
@@ -220,8 +220,8 @@ void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
     event = vertex.scatter(u, path.packet.hero, kMode);
     if (!event) return event;
     if (event->delta) {
-      event->weight *= 1 / (1 - kGuided);
-      event->pdf *= 1 - kGuided;
+      event->weight *= 1 / (1 - share);
+      event->pdf *= 1 - share;
       return event;
     }
     world = vertex.frame.to_world(event->wi);

@@ -33,7 +33,7 @@ struct PixelSample {
 };
 
 /// Path tracing [Kajiya1986]: from the camera, with a connection to a light at every vertex that is not
-/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Half of the
+/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Some of the
 /// directions are drawn from the plan's guide where it knows of caustics that no other technique owns, and
 /// the density is that of both ways to draw one. Serves one thread.
 ///
