@@ -1,5 +1,6 @@
 // Caustics that camera paths find by what photons have shown them.
 #include "tests/scenes/scene_fixture.h"
+#include "transport/plan/emissions.h"
 #include "transport/render/learn_aims.h"
 #include "transport/technique/caustic_photons.h"
 
@@ -112,7 +113,8 @@ TEST(CausticPhotons, ComeThroughSpecularMatterAlone) {
   const std::optional<Plan> plan = make_photon_plan(scene, lamp);
   ASSERT_TRUE(plan);
   RayCaster caster(scene);
-  CausticPhotonTracer tracer(*plan, caster);
+  const Emissions emissions = emissions_of(scene);
+  CausticPhotonTracer tracer(*plan, caster, emissions.seen);
   std::vector<Sampler> photons;
   for (std::uint32_t i = 0; i < 4096; ++i) photons.emplace_back(1, Purpose::pilot, 0, 0, i);
   const auto arrived = tracer.trace(photons);

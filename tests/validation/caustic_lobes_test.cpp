@@ -177,6 +177,7 @@ TEST(CausticGuide, HoldsPhotonsOfASinglePoint) {
   for (CausticPhoton& photon : photons) photon = {{1, 2, 3}, photon.from, 1, 2, 1, 1};
   const CausticGuide guide(std::move(photons), kRoom);
   EXPECT_FALSE(guide.at({1, 2, 3}).empty());
+  EXPECT_EQ(guide.at({1, 2, 3}).share(), 0.5F);
 }
 
 }  // namespace

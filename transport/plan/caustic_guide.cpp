@@ -133,9 +133,8 @@ float share_of(Photons photons) {
     power += photon.power;
     unhindered += photon.unhindered / static_cast<float>(photons.size());
   }
-  const float caustic = power / area_of(photons);
-  const float other = unhindered / 4;
-  return std::clamp(std::round(kSteps * caustic / (caustic + other)), 1.0F, kSteps / 2) / kSteps;
+  const float others = unhindered / 4 * area_of(photons);  // B/C times the photons' power
+  return std::clamp(std::round(kSteps * power / (power + others)), 1.0F, kSteps / 2) / kSteps;
 }
 
 // The lobe that `u` in [0, 1) falls to; the last one if rounding leaves something over.
@@ -200,8 +199,7 @@ CausticGuide::CausticGuide(std::vector<CausticPhoton> photons, const Imath::Box3
 // Where the cell is divided does not depend on the photons, so that one more or less changes no region but
 // its own. A cell of too few has the lobes of the one around it.
 void CausticGuide::build(Cell cell) {
-  constexpr int kDeepest =
-      60;  // a millionth of the whole, where photons that are at one place are left together
+  constexpr int kDeepest = 60;  // cells of a millionth: photons that share a place are left together
   const std::size_t here = nodes_.size();
   nodes_.push_back({.region = static_cast<std::uint32_t>(regions_.size())});
   if (cell.photons.size() >= kLeastPhotons) cell.around = cell.photons;

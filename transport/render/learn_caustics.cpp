@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sampling/sampler.h"
+#include "transport/plan/emissions.h"
 #include "transport/render/threads.h"
 #include "transport/technique/caustic_photons.h"
 
@@ -24,12 +25,13 @@ constexpr std::uint32_t kBatch = 1U << 9;
 constexpr std::uint32_t kAimStage = 3;  // of photons that aim others, which have the stages after it
 
 // So many batches of photons, in the order of these, whichever threads traced them.
-std::vector<Arrivals> trace_photons(const Plan& plan, const Sampling& sampling, int threads) {
+std::vector<Arrivals> trace_photons(const Plan& plan, const Emissions& emissions, const Sampling& sampling,
+                                    int threads) {
   std::vector<Arrivals> arrived(sampling.batches);
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
-    CausticPhotonTracer tracer(plan, caster);
+    CausticPhotonTracer tracer(plan, caster, emissions.seen);
     std::vector<Sampler> photons;
     for (std::uint32_t batch = next++; batch < sampling.batches; batch = next++) {
       photons.clear();
@@ -96,12 +98,14 @@ void learn_caustics(Plan& plan, std::uint64_t seed, int threads) {
   if (!plan.scene.needs.caustics || !uses(plan.techniques, Technique::path)) return;
   std::optional<Plan> photons = make_photon_plan(plan.scene, lights_to_find(plan));
   if (!photons) return;
-  const std::vector<Arrivals> first = trace_photons(*photons, {seed, kAimStage, 1U << 7}, threads);
+  const Emissions emissions = emissions_of(plan.scene);
+  const std::vector<Arrivals> first = trace_photons(*photons, emissions, {seed, kAimStage, 1U << 7}, threads);
   if (count(first) < kTooFew) return;
   learn_aims(*photons, first);
   std::vector<Arrivals> arrived;
   for (std::uint32_t round = 0; round < kRounds && count(arrived) < kEnough; ++round)
-    for (Arrivals& batch : trace_photons(*photons, {seed, kAimStage + 1 + round, 1U << 8}, threads))
+    for (Arrivals& batch :
+         trace_photons(*photons, emissions, {seed, kAimStage + 1 + round, 1U << 8}, threads))
       arrived.push_back(std::move(batch));
   std::vector<CausticPhoton> of_paths;
   std::vector<CausticPhoton> all;

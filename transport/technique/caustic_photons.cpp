@@ -2,12 +2,10 @@
 
 #include <limits>
 
-#include "transport/plan/emissions.h"
-
 namespace abbe {
 
-CausticPhotonTracer::CausticPhotonTracer(const Plan& plan, RayCaster& caster)
-    : plan_(plan), caster_(caster), walks_(plan.scene, caster), seen_(emissions_of(plan.scene).seen) {}
+CausticPhotonTracer::CausticPhotonTracer(const Plan& plan, RayCaster& caster, const std::vector<double>& seen)
+    : plan_(plan), caster_(caster), walks_(plan.scene, caster), seen_(seen) {}
 
 std::span<const CausticPhotonTracer::Arrival> CausticPhotonTracer::trace(std::span<const Sampler> photons) {
   arrivals_.clear();

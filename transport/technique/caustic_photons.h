@@ -34,7 +34,8 @@ class CausticPhotonTracer {
     CausticPhoton photon;
   };
 
-  CausticPhotonTracer(const Plan& plan, RayCaster& caster);
+  /// `seen` says what the emission of each light is to the sensor; see `Emissions`. All must outlive it.
+  CausticPhotonTracer(const Plan& plan, RayCaster& caster, const std::vector<double>& seen);
 
   /// Traces a photon for each of the samplers, and returns all that have arrived, in an order that depends on
   /// nothing else.
@@ -67,7 +68,7 @@ class CausticPhotonTracer {
   const Plan& plan_;
   RayCaster& caster_;
   RandomWalks<CausticPhotonTracer> walks_;
-  std::vector<double> seen_;  // of each light, what its emission is to the sensor
+  const std::vector<double>& seen_;
   std::vector<Arrival> arrivals_;
 };
 
