@@ -67,10 +67,13 @@ std::size_t count(const std::vector<Arrivals>& arrived) {
 bool sees_specular(const Scene& scene) {
   constexpr int kGrid = 64;
   const SampledSpectrum any(550.0F);
+  const Imath::V2f cell(static_cast<float>(scene.camera.width) / kGrid,
+                        static_cast<float>(scene.camera.height) / kGrid);
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const Imath::V2f cell(static_cast<float>(i % kGrid) + 0.5F, static_cast<float>(i / kGrid) + 0.5F);
-    const Imath::V2f film(cell.x / kGrid * static_cast<float>(scene.camera.width),
-                          cell.y / kGrid * static_cast<float>(scene.camera.height));
+    const int row = i / kGrid;
+    const int column = i % kGrid;
+    const Imath::V2f film(cell.x * (static_cast<float>(column) + 0.5F),
+                          cell.y * (static_cast<float>(row) + 0.5F));
     const auto hit = scene.intersect(sample_ray(scene.camera, film, {0.5F, 0.5F}, any, 0).ray);
     if (hit && lobes(scene.materials[scene.shapes[hit->shape].material]).delta) return true;
   }
