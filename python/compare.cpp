@@ -19,7 +19,7 @@ namespace py = pybind11;
 py::dict compare(const FilmHandle& film, const FilmHandle& reference, const py::object& white) {
   std::optional<Chromaticity> asked;
   if (!white.is_none())
-    asked = asked_white(to_text(to_json(white)),
+    asked = asked_white(to_text(to_json(white, kWhitePointer)),
                         recorded_white(reference.image()) ? reference.image() : film.image());
   const Comparison found = compare_images(film.image(), reference.image(), asked);
   py::dict told;

@@ -22,6 +22,7 @@ namespace py = pybind11;
 namespace fs = std::filesystem;
 
 constexpr const char* kWhere = "film";  // what messages call the film
+constexpr const char* kReadout = "/readout";
 
 /// A film that was read out, with the sensor that did.
 struct Developed {
@@ -53,7 +54,7 @@ py::object array_of(const Image& image, std::vector<std::string> planes, const s
 
 FilmSensor sensor_of(const Image& film, const py::object& readout, std::optional<Chromaticity> white) {
   std::vector<Override> overrides;
-  if (!readout.is_none()) overrides.push_back({"/readout", to_text(to_json(readout))});
+  if (!readout.is_none()) overrides.push_back({kReadout, to_text(to_json(readout, kReadout))});
   Diagnostics diagnostics;
   FilmSensor sensor = accepted(film_sensor(film, kWhere, overrides, {}, white, diagnostics), diagnostics);
   require_planes(film, sensor, kWhere);
@@ -80,6 +81,9 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
   if (looker != nullptr)
     throw Error(ErrorCode::usage, "scene", "only a spectral film takes a sensor: this one has its own");
   const auto asked = white ? std::optional(asked_white(*white, image)) : std::nullopt;
+  if (is_spectral(image) && !readout.is_none())
+    throw Error(ErrorCode::usage, "readout",
+                "a spectral film has no sensor to read out: `scene` gives it one");
   if (is_spectral(image))
     return observed_film(spectral_image(image, kWhere), {}, asked ? asked : recorded_white(image));
   return {image, sensor_of(image, readout, asked)};
@@ -87,7 +91,7 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
 
 Developed develop_film(const FilmHandle& film, const py::object& readout, const py::object& white,
                        std::optional<std::uint64_t> seed, SceneHandle* scene) {
-  const auto asked = white.is_none() ? std::nullopt : std::optional(to_text(to_json(white)));
+  const auto asked = white.is_none() ? std::nullopt : std::optional(to_text(to_json(white, kWhitePointer)));
   ExposedFilm source = exposed(film, scene, readout, asked);
   const std::uint64_t noise = seed.value_or(render_seed(source.film));
   const py::gil_scoped_release released;

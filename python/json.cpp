@@ -24,16 +24,29 @@ std::string type_name(const py::handle& object) {
   return py::str(py::type::handle_of(object).attr("__name__"));
 }
 
-// A key as a JSON pointer has it [RFC6901].
-std::string escaped(const std::string& key) {
-  std::string all;
-  for (const char c : key) all += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return all;
+// A number as messages have it; Python itself refuses to spell ints that are very long.
+std::string text_of(const py::handle& number) {
+  if (!PyLong_Check(number.ptr())) return py::str(number);
+  const auto bits = number.attr("bit_length")().cast<std::size_t>();
+  return bits > 1024 ? fmt::format("an int of {} bits", bits) : std::string(py::str(number));
 }
 
 class Converter {
+  using Value = decltype(JsonValue::value);
+
  public:
-  decltype(JsonValue::value) value_of(const py::handle& object) {
+  explicit Converter(std::string pointer) : pointer_(std::move(pointer)) {}
+
+  Value value_of(const py::handle& object) {
+    if (depth_ > ValueTree::kMaxDepth) refuse("", fmt::format("nested deeper than {}", ValueTree::kMaxDepth));
+    ++depth_;
+    Value value = plain_value_of(object);
+    --depth_;
+    return value;
+  }
+
+ private:
+  Value plain_value_of(const py::handle& object) {
     if (object.is_none()) return nullptr;
     if (py::isinstance<py::bool_>(object)) return object.cast<bool>();
     if (py::isinstance<py::int_>(object) || py::isinstance<py::float_>(object)) return number_of(object);
@@ -41,28 +54,38 @@ class Converter {
     if (py::isinstance<py::dict>(object)) return members_of(py::reinterpret_borrow<py::dict>(object));
     if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
       return elements_of(py::reinterpret_borrow<py::sequence>(object));
-    if (py::hasattr(object, "tolist")) return value_of(object.attr("tolist")());
-    if (py::hasattr(object, "__fspath__")) return value_of(object.attr("__fspath__")());
+    for (const char* method : {"tolist", "__fspath__"})
+      if (py::hasattr(object, method)) return converted(object, object.attr(method)());
+    refuse_kind(object);
+  }
+
+  // What an object stands for. Of its own kind are the long doubles of numpy, which no type of Python holds.
+  Value converted(const py::handle& object, const py::object& stands_for) {
+    if (!py::type::handle_of(stands_for).is(py::type::handle_of(object))) return value_of(stands_for);
+    const py::object real = py::module_::import("numbers").attr("Real");
+    if (!py::isinstance(stands_for, real)) refuse_kind(object);
+    return number_of(stands_for);
+  }
+
+  [[noreturn]] void refuse_kind(const py::handle& object) const {
     refuse(pointer_, fmt::format("expected what JSON can hold (got a {})", type_name(object)));
   }
 
- private:
   [[nodiscard]] double number_of(const py::handle& object) const {
     const double number = PyFloat_AsDouble(object.ptr());
     const bool too_large = PyErr_Occurred() != nullptr;  // an int beyond all doubles
     PyErr_Clear();
     if (too_large || !std::isfinite(number))
-      refuse(pointer_, fmt::format("expected a finite number (got {})", std::string(py::str(object))));
+      refuse(pointer_, fmt::format("expected a finite number (got {})", text_of(object)));
+    if (PyLong_Check(object.ptr()) && !py::int_(py::float_(number)).equal(object))
+      refuse(pointer_, fmt::format("expected a number that a double holds (got {})", text_of(object)));
     return number;
   }
 
   JsonValue inner(const std::string& key, const py::handle& object) {
     const std::size_t outer = pointer_.size();
     pointer_ += '/' + key;
-    if (++depth_ > ValueTree::kMaxDepth)
-      refuse("", fmt::format("nested deeper than {}", ValueTree::kMaxDepth));
     JsonValue value{value_of(object), {}, 0};
-    --depth_;
     pointer_.resize(outer);
     return value;
   }
@@ -86,7 +109,7 @@ class Converter {
   }
 
   std::string pointer_;
-  std::size_t depth_ = 0;
+  std::size_t depth_ = 0;  // of the value being read, 0 at the root
 };
 
 py::object number(double value) {
@@ -114,8 +137,14 @@ struct ToPython {
 
 }  // namespace
 
-JsonValue to_json(const py::handle& object) {
-  return {Converter().value_of(object), {}, 0};
+std::string escaped(const std::string& key) {
+  std::string all;
+  for (const char c : key) all += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return all;
+}
+
+JsonValue to_json(const py::handle& object, const std::string& pointer) {
+  return {Converter(pointer).value_of(object), {}, 0};
 }
 
 py::object to_python(const JsonValue& value) {

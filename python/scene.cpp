@@ -32,8 +32,10 @@ const schema::Fields& scene_fields() {
 // Keywords over a file are what `--set` is to the command, so that films tell the same hash.
 std::vector<Override> overrides_of(const py::dict& keywords) {
   std::vector<Override> overrides;
-  for (const auto& [key, value] : keywords)
-    overrides.push_back({"/" + key.cast<std::string>(), to_text(to_json(value))});
+  for (const auto& [key, value] : keywords) {
+    const std::string pointer = "/" + escaped(key.cast<std::string>());
+    overrides.push_back({pointer, to_text(to_json(value, pointer))});
+  }
   return overrides;
 }
 

@@ -46,6 +46,11 @@ class Develops(Test):
         seen = abbe.develop(film, scene=eye)
         self.assertEqual(seen.planes, ["X", "Y", "Z"])
         numpy.testing.assert_allclose(seen.exposure.mean((0, 1)), abbe.render(eye, spp=256).array.mean((0, 1)), rtol=0.05)
+        with self.assertRaisesRegex(abbe.UsageError, "^readout: a spectral film has no sensor to read out: `scene` gives it one$"):
+            abbe.develop(film, readout={"bits": 12})
+        with self.assertRaises(abbe.Error) as caught:
+            abbe.develop(film, scene=eye, readout={"bits": numpy.nan})
+        self.assertEqual(caught.exception.diagnostics[0].pointer, "/readout/bits")
         with self.assertRaisesRegex(abbe.UsageError, "only a spectral film"):
             abbe.develop(abbe.render(abbe.Scene(box())), scene=abbe.Scene(box()))
 

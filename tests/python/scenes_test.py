@@ -9,6 +9,24 @@ import abbe
 from common import CORNELL, SCENES, Test, box
 
 
+class Own:
+    """Converts to its own kind."""
+
+    def tolist(self):
+        return Own()
+
+
+class Turning:
+    """Converts to another kind, which converts back."""
+
+    def tolist(self):
+        class Back:
+            def tolist(self):
+                return Turning()
+
+        return Back()
+
+
 class Scenes(Test):
     def test_a_dict_makes_the_scene_that_its_file_makes(self):
         scene = abbe.Scene(CORNELL, render={"samples": 2})
@@ -49,13 +67,37 @@ class Scenes(Test):
         endless = []
         endless.append(endless)
         for value, message in ((float("nan"), "expected a finite number (got nan)"), ({1, 2}, "expected what JSON can hold (got a set)"),
-                               ({1: 2}, "expected keys that are strings (got a int)"), (10 ** 400, "expected a finite number")):
-            with self.subTest(value=str(value)[:9]), self.assertRaises(abbe.SceneError) as caught:
+                               ({1: 2}, "expected keys that are strings (got a int)"), (10 ** 400, "expected a finite number"),
+                               (10 ** 5000, "expected a finite number (got an int of 16610 bits)"), (b"text", "expected what JSON can hold (got a bytes)"),
+                               (2 ** 53 + 1, "expected a number that a double holds (got 9007199254740993)"),
+                               (numpy.longdouble("1e400"), "expected a finite number (got 1e+400)"),
+                               (numpy.clongdouble(1), "expected what JSON can hold (got a complex256)"), (Own(), "expected what JSON can hold (got a Own)")):
+            with self.subTest(message=message), self.assertRaises(abbe.SceneError) as caught:
                 abbe.Scene(box(lights=[{"a/b": value}]))
             self.assertEqual(caught.exception.diagnostics[0].pointer, "/lights/0/a~1b")
             self.assertIn(message, caught.exception.diagnostics[0].message)
-        with self.assertRaisesRegex(abbe.SceneError, "nested deeper than 256"):
-            abbe.Scene(box(lights=endless))
+        for deep in (endless, Turning()):
+            with self.assertRaisesRegex(abbe.SceneError, "nested deeper than 256"):
+                abbe.Scene(box(lights=deep))
+
+    def test_long_doubles_are_numbers(self):
+        resolution = numpy.array([8, 6], dtype=numpy.longdouble)
+        camera = {**box()["camera"], "from": numpy.array([0, -5, 2], dtype=numpy.longdouble), "pinhole": {"fov_deg": numpy.longdouble(40)}}
+        self.assertEqual(abbe.Scene(box(camera=camera)).to_dict(), abbe.Scene(box()).to_dict())
+        self.assertEqual(abbe.Scene(box(sensor={**box()["sensor"], "resolution": resolution})).width, 8)
+
+    def test_large_ints_that_a_double_holds_are_numbers(self):
+        scene = abbe.Scene(box(render={"seed": 2 ** 53}, lights=[{"environment": {}, "emission": {"spectrum": 10 ** 20}}]))
+        self.assertEqual(scene.seed, 2 ** 53)
+
+    def test_keywords_over_a_file_are_refused_where_they_stand(self):
+        for value in (0, numpy.nan):
+            with self.subTest(value=value), self.assertRaises(abbe.SceneError) as caught:
+                abbe.Scene(CORNELL, render={"samples": value})
+            self.assertEqual(caught.exception.diagnostics[0].pointer, "/render/samples")
+        with self.assertRaises(abbe.SceneError) as caught:
+            abbe.Scene(CORNELL, **{"a/b": 1})
+        self.assertIn('unknown key "a/b"', caught.exception.diagnostics[0].message)
 
     def test_a_missing_file_is_an_input_error(self):
         with self.assertRaises(abbe.InputError):
