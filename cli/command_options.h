@@ -13,12 +13,10 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/usage.h"
+#include "description/render_limits.h"
 
 namespace abbe::cli {
 
-inline constexpr std::int64_t kMaxThreads = 1024;
-inline constexpr std::int64_t kMaxSamples = 1 << 24;
-inline constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  ///< As in scene files.
 inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
 
 /// A subcommand with its own options, which outlive the parsing.

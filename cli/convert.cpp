@@ -11,6 +11,7 @@
 #include "description/convert.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/extension.h"
 
 namespace abbe::cli {
 namespace {

@@ -13,6 +13,7 @@
 #include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/extension.h"
 #include "io/file_lock.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/readout/speed.h"

@@ -2,7 +2,6 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -14,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
+#include "io/extension.h"
 
 namespace abbe::cli {
 namespace {
@@ -33,14 +33,6 @@ std::string identity_of(const fs::path& file) {
 }
 
 }  // namespace
-
-void require_extension(const fs::path& path, std::initializer_list<const char*> allowed) {
-  const auto same = [&path](const char* extension) { return path.extension() == extension; };
-  if (std::none_of(allowed.begin(), allowed.end(), same))
-    throw Error(
-        ErrorCode::usage, path.string(),
-        fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
-}
 
 void require_film_output(const fs::path& path) {
   require_extension(path, {".exr", kPartExtension});

@@ -9,9 +9,6 @@
 
 namespace abbe::cli {
 
-/// Throws Error{usage} unless the extension is one of the allowed, as ".exr".
-void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed);
-
 /// Checks before any work that a film can be written to `path`, an `.exr` or an `.abbepart`: throws
 /// Error{usage} for another extension, Error{output} for a place that cannot be written.
 void require_film_output(const std::filesystem::path& path);

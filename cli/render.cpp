@@ -23,6 +23,7 @@
 #include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
+#include "io/extension.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
 #include "io/standard_stream.h"

@@ -1,23 +1,23 @@
 #include "description/render.h"
 
+#include "description/render_limits.h"
+
 namespace abbe::spec {
 
 using namespace schema;
-
-constexpr Range kCount{1, 16777216};  // as many as a float counts exactly
 
 Fields fields(Tag<Render>) {
   return describe(
       "render", "How to render.",
       {defaulted("integrator", &Render::integrator, word<Integrator>("integrator", {"auto", "path", "light"}),
                  "Which techniques find the light."),
-       defaulted("samples", &Render::samples, kCount, "Samples per pixel."),
+       defaulted("samples", &Render::samples, {1, kMaxSamples}, "Samples per pixel."),
        field("max_depth", &Render::max_depth, {1, 100000},
              "Events a path may have between camera and light, at surfaces and within matter; without it "
              "chance alone ends paths."),
        defaulted("roulette_depth", &Render::roulette_depth, {-1, 10000},
                  "Events before Russian roulette; -1 never plays it, and needs `max_depth`."),
-       defaulted("seed", &Render::seed, {0, kLargestInteger}, "Chooses the random numbers.")});
+       defaulted("seed", &Render::seed, {0, kMaxSeed}, "Chooses the random numbers.")});
 }
 
 }  // namespace abbe::spec

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+
+namespace abbe {
+
+/// The most that a render may be asked for, by scene files, the command and Python alike.
+inline constexpr std::int64_t kMaxSamples = 1 << 24;             ///< As many as a float counts exactly.
+inline constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  ///< As many as a double counts exactly.
+inline constexpr std::int64_t kMaxThreads = 1024;
+
+}  // namespace abbe
