@@ -12,11 +12,11 @@ namespace abbe {
 
 namespace delta_e_detail {
 
-// Square root whose derivative at zero is zero instead of infinite.
+// Square root whose derivative at zero is zero instead of infinite. Rounding may have made less of a zero.
 template <typename T>
 [[nodiscard]] T root(const T& x) {
   using std::sqrt;
-  return x > T(0.0) ? T(sqrt(x)) : T(0.0);
+  return x <= T(0.0) ? T(0.0) : T(sqrt(x));
 }
 
 template <typename T>
@@ -73,7 +73,7 @@ template <typename T>
   using std::abs;
   const T dot = a1 * a2 + b1 * b2;
   const T cross = a1 * (b2 - b1) - b1 * (a2 - a1);  // exactly zero for equal colours
-  if (!(c1c2 > T(0.0))) return T(0.0);
+  if (c1c2 <= T(0.0)) return T(0.0);
   if (dot >= T(0.0)) return cross / root(T((c1c2 + dot) / 2.0));
   const T size = root(T(2.0 * (c1c2 - dot)));
   const T turn = h2 - h1;
