@@ -6,6 +6,7 @@
 #include "calibration/chart/delta_e.h"
 #include "io/table.h"
 #include "materials/index/library.h"
+#include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/query.h"
@@ -24,7 +25,8 @@ Observer observer_of(const std::string& name) {
   throw Error(ErrorCode::usage, "observer", fmt::format("got \"{}\", allowed 1931, 1964", name));
 }
 
-py::object values_of(const Curve& curve, const Numbers& wavelengths_nm) {
+py::object values_of(const std::string& name, const Curve& curve, const Numbers& wavelengths_nm) {
+  require_between(name, kMinWavelengthNm, kMaxWavelengthNm, all(wavelengths_nm), "wavelengths_nm");
   return each(wavelengths_nm, [&](double nm) { return curve(nm); });
 }
 
@@ -39,20 +41,21 @@ Curve named_reflectance(const std::string& name) {
 }
 
 py::object illuminant(const std::string& name, const Numbers& wavelengths_nm) {
-  return values_of(named_illuminant(name), wavelengths_nm);
+  return values_of(name, named_illuminant(name), wavelengths_nm);
 }
 
 py::object curve(const std::string& kind, const std::string& name, const Numbers& wavelengths_nm) {
   Diagnostics diagnostics;
-  return values_of(accepted(load_curve(kind, name, {}, diagnostics), diagnostics).curve, wavelengths_nm);
+  return values_of(name, accepted(load_curve(kind, name, {}, diagnostics), diagnostics).curve,
+                   wavelengths_nm);
 }
 
 py::dict observer(const std::string& name, const Numbers& wavelengths_nm) {
   const ColorMatching& matching = color_matching(observer_of(name));
   py::dict values;
-  values["x"] = values_of(matching.x, wavelengths_nm);
-  values["y"] = values_of(matching.y, wavelengths_nm);
-  values["z"] = values_of(matching.z, wavelengths_nm);
+  values["x"] = values_of(name, matching.x, wavelengths_nm);
+  values["y"] = values_of(name, matching.y, wavelengths_nm);
+  values["z"] = values_of(name, matching.z, wavelengths_nm);
   return values;
 }
 
@@ -60,7 +63,7 @@ py::dict camera(const std::string& name, const Numbers& wavelengths_nm) {
   Diagnostics diagnostics;
   py::dict values;
   for (const Channel& channel : accepted(load_camera(name, {}, diagnostics), diagnostics))
-    values[py::str(channel.name)] = values_of(channel.weight, wavelengths_nm);
+    values[py::str(channel.name)] = values_of(name, channel.weight, wavelengths_nm);
   return values;
 }
 
@@ -81,16 +84,18 @@ Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
 
 // A name, or a pair of wavelengths and values.
 template <typename Load>
-Curve curve_of(const py::handle& spectrum, Load load) {
+Curve curve_of(const py::handle& spectrum, const char* name, Load load) {
   if (py::isinstance<py::str>(spectrum)) return load(spectrum.cast<std::string>());
-  const auto [nm, values] = spectrum.cast<std::pair<Numbers, Numbers>>();
+  const auto [nm, values] =
+      argument<std::pair<Numbers, Numbers>>(spectrum, name, "a name, or wavelengths and values");
   return sampled(nm, values);
 }
 
 py::dict color(const py::object& illuminant, const py::object& reflectance, const std::string& observer) {
   const Observer eye = observer_of(observer);
-  const Curve light = curve_of(illuminant, named_illuminant);
-  const Curve surface = reflectance.is_none() ? Curve(1.0) : curve_of(reflectance, named_reflectance);
+  const Curve light = curve_of(illuminant, "illuminant", named_illuminant);
+  const Curve surface =
+      reflectance.is_none() ? Curve(1.0) : curve_of(reflectance, "reflectance", named_reflectance);
   const XYZ xyz = tristimulus(light, surface, eye);
   const XYZ white = tristimulus(light, Curve(1.0), eye);
   if (!std::isfinite(white[1]))
@@ -137,23 +142,23 @@ void add_curves(py::module_& module) {
              "Returns the names that Abbe knows of a kind: material, glass, illuminant, reflectance, camera, "
              "filter or "
              "observer. Raises UsageError for another kind.");
-  module.def(
-      "illuminant", illuminant, py::arg("name"), py::arg("wavelengths_nm"),
-      "Returns the relative power of an illuminant at wavelengths, in the unit of its table. "
-      "\"blackbody:3000\" "
-      "and \"daylight:6500\" are made of their temperature in K. Raises InputError for an unknown name.");
+  module.def("illuminant", illuminant, py::arg("name"), py::arg("wavelengths_nm"),
+             "Returns the relative power of an illuminant at wavelengths, in the unit of its table. "
+             "\"blackbody:3000\" "
+             "and \"daylight:6500\" are made of their temperature in K. Raises InputError for an unknown "
+             "name and UsageError for a wavelength outside [300, 1100] nm.");
   module.def("curve", curve, py::arg("kind"), py::arg("name"), py::arg("wavelengths_nm"),
              "Returns a measured curve of one of the kinds of `names` but material and glass, such as a "
              "reflectance, "
-             "at wavelengths. Raises InputError for an unknown name.");
+             "at wavelengths. Raises as `illuminant` does.");
   module.def("observer", observer, py::arg("name") = "1931", py::kw_only(), py::arg("wavelengths_nm"),
              "Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at "
              "wavelengths, as a "
-             "dict of x, y, z.");
+             "dict of x, y, z. Raises as `illuminant` does.");
   module.def("camera", camera, py::arg("name"), py::arg("wavelengths_nm"),
              "Returns the responses of a measured camera at wavelengths as a dict by channel: relative to "
              "energy, or "
-             "electrons per J for a quantum efficiency. Raises InputError for an unknown name.");
+             "electrons per J for a quantum efficiency. Raises as `illuminant` does.");
   module.def(
       "color", color, py::arg("illuminant"), py::arg("reflectance") = py::none(),
       py::arg("observer") = "1931",
@@ -166,7 +171,7 @@ void add_curves(py::module_& module) {
   module.def("delta_e", lab_difference, py::arg("lab1"), py::arg("lab2"), py::arg("formula") = "2000",
              "Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of "
              "2000, 94 or "
-             "76; the first is the standard.");
+             "76; the first is the standard. Of numbers that are not finite it is NaN.");
 }
 
 }  // namespace abbe::python

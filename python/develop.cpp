@@ -7,7 +7,9 @@
 #include "develop/radiance.h"
 #include "film/spectral.h"
 #include "film/white.h"
+#include "io/extension.h"
 #include "io/picture.h"
+#include "python/arguments.h"
 #include "python/develop.h"
 #include "python/errors.h"
 #include "python/film.h"
@@ -100,6 +102,7 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
 }
 
 void write(const Developed& developed, const fs::path& path) {
+  require_extension(path, {".exr", ".tif", ".tiff", ".png"});
   if (path.extension() == ".exr")
     return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
   if (!developed.sensor.readout)
@@ -137,10 +140,12 @@ py::object picture_array(const Developed& developed) {
 }  // namespace
 
 void add_develop(py::module_& module) {
-  py::class_<Developed>(
+  py::class_<Developed> developed(
       module, "Developed",
       "A film that was read out: arrays of rows, columns and planes for each step from light to "
-      "numbers; what the film's sensor does not have is None.")
+      "numbers; what the film's sensor does not have is None.");
+  forbid_bare_new(developed);
+  developed
       .def_property_readonly(
           "planes", [](const Developed& d) { return d.sensor.planes; },
           "The names of the planes of the arrays.")

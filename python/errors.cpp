@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include "python/arguments.h"
+
 namespace abbe::python {
 namespace {
 
@@ -27,9 +29,21 @@ const char* class_of(ErrorCode code) {
   return "InternalError";
 }
 
+// Text that may hold names of files, which need not be UTF-8: as Python itself reads those.
+py::str decoded(const std::string& text) {
+  PyObject* const object =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape");
+  if (object == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(object);
+}
+
+std::string encoded(const py::str& text) {
+  return py::bytes(text.attr("encode")("utf-8", "surrogateescape"));
+}
+
 void raise(const Error& error, const std::vector<Diagnostic>& diagnostics) {
   const py::object type = py::module_::import(kErrors).attr(class_of(error.code));
-  PyErr_SetObject(type.ptr(), type(error.what(), diagnostics).ptr());
+  PyErr_SetObject(type.ptr(), type(decoded(error.what()), diagnostics).ptr());
 }
 
 // With the parameter that pybind11 calls it with. NOLINTNEXTLINE(performance-unnecessary-value-param)
@@ -44,9 +58,28 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-std::optional<std::string> file_of(const Diagnostic& diagnostic) {
+std::optional<py::str> file_of(const Diagnostic& diagnostic) {
   if (!diagnostic.where.source) return std::nullopt;
-  return diagnostic.where.source->file;
+  return decoded(diagnostic.where.source->file);
+}
+
+// What `diagnostic_from` takes, so that errors reach other processes.
+py::tuple state_of(const Diagnostic& diagnostic) {
+  const auto& [source, offset, pointer] = diagnostic.where;
+  const py::object text = source ? py::object(py::bytes(source->text)) : py::object(py::none());
+  return py::make_tuple(static_cast<int>(diagnostic.severity), static_cast<int>(diagnostic.code),
+                        file_of(diagnostic), text, offset, decoded(pointer), decoded(diagnostic.message));
+}
+
+Diagnostic diagnostic_from(const py::tuple& state) {
+  Diagnostic diagnostic{static_cast<Diagnostic::Severity>(state[0].cast<int>()),
+                        static_cast<ErrorCode>(state[1].cast<int>()),
+                        {nullptr, state[4].cast<std::size_t>(), encoded(state[5])},
+                        encoded(state[6])};
+  if (!state[2].is_none())
+    diagnostic.where.source =
+        std::make_shared<const SourceText>(SourceText{encoded(state[2]), state[3].cast<std::string>()});
+  return diagnostic;
 }
 
 }  // namespace
@@ -54,7 +87,7 @@ std::optional<std::string> file_of(const Diagnostic& diagnostic) {
 void warn(const std::string& text) {
   const py::gil_scoped_acquire held;
   const py::object category = py::module_::import(kErrors).attr("SceneWarning");
-  if (PyErr_WarnEx(category.ptr(), text.c_str(), 1) != 0) throw py::error_already_set();
+  if (PyErr_WarnFormat(category.ptr(), 1, "%U", decoded(text).ptr()) != 0) throw py::error_already_set();
 }
 
 void check(const Diagnostics& diagnostics) {
@@ -63,23 +96,34 @@ void check(const Diagnostics& diagnostics) {
 }
 
 void add_errors(py::module_& module) {
-  py::class_<Diagnostic>(module, "Diagnostic",
-                         "One complaint about an input: what is wrong, and where it stands.")
+  py::class_<Diagnostic> diagnostic(module, "Diagnostic",
+                                    "One complaint about an input: what is wrong, and where it stands.");
+  diagnostic
       .def_property_readonly("file", file_of,
                              "The name of the text complained about, None where there is none.")
       .def_property_readonly(
-          "pointer", [](const Diagnostic& d) { return d.where.pointer; },
+          "pointer", [](const Diagnostic& d) { return decoded(d.where.pointer); },
           "The JSON pointer of the value complained about, such as \"/camera/from\".")
-      .def_readonly("message", &Diagnostic::message, "What is wrong, as a sentence without its place.")
+      .def_property_readonly(
+          "message", [](const Diagnostic& d) { return decoded(d.message); },
+          "What is wrong, as a sentence without its place.")
       .def_property_readonly(
           "severity",
           [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error ? "error" : "warning"; },
           "\"error\" or \"warning\".")
-      .def("__str__", format,
-           "Place, pointer and message as the command line prints them, with the line concerned.")
-      .def("__repr__", [](const Diagnostic& d) {
-        return "<abbe.Diagnostic " + d.where.pointer + ": " + d.message + ">";
-      });
+      .def(
+          "__str__", [](const Diagnostic& d) { return decoded(format(d)); },
+          "Place, pointer and message as the command line prints them, with the line concerned.")
+      .def("__repr__",
+           [](const Diagnostic& d) {
+             return decoded("<abbe.Diagnostic " + d.where.pointer + ": " + d.message + ">");
+           })
+      .def("__reduce__",
+           [](const Diagnostic& d) {
+             return py::make_tuple(py::module_::import(kErrors).attr("_diagnostic"), state_of(d));
+           })
+      .def_static("_of", diagnostic_from);
+  forbid_bare_new(diagnostic);
   py::register_exception_translator(translate);
 }
 

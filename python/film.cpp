@@ -1,6 +1,7 @@
 #include "python/film.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -10,8 +11,10 @@
 #include "film/rendered_film.h"
 #include "film/sensor_identity.h"
 #include "io/exr.h"
+#include "io/extension.h"
 #include "io/picture.h"
 #include "io/text.h"
+#include "python/arguments.h"
 #include "python/errors.h"
 #include "python/picture.h"
 #include "sensor/film/variance_name.h"
@@ -76,16 +79,18 @@ FilmHandle read(const fs::path& path) {
 }
 
 void write(const FilmHandle& film, const fs::path& path) {
+  require_extension(path, {".exr", kPartExtension, ".png", ".jpg", ".tif"});
   const bool is_part = path.extension() == kPartExtension;
   if (is_part && !film.part())
     throw Error(ErrorCode::usage, path.string(),
                 "the film was read from an image: only a film with its exact sums can be written as a part");
   if (!is_part && path.extension() != ".exr") return write_picture(path, shown(film).image);
+  const Image* const image = is_part ? nullptr : &film.image();
   const py::gil_scoped_release released;
   if (is_part)
     write_part(path, film.part()->identity, film.part()->result, film.part()->areas);
   else
-    write_exr(path, film.image());
+    write_exr(path, *image);
 }
 
 // The exact sums that a film of Python has.
@@ -115,8 +120,10 @@ std::vector<Given> given(const py::sequence& films) {
   std::vector<Given> all;
   for (std::size_t i = 0; i < films.size(); ++i) {
     const fs::path name = fmt::format("films[{}]", i);
-    all.push_back(py::isinstance<FilmHandle>(films[i]) ? Given{&sums_of(films[i], name), name}
-                                                       : Given{nullptr, films[i].cast<fs::path>()});
+    all.push_back(
+        py::isinstance<FilmHandle>(films[i])
+            ? Given{&sums_of(films[i], name), name}
+            : Given{nullptr, argument<fs::path>(films[i], name.c_str(), "a film or the path of a part")});
   }
   return all;
 }
@@ -137,6 +144,11 @@ FilmHandle merge_films(const py::sequence& films, bool partial) {
   return FilmHandle(std::move(sum));
 }
 
+// Errors are infinite until they are measured, which costs a pilot that only `error` and `progress` ask for.
+py::object known(double error) {
+  return std::isfinite(error) ? py::object(py::float_(error)) : py::object(py::none());
+}
+
 py::object stats(const FilmHandle& film) {
   if (!film.part()) return py::none();
   const RenderStats& stats = film.part()->result.stats;
@@ -147,8 +159,8 @@ py::object stats(const FilmHandle& film) {
   all["samples_per_pixel"] = stats.samples_per_pixel;
   all["paths"] = stats.paths;
   all["rays"] = stats.rays;
-  all["relative_error"] = stats.error.median;
-  all["frame_mean_error"] = stats.error.frame_mean;
+  all["relative_error"] = known(stats.error.median);
+  all["frame_mean_error"] = known(stats.error.frame_mean);
   all["nonfinite_samples"] = stats.nonfinite_samples;
   return all;
 }
@@ -231,6 +243,7 @@ void add_film(py::module_& module) {
       "`abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from "
       "files. Jupyter "
       "shows a film as its display picture.");
+  forbid_bare_new(film);
   add_values(film);
   film.def_static(
           "read", read, py::arg("path"),
@@ -244,8 +257,10 @@ void add_film(py::module_& module) {
            "OutputError.")
       .def_property_readonly("metadata", &FilmHandle::metadata,
                              "What the film's file tells of it, as strings by name.")
-      .def_property_readonly("stats", stats,
-                             "What the render did, as a dict; None for a film read from an image.")
+      .def_property_readonly(
+          "stats", stats,
+          "What the render did, as a dict; None for a film read from an image. Its errors are None unless "
+          "the render was given `error` or `progress`.")
       .def_property_readonly(
           "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
       .def_property_readonly(

@@ -19,7 +19,7 @@ class FilmHandle {
   explicit FilmHandle(RenderPart part);
   explicit FilmHandle(Image image);
 
-  /// What the film's file holds; made once of the exact sums.
+  /// What the film's file holds; made once of the exact sums, under Python's lock, which callers hold.
   [[nodiscard]] const Image& image() const;
   /// The exact sums; nothing for a film read from an image.
   [[nodiscard]] const std::optional<RenderPart>& part() const { return part_; }

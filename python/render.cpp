@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "description/render_limits.h"
 #include "film/rendered_film.h"
 #include "film/shortcomings.h"
+#include "python/arguments.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/render.h"
@@ -85,26 +87,48 @@ class Job {
 
 /// The arguments of `render`.
 struct Request {
-  std::optional<int> spp;
-  std::optional<std::uint64_t> seed;
-  int threads;
+  std::optional<std::int64_t> spp;
+  std::optional<std::int64_t> seed;
+  std::int64_t threads;
   std::optional<double> error;
   std::optional<double> time;
   std::optional<std::pair<std::uint64_t, std::uint64_t>> samples;
 };
 
+void require_within(const char* argument, std::int64_t value, std::int64_t low, std::int64_t high) {
+  if (value < low || value > high)
+    throw Error(ErrorCode::usage, argument,
+                fmt::format("got {}, allowed whole numbers in [{}, {}]", value, low, high));
+}
+
+// Time and error decide how many samples there are, unless these are given.
+void require_compatible(const Request& request) {
+  const std::pair<bool, const char*> fixed[]{{request.spp.has_value(), "spp"},
+                                             {request.samples.has_value(), "sample_range"}};
+  const std::pair<bool, const char*> open[]{{request.error.has_value(), "error"},
+                                            {request.time.has_value(), "time"}};
+  for (const auto& [given, argument] : fixed)
+    for (const auto& [also, other] : open)
+      if (given && also) throw Error(ErrorCode::usage, "", fmt::format("{} excludes {}", argument, other));
+}
+
 void require(bool holds, const char* argument, const std::string& got, const char* allowed) {
   if (!holds) throw Error(ErrorCode::usage, argument, fmt::format("got {}, allowed {}", got, allowed));
 }
 
-RenderOptions how_to_render(const Request& request, int stated) {
-  require(!request.spp || *request.spp > 0, "spp", fmt::format("{}", request.spp.value_or(0)), "1 and more");
-  require(request.threads >= 0, "threads", fmt::format("{}", request.threads), "1 and more, or 0 for all");
+void require_valid(const Request& request) {
+  if (request.spp) require_within("spp", *request.spp, 1, kMaxSamples);
+  if (request.seed) require_within("seed", *request.seed, 0, kMaxSeed);
+  require_within("threads", request.threads, 0, kMaxThreads);
   require(!request.error || (*request.error > 0 && *request.error < 1), "error",
           fmt::format("{}", request.error.value_or(0)), "(0, 1)");
   require(!request.time || *request.time > 0, "time", fmt::format("{}", request.time.value_or(0)), "above 0");
+  require_compatible(request);
+}
+
+RenderOptions how_to_render(const Request& request, int stated) {
   RenderOptions how;
-  how.threads = request.threads;
+  how.threads = static_cast<int>(request.threads);
   how.target_error = request.error;
   how.time_limit_s = request.time;
   how.measure_error = false;
@@ -119,8 +143,8 @@ RenderOptions how_to_render(const Request& request, int stated) {
 // The scene with the settings asked for; a copy only where they are not its own.
 std::optional<abbe::Scene> changed(const abbe::Scene& scene, const Request& request) {
   RenderSettings settings = scene.render;
-  settings.samples = request.spp.value_or(settings.samples);
-  settings.seed = request.seed.value_or(settings.seed);
+  if (request.spp) settings.samples = static_cast<int>(*request.spp);
+  if (request.seed) settings.seed = static_cast<std::uint64_t>(*request.seed);
   if (settings.samples == scene.render.samples && settings.seed == scene.render.seed) return std::nullopt;
   std::optional<abbe::Scene> copy = scene;
   copy->render = settings;
@@ -135,8 +159,9 @@ void listen(const py::object& callback, const std::optional<Progress>& news) {
 }
 
 FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::object& progress) {
+  require_valid(request);
   const py::gil_scoped_release released;
-  const abbe::Scene& own = handle.with_white(request.threads);
+  const abbe::Scene& own = handle.with_white(static_cast<int>(request.threads));
   const std::optional<abbe::Scene> copy = changed(own, request);
   const abbe::Scene& scene = copy ? *copy : own;
   const RenderOptions how = how_to_render(request, scene.render.samples);
@@ -154,7 +179,9 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
 }  // namespace
 
 void add_render(py::module_& module) {
-  py::class_<Progress>(module, "Progress", "How far a render has come.")
+  py::class_<Progress> progress(module, "Progress", "How far a render has come.");
+  forbid_bare_new(progress);
+  progress
       .def_readonly("share", &Progress::share,
                     "The share of the work that is done, in [0, 1]; an estimate where time or error decides.")
       .def_readonly("samples", &Progress::samples, "How many samples of each pixel are finished.")
@@ -164,9 +191,9 @@ void add_render(py::module_& module) {
           "The median relative error of the lit values so far; infinite while it is not known.");
   module.def(
       "render",
-      [](SceneHandle& scene, std::optional<int> spp, std::optional<std::uint64_t> seed, int threads,
-         std::optional<double> error, std::optional<double> time, const py::object& progress,
-         std::optional<std::pair<std::uint64_t, std::uint64_t>> samples) {
+      [](SceneHandle& scene, std::optional<std::int64_t> spp, std::optional<std::int64_t> seed,
+         std::int64_t threads, std::optional<double> error, std::optional<double> time,
+         const py::object& progress, std::optional<std::pair<std::uint64_t, std::uint64_t>> samples) {
         return render_scene(scene, {spp, seed, threads, error, time, samples}, progress);
       },
       py::arg("scene"), py::kw_only(), py::arg("spp") = py::none(), py::arg("seed") = py::none(),
@@ -177,7 +204,8 @@ void add_render(py::module_& module) {
       "ends the "
       "render at that median relative error (0.01 for a percent), `time` after so many seconds, both at the "
       "end of "
-      "a pass. `progress` is called after passes with a Progress, on the calling thread. `sample_range` "
+      "a pass; neither goes with `spp` or `sample_range`. `progress` is called after passes with a Progress, "
+      "on the calling thread. `sample_range` "
       "(first, last) "
       "renders these samples only, for `merge`. Other threads of Python run meanwhile. Ctrl-C, and what "
       "`progress` "

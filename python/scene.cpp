@@ -12,6 +12,7 @@
 #include "io/schema/help.h"
 #include "io/schema/keys.h"
 #include "io/schema/write.h"
+#include "python/arguments.h"
 #include "python/errors.h"
 #include "python/json.h"
 #include "transport/render/threads.h"
@@ -77,13 +78,13 @@ SceneHandle::SceneHandle(const py::object& source, const py::object& folder, con
   std::optional<abbe::Scene> scene;
   if (py::isinstance<py::dict>(source) || source.is_none()) {
     const auto text = text_of(source, keywords);
-    const fs::path place = folder.is_none() ? fs::path() : folder.cast<fs::path>();
+    const fs::path place = folder.is_none() ? fs::path() : argument<fs::path>(folder, "folder", "a path");
     name_ = kDict;
     const py::gil_scoped_release released;
     scene = load_scene(text, place, {}, diagnostics, &inputs_, &said_);
   } else {
     const std::vector<Override> overrides = overrides_of(keywords);
-    name_ = source.cast<fs::path>();
+    name_ = argument<fs::path>(source, "source", "a path or a dict");
     const py::gil_scoped_release released;
     scene = load_scene(name_, overrides, diagnostics, &inputs_, &said_);
   }
@@ -92,14 +93,20 @@ SceneHandle::SceneHandle(const py::object& source, const py::object& folder, con
 
 const abbe::Scene& SceneHandle::with_white(int threads) {
   const std::scoped_lock lock(mutex_);
-  if (!has_white_) settle_white(scene_, name_, thread_count(threads));
+  if (has_white_) return scene_;
+  abbe::Scene settled = scene_;
+  settle_white(settled, name_, thread_count(threads));
+  const py::gil_scoped_acquire held;  // for those who read the scene meanwhile
+  scene_.output = std::move(settled.output);
   has_white_ = true;
   return scene_;
 }
 
 void add_scene(py::module_& module) {
   static const std::string kText = class_text();
-  py::class_<SceneHandle, std::shared_ptr<SceneHandle>>(module, "Scene", kText.c_str())
+  py::class_<SceneHandle, std::shared_ptr<SceneHandle>> scene(module, "Scene", kText.c_str());
+  forbid_bare_new(scene);
+  scene
       .def(py::init([](const py::object& source, const py::object& folder, const py::kwargs& keywords) {
              return std::make_shared<SceneHandle>(source, folder, keywords);
            }),

@@ -18,8 +18,8 @@ class SceneHandle {
   /// What `pybind11` is asked for: a path, a dict or nothing, and keywords that replace keys at the top.
   SceneHandle(const pybind11::object& source, const pybind11::object& folder, const pybind11::dict& keywords);
 
-  /// The scene without what pictures need; with it, once some call has settled the white on that many
-  /// threads.
+  /// The scene without what pictures need, to be read under Python's lock; with it, once some call has
+  /// settled the white on that many threads, for callers without that lock.
   [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
   [[nodiscard]] const abbe::Scene& with_white(int threads);
 

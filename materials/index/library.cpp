@@ -96,11 +96,16 @@ void require_data_at(const NamedIndex& material, std::span<const double> wavelen
                      const std::string& where) {
   const double low = std::max<double>(material.index.low_nm(), kMinWavelengthNm);
   const double high = std::min<double>(material.index.high_nm(), kMaxWavelengthNm);
+  require_between(material.name, low, high, wavelengths_nm, where);
+}
+
+void require_between(const std::string& name, double low_nm, double high_nm,
+                     std::span<const double> wavelengths_nm, const std::string& where) {
   for (const double nm : wavelengths_nm)
-    if (!(nm >= low && nm <= high))
+    if (!(nm >= low_nm && nm <= high_nm))
       throw Error(ErrorCode::usage, where,
-                  fmt::format("{} has no data there (got {} nm, allowed [{:g}, {:g}] nm)", material.name, nm,
-                              low, high));
+                  fmt::format("{} has no data there (got {} nm, allowed [{:g}, {:g}] nm)", name, nm, low_nm,
+                              high_nm));
 }
 
 bool is_refractiveindex_info(const std::string& name) {

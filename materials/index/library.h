@@ -24,6 +24,10 @@ namespace abbe {
 void require_data_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
                      const std::string& where);
 
+/// The same for data between two wavelengths [nm].
+void require_between(const std::string& name, double low_nm, double high_nm,
+                     std::span<const double> wavelengths_nm, const std::string& where);
+
 /// Whether a name is that of a file in the format of refractiveindex.info.
 [[nodiscard]] bool is_refractiveindex_info(const std::string& name);
 

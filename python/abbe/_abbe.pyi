@@ -105,7 +105,7 @@ class Film:
 
     @property
     def stats(self) -> dict[str, typing.Any] | None:
-        """What the render did, as a dict; None for a film read from an image."""
+        """What the render did, as a dict; None for a film read from an image. Its errors are None unless the render was given `error` or `progress`."""
 
     @property
     def width(self) -> int:
@@ -178,7 +178,7 @@ def calibrate(camera: str, illuminant: str = 'D65', *, chart: str = 'colorchecke
 
 
 def camera(name: str, wavelengths_nm: ArrayLike) -> dict:
-    """Returns the responses of a measured camera at wavelengths as a dict by channel: relative to energy, or electrons per J for a quantum efficiency. Raises InputError for an unknown name."""
+    """Returns the responses of a measured camera at wavelengths as a dict by channel: relative to energy, or electrons per J for a quantum efficiency. Raises as `illuminant` does."""
 
 
 def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str = '1931') -> dict:
@@ -192,11 +192,11 @@ def compare(film: Film, reference: Film, *, white: typing.Any = None) -> dict:
 
 
 def curve(kind: str, name: str, wavelengths_nm: ArrayLike) -> typing.Any:
-    """Returns a measured curve of one of the kinds of `names` but material and glass, such as a reflectance, at wavelengths. Raises InputError for an unknown name."""
+    """Returns a measured curve of one of the kinds of `names` but material and glass, such as a reflectance, at wavelengths. Raises as `illuminant` does."""
 
 
 def delta_e(lab1: ArrayLike, lab2: ArrayLike, formula: str = '2000') -> typing.Any:
-    """Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of 2000, 94 or 76; the first is the standard."""
+    """Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of 2000, 94 or 76; the first is the standard. Of numbers that are not finite it is NaN."""
 
 
 def develop(film: Film, *, readout: typing.Any = None, white: typing.Any = None, seed: typing.Optional[int] = None, scene: Scene | None = None) -> Developed:
@@ -214,7 +214,7 @@ def help(key: str = '') -> str:
 
 
 def illuminant(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
-    """Returns the relative power of an illuminant at wavelengths, in the unit of its table. "blackbody:3000" and "daylight:6500" are made of their temperature in K. Raises InputError for an unknown name."""
+    """Returns the relative power of an illuminant at wavelengths, in the unit of its table. "blackbody:3000" and "daylight:6500" are made of their temperature in K. Raises InputError for an unknown name and UsageError for a wavelength outside [300, 1100] nm."""
 
 
 def ior(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
@@ -240,7 +240,7 @@ def names(kind: str) -> typing.List[str]:
 
 
 def observer(name: str = '1931', *, wavelengths_nm: ArrayLike) -> dict:
-    """Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at wavelengths, as a dict of x, y, z."""
+    """Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at wavelengths, as a dict of x, y, z. Raises as `illuminant` does."""
 
 
 def prism_deviation(name: str, wavelengths_nm: ArrayLike, apex_deg: float = 60.0, incidence_deg: typing.Optional[float] = None) -> typing.Any:
@@ -256,4 +256,4 @@ def reflectance(name: str, wavelengths_nm: ArrayLike, angle_deg: ArrayLike = 0.0
 def render(scene: Scene, *, spp: typing.Optional[int] = None, seed: typing.Optional[int] = None, threads: int = 0, error: typing.Optional[float] = None, time: typing.Optional[float] = None, progress: typing.Any = None, sample_range: typing.Optional[typing.Tuple[int, int]] = None) -> Film:
     """Renders a scene and returns its film, of the bits that `abbe render` gives, whatever the threads.
 
-    `spp` and `seed` replace what the scene says; `threads` is one per processor unless given. `error` ends the render at that median relative error (0.01 for a percent), `time` after so many seconds, both at the end of a pass. `progress` is called after passes with a Progress, on the calling thread. `sample_range` (first, last) renders these samples only, for `merge`. Other threads of Python run meanwhile. Ctrl-C, and what `progress` raises, end the render after the pass that runs and are raised here."""
+    `spp` and `seed` replace what the scene says; `threads` is one per processor unless given. `error` ends the render at that median relative error (0.01 for a percent), `time` after so many seconds, both at the end of a pass; neither goes with `spp` or `sample_range`. `progress` is called after passes with a Progress, on the calling thread. `sample_range` (first, last) renders these samples only, for `merge`. Other threads of Python run meanwhile. Ctrl-C, and what `progress` raises, end the render after the pass that runs and are raised here."""

@@ -39,3 +39,10 @@ class InternalError(Error):
 
 class SceneWarning(UserWarning):
     """What is used as it is, but hardly gives what was meant."""
+
+
+def _diagnostic(*state):
+    """A diagnostic as it was in another process."""
+    from ._abbe import Diagnostic
+
+    return Diagnostic._of(state)

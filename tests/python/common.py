@@ -33,4 +33,13 @@ class Test(unittest.TestCase):
 
     def command(self, *arguments):
         """What the command line prints."""
-        return subprocess.run([os.environ["ABBE_BINARY"], *map(str, arguments)], check=True, capture_output=True, text=True, cwd=self.scratch).stdout
+        return self.run_command(*arguments, check=True).stdout
+
+    def refused(self, *arguments):
+        """What the command line says of arguments that it does not take."""
+        ended = self.run_command(*arguments)
+        self.assertEqual(ended.returncode, 2, ended)
+        return ended.stderr
+
+    def run_command(self, *arguments, check=False):
+        return subprocess.run([os.environ["ABBE_BINARY"], *map(str, arguments)], check=check, capture_output=True, text=True, cwd=self.scratch)

@@ -1,4 +1,6 @@
 """What films tell, how they are written, read and added up."""
+import pathlib
+import threading
 import unittest
 
 import numpy
@@ -54,6 +56,35 @@ class Films(Test):
         film.write(self.scratch / "s.exr")
         numpy.testing.assert_array_equal(abbe.Film.read(self.scratch / "s.exr").array, film.array)
 
+    def test_a_film_is_read_while_another_thread_writes_it(self):
+        film = abbe.render(abbe.Scene(box(sensor={**box()["sensor"], "resolution": [500, 500]}, render={"samples": 1})))
+        film.write(self.scratch / "f.abbepart")
+        for _ in range(5):
+            fresh = abbe.Film.read(self.scratch / "f.abbepart")  # whose image is not made yet
+            writers = [threading.Thread(target=fresh.write, args=(self.scratch / f"{i}.exr",)) for i in range(3)]
+            for writer in writers:
+                writer.start()
+            numpy.testing.assert_array_equal(fresh.array, film.array)
+            for writer in writers:
+                writer.join()
+        self.assertEqual(*((self.scratch / f"{i}.exr").read_bytes() for i in range(2)))
+
+    def test_errors_that_are_not_known_are_none(self):
+        scene = abbe.Scene(box())
+        self.assertEqual([abbe.render(scene).stats[key] for key in ("relative_error", "frame_mean_error")], [None, None])
+        measured = abbe.render(scene, progress=lambda p: None).stats
+        self.assertTrue(0 < measured["relative_error"] < 1 and 0 < measured["frame_mean_error"] < 1, measured)
+
+    def test_classes_make_no_object_without_their_constructor(self):
+        for of in (abbe.Scene, abbe.Film, abbe.Progress, abbe.Developed, abbe.Diagnostic):
+            for make in (of.__new__, object.__new__, type("Heir", (of,), {}).__new__):
+                with self.subTest(of=of, make=make), self.assertRaisesRegex(TypeError, "is not safe"):
+                    make(of)
+            if of is not abbe.Scene:
+                with self.assertRaisesRegex(TypeError, "No constructor defined"):
+                    of()
+        self.assertEqual(type("Heir", (abbe.Scene,), {})(box()).width, 8)
+
     def test_films_are_read_as_they_were_written(self):
         film = abbe.render(abbe.Scene(box()))
         for name in ("f.exr", "f.abbepart"):
@@ -68,6 +99,10 @@ class Films(Test):
             abbe.Film.read(self.scratch / "absent.exr")
         with self.assertRaises(abbe.OutputError):
             film.write(self.scratch / "absent" / "f.exr")
+        for name in ("f", "f.npy", "f.tiff", "f.EXR"):
+            with self.assertRaisesRegex(abbe.UsageError, rf'got extension "{pathlib.Path(name).suffix}", allowed .exr, .abbepart, .png, .jpg, .tif$'):
+                film.write(self.scratch / name)
+        self.assertEqual(sorted(path.name for path in self.scratch.iterdir()), ["f.abbepart", "f.exr"])
 
     def test_parts_merge_to_the_bits_of_the_whole(self):
         scene = abbe.Scene(box(render={"samples": 16}))
@@ -85,6 +120,9 @@ class Films(Test):
         self.assertEqual(abbe.merge(parts[:1], partial=True).stats["samples_per_pixel"], 8)
         with self.assertRaisesRegex(abbe.InputError, r"films\[1\]"):
             abbe.merge([parts[0], parts[0]])
+        for other in (None, 3):
+            with self.assertRaisesRegex(TypeError, rf"^films\[0\]: expected a film or the path of a part \(got a {type(other).__name__}\)$"):
+                abbe.merge([other])
         with self.assertRaisesRegex(abbe.UsageError, "read from an image"):
             abbe.merge([abbe.Film.read(self.scratch / "w.exr")])
 

@@ -49,6 +49,14 @@ class Queries(Test):
         for formula, key in (("2000", "dE00"), ("94", "dE94"), ("76", "dE76")):
             self.assertEqual(abbe.delta_e(*labs, formula=formula), told[key])
         self.assertEqual(abbe.delta_e(numpy.zeros((4, 5, 3)), labs[0]).shape, (4, 5))
+        for formula in ("2000", "94", "76"):
+            for axis in range(3):
+                for wrong in (numpy.nan, numpy.inf):
+                    lab = [50.0, 10.0, 10.0]
+                    lab[axis] = wrong
+                    for pair in ((lab, labs[0]), (labs[0], lab), (lab, lab)):
+                        with self.subTest(formula=formula, pair=pair):
+                            self.assertFalse(numpy.isfinite(abbe.delta_e(*pair, formula=formula)))
 
     def test_tables_at_wavelengths(self):
         self.assertEqual(abbe.illuminant("A", 560.0), 100)
@@ -58,6 +66,11 @@ class Queries(Test):
         self.assertEqual(json.loads(self.command("query", "--list", "glass", "--json"))["glass"], abbe.names("glass"))
 
     def test_what_is_wrong_is_told(self):
+        for call in (lambda nm: abbe.illuminant("A", nm), lambda nm: abbe.curve("reflectance", "Blue Sky", nm),
+                     lambda nm: abbe.observer("1931", wavelengths_nm=nm), lambda nm: abbe.camera("Nikon_D5100", nm)):
+            for nm in (numpy.nan, 299, [500, 1101]):
+                with self.subTest(nm=nm), self.assertRaisesRegex(abbe.UsageError, r"^wavelengths_nm: .* has no data there \(got (nan|299|1101) nm, allowed \[300, 1100\] nm\)$"):
+                    call(nm)
         for call, error, message in ((lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
                                      (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data there"),
                                      (lambda: abbe.ior("N-BK7", [numpy.nan]), abbe.UsageError, "got nan nm"),
@@ -68,6 +81,13 @@ class Queries(Test):
                                      (lambda: abbe.delta_e([1, 2], [1, 2]), abbe.UsageError, "last axis")):
             with self.subTest(message=message), self.assertRaisesRegex(error, message):
                 call()
+
+    def test_what_is_no_spectrum_is_refused(self):
+        for spectra, message in (((3,), "illuminant: expected a name, or wavelengths and values (got a int)"),
+                                 (("D65", [1]), "reflectance: expected a name, or wavelengths and values (got a list)")):
+            with self.assertRaises(TypeError) as caught:
+                abbe.color(*spectra)
+            self.assertEqual(str(caught.exception), message)
 
     def test_a_million_sellmeier_formulas_take_50_ms(self):
         wavelengths = numpy.linspace(400, 1000, 1_000_000)

@@ -87,6 +87,24 @@ class Renders(Test):
             with self.subTest(wrong=wrong), self.assertRaises(abbe.UsageError):
                 abbe.render(scene, **wrong)
 
+    def test_renders_are_bounded_as_those_of_the_command(self):
+        scene = abbe.Scene(box())
+        for option, argument, last in (("--spp", "spp", 2 ** 24), ("--seed", "seed", 2 ** 53), ("--threads", "threads", 1024)):
+            self.assertIn(f"in [{1 if argument == 'spp' else 0}, {last}]", self.refused("render", "x", option, last + 2))
+            for beyond in (-1, last + 2):
+                with self.subTest(argument=argument), self.assertRaises(abbe.UsageError) as caught:
+                    abbe.render(scene, **{argument: beyond})
+                self.assertIn(f"--{caught.exception}".replace(f"got {beyond}", f'got "{beyond}"'), self.refused("render", "x", option, beyond))
+        self.assertEqual(abbe.render(scene, seed=2 ** 53).metadata["seed"], str(2 ** 53))
+
+    def test_samples_that_are_given_exclude_time_and_error(self):
+        scene = abbe.Scene(box())
+        given = {"spp": 4, "sample_range": (0, 2), "error": 0.1, "time": 1}
+        for fixed in ("spp", "sample_range"):
+            for other in ("error", "time"):
+                with self.assertRaisesRegex(abbe.UsageError, f"^{fixed} excludes {other}$"):
+                    abbe.render(scene, **{fixed: given[fixed], other: given[other]})
+
     def test_memory_is_flat_over_a_hundred_renders(self):
         scene = abbe.Scene(CORNELL, sensor={"resolution": [128, 128], "observer": "1931"})
         for i in range(100):

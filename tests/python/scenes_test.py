@@ -1,5 +1,6 @@
 """Scenes from paths, dicts and keywords, and what is wrong with them."""
 import pathlib
+import pickle
 import unittest
 import warnings
 
@@ -98,6 +99,37 @@ class Scenes(Test):
         with self.assertRaises(abbe.SceneError) as caught:
             abbe.Scene(CORNELL, **{"a/b": 1})
         self.assertIn('unknown key "a/b"', caught.exception.diagnostics[0].message)
+
+    def test_what_is_no_path_is_refused(self):
+        for source in (3, [1]):
+            with self.assertRaisesRegex(TypeError, rf"^source: expected a path or a dict \(got a {type(source).__name__}\)$"):
+                abbe.Scene(source)
+        with self.assertRaisesRegex(TypeError, r"^folder: expected a path \(got a int\)$"):
+            abbe.Scene(box(), folder=3)
+
+    def test_paths_that_are_not_utf_8_are_told(self):
+        odd = self.scratch / "odd\udcff"
+        with self.assertRaises(abbe.InputError) as caught:
+            abbe.Film.read(odd)
+        self.assertIn(str(odd), str(caught.exception))
+        odd.write_text("{")
+        with self.assertRaises(abbe.SceneError) as caught:
+            abbe.Scene(odd)
+        self.assertEqual(caught.exception.diagnostics[0].file, str(odd))
+        self.assertIn("odd?:1:2", str(caught.exception.diagnostics[0]))
+
+    def test_errors_cross_processes(self):
+        with self.assertRaises(abbe.SceneError) as caught:
+            abbe.Scene(box(shapes=[{"sphere": {"radius": -1}, "material": "grey"}], lights={1}))
+        with self.assertRaises(abbe.SceneError) as from_file:
+            abbe.Scene(CORNELL, rendr=1)
+        for error in (caught.exception, from_file.exception):
+            again = pickle.loads(pickle.dumps(error))
+            self.assertEqual((type(again), str(again)), (abbe.SceneError, str(error)))
+            for key in ("file", "pointer", "message", "severity", "__str__"):
+                told = [[getattr(d, key)() if key == "__str__" else getattr(d, key) for d in e.diagnostics] for e in (error, again)]
+                self.assertEqual(*told, key)
+            self.assertGreater(len(again.diagnostics), 0)
 
     def test_a_missing_file_is_an_input_error(self):
         with self.assertRaises(abbe.InputError):
