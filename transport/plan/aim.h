@@ -48,6 +48,10 @@ class Aim {
   void learn(const std::vector<double>& importance, int reach);
 
   [[nodiscard]] bool guided() const { return guided_; }
+  /// Nothing yet for each cell, for what is measured to be added to; no cells of an aim that cannot learn.
+  [[nodiscard]] std::vector<double> no_importance() const {
+    return std::vector<double>(guided_ ? kGrid : 0, 0.0);
+  }
 
   [[nodiscard]] AimedPoint point(Imath::V2f u) const;
   [[nodiscard]] const Imath::V3f& axis() const { return axis_; }

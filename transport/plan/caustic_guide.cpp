@@ -251,9 +251,4 @@ CausticLobes CausticGuide::at(const V3f& point) const {
   return {std::span(lobes_).subspan(region.first, region.count), region.width, region.share};
 }
 
-std::size_t CausticGuide::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + regions_.capacity() * sizeof(Region) +
-         lobes_.capacity() * sizeof(Lobes);
-}
-
 }  // namespace abbe

@@ -74,7 +74,6 @@ class CausticGuide {
   /// The lobes at a point; none where no caustics are known, or where they come from so wide around that
   /// scattering finds them.
   [[nodiscard]] CausticLobes at(const Imath::V3f& point) const;
-  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   // Lobes from `first` on, and the box that says how far they may be asked.

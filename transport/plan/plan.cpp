@@ -111,21 +111,27 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   return plan;
 }
 
-}  // namespace
-
-std::optional<Error> refusal(const Scene& scene) {
-  if (auto faint = too_faint(nominal_value(scene, emissions_of(scene)))) return faint;
+std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) {
+  if (auto faint = too_faint(nominal_value(scene, emissions))) return faint;
   return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
 }
 
-Plan make_plan(const Scene& scene) {
-  if (const std::optional<Error> refused = refusal(scene)) throw Error(*refused);
-  return plan_of(scene, chosen_techniques(scene), emissions_of(scene), traced_lights(scene));
+}  // namespace
+
+std::optional<Error> refusal(const Scene& scene) {
+  return refusal_of(scene, emissions_of(scene));
 }
 
-std::optional<Plan> make_photon_plan(const Scene& scene, const std::vector<bool>& lights) {
+Plan make_plan(const Scene& scene) {
+  const Emissions emissions = emissions_of(scene);
+  if (const std::optional<Error> refused = refusal_of(scene, emissions)) throw Error(*refused);
+  return plan_of(scene, chosen_techniques(scene), emissions, traced_lights(scene));
+}
+
+std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
+                                     const std::vector<bool>& lights) {
   if (refusal(scene, lights, false)) return std::nullopt;
-  Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions_of(scene), lights);
+  Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions, lights);
   if (plan.traced_lights.empty()) return std::nullopt;
   return plan;
 }

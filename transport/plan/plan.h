@@ -10,6 +10,7 @@
 #include "transport/path/medium_stack.h"
 #include "transport/plan/aim.h"
 #include "transport/plan/caustic_guide.h"
+#include "transport/plan/emissions.h"
 #include "transport/plan/light_sampler.h"
 #include "transport/plan/power_light_sampler.h"
 #include "transport/plan/techniques.h"
@@ -54,8 +55,9 @@ struct Plan {
 /// `refusal` tells.
 [[nodiscard]] Plan make_plan(const Scene& scene);
 
-/// The plan of pilots that start photons from some lights, whatever techniques the scene asks for. Nothing
-/// where none of them has power, or their photons are refused.
-[[nodiscard]] std::optional<Plan> make_photon_plan(const Scene& scene, const std::vector<bool>& lights);
+/// The plan of pilots that start photons from some lights of a scene of these emissions, whatever techniques
+/// the scene asks for. Nothing where none of them has power, or their photons are refused.
+[[nodiscard]] std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
+                                                   const std::vector<bool>& lights);
 
 }  // namespace abbe

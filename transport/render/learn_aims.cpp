@@ -51,9 +51,8 @@ void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
   constexpr std::array<int, 2> kReaches{4, 1};
   if (plan.traced_lights.empty()) return;
   for (std::uint32_t stage = 0; stage < kReaches.size(); ++stage) {
-    std::vector<std::vector<double>> importance(plan.aims.size());
-    for (std::size_t light = 0; light < plan.aims.size(); ++light)
-      if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
+    std::vector<std::vector<double>> importance;
+    for (const Aim& aim : plan.aims) importance.push_back(aim.no_importance());
     // Added up in the order of the photons, whichever threads traced them.
     for (const auto& [start, exposure] : trace_pilots(plan, seed, stage, threads))
       if (start.cell >= 0 && std::isfinite(exposure))

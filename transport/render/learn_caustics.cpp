@@ -1,5 +1,6 @@
 #include "transport/render/learn_caustics.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 #include <vector>
@@ -47,9 +48,8 @@ std::vector<Arrivals> trace_photons(const Plan& plan, const Emissions& emissions
 // Aims photons at where others have come through.
 void learn_aims(Plan& plan, const std::vector<Arrivals>& arrived) {
   constexpr int kReach = 2;  // cells
-  std::vector<std::vector<double>> importance(plan.aims.size());
-  for (std::size_t light = 0; light < plan.aims.size(); ++light)
-    if (plan.aims[light].guided()) importance[light].resize(Aim::kGrid);
+  std::vector<std::vector<double>> importance;
+  for (const Aim& aim : plan.aims) importance.push_back(aim.no_importance());
   for (const Arrivals& batch : arrived)
     for (const auto& [start, photon] : batch)
       if (start.cell >= 0) importance[start.light][static_cast<std::size_t>(start.cell)] += 1;
@@ -99,9 +99,11 @@ void learn_caustics(Plan& plan, std::uint64_t seed, int threads) {
   constexpr std::size_t kEnough = 1U << 15;  // that arrive; else up to so many rounds are traced
   constexpr std::uint32_t kRounds = 8;
   if (!plan.scene.needs.caustics || !uses(plan.techniques, Technique::path)) return;
-  std::optional<Plan> photons = make_photon_plan(plan.scene, lights_to_find(plan));
-  if (!photons) return;
+  const std::vector<bool> lights = lights_to_find(plan);
+  if (std::ranges::find(lights, true) == lights.end()) return;
   const Emissions emissions = emissions_of(plan.scene);
+  std::optional<Plan> photons = make_photon_plan(plan.scene, emissions, lights);
+  if (!photons) return;
   const std::vector<Arrivals> first = trace_photons(*photons, emissions, {seed, kAimStage, 1U << 7}, threads);
   if (count(first) < kTooFew) return;
   learn_aims(*photons, first);
