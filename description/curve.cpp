@@ -12,9 +12,6 @@ namespace {
 
 using namespace schema;
 
-// Wavelengths of a table's samples: wide enough for tables beyond the rendered range, too high for
-// micrometres.
-constexpr Range kTableWavelength = Range{100, 1e5}.in("nm");
 constexpr Range kLineWidth = Range{1e-3, kMaxWavelengthNm - kMinWavelengthNm}.in("nm");
 
 }  // namespace

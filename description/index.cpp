@@ -30,7 +30,8 @@ Fields describe_constant(std::string_view name, Range range) {
 template <typename Constant>
 Kind index(std::string_view name, Range range) {
   return forms<Ior::Wrapped>(name, "an index: n, an object of n and k, or a name",
-                             form<double>(Json::number, range), form<Constant>(Json::object),
+                             form<double>(Json::number, range),
+                             form<TableIor>(Json::object, {"wavelength_nm"}), form<Constant>(Json::object),
                              form<std::string>(Json::text));
 }
 
@@ -41,6 +42,14 @@ static Fields fields(Tag<ConstantIor>) {
 }
 static Fields fields(Tag<MetalIor>) {
   return describe_constant<MetalIor>("constant_metal_index", kMetalIndex);
+}
+static Fields fields(Tag<TableIor>) {
+  return describe("table_index", "An index over wavelength, with straight lines between its samples.",
+                  {field("wavelength_nm", &TableIor::wavelength_nm, kTableWavelength,
+                         "Strictly ascending wavelengths; beyond the ends their values hold."),
+                   field("n", &TableIor::n, kIndex, "The refractive index at each, relative to air."),
+                   field("k", &TableIor::k, kExtinction,
+                         "The extinction at each, absorbing when positive; 0 when absent.")});
 }
 Kind kind(Tag<Ior::Wrapped>) {
   return index<ConstantIor>("index", kIndex);
@@ -107,6 +116,22 @@ Curve extinction(const Curve& absorption_per_m) {
   return product(absorption_per_m, per_alpha);
 }
 
+std::optional<Ior> table_ior(const spec::TableIor& said, LoadContext& context) {
+  const auto curve = [&](const std::vector<double>& values) {
+    spec::Curve table;
+    table.where = said.where;
+    table.value =
+        spec::CurveFormula{spec::TableCurve{said.wavelength_nm, values, Outside::clamp, said.where}};
+    return build(table, {""}, context);
+  };
+  const auto n = curve(said.n);
+  const auto k = said.k ? curve(*said.k) : Curve();
+  if (!n || !k) return std::nullopt;
+  return Ior{"of a table",
+             RefractiveIndex(*n, *k, IndexMedium::air, said.wavelength_nm.front(), said.wavelength_nm.back()),
+             false};
+}
+
 Ior constant_ior(double n, double k) {
   return {k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k), true};
 }
@@ -119,6 +144,7 @@ std::optional<Ior> build(const spec::Ior& said, LoadContext& context) {
     return constant_ior(constant->n, constant->k);
   if (const auto* constant = std::get_if<spec::MetalIor>(&said.value))
     return constant_ior(constant->n, constant->k);
+  if (const auto* table = std::get_if<spec::TableIor>(&said.value)) return table_ior(*table, context);
   const auto name = context.table(std::get<std::string>(said.value), said.where);
   if (!name) return std::nullopt;
   auto named = load_index(*name, said.where, context.diagnostics);

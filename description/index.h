@@ -18,8 +18,15 @@ struct ConstantIor {
   double k = 0;
 };
 struct MetalIor : ConstantIor {};  ///< Whose n may be 0: the perfect mirror.
-/// n, n and k, or the name of a table.
-struct Ior : schema::Located<std::variant<double, ConstantIor, MetalIor, std::string>> {};
+/// Samples of n and k with straight lines between them, held beyond their ends.
+struct TableIor {
+  std::vector<double> wavelength_nm;
+  std::vector<double> n;
+  std::optional<std::vector<double>> k;  ///< 0 when absent.
+  SourcePosition where;
+};
+/// n, n and k, these over wavelength, or the name of a table.
+struct Ior : schema::Located<std::variant<double, ConstantIor, MetalIor, TableIor, std::string>> {};
 [[nodiscard]] schema::Kind kind(schema::Tag<Ior::Wrapped>);
 [[nodiscard]] schema::Kind metal_ior();
 

@@ -18,6 +18,9 @@ inline constexpr Range kValue{-1e30, 1e30};
 inline constexpr Range kPower{0, 1e30};
 inline constexpr Range kAngle = kValue.in("degrees");
 inline constexpr Range kExposure{0, 1e9, true, false, "s"};
+/// Wavelengths of a table's samples: wide enough for tables beyond the rendered range, too high for
+/// micrometres.
+inline constexpr Range kTableWavelength = Range{100, 1e5}.in("nm");
 inline constexpr Range kWavelength = Range{kMinWavelengthNm, kMaxWavelengthNm}.in("nm");
 
 /// A direction of any length but zero, as an Imath::V3d.

@@ -21,10 +21,20 @@ constexpr char kTransform[] = "Where the shape is moved, by steps in order.";
 
 Kind mesh() {
   return forms<Mesh::Wrapped>("mesh", "a mesh: the name of a file, or triangles",
-                              form<std::string>(Json::text), form<InlineMesh>(Json::object));
+                              form<std::string>(Json::text), form<MeshPart>(Json::object, {"file"}),
+                              form<InlineMesh>(Json::object));
 }
 
 }  // namespace
+
+static Fields fields(Tag<MeshPart>) {
+  return describe(
+      "mesh_part", "The triangles of a mesh file that are made of one of its own materials.",
+      {field("file", &MeshPart::file, "An OBJ, glTF 2.0 or GLB file."),
+       field("of_material", &MeshPart::of_material,
+             "The name of that material in the file; `material N`, which counts from 0, where glTF "
+             "gives none, `default` where it names no material.")});
+}
 
 template <typename Surface, typename Material, typename Emission>
 Fields fields(Tag<Body<Surface, Material, Emission>>) {
@@ -152,6 +162,33 @@ std::vector<NamedShape> build_mesh_file(const SourcePosition& where, const std::
   return parts;
 }
 
+// The triangles of a file that it makes of one of its materials, made of `material`.
+std::vector<NamedShape> build_mesh_part(const spec::MeshPart& part, const std::string& name,
+                                        std::uint32_t material, LoadContext& context, Scene& scene) {
+  std::vector<NamedShape> parts;
+  const auto path = context.file(part.file.value, part.file.where);
+  if (!path) return parts;
+  auto found = load_mesh_file(
+      *path, FileMaterials::named, part.file.where, context.diagnostics,
+      needs_coordinates(scene.materials[material]) ? FileCoordinates::wanted : FileCoordinates::ignored,
+      context.inputs);
+  if (!found) return parts;
+  for (const std::filesystem::path& other : found->others) context.remember(other);
+  std::vector<std::string> names;
+  for (MeshFile::Submesh& submesh : found->submeshes) {
+    if (!submesh.material) continue;
+    names.push_back(found->materials[*submesh.material].name);
+    if (names.back() != part.of_material.value) continue;
+    context.take_memory(path->string(), memory_bytes(submesh.mesh));
+    parts.push_back({name, *scaled(std::move(submesh.mesh), context.unit_m), material});
+  }
+  if (parts.empty())
+    context.diagnostics.error(part.of_material.where,
+                              unknown_name("material of the mesh file", part.of_material.value, names),
+                              ErrorCode::input);
+  return parts;
+}
+
 std::string mesh_name(const std::string* file) {
   return file ? fmt::format("mesh \"{}\"", *file) : "the mesh";
 }
@@ -190,14 +227,17 @@ struct PartsBuilder {
   }
   std::vector<NamedShape> operator()(const spec::MeshBody& said) const {
     const SourcePosition& at = said.surface.where;
-    const auto* file = std::get_if<std::string>(&said.surface.value);
-    if (!said.material && !(file && brings_materials(*file))) {
+    const auto* part = std::get_if<spec::MeshPart>(&said.surface.value);
+    const auto* file = part ? &part->file.value : std::get_if<std::string>(&said.surface.value);
+    if (!said.material && !(file && !part && brings_materials(*file))) {
       context.diagnostics.error(where, "missing key \"material\"");
       return {};
     }
     const auto material = said.material ? find_material(*said.material, context, scene) : std::nullopt;
     std::vector<NamedShape> parts;
-    if (file && (material || !said.material))
+    if (part && material)
+      parts = build_mesh_part(*part, name, *material, context, scene);
+    else if (file && !part && (material || !said.material))
       parts = build_mesh_file(at, *file, name, material ? &*material : nullptr, context, scene);
     else if (!file)
       if (auto mesh = build(std::get<spec::InlineMesh>(said.surface.value), context); mesh && material)

@@ -14,8 +14,13 @@
 
 namespace abbe::spec {
 
-/// A file, or triangles.
-struct Mesh : schema::Located<std::variant<std::string, InlineMesh>> {};
+/// The triangles of a file that it makes of one of its own materials.
+struct MeshPart {
+  schema::Located<std::string> file;
+  schema::Located<std::string> of_material;
+};
+/// A file, a part of one, or triangles.
+struct Mesh : schema::Located<std::variant<std::string, MeshPart, InlineMesh>> {};
 using MaterialName = schema::Located<std::string>;
 /// A shape of one material.
 template <typename Surface, typename Material, typename Emission>

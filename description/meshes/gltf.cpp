@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include "description/meshes/gltf_json.h"
 #include "description/meshes/gltf_material.h"
 #include "description/meshes/gltf_numbers.h"
 #include "description/meshes/mesh_formats.h"
@@ -25,32 +26,10 @@
 namespace abbe {
 namespace {
 
-std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + offset, sizeof word);
-  return word;
-}
-
-// The JSON of a .gltf or .glb. The library does not count the 8 bytes that head a GLB's second chunk, and
-// would read as many beyond its end.
-std::optional<std::string_view> json_of(std::string_view bytes) {
-  constexpr std::size_t kHeaders = 20;  // of the file and its first chunk
-  constexpr std::size_t kHeader = 8;
-  if (!bytes.starts_with("glTF")) return bytes;
-  if (bytes.size() < kHeaders || word_at(bytes, kHeader) < kHeaders || word_at(bytes, kHeader) > bytes.size())
-    return std::nullopt;
-  const std::string_view rest = bytes.substr(kHeaders, word_at(bytes, kHeader) - kHeaders);
-  const std::size_t json = word_at(bytes, 12);
-  if (json > rest.size()) return std::nullopt;
-  if (rest.size() >= json + kHeader && word_at(rest, json) > rest.size() - json - kHeader)
-    return std::nullopt;
-  return rest.substr(0, json);
-}
-
 // What the library takes for granted: JSON nested so little that its recursion ends, of a length that an int
 // holds, and, because each gets a copy, one buffer without a name at most.
 bool sound(std::string_view bytes, MeshReading& reading) {
-  const auto json = json_of(bytes);
+  const auto json = gltf_json(bytes);
   if (!json) return reading.refuse("malformed or truncated GLB");
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() ||
       json->size() > std::numeric_limits<std::int32_t>::max())
@@ -211,7 +190,7 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
       return reading.refuse("indices must be integers >= 0");
   }
   std::optional<std::size_t> material;
-  if (reading.materials == FileMaterials::wanted && primitive.material >= 0)
+  if (reading.materials != FileMaterials::ignored && primitive.material >= 0)
     material = static_cast<std::size_t>(primitive.material);
   Mesh& mesh = meshes[material];
   const std::size_t base = mesh.vertices.size();
@@ -318,7 +297,7 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
     if (count > 0) reading.lost.push_back(fmt::format("its {} are not read ({} of them)", what, count));
   MeshesByMaterial meshes;
   if (!walk(model, meshes, reading)) return false;
-  if (reading.materials == FileMaterials::wanted) {
+  if (reading.materials != FileMaterials::ignored) {
     for (std::size_t i = 0; i < model.materials.size(); ++i)
       if (!read_gltf_material(model.materials[i], i, reading)) return false;
     if (meshes.contains(std::nullopt)) {  // what the format says then
@@ -330,7 +309,7 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
     if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();
     if (!mesh.normals.empty()) mesh.normals.resize(mesh.triangles.size());
     const std::size_t last = reading.file.materials.size();
-    const bool wanted = reading.materials == FileMaterials::wanted;
+    const bool wanted = reading.materials != FileMaterials::ignored;
     if (wanted && material && *material >= last) return reading.refuse("a material does not exist");
     reading.file.submeshes.push_back(
         {std::move(mesh), wanted ? std::optional(material.value_or(last - 1)) : std::nullopt});

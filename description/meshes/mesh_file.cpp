@@ -118,7 +118,8 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
     if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;
   for (MeshFile::Submesh& part : reading.file.submeshes) complete_normals(part.mesh);
   for (const std::string& lost : reading.lost)
-    diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), lost));
+    if (materials != FileMaterials::named)
+      diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), lost));
   return std::move(reading.file);
 }
 

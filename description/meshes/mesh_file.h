@@ -32,7 +32,9 @@ struct MeshFile {
   std::vector<std::filesystem::path> others;  ///< Files the file named and that were read.
 };
 
-enum class FileMaterials { ignored, wanted };
+/// Whether triangles are told apart by the file's materials; `named`: without telling what of the file is not
+/// read.
+enum class FileMaterials { ignored, named, wanted };
 /// Whether texture coordinates at the corners of triangles are read. v runs upwards, so that of glTF is
 /// turned round.
 enum class FileCoordinates { ignored, wanted };

@@ -295,7 +295,7 @@ bool read_obj(std::string&& bytes, MeshReading& reading) {
   erase_comments(bytes);
   Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}, {}};
   MaterialFiles files(obj);
-  const bool wanted = reading.materials == FileMaterials::wanted;
+  const bool wanted = reading.materials != FileMaterials::ignored;
   tinyobj::callback_t take;
   take.vertex_cb = take_vertex;
   take.normal_cb = take_normal;

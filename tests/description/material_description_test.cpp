@@ -32,6 +32,29 @@ TEST_F(DescriptionTest, ReadsMaterials) {
   EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
 }
 
+TEST_F(DescriptionTest, ReadsTablesOfIndices) {
+  const Loaded loaded = load(R"({"materials": {
+    "melt": {"dielectric": {"ior": {"wavelength_nm": [400, 600], "n": [1.6, 1.5]}}},
+    "metal": {"conductor": {"ior": {"wavelength_nm": [400, 600], "n": [0.5, 1], "k": [2, 3]}}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto& melt = std::get<DielectricMaterial>(loaded->materials[0].model).index;
+  EXPECT_NEAR(melt.n(450), 1.575, 1e-12);
+  EXPECT_EQ(melt.n(700), 1.5);
+  EXPECT_TRUE(melt.dispersive());
+  EXPECT_FALSE(melt.absorbing());
+  const auto& metal = std::get<ConductorMaterial>(loaded->materials[1].model).index;
+  EXPECT_NEAR(metal.n(500), 0.75, 1e-12);
+  EXPECT_NEAR(metal.k(500), 2.5, 1e-12);
+  const auto melted = [](const std::string& table) {
+    return fmt::format(R"({{"materials": {{"m": {{"dielectric": {{"ior": {{"wavelength_nm": {}}}}}}}}}}})",
+                       table);
+  };
+  expect_refused(
+      {{"turned round", melted(R"([600, 400], "n": [1, 1])"), ErrorCode::scene, "wavelengths must ascend"},
+       {"too few", melted(R"([400, 600], "n": [1])"), ErrorCode::scene, "as many values as wavelengths"},
+       {"nothing", melted(R"([400, 600], "n": [0, 1])"), ErrorCode::scene, "allowed (0, 100]"}});
+}
+
 TEST_F(DescriptionTest, ReadsRoughness) {
   const Loaded loaded = load(R"({"materials": {
     "ground": {"dielectric": {"ior": 1.5, "roughness": 0.3}},

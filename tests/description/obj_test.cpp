@@ -84,6 +84,24 @@ TEST_F(ObjTest, BringsItsMaterials) {
   EXPECT_EQ(own->materials.size(), 1U);
 }
 
+TEST_F(ObjTest, PartsHaveMaterialsOfTheScene) {
+  testing::write(folder_ / "two.obj",
+                 "mtllib chair.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl wood\nf 1 2 3\nf 1 2 4\n"
+                 "usemtl wool\nf 1 3 4\n");
+  testing::write(folder_ / "chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\nnewmtl wool\nKd 1 1 1\n");
+  const auto part = [](const char* of) {
+    return shaped(fmt::format(R"("mesh": {{"file": "two.obj", "of_material": "{}"}})", of));
+  };
+  const Loaded wood = load(part("wood"));
+  ASSERT_TRUE(wood.scene) << wood.text();
+  EXPECT_EQ(std::get<Mesh>(wood->shapes.at(0).shape).triangles.size(), 2U);
+  const Loaded none = load(part("wol"));
+  EXPECT_FALSE(none.scene);
+  EXPECT_NE(none.text().find("unknown material of the mesh file \"wol\"; did you mean \"wool\"?"),
+            std::string::npos)
+      << none.text();
+}
+
 TEST_F(ObjTest, RefusesBadFiles) {
   const auto in = ErrorCode::input;
   write(folder_ / "bad.mtl", "newmtl a\nKd 0.1 2 0\n");

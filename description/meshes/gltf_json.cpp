@@ -1,0 +1,30 @@
+#include "description/meshes/gltf_json.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace abbe {
+
+static std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+// The library does not count the 8 bytes that head a GLB's second chunk, and
+// would read as many beyond its end.
+std::optional<std::string_view> gltf_json(std::string_view bytes) {
+  constexpr std::size_t kHeaders = 20;  // of the file and its first chunk
+  constexpr std::size_t kHeader = 8;
+  if (!bytes.starts_with("glTF")) return bytes;
+  if (bytes.size() < kHeaders || word_at(bytes, kHeader) < kHeaders || word_at(bytes, kHeader) > bytes.size())
+    return std::nullopt;
+  const std::string_view rest = bytes.substr(kHeaders, word_at(bytes, kHeader) - kHeaders);
+  const std::size_t json = word_at(bytes, 12);
+  if (json > rest.size()) return std::nullopt;
+  if (rest.size() >= json + kHeader && word_at(rest, json) > rest.size() - json - kHeader)
+    return std::nullopt;
+  return rest.substr(0, json);
+}
+
+}  // namespace abbe
