@@ -139,14 +139,21 @@ void add_merge(CLI::App& app, Command& command) {
 
 void add_convert(CLI::App& app, Command& command) {
   const Sub<ConvertOptions> sub(
-      app, "convert", "Write a scene file in canonical form, without its comments and what is as by default",
+      app, "convert",
+      "Write a scene file in canonical form, without its comments and what is as "
+      "by default, or a scene of pbrt (.pbrt) as a scene file",
       command, convert);
-  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
+  sub.app->add_option("scene", sub->scene, "Scene file, of another renderer too, or - for standard input")
       ->required()
       ->type_name("SCENE");
   sub.app
       ->add_option("-o,--output", sub->output,
                    "File to write, in the scene's folder if it names files (default: - for standard output)")
+      ->type_name("FILE.json");
+  sub.app
+      ->add_option("--materials", sub->materials,
+                   "Materials by name, {NAME: MATERIAL, …} as scene files have them, in place of those of "
+                   "another renderer's scene")
       ->type_name("FILE.json");
   add_overrides(*sub.app, sub.options, "Replace a value of the scene file; may be repeated");
   add_max_memory(*sub.app, sub.options);

@@ -9,6 +9,7 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "description/convert.h"
+#include "description/doors/doors.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"
@@ -39,6 +40,30 @@ void require_same_folder(const ConvertOptions& options, const Inputs& inputs) {
                       file.string(), real(folder).string()));
 }
 
+void write_out(const std::string& text, const ConvertOptions& options) {
+  if (options.output == kStandardStream)
+    fmt::print("{}", text);
+  else
+    write_atomically(options.output, text);
+}
+
+// A scene of another renderer, whose files are named as from where the output goes.
+std::string converted(const ConvertOptions& options, Inputs& inputs) {
+  if (!options.overrides.empty())
+    throw Error(ErrorCode::usage, "--set", "is for scene files of Abbe: replace values of what is written");
+  const bool is_file = options.output != kStandardStream;
+  const fs::path folder = is_file ? options.output.parent_path() : options.scene.parent_path();
+  Diagnostics diagnostics;
+  return accepted(convert_scene(options.scene, {folder, options.materials}, diagnostics, &inputs),
+                  diagnostics);
+}
+
+std::string canonical(const ConvertOptions& options, Inputs& inputs) {
+  if (options.materials) throw Error(ErrorCode::usage, "--materials", "is for scenes of other renderers");
+  Diagnostics diagnostics;
+  return accepted(canonical_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
+}
+
 }  // namespace
 
 int convert(const ConvertOptions& options) {
@@ -47,17 +72,12 @@ int convert(const ConvertOptions& options) {
     require_extension(options.output, {".json"});
     require_writable(options.output);
   }
-  Diagnostics diagnostics;
+  const bool other = is_other_scene(options.scene);
   Inputs inputs(options.max_memory_bytes);
-  const std::string text =
-      accepted(canonical_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
-  if (!is_file) {
-    fmt::print("{}", text);
-    return 0;
-  }
-  require_distinct(std::array{options.output}, inputs.files());
-  require_same_folder(options, inputs);
-  write_atomically(options.output, text);
+  const std::string text = other ? converted(options, inputs) : canonical(options, inputs);
+  if (is_file) require_distinct(std::array{options.output}, inputs.files());
+  if (is_file && !other) require_same_folder(options, inputs);
+  write_out(text, options);
   return 0;
 }
 

@@ -91,5 +91,25 @@ TEST(Convert, RefusesAsOtherCommandsDo) {
   EXPECT_EQ(read_file(ball()), ball_scene());
 }
 
+TEST(Convert, ScenesOfOtherRenderers) {
+  (void)scratch().write("ball.pbrt",
+                        "Scale -1 1 1\nCamera \"perspective\"\nWorldBegin\nMaterial \"hair\"\nTranslate 0 0 "
+                        "9\nShape \"sphere\"\n");
+  (void)scratch().write("map.json", R"({"hair": {"mirror": {"reflectance": 0.5}}})");
+  const std::string out = file("ball_pbrt.json");
+  const Outcome run =
+      abbe("convert " + file("ball.pbrt") + " --materials " + file("map.json") + " -o " + out);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("ball.pbrt:4:1: warning: a material \"hair\" has no counterpart here"),
+            std::string::npos)
+      << run.err;
+  EXPECT_NE(read_file(out).find("//   "), std::string::npos);
+  EXPECT_NE(read_file(out).find("\"mirror\""), std::string::npos);
+  EXPECT_EQ(abbe("info " + out).code, 0);
+  EXPECT_EQ(abbe("convert " + out + " --materials " + file("map.json")).code, 2);
+  EXPECT_EQ(abbe("convert " + file("ball.pbrt") + " --set /units=mm").code, 2);
+  EXPECT_EQ(abbe("convert /nowhere/scene.pbrt").code, 4);
+}
+
 }  // namespace
 }  // namespace abbe::test

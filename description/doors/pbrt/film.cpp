@@ -1,0 +1,148 @@
+#include "description/doors/pbrt/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "description/doors/pbrt/named_spectra.h"
+#include "description/doors/shared/camera.h"
+#include "description/doors/shared/placement.h"
+
+namespace abbe::doors::pbrt {
+namespace {
+
+// A number of things, cut to what an int holds.
+int count(const Parameters& p, std::string_view name, int absent, Door& door) {
+  return static_cast<int>(std::clamp(p.number(name, absent, door), -1e9, 1e9));
+}
+
+// What the sensor counts: X, Y and Z, a camera's channels, or radiances.
+void set_counts(const Made& film, spec::Sensor& sensor, Door& door) {
+  const Parameters& p = film.parameters;
+  const std::string name = p.text("sensor", "cie1931", door);
+  const auto camera = std::ranges::find(kSensors, name, &Renamed::theirs);
+  if (film.type == "spectral")
+    sensor.counts =
+        spec::Bins{p.number("lambdamin", 360, door), p.number("lambdamax", 830, door), 0, film.where};
+  else if (camera != kSensors.end())
+    sensor.counts = spec::MeasuredCamera{{{std::string(camera->ours)}, film.where}};
+  else
+    sensor.counts = spec::StandardObserver{{{Observer::cie1931}, film.where}};
+  if (auto* bins = std::get_if<spec::Bins>(&sensor.counts))
+    bins->step_nm = (bins->to_nm - bins->from_nm) / std::max(p.number("nbuckets", 16, door), 1.0);
+  else if (camera == kSensors.end() && name != "cie1931")
+    door.note(film.where,
+              fmt::format("no table of the sensor \"{}\" is shipped: the CIE observer in its place", name));
+}
+
+void set_output(const Parameters& p, Door& door) {
+  const std::filesystem::path file = p.text("filename", "", door);
+  if (file.empty()) return;
+  spec::Output& output = door.scene.output.emplace();
+  const std::string name = file.filename().string();
+  (file.extension() == ".exr" ? output.image : output.display) = name;
+  if (file.extension() != ".exr" && file.extension() != ".png") {
+    door.note(p.all().front().where, "a picture of this format is not written here: no output is named");
+    door.scene.output.reset();
+  }
+}
+
+// The shorter axis's half width in the plane at distance 1, were it not for the angle.
+double window_half(const Made& camera, const std::array<std::int64_t, 2>& resolution, Door& door) {
+  const std::vector<double> window = camera.parameters.numbers("screenwindow", door);
+  if (window.size() != 4) return 1;
+  const double half_x = (window[1] - window[0]) / 2;
+  const double half_y = (window[3] - window[2]) / 2;
+  const double aspect = static_cast<double>(resolution[0]) / static_cast<double>(resolution[1]);
+  if (std::abs(window[0] + window[1]) > 1e-6 || std::abs(window[2] + window[3]) > 1e-6 ||
+      std::abs(half_x / half_y - aspect) > 1e-3 * aspect)
+    door.note(camera.where,
+              "a screen window beside the axis, or with pixels that are not square, has no "
+              "counterpart here: one of its width in the middle");
+  return std::min(half_x, half_y);
+}
+
+void set_view(const Picture& picture, World& world) {
+  Door& door = world.door;
+  const Made& camera = *picture.camera;
+  if (camera.type != "perspective") {
+    const std::vector<std::string> types{"orthographic", "perspective", "realistic", "spherical"};
+    if (std::ranges::find(types, camera.type) == types.end())
+      door.diagnostics.error(camera.where, unknown_name("camera", camera.type, types));
+    else
+      door.note(camera.where,
+                fmt::format("a camera \"{}\" has no counterpart here: perspective", camera.type));
+  }
+  GivenCamera given;
+  given.where = camera.where;
+  given.to_world = picture.camera_to_world * world.upright;
+  if (picture.film) {
+    const Parameters& film = picture.film->parameters;
+    given.resolution = {count(film, "xresolution", 1280, door), count(film, "yresolution", 720, door)};
+  } else {
+    given.resolution = {1280, 720};
+  }
+  if (given.resolution[0] < 1 || given.resolution[1] < 1) {
+    door.diagnostics.error(picture.film->where, "a film needs a pixel or more each way");
+    return;
+  }
+  const Parameters& p = camera.parameters;
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double half =
+      std::tan(p.number("fov", 90, door) * kDegree / 2) * window_half(camera, given.resolution, door);
+  given.fov_deg = 2 * std::atan(half) / kDegree;
+  given.lens_radius = p.number("lensradius", 0, door);
+  given.focus_distance = p.number("focaldistance", 1e6, door);
+  p.ignore({"shutteropen", "shutterclose"});
+  p.note_unused("camera", door);
+  set_camera(given, door);
+}
+
+void set_render(const Picture& picture, Door& door) {
+  spec::Render& render = door.scene.render.emplace();
+  render.max_depth = 5;
+  if (picture.sampler) {
+    const Parameters& p = picture.sampler->parameters;
+    render.samples = std::max(1, count(p, "pixelsamples", 16, door));
+    p.ignore({"xsamples", "ysamples", "jitter", "randomization", "seed"});
+  }
+  if (!picture.integrator) return;
+  const Parameters& p = picture.integrator->parameters;
+  render.max_depth = std::max(1, count(p, "maxdepth", 5, door));
+}
+
+}  // namespace
+
+void set_picture(const Picture& picture, const SourcePosition& end, World& world) {
+  Door& door = world.door;
+  set_render(picture, door);
+  spec::Sensor& sensor = door.scene.sensor.emplace();
+  if (picture.film) {
+    set_counts(*picture.film, sensor, door);
+    set_output(picture.film->parameters, door);
+    picture.film->parameters.ignore(
+        {"xresolution", "yresolution", "savefp16", "diagonal", "maxcomponentvalue"});
+  } else {
+    sensor.counts = spec::StandardObserver{{{Observer::cie1931}, end}};
+  }
+  if (picture.filter && picture.filter->type != "box")
+    door.note(picture.filter->where, "a pixel filter has no counterpart here: a box");
+  if (!picture.camera) {
+    door.diagnostics.error(end, "a scene without a camera");
+    return;
+  }
+  world.upright = upright_world(picture.camera_to_world);
+  if (world.upright != Imath::M44d())
+    door.note(picture.camera->where,
+              "the camera sees a mirror image of right-handed space: x is turned round");
+  if (!picture.camera_medium.empty())
+    door.note(picture.camera->where, "matter around the camera that no shape encloses is dropped");
+  set_view(picture, world);
+  if (picture.film) picture.film->parameters.note_unused("film", door);
+}
+
+}  // namespace abbe::doors::pbrt

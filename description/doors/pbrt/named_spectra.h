@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+// What pbrt's names of spectra and sensors are called here.
+namespace abbe::doors::pbrt {
+
+struct Renamed {
+  std::string_view theirs;
+  std::string_view ours;
+};
+
+/// Metals, named there with "-eta" or "-k" behind them.
+inline constexpr std::array<Renamed, 6> kMetals{{{"metal-Ag", "Ag_Johnson"},
+                                                 {"metal-Al", "Al_Rakic"},
+                                                 {"metal-Au", "Au_Johnson"},
+                                                 {"metal-Cu", "Cu_Johnson"},
+                                                 {"metal-CuZn", "CuZn_Cu70Zn30_Querry"},
+                                                 {"metal-TiO2", "TiO2_Sarkar"}}};
+
+inline constexpr std::array<Renamed, 8> kGlasses{{{"glass-BK7", "N-BK7"},
+                                                  {"glass-BAF10", "N-BAF10"},
+                                                  {"glass-FK51A", "N-FK51A"},
+                                                  {"glass-LASF9", "schott/N-LASF9"},
+                                                  {"glass-F5", "schott/F5"},
+                                                  {"glass-SF5", "schott/SF5"},
+                                                  {"glass-SF10", "SF10"},
+                                                  {"glass-SF11", "N-SF11"}}};
+
+inline constexpr std::array<Renamed, 17> kIlluminants{{{"stdillum-A", "A"},
+                                                       {"stdillum-D50", "D50"},
+                                                       {"stdillum-D65", "D65"},
+                                                       {"stdillum-F1", "FL1"},
+                                                       {"stdillum-F2", "FL2"},
+                                                       {"stdillum-F3", "FL3"},
+                                                       {"stdillum-F4", "FL4"},
+                                                       {"stdillum-F5", "FL5"},
+                                                       {"stdillum-F6", "FL6"},
+                                                       {"stdillum-F7", "FL7"},
+                                                       {"stdillum-F8", "FL8"},
+                                                       {"stdillum-F9", "FL9"},
+                                                       {"stdillum-F10", "FL10"},
+                                                       {"stdillum-F11", "FL11"},
+                                                       {"stdillum-F12", "FL12"},
+                                                       {"illum-acesD60", "D60"},
+                                                       {"stdillum-D60", "D60"}}};
+
+inline constexpr std::array<Renamed, 7> kSensors{{{"canon_eos_5d", "Canon_EOS_5D"},
+                                                  {"canon_eos_5d_mkii", "Canon_EOS_5D_Mark_II"},
+                                                  {"canon_eos_5d_mkiii", "Canon_EOS_5D_Mark_III"},
+                                                  {"canon_eos_5d_mkiv", "Canon_EOS_5D_Mark_IV"},
+                                                  {"nikon_d810", "Nikon_D810"},
+                                                  {"nikon_d850", "Nikon_D850"},
+                                                  {"sony_ilce_7m3", "Sony_ILCE-7M3"}}};
+
+}  // namespace abbe::doors::pbrt

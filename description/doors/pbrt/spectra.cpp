@@ -1,0 +1,188 @@
+#include "description/doors/pbrt/spectra.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/doors/pbrt/named_spectra.h"
+#include "description/doors/shared/spectrum_file.h"
+#include "io/text.h"
+
+namespace abbe::doors::pbrt {
+namespace {
+
+template <typename List>
+std::optional<std::string> renamed(const List& list, std::string_view name) {
+  const auto found = std::ranges::find(list, name, &Renamed::theirs);
+  if (found == list.end()) return std::nullopt;
+  return std::string(found->ours);
+}
+
+template <typename List>
+void add_names(const List& list, std::vector<std::string>& names) {
+  for (const Renamed& entry : list) names.emplace_back(entry.theirs);
+}
+
+// "metal-Cu" of "metal-Cu-eta".
+std::string_view metal_of(std::string_view name) {
+  for (const std::string_view end : {"-eta", "-k"})
+    if (name.ends_with(end)) return name.substr(0, name.size() - end.size());
+  return name;
+}
+
+std::optional<Spectrum> file_or_name(const std::string& name, const SourcePosition& where, World& world) {
+  if (auto illuminant = renamed(kIlluminants, name)) return Shipped{*illuminant};
+  if (name.find('.') != std::string::npos) return read_spectrum_file(world.folder / name, where, world.door);
+  std::vector<std::string> names;
+  add_names(kIlluminants, names);
+  add_names(kMetals, names);
+  add_names(kGlasses, names);
+  world.door.diagnostics.error(where, unknown_name("spectrum", name, names));
+  return std::nullopt;
+}
+
+std::optional<Spectrum> spectrum_of(const Parameter& parameter, World& world) {
+  if (parameter.type == "float") return parameter.numbers.front();
+  if (parameter.type == "blackbody") return Temperature{parameter.numbers.front()};
+  if (parameter.type == "rgb" || parameter.type == "color")
+    return LinearRgb{parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
+  if (!parameter.texts.empty()) return file_or_name(parameter.texts.front(), parameter.where, world);
+  Samples samples;
+  for (std::size_t i = 0; i + 1 < parameter.numbers.size(); i += 2) {
+    samples.nm.push_back(parameter.numbers[i]);
+    samples.values.push_back(parameter.numbers[i + 1]);
+  }
+  if (parameter.numbers.size() % 2 != 0) {
+    world.door.diagnostics.error(parameter.where,
+                                 fmt::format("\"{}\" takes pairs of wavelength and value (got "
+                                             "{} numbers)",
+                                             parameter.name, parameter.numbers.size()));
+    return std::nullopt;
+  }
+  if (!check_samples(samples, parameter.where, world.door)) return std::nullopt;
+  return samples;
+}
+
+// A texture times a factor.
+TextureValue scaled_texture(const Made& made, World& world) {
+  TextureValue value = texture(made.parameters, "tex", 1.0, world);
+  const double factor = number(made.parameters, "scale", 1, world);
+  if (auto* spectrum = std::get_if<Spectrum>(&value)) return scaled(*spectrum, factor);
+  if (factor != 1) world.door.note(made.where, "an image's scale has no counterpart here: dropped");
+  return value;
+}
+
+}  // namespace
+
+TextureValue texture_of(const Made& made, World& world) {
+  if (made.type == "constant") return texture(made.parameters, "value", 1.0, world);
+  if (made.type == "scale") return scaled_texture(made, world);
+  if (made.type == "imagemap") {
+    const auto file = image_file(made.parameters, made.where, world);
+    if (!file) return Spectrum(0.5);
+    return spec::Texture{*file, spec::Rgb{{{true}, made.where}}};
+  }
+  world.door.note(made.where,
+                  fmt::format("a texture \"{}\" has no counterpart here: one value in its place", made.type));
+  for (const std::string_view first : {"tex1", "inside", "value"})
+    if (made.parameters.has(first)) return texture(made.parameters, first, 0.5, world);
+  return Spectrum(0.5);
+}
+
+Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spectrum& absent, World& world) {
+  const Parameter* found =
+      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum"}, world.door);
+  return found ? spectrum_of(*found, world).value_or(absent) : absent;
+}
+
+TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& absent,
+                     World& world) {
+  const Parameter* found =
+      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"}, world.door);
+  if (found == nullptr) return absent;
+  if (found->type != "texture") return spectrum_of(*found, world).value_or(absent);
+  const TextureValue* known = find(world.textures, "texture", found->texts.front(), found->where, world.door);
+  return known ? *known : TextureValue(absent);
+}
+
+spec::Reflectance reflectance(const Parameters& parameters, std::string_view name, double absent,
+                              World& world) {
+  const Parameter* found =
+      parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"}, world.door);
+  TextureValue value = texture(parameters, name, absent, world);
+  if (auto* image = std::get_if<spec::Texture>(&value)) return *image;
+  return curve_of(std::get<Spectrum>(value), found ? found->where : SourcePosition{}, world.door);
+}
+
+double number(const Parameters& parameters, std::string_view name, double absent, World& world) {
+  const TextureValue value = texture(parameters, name, absent, world);
+  if (const auto* spectrum = std::get_if<Spectrum>(&value)) return number_of(*spectrum).value_or(absent);
+  const Parameter* found = parameters.find(name, {"texture"}, world.door);
+  world.door.note(found->where,
+                  fmt::format("\"{}\" cannot vary over a surface here: {} in its place", name, absent));
+  return absent;
+}
+
+std::optional<spec::TextureFile> image(const std::string& name, const SourcePosition& where, World& world) {
+  const TextureValue* known = find(world.textures, "texture", name, where, world.door);
+  if (known == nullptr) return std::nullopt;
+  if (const auto* texture = std::get_if<spec::Texture>(known)) return texture->file;
+  world.door.note(where, fmt::format("the texture \"{}\" is no image: dropped", name));
+  return std::nullopt;
+}
+
+std::optional<spec::TextureFile> image_file(const Parameters& parameters, const SourcePosition& where,
+                                            World& world) {
+  Door& door = world.door;
+  const Parameter* name = parameters.find("filename", {"string"}, door);
+  if (name == nullptr) {
+    door.diagnostics.error(where, "an image without \"filename\"");
+    return std::nullopt;
+  }
+  const auto path = world.folder / name->texts.front();
+  if (!door.take_file(path, name->where)) return std::nullopt;
+  spec::TextureFile file;
+  file.image = {{door.name_of(path)}, name->where};
+  file.mapping.scale = {parameters.number("uscale", 1, door), parameters.number("vscale", 1, door)};
+  file.mapping.offset = {parameters.number("udelta", 0, door), parameters.number("vdelta", 0, door)};
+  if (parameters.text("wrap", "repeat", door) == "clamp") file.mapping.wrap = TextureWrap::clamp;
+  if (parameters.text("filter", "bilinear", door) == "point") file.mapping.filter = TextureFilter::nearest;
+  return file;
+}
+
+spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k, World& world) {
+  static constexpr std::initializer_list<const char*> kTypes{"spectrum", "rgb", "float"};
+  const Parameter* n = parameters.find(eta, kTypes, world.door);
+  const Parameter* extinction = parameters.find(k, kTypes, world.door);
+  const Parameter* named = n != nullptr ? n : extinction;
+  const std::string name =
+      named == nullptr ? "metal-Cu-eta" : (named->texts.empty() ? "" : named->texts.front());
+  if (const auto metal = renamed(kMetals, metal_of(name))) {
+    spec::Ior ior;
+    ior.value = *metal;
+    if (named != nullptr) ior.where = named->where;
+    return ior;
+  }
+  return index_of(spectrum(parameters, eta, 1.0, world), spectrum(parameters, k, 0.0, world), named->where);
+}
+
+spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World& world) {
+  const Parameter* n = parameters.find(eta, {"spectrum", "float", "rgb", "texture"}, world.door);
+  spec::Ior ior;
+  ior.value = 1.5;
+  if (n == nullptr) return ior;
+  ior.where = n->where;
+  if (n->type == "spectrum" && !n->texts.empty()) {
+    if (const auto glass = renamed(kGlasses, n->texts.front())) {
+      ior.value = *glass;
+      return ior;
+    }
+  }
+  const Spectrum value = spectrum(parameters, eta, 1.5, world);
+  if (std::holds_alternative<Samples>(value)) return index_of(value, 0.0, n->where);
+  ior.value = number_of(value).value_or(1.5);
+  return ior;
+}
+
+}  // namespace abbe::doors::pbrt

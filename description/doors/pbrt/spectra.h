@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "description/doors/pbrt/world.h"
+#include "description/doors/shared/spectra.h"
+
+namespace abbe::doors::pbrt {
+
+/// What a texture says; of what has no counterpart, which is noted, one value.
+[[nodiscard]] TextureValue texture_of(const Made& made, World& world);
+/// The spectrum of a parameter: `absent` without it and after an error, such as an unknown name.
+[[nodiscard]] Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spectrum& absent,
+                                World& world);
+/// The same of a parameter that may name a texture.
+[[nodiscard]] TextureValue texture(const Parameters& parameters, std::string_view name,
+                                   const Spectrum& absent, World& world);
+[[nodiscard]] spec::Reflectance reflectance(const Parameters& parameters, std::string_view name,
+                                            double absent, World& world);
+/// A number, or what a texture says of it where it says one only.
+[[nodiscard]] double number(const Parameters& parameters, std::string_view name, double absent, World& world);
+/// The image of a texture; nothing, after an error or a note, where it is none.
+[[nodiscard]] std::optional<spec::TextureFile> image(const std::string& texture, const SourcePosition& where,
+                                                     World& world);
+/// The image a file is, laid out as parameters say.
+[[nodiscard]] std::optional<spec::TextureFile> image_file(const Parameters& parameters,
+                                                          const SourcePosition& where, World& world);
+
+/// The index of a metal said by `eta` and `k`; copper's by default.
+[[nodiscard]] spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k,
+                                    World& world);
+/// The index of a dielectric said by `eta`: a number, a glass or samples.
+[[nodiscard]] spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World& world);
+
+}  // namespace abbe::doors::pbrt

@@ -1,0 +1,118 @@
+#include "description/doors/pbrt/transforms.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/doors/shared/placement.h"
+#include "io/text.h"
+
+namespace abbe::doors::pbrt {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+
+// What a directive does to points, or why it cannot.
+struct Step {
+  std::optional<M44d> matrix;
+  const char* fault = "";
+};
+
+// What turns points of the world into ones before a camera that has x to its right, y up and z onwards.
+Step look_at(const std::vector<double>& n) {
+  const V3d from(n[0], n[1], n[2]);
+  const V3d z = (V3d(n[3], n[4], n[5]) - from).normalized();
+  const V3d right = V3d(n[6], n[7], n[8]).normalized().cross(z);
+  if (z.length2() == 0 || right.length2() < 1e-24) return {{}, "a view of no direction, or along what is up"};
+  const V3d x = right.normalized();
+  const V3d y = z.cross(x);
+  return {M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1).inverse()};
+}
+
+Step translate(const std::vector<double>& n) {
+  return {translation({n[0], n[1], n[2]})};
+}
+
+Step scale(const std::vector<double>& n) {
+  if (n[0] * n[1] * n[2] == 0) return {{}, "a scale of 0 leaves nothing"};
+  return {scaling({n[0], n[1], n[2]})};
+}
+
+Step rotate(const std::vector<double>& n) {
+  const V3d axis(n[1], n[2], n[3]);
+  if (axis.length2() == 0) return {{}, "a rotation about no axis"};
+  return {rotation(axis, n[0])};
+}
+
+// The file writes matrices column by column, which for row vectors is row by row.
+Step matrix(const std::vector<double>& n) {
+  const M44d by = from_rows(n).transposed();
+  if (by.determinant() == 0) return {{}, "a matrix without an inverse"};
+  return {by};
+}
+
+Step identity(const std::vector<double>& /*n*/) {
+  return {M44d()};
+}
+
+struct Directive {
+  std::string_view word;
+  std::size_t count;
+  Step (*step)(const std::vector<double>& numbers);
+  bool afresh;  // whether it forgets what was before
+};
+constexpr std::array<Directive, 7> kDirectives{{{"Identity", 0, identity, true},
+                                                {"LookAt", 9, look_at, false},
+                                                {"Translate", 3, translate, false},
+                                                {"Scale", 3, scale, false},
+                                                {"Rotate", 4, rotate, false},
+                                                {"Transform", 16, matrix, true},
+                                                {"ConcatTransform", 16, matrix, false}}};
+
+bool refuse(const SourcePosition& where, std::string what, Door& door) {
+  door.diagnostics.error(where, std::move(what));
+  return false;
+}
+
+}  // namespace
+
+bool read_numbers(std::size_t count, const Token& word, Tokens& tokens, std::vector<double>& to, Door& door) {
+  const bool bracketed = count > 0 && tokens.peek() && tokens.peek()->is("[");
+  if (bracketed) (void)tokens.next();
+  for (std::size_t i = 0; i < count + (bracketed ? 1 : 0); ++i) {
+    const auto token = tokens.next();
+    if (!token)
+      return !tokens.failed() &&
+             refuse(tokens.end(), fmt::format("the file ends within {}", word.text), door);
+    if (i == count)
+      return token->is("]") ||
+             refuse(token->where, fmt::format("expected ] (got \"{}\")", token->text), door);
+    const auto number = token->quoted ? std::nullopt : parse_number(token->text);
+    if (!number)
+      return refuse(
+          token->where,
+          fmt::format("expected number {} of {} of {} (got \"{}\")", i + 1, count, word.text, token->text),
+          door);
+    to.push_back(*number);
+  }
+  return true;
+}
+
+bool apply_transform(const Token& word, Tokens& tokens, M44d& to_world, Door& door) {
+  for (const Directive& directive : kDirectives) {
+    if (directive.word != word.text) continue;
+    std::vector<double> numbers;
+    if (!read_numbers(directive.count, word, tokens, numbers, door)) return false;
+    const Step step = directive.step(numbers);
+    if (!step.matrix) return refuse(word.where, step.fault, door);
+    to_world = directive.afresh ? *step.matrix : *step.matrix * to_world;
+    return true;
+  }
+  throw Error(ErrorCode::internal, "pbrt", "no directive of a transform: " + word.text);
+}
+
+}  // namespace abbe::doors::pbrt

@@ -1,0 +1,214 @@
+#include "description/doors/shared/spectra.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "spectral/colorimetry.h"
+#include "spectral/library.h"
+
+namespace abbe::doors {
+namespace {
+
+constexpr double kSodiumLine = 589.3;  // where a single index is meant for
+
+template <typename... F>
+struct Cases : F... {
+  using F::operator()...;
+};
+template <typename... F>
+Cases(F...) -> Cases<F...>;
+
+bool is_grey(const LinearRgb& rgb) {
+  return rgb[0] == rgb[1] && rgb[1] == rgb[2];
+}
+
+spec::Curve curve(decltype(spec::Curve::value) value, const SourcePosition& where) {
+  spec::Curve curve;
+  curve.value = std::move(value);
+  curve.where = where;
+  return curve;
+}
+
+spec::CurveFormula table_of(const Samples& samples, const SourcePosition& where) {
+  return {spec::TableCurve{samples.nm, samples.values, samples.outside, where}};
+}
+
+void note_colour(const SourcePosition& where, Door& door) {
+  door.note(
+      where,
+      "a colour has no spectrum: the smooth one that looks so under D65 stands in; name a measured one");
+}
+
+// Y of the colour where that of white is 1.
+double luminance_of(const LinearRgb& rgb) {
+  if (is_grey(rgb)) return rgb[0];
+  Diagnostics diagnostics;
+  const auto d65 = load_illuminant("D65", {}, diagnostics);
+  if (!d65) throw Error(ErrorCode::input, "illuminant D65", diagnostics.text());
+  return tristimulus(d65->curve, rgb_spectrum(rgb), Observer::cie1931)[1] / 100;
+}
+
+spec::Spectrum spectrum(spec::Curve curve) {
+  spec::Spectrum said;
+  static_cast<spec::Curve&>(said) = std::move(curve);
+  return said;
+}
+
+LampSpectrum coloured_lamp(const LinearRgb& rgb, double y, const SourcePosition& where, Door& door) {
+  LampSpectrum lamp;
+  lamp.photometric = kLuminousEfficacy * y * luminance_of(rgb);
+  if (is_grey(rgb)) {
+    lamp.emission.spectrum = spec::Illuminant{{{"D65"}, where}};
+    return lamp;
+  }
+  note_colour(where, door);
+  const std::vector<spec::Curve> factors{curve(std::string("D65"), where),
+                                         curve(table_of(samples_of(rgb), where), where)};
+  lamp.emission.spectrum = spectrum(curve(spec::CurveFormula{spec::Product{{factors}}}, where));
+  return lamp;
+}
+
+}  // namespace
+
+bool check_samples(const Samples& samples, const SourcePosition& where, Door& door) {
+  if (samples.nm.size() < 2) {
+    door.diagnostics.error(where,
+                           fmt::format("a spectrum needs two samples or more (got {})", samples.nm.size()));
+    return false;
+  }
+  const auto step = std::ranges::adjacent_find(samples.nm, std::greater_equal<>());
+  if (step == samples.nm.end()) return true;
+  door.diagnostics.error(where,
+                         fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
+  return false;
+}
+
+Samples samples_of(const LinearRgb& rgb) {
+  constexpr double kLow = 380;
+  constexpr double kHigh = 780;
+  constexpr double kStep = 5;
+  constexpr double kDigits = 1e6;
+  const Curve mixture = rgb_spectrum(rgb);
+  Samples samples;
+  for (double nm = kLow; nm <= kHigh; nm += kStep) {
+    samples.nm.push_back(nm);
+    samples.values.push_back(std::round(mixture(nm) * kDigits) / kDigits);
+  }
+  return samples;
+}
+
+spec::Curve curve_of(const Spectrum& given, const SourcePosition& where, Door& door) {
+  const Cases cases{
+      [&](double value) { return curve(value, where); },
+      [&](const LinearRgb& rgb) {
+        if (is_grey(rgb)) return curve(rgb[0], where);
+        note_colour(where, door);
+        return curve(table_of(samples_of(rgb), where), where);
+      },
+      [&](const Samples& samples) { return curve(table_of(samples, where), where); },
+      [&](const Temperature& body) { return curve(spec::CurveFormula{spec::Blackbody{{body.K}}}, where); },
+      [&](const Shipped& table) {
+        spec::Curve named = curve(table.name, where);
+        if (table.factor == 1) return named;
+        return curve(spec::CurveFormula{spec::Scaled{table.factor, std::make_shared<spec::Curve>(named)}},
+                     where);
+      }};
+  return std::visit(cases, given);
+}
+
+Spectrum scaled(Spectrum spectrum, double factor) {
+  const Cases cases{[&](double value) -> Spectrum { return value * factor; },
+                    [&](LinearRgb rgb) -> Spectrum {
+                      for (double& value : rgb) value *= factor;
+                      return rgb;
+                    },
+                    [&](Samples samples) -> Spectrum {
+                      for (double& value : samples.values) value *= factor;
+                      return samples;
+                    },
+                    [&](const Temperature& body) -> Spectrum { return body; },
+                    [&](Shipped table) -> Spectrum {
+                      table.factor *= factor;
+                      return table;
+                    }};
+  return std::visit(cases, std::move(spectrum));
+}
+
+std::optional<double> number_of(const Spectrum& spectrum) {
+  if (const auto* value = std::get_if<double>(&spectrum)) return *value;
+  if (const auto* rgb = std::get_if<LinearRgb>(&spectrum))
+    return std::accumulate(rgb->begin(), rgb->end(), 0.0) / static_cast<double>(rgb->size());
+  if (const auto* samples = std::get_if<Samples>(&spectrum))
+    return table_curve(samples->nm, samples->values, samples->outside)(kSodiumLine);
+  return std::nullopt;
+}
+
+spec::Ior index_of(const Spectrum& n, const Spectrum& k, const SourcePosition& where) {
+  spec::Ior ior;
+  ior.where = where;
+  const auto* n_samples = std::get_if<Samples>(&n);
+  const auto* k_samples = std::get_if<Samples>(&k);
+  if (n_samples == nullptr && k_samples == nullptr) {
+    ior.value = spec::MetalIor{{number_of(n).value_or(1), number_of(k).value_or(0)}};
+    return ior;
+  }
+  spec::TableIor table;
+  for (const Samples* samples : {n_samples, k_samples})
+    if (samples != nullptr)
+      table.wavelength_nm.insert(table.wavelength_nm.end(), samples->nm.begin(), samples->nm.end());
+  std::ranges::sort(table.wavelength_nm);
+  table.wavelength_nm.erase(std::unique(table.wavelength_nm.begin(), table.wavelength_nm.end()),
+                            table.wavelength_nm.end());
+  const auto at_all = [&table](const Spectrum& of) {
+    const auto* samples = std::get_if<Samples>(&of);
+    const Curve curve = samples ? table_curve(samples->nm, samples->values, Outside::clamp)
+                                : Curve(number_of(of).value_or(0));
+    std::vector<double> values;
+    for (const double nm : table.wavelength_nm) values.push_back(curve(nm));
+    return values;
+  };
+  table.n = at_all(n);
+  table.k = at_all(k);
+  ior.value = std::move(table);
+  return ior;
+}
+
+LampSpectrum lamp_of(const Spectrum& given, double y, const SourcePosition& where, Door& door) {
+  if (const auto* rgb = std::get_if<LinearRgb>(&given)) return coloured_lamp(*rgb, y, where, door);
+  LampSpectrum lamp;
+  lamp.photometric = kLuminousEfficacy * y;
+  if (const auto* table = std::get_if<Shipped>(&given))
+    lamp.emission.spectrum = spec::Illuminant{{{table->name}, where}};
+  else if (const auto* body = std::get_if<Temperature>(&given))
+    lamp.emission.spectrum = spec::Blackbody{{body->K}};
+  else if (std::holds_alternative<double>(given))
+    lamp.emission.spectrum = spec::Illuminant{{{"E"}, where}};
+  else
+    lamp.emission.spectrum = spectrum(curve_of(given, where, door));
+  return lamp;
+}
+
+LampSpectrum absolute_lamp_of(const Spectrum& given, double factor, double y, const SourcePosition& where,
+                              Door& door) {
+  if (const auto* value = std::get_if<double>(&given))
+    return coloured_lamp({*value, *value, *value}, y, where, door);
+  if (std::holds_alternative<LinearRgb>(given)) return lamp_of(given, y, where, door);
+  LampSpectrum lamp;
+  const auto* body = std::get_if<Temperature>(&given);
+  if (body != nullptr && factor == 1)
+    lamp.emission.spectrum = spec::Blackbody{{body->K}};
+  else if (body != nullptr)
+    lamp.emission.spectrum = spectrum(curve(
+        spec::CurveFormula{spec::Scaled{factor, std::make_shared<spec::Curve>(curve_of(given, where, door))}},
+        where));
+  else
+    lamp.emission.spectrum = spectrum(curve_of(scaled(given, factor), where, door));
+  return lamp;
+}
+
+}  // namespace abbe::doors

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "description/doors/shared/door.h"
+#include "spectral/rgb.h"
+
+namespace abbe::doors {
+
+/// Samples of a spectrum, strictly ascending in wavelength.
+struct Samples {
+  std::vector<double> nm;
+  std::vector<double> values;
+  Outside outside = Outside::clamp;
+};
+/// Of a black body [K].
+struct Temperature {
+  double K = 0;
+};
+/// A shipped table by its name here, times a factor.
+struct Shipped {
+  std::string name;
+  double factor = 1;
+};
+/// A spectrum as other renderers say it: a constant, a linear Rec.709 colour, or one of the above.
+using Spectrum = std::variant<double, LinearRgb, Samples, Temperature, Shipped>;
+
+/// A spectrum, or an image.
+using TextureValue = std::variant<Spectrum, spec::Texture>;
+
+/// Whether the samples ascend and are two or more; what is wrong is reported.
+[[nodiscard]] bool check_samples(const Samples& samples, const SourcePosition& where, Door& door);
+
+/// The mixture of `rgb_basis` that a colour is, every 5 nm where colours say something.
+[[nodiscard]] Samples samples_of(const LinearRgb& rgb);
+/// The curve. A colour becomes the smooth spectrum that looks so under D65 (see `rgb_spectrum`), which is
+/// noted unless it is grey.
+[[nodiscard]] spec::Curve curve_of(const Spectrum& spectrum, const SourcePosition& where, Door& door);
+/// The values times a factor.
+[[nodiscard]] Spectrum scaled(Spectrum spectrum, double factor);
+/// The number that stands for a spectrum where only one can: of samples the value at 589.3 nm, of a colour
+/// the mean; nothing for a temperature or a table.
+[[nodiscard]] std::optional<double> number_of(const Spectrum& spectrum);
+/// Samples of n and k as one index, a metal's or a glass's.
+[[nodiscard]] spec::Ior index_of(const Spectrum& n, const Spectrum& k, const SourcePosition& where);
+
+/// The spectrum of a lamp and, unless the spectrum has a unit of its own, its luminance [cd/m2], luminous
+/// intensity [cd] or illuminance [lx].
+struct LampSpectrum {
+  spec::Emission emission{};
+  std::optional<double> photometric{};
+};
+/// A lamp whose spectrum counts by its shape, so that the integral of its spectral radiance, intensity or
+/// irradiance [W/nm ...] times the CIE 1931 y is `y`. Of a colour (1, 1, 1), which is D65, others less.
+[[nodiscard]] LampSpectrum lamp_of(const Spectrum& spectrum, double y, const SourcePosition& where,
+                                   Door& door);
+/// A lamp whose samples and temperatures are in W and nm times `factor`; a colour or number is that of
+/// `lamp_of`, 1 giving `y`.
+[[nodiscard]] LampSpectrum absolute_lamp_of(const Spectrum& spectrum, double factor, double y,
+                                            const SourcePosition& where, Door& door);
+
+/// The emission of one kind of lamp: the spectrum scaled to that quantity.
+template <typename Emission, spec::Quantity quantity>
+[[nodiscard]] Emission emission_of(const LampSpectrum& lamp) {
+  Emission emission;
+  static_cast<spec::Emission&>(emission) = lamp.emission;
+  if (lamp.photometric) emission.scale = spec::Amount<quantity>{{*lamp.photometric}};
+  return emission;
+}
+
+}  // namespace abbe::doors

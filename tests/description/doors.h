@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "description/doors/doors.h"
+#include "description/scene.h"
+#include "io/schema/read.h"
+
+namespace abbe::testing {
+
+/// Converts scenes of other renderers in a folder of their own.
+class DoorsTest : public ::testing::Test {
+ protected:
+  DoorsTest() : folder_(std::filesystem::temp_directory_path() / fmt::format("abbe_doors_{}", ::getpid())) {
+    std::filesystem::create_directories(folder_);
+    put("square.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  }
+  ~DoorsTest() override { std::filesystem::remove_all(folder_); }
+
+  void put(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+
+  // What a file is converted to, nothing after an error; `told` is all that is said then.
+  std::optional<spec::Scene> convert(const std::string& name, const std::string& text,
+                                     const std::string& materials = "") {
+    put(name, text);
+    Diagnostics diagnostics;
+    Conversion conversion{folder_, {}};
+    if (!materials.empty()) {
+      put("materials.json", materials);
+      conversion.materials = folder_ / "materials.json";
+    }
+    const auto written = convert_scene(folder_ / name, conversion, diagnostics);
+    told_ = diagnostics.text();
+    if (!written) return std::nullopt;
+    const auto json =
+        parse_json(std::make_shared<const SourceText>(SourceText{"written", *written}), diagnostics);
+    return json ? schema::read<spec::Scene>(*json, diagnostics) : std::nullopt;
+  }
+
+  [[nodiscard]] bool tells(const std::string& what) const { return told_.find(what) != std::string::npos; }
+
+  // Every beginning of a sound file is a scene or an error, and nothing worse.
+  void expect_no_crash_at_any_prefix(const std::string& name, const std::string& text) {
+    ASSERT_TRUE(convert(name, text)) << told_;
+    std::size_t sound = 0;
+    for (std::size_t length = 0; length < text.size(); ++length) {
+      const bool good = convert(name, text.substr(0, length)).has_value();
+      sound += good;
+      EXPECT_EQ(good, !tells("error:")) << length << ": " << told_;
+      if (!good) {
+        EXPECT_TRUE(tells(name + ":")) << length << ": " << told_;
+      }
+    }
+    EXPECT_LT(sound, text.size());
+  }
+
+  std::filesystem::path folder_;
+  std::string told_;
+};
+
+struct DoorFault {
+  const char* what;
+  std::string text;
+  std::string message;  ///< With its place.
+};
+
+}  // namespace abbe::testing
