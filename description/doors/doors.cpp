@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "description/doors/mitsuba/reader.h"
 #include "description/doors/pbrt/reader.h"
 #include "description/doors/shared/door.h"
 #include "description/doors/shared/materials.h"
@@ -23,7 +24,7 @@ struct Format {
   std::string_view extension;
   Read read;
 };
-constexpr std::array<Format, 1> kFormats{{{".pbrt", doors::read_pbrt}}};
+constexpr std::array<Format, 2> kFormats{{{".pbrt", doors::read_pbrt}, {".xml", doors::read_mitsuba}}};
 
 const Format* format_of(const std::filesystem::path& path) {
   const auto* found = std::ranges::find(kFormats, path.extension().string(), &Format::extension);

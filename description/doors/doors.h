@@ -15,7 +15,8 @@ struct Conversion {
   std::optional<std::filesystem::path> materials = {};  ///< Of materials that replace the scene's, by name.
 };
 
-/// Whether files of that extension are scenes of another renderer: .pbrt of pbrt-v4.
+/// Whether files of that extension are scenes of another renderer: .pbrt of pbrt-v4,
+/// .xml of Mitsuba 3.
 [[nodiscard]] bool is_other_scene(const std::filesystem::path& path);
 
 /// The text of a scene that is as the one of another renderer, as far as it can be represented: what is

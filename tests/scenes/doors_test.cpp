@@ -56,7 +56,9 @@ TEST_P(Doors, SameWithinOnePercentOfEachTile) {
 
 INSTANTIATE_TEST_SUITE_P(All, Doors,
                          ::testing::Values(Pair{"pbrt/cornell.pbrt", "scenes/cornell.json"},
-                                           Pair{"pbrt/metals.pbrt", "bench/metals.json"}));
+                                           Pair{"pbrt/metals.pbrt", "bench/metals.json"},
+                                           Pair{"mitsuba/cornell.xml", "scenes/cornell.json"},
+                                           Pair{"mitsuba/metals.xml", "bench/metals.json"}));
 
 }  // namespace
 }  // namespace abbe

@@ -1,0 +1,174 @@
+#include "description/doors/mitsuba/shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <ImathMatrixAlgo.h>
+#include <fmt/format.h>
+
+#include "description/doors/mitsuba/lights.h"
+#include "description/meshes/mesh_file.h"
+
+namespace abbe::doors::mitsuba {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+using Surface = decltype(GivenShape::surface);
+
+const std::vector<std::string> kTypes{"bsplinecurve", "cube",       "cylinder", "disk",      "instance",
+                                      "linearcurve",  "obj",        "ply",      "rectangle", "sdfgrid",
+                                      "serialized",   "shapegroup", "sphere"};
+
+/// A surface, and what moves it before `to_world` does.
+struct Local {
+  Surface surface;
+  M44d matrix{};
+  RunsOfV v = RunsOfV::down;
+};
+
+// [-1, 1] along each axis, every side with coordinates of its own.
+spec::InlineMesh cube() {
+  spec::InlineMesh mesh;
+  mesh.uv.emplace();
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const auto& [u, v] : std::array<std::array<double, 2>, 4>{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}) {
+        std::array<double, 3> at{};
+        at[static_cast<std::size_t>(axis)] = side;
+        at[static_cast<std::size_t>((axis + 1) % 3)] = side * (2 * u - 1);
+        at[static_cast<std::size_t>((axis + 2) % 3)] = 2 * v - 1;
+        mesh.vertices.push_back(at);
+        mesh.uv->value.push_back({u, v});
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  return mesh;
+}
+
+// Around z from 0 to 1, with radius 1, then put between two points.
+Local cylinder(const Object& shape, const World& world) {
+  const V3d from = shape.point("p0", {0, 0, 0});
+  const V3d to = shape.point("p1", {0, 0, 1});
+  const double radius = shape.number("radius", 1);
+  const V3d axis = to - from;
+  world.door.note(shape.where(), "a cylinder becomes flat triangles");
+  const M44d matrix = scaling({radius, radius, axis.length()}) *
+                      Imath::rotationMatrix(V3d(0, 0, 1), axis.normalized()) * translation(from);
+  return {swept({{1, 0}, {1, 1}}, 360), matrix};
+}
+
+std::optional<Local> mesh_file(const Object& shape, const World& world) {
+  const auto path = world.folder / shape.text("filename", "");
+  if (!world.door.take_file(path, shape.where()) ||
+      !load_mesh_file(path, FileMaterials::ignored, shape.where(), world.door.diagnostics,
+                      FileCoordinates::ignored, world.door.inputs))
+    return std::nullopt;
+  const bool obj = shape.type() == "obj";
+  const bool turned = shape.truth("flip_tex_coords", obj);
+  if (shape.truth("face_normals", false))
+    world.door.note(shape.where(), "vertex normals of a mesh file are used all the same");
+  shape.ignore({"max_smooth_angle"});
+  return Local{MeshFileSurface{path}, {}, turned ? RunsOfV::up : RunsOfV::down};
+}
+
+std::optional<Local> surface_of(const Object& shape, const World& world) {
+  const std::string& type = shape.type();
+  if (type == "rectangle") return Local{spec::Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, shape.where()}};
+  if (type == "cube") return Local{cube()};
+  if (type == "sphere")
+    return Local{spec::Sphere{shape.point("center", {0, 0, 0}), shape.number("radius", 1)},
+                 {},
+                 RunsOfV::up};  // rows run down from +z there as here
+  if (type == "disk") return Local{spec::Disc{{0, 0, 0}, {0, 0, 1}, 1}};
+  if (type == "cylinder") return cylinder(shape, world);
+  if (type == "obj" || type == "ply") return mesh_file(shape, world);
+  if (std::ranges::find(kTypes, type) == kTypes.end())
+    world.door.diagnostics.error(shape.where(), unknown_name("shape", type, kTypes));
+  else if (type == "serialized")
+    world.door.diagnostics.error(
+        shape.where(), "Mitsuba's own serialized meshes are not read: write PLY or OBJ", ErrorCode::input);
+  else
+    world.door.note(shape.where(), fmt::format("a shape \"{}\" has no counterpart here: dropped", type));
+  return std::nullopt;
+}
+
+// The matter within, nullptr without any.
+const Element* interior(const Object& shape, const World& world) {
+  if (shape.has("exterior")) world.door.note(shape.where(), "matter outside of a shape is dropped");
+  shape.ignore({"exterior"});
+  return shape.find("interior", {"medium"});
+}
+
+std::optional<std::string> material_of(const Object& shape, RunsOfV v, Materials& materials,
+                                       const World& world) {
+  const Element* inside = interior(shape, world);
+  const auto bsdfs = shape.all("bsdf");
+  static const Element kDefault{"bsdf", {{"type", "diffuse"}}};
+  return materials.name_of(bsdfs.empty() ? kDefault : *bsdfs.front(), inside, v);
+}
+
+void add_group(const Object& group, Materials& materials, const World& world) {
+  spec::Object object;
+  for (const Element* member : group.all("shape"))
+    add_shape(Object(*member, world), Among::object, object.shapes, materials, world);
+  if (object.shapes.empty())
+    world.door.diagnostics.error(group.where(), "a shape group of no shapes");
+  else
+    world.door.scene.objects.push_back({group.element()["id"], std::move(object), group.where()});
+}
+
+void add_instance(const Object& shape, const World& world) {
+  const auto groups = shape.all("shape");
+  const M44d m = shape.transform("to_world") * world.upright;
+  if (groups.size() != 1 || (*groups.front())["type"] != "shapegroup")
+    world.door.diagnostics.error(shape.where(), "an instance needs one shape group");
+  else
+    place_instance((*groups.front())["id"], m, shape.where(), world.door);
+}
+
+void add_emission(const Object& shape, Among among, GivenShape& given, const World& world) {
+  const auto emitters = shape.all("emitter");
+  if (emitters.empty()) return;
+  const Object light(*emitters.front(), world);
+  if (among == Among::object) {
+    world.door.note(shape.where(), "what instances place does not emit here: its light is dropped");
+    return;
+  }
+  given.emission = area_emission(light, world);
+  light.ignore({"sampling_weight"});
+  light.note_unused();
+}
+
+}  // namespace
+
+void add_shape(const Object& shape, Among among, std::vector<spec::Shape>& shapes, Materials& materials,
+               const World& world) {
+  if (shape.type() == "shapegroup") return add_group(shape, materials, world);
+  if (shape.type() == "instance") return add_instance(shape, world);
+  auto local = surface_of(shape, world);
+  if (!local) return;
+  GivenShape given;
+  add_emission(shape, among, given, world);
+  auto material = material_of(shape, local->v, materials, world);
+  given.turned = shape.truth("flip_normals", false);
+  given.to_world =
+      local->matrix * shape.transform("to_world") * (among == Among::scene ? world.upright : M44d());
+  if (!shape.element()["id"].empty()) given.name = shape.element()["id"];
+  shape.ignore({"silhouette_sampling_weight"});
+  shape.note_unused();
+  if (!material && !given.emission) return;  // neither matter nor surface
+  given.surface = std::move(local->surface);
+  given.material = material.value_or("");
+  given.where = shape.where();
+  if (!material)
+    given.material =
+        world.door.add_material("black", {spec::Diffuse{curve_of(0.0, given.where, world.door)}, {}, {}});
+  place(std::move(given), among, shapes, world.door);
+}
+
+}  // namespace abbe::doors::mitsuba
