@@ -141,7 +141,7 @@ void add_convert(CLI::App& app, Command& command) {
   const Sub<ConvertOptions> sub(
       app, "convert",
       "Write a scene file in canonical form, without its comments and what is as "
-      "by default, or a scene of pbrt (.pbrt) or of Mitsuba (.xml) as a scene file",
+      "by default, or a scene of pbrt (.pbrt), of Mitsuba (.xml) or of glTF (.gltf, .glb) as a scene file",
       command, convert);
   sub.app->add_option("scene", sub->scene, "Scene file, of another renderer too, or - for standard input")
       ->required()

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "description/doors/gltf/reader.h"
 #include "description/doors/mitsuba/reader.h"
 #include "description/doors/pbrt/reader.h"
 #include "description/doors/shared/door.h"
@@ -24,7 +25,10 @@ struct Format {
   std::string_view extension;
   Read read;
 };
-constexpr std::array<Format, 2> kFormats{{{".pbrt", doors::read_pbrt}, {".xml", doors::read_mitsuba}}};
+constexpr std::array<Format, 4> kFormats{{{".glb", doors::read_gltf_scene},
+                                          {".gltf", doors::read_gltf_scene},
+                                          {".pbrt", doors::read_pbrt},
+                                          {".xml", doors::read_mitsuba}}};
 
 const Format* format_of(const std::filesystem::path& path) {
   const auto* found = std::ranges::find(kFormats, path.extension().string(), &Format::extension);

@@ -16,7 +16,7 @@ struct Conversion {
 };
 
 /// Whether files of that extension are scenes of another renderer: .pbrt of pbrt-v4,
-/// .xml of Mitsuba 3.
+/// .xml of Mitsuba 3, .gltf and .glb.
 [[nodiscard]] bool is_other_scene(const std::filesystem::path& path);
 
 /// The text of a scene that is as the one of another renderer, as far as it can be represented: what is

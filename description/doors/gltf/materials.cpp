@@ -1,0 +1,204 @@
+#include "description/doors/gltf/materials.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/doors/shared/materials.h"
+#include "spectral/colorimetry.h"
+
+namespace abbe::doors::gltf {
+namespace {
+
+constexpr std::string_view kSurface = "pbrMetallicRoughness";
+constexpr double kDefaultIndex = 1.5;
+
+std::string extension(std::string_view name, std::string_view key) {
+  return fmt::format("extensions/KHR_{}/{}", name, key);
+}
+
+// The image of a texture, as it lies on surfaces; nothing, after an error or a note, where there is none to
+// name.
+std::optional<spec::TextureFile> image(const JsonValue& info, const Document& document) {
+  Door& door = document.door;
+  const JsonValue* texture = element(document, "textures", find(&info, "index"));
+  const JsonValue* source = element(document, "images", find(texture, "source"));
+  const std::string uri = text(source, "uri", "");
+  if (uri.empty() || uri.starts_with("data:")) {
+    door.note(info.where, "an image within the file has no name here: dropped");
+    return std::nullopt;
+  }
+  const auto path = document.file.parent_path() / uri;
+  if (!door.take_file(path, source->where)) return std::nullopt;
+  if (number(&info, "texCoord", 0, document) != 0)
+    door.note(info.where, "a second set of coordinates has no counterpart here: the first");
+  spec::TextureFile file;
+  file.image = {{door.name_of(path)}, info.where};
+  constexpr double kClamp = 33071;
+  constexpr double kNearest = 9728;
+  const JsonValue* sampler = element(document, "samplers", find(texture, "sampler"));
+  if (number(sampler, "wrapS", 0, document) == kClamp) file.mapping.wrap = TextureWrap::clamp;
+  if (number(sampler, "magFilter", 0, document) == kNearest) file.mapping.filter = TextureFilter::nearest;
+  const auto scale = numbers(&info, extension("texture_transform", "scale"), 2, document);
+  const auto offset = numbers(&info, extension("texture_transform", "offset"), 2, document);
+  const Imath::V2d by = scale ? Imath::V2d((*scale)[0], (*scale)[1]) : Imath::V2d(1, 1);
+  const Imath::V2d from = offset ? Imath::V2d((*offset)[0], (*offset)[1]) : Imath::V2d(0, 0);
+  if (number(&info, extension("texture_transform", "rotation"), 0, document) != 0)
+    door.note(info.where, "an image is not turned on a surface here: dropped");
+  file.mapping.scale = by;
+  file.mapping.offset = {from.x, 1 - by.y - from.y};  // v runs down there
+  return file;
+}
+
+spec::Reflectance base_colour(const JsonValue* material, const SourcePosition& where,
+                              const Document& document) {
+  const JsonValue* surface = find(material, kSurface);
+  const LinearRgb factor = colour(surface, "baseColorFactor", {1, 1, 1}, document);
+  if (const JsonValue* texture = find(surface, "baseColorTexture")) {
+    if (auto file = image(*texture, document)) {
+      if (factor != LinearRgb{1, 1, 1})
+        document.door.note(texture->where, "the factor of an image has no counterpart here: dropped");
+      return spec::Texture{*std::move(file), spec::Rgb{{{true}, texture->where}}};
+    }
+  }
+  return curve_of(factor, where, document.door);
+}
+
+// An index of so much at the d line, with the Abbe number 20/dispersion, by the formula of
+// KHR_materials_dispersion, and the absorption [1/m] of colours.
+spec::Ior index_of_volume(double n, double dispersion, const std::optional<LinearRgb>& absorption_per_m,
+                          const SourcePosition& where) {
+  Samples index;
+  Samples k;
+  constexpr double kStep = 10;
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += kStep) {
+    index.nm.push_back(nm);
+    index.values.push_back(std::max(n + (n - 1) * dispersion / 20 * (523655 / (nm * nm) - 1.5168), 1.0));
+  }
+  if (!absorption_per_m) return index_of(index, 0.0, where);
+  // A mixture of what absorbs as the colour's parts do; k = alpha lambda/(4 pi).
+  const Curve alpha = rgb_spectrum(*absorption_per_m);
+  k.nm = index.nm;
+  for (const double nm : k.nm) k.values.push_back(alpha(nm) * nm * 1e-9 / (4 * std::numbers::pi));
+  return index_of(index, k, where);
+}
+
+// What a length of matter takes away, if it has a colour.
+std::optional<LinearRgb> absorption_per_m(const JsonValue* material, const Document& document) {
+  const LinearRgb left =
+      colour(material, extension("materials_volume", "attenuationColor"), {1, 1, 1}, document);
+  const double distance = number(material, extension("materials_volume", "attenuationDistance"), 0, document);
+  if (!(distance > 0) || left == LinearRgb{1, 1, 1}) return std::nullopt;
+  LinearRgb absorption{};
+  constexpr double kBlack = 1e-6;  // which no finite absorption makes of white
+  for (std::size_t i = 0; i < 3; ++i) absorption.at(i) = -std::log(std::max(left.at(i), kBlack)) / distance;
+  return absorption;
+}
+
+void set_glass(const JsonValue* material, const SourcePosition& where, spec::Material& to,
+               const Document& document) {
+  Door& door = document.door;
+  const double n = number(material, extension("materials_ior", "ior"), kDefaultIndex, document);
+  const double dispersion = number(material, extension("materials_dispersion", "dispersion"), 0, document);
+  const double roughness = number(find(material, kSurface), "roughnessFactor", 1, document);
+  if (number(material, extension("materials_transmission", "transmissionFactor"), 0, document) != 1)
+    door.note(where, "what transmits in part transmits all here");
+  if (colour(find(material, kSurface), "baseColorFactor", {1, 1, 1}, document) != LinearRgb{1, 1, 1})
+    door.note(where, "the colour of a clear surface has no counterpart here: dropped");
+  spec::Ior index;
+  index.value = n;
+  index.where = where;
+  if (!(number(material, extension("materials_volume", "thicknessFactor"), 0, document) > 0)) {
+    spec::ThinGlass pane;
+    pane.ior.ior = index;
+    if (roughness != 0) door.note(where, "a pane of glass is smooth here: its roughness is dropped");
+    to.model = pane;
+    return;
+  }
+  const auto absorption = absorption_per_m(material, document);
+  spec::Dielectric glass;
+  if (dispersion > 0) {
+    glass.ior.ior = index_of_volume(n, dispersion, absorption, where);
+  } else {
+    glass.ior.ior = index;
+    if (absorption) glass.ior.absorption_per_m = curve_of(*absorption, where, door);
+  }
+  glass.roughness = roughness_of(roughness * roughness, roughness * roughness, FacetShape::ggx, where);
+  to.model = std::move(glass);
+}
+
+void set_surface(const JsonValue* material, const SourcePosition& where, spec::Material& to,
+                 const Document& document) {
+  const double n = number(material, extension("materials_ior", "ior"), kDefaultIndex, document);
+  const double r = (n - 1) / (n + 1);
+  spec::Principled surface;
+  surface.base_color = base_colour(material, where, document);
+  surface.metallic = number(find(material, kSurface), "metallicFactor", 1, document);
+  surface.roughness = number(find(material, kSurface), "roughnessFactor", 1, document);
+  surface.specular = std::clamp(r * r / 0.08, 0.0, 1.0);
+  surface.clearcoat = number(material, extension("materials_clearcoat", "clearcoatFactor"), 0, document);
+  surface.clearcoat_gloss =
+      1 - number(material, extension("materials_clearcoat", "clearcoatRoughnessFactor"), 0, document);
+  to.model = std::move(surface);
+}
+
+// What a material says beyond all of that.
+void note_rest(const JsonValue* material, const SourcePosition& where, const Document& document) {
+  Door& door = document.door;
+  for (const std::string_view texture :
+       {"pbrMetallicRoughness/metallicRoughnessTexture", "occlusionTexture", "emissiveTexture"})
+    if (find(material, texture) != nullptr)
+      door.note(where,
+                fmt::format("{} has no counterpart here: dropped", texture.substr(texture.rfind('/') + 1)));
+  if (text(material, "alphaMode", "OPAQUE") != "OPAQUE")
+    door.note(where, "surfaces have no holes here: alpha is dropped");
+  constexpr std::array<std::string_view, 6> kKnown{"KHR_materials_transmission",
+                                                   "KHR_materials_ior",
+                                                   "KHR_materials_volume",
+                                                   "KHR_materials_dispersion",
+                                                   "KHR_materials_emissive_strength",
+                                                   "KHR_materials_clearcoat"};
+  const JsonValue* extensions = find(material, "extensions");
+  const auto* all = extensions ? std::get_if<JsonValue::Object>(&extensions->value) : nullptr;
+  if (all == nullptr) return;
+  for (const JsonValue::Member& member : *all)
+    if (std::ranges::find(kKnown, member.first) == kKnown.end())
+      door.note(member.second.where, fmt::format("{} has no counterpart here: dropped", member.first));
+}
+
+}  // namespace
+
+std::string name_of(const Document& document, std::optional<std::size_t> number) {
+  if (!number) return "default";
+  const JsonValue::Array& all = list(&document.root, "materials");
+  const std::string unnamed = fmt::format("material {}", *number);
+  const std::string name = *number < all.size() ? text(&all[*number], "name", "") : "";
+  return name.empty() ? unnamed : name;
+}
+
+spec::Material material_of(const JsonValue* material, const SourcePosition& where, const Document& document) {
+  spec::Material made;
+  if (number(material, extension("materials_transmission", "transmissionFactor"), 0, document) > 0)
+    set_glass(material, where, made, document);
+  else
+    set_surface(material, where, made, document);
+  if (const JsonValue* normals = find(material, "normalTexture"))
+    if (const auto file = image(*normals, document)) made.relief = spec::NormalMap{*file};
+  note_rest(material, where, document);
+  return made;
+}
+
+std::optional<spec::Emission> emission_of(const JsonValue* material, const Document& document) {
+  const LinearRgb rgb = colour(material, "emissiveFactor", {0, 0, 0}, document);
+  if (rgb == LinearRgb{0, 0, 0}) return std::nullopt;
+  const double luminance =
+      number(material, extension("materials_emissive_strength", "emissiveStrength"), 1, document);
+  const LampSpectrum lamp = lamp_of(rgb, luminance / kLuminousEfficacy, material->where, document.door);
+  return doors::emission_of<spec::MeshEmission, spec::Quantity::luminance>(lamp);
+}
+
+}  // namespace abbe::doors::gltf

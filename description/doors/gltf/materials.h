@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "description/doors/gltf/document.h"
+
+namespace abbe::doors::gltf {
+
+/// What the reader of meshes calls the material of that number, none of what has no material.
+[[nodiscard]] std::string name_of(const Document& document, std::optional<std::size_t> number);
+
+/// The material: a metallic and rough surface, or, where it transmits, glass, a pane of it without a volume.
+/// What has no counterpart is noted.
+[[nodiscard]] spec::Material material_of(const JsonValue* material, const SourcePosition& where,
+                                         const Document& document);
+
+/// What a material sends out, if it does.
+[[nodiscard]] std::optional<spec::Emission> emission_of(const JsonValue* material, const Document& document);
+
+}  // namespace abbe::doors::gltf

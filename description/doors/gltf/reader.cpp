@@ -1,0 +1,220 @@
+#include "description/doors/gltf/reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ImathBox.h>
+#include <ImathQuat.h>
+#include <fmt/format.h>
+
+#include "description/doors/gltf/materials.h"
+#include "description/doors/shared/camera.h"
+#include "description/doors/shared/lamps.h"
+#include "description/doors/shared/placement.h"
+#include "description/meshes/mesh_file.h"
+#include "spectral/colorimetry.h"
+
+namespace abbe::doors {
+namespace gltf {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+using spec::Quantity;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// What the nodes of the scene place.
+struct Placed {
+  std::set<std::optional<std::size_t>> materials{};
+  bool has_camera = false;
+};
+
+// Scale, then rotation, then translation, or the matrix, whose columns the format lists.
+M44d local_map(const JsonValue& node, const Document& document) {
+  if (const auto m = numbers(&node, "matrix", 16, document)) return from_rows(*m).transposed();
+  M44d map;
+  if (const auto s = numbers(&node, "scale", 3, document)) map = scaling({(*s)[0], (*s)[1], (*s)[2]});
+  if (const auto q = numbers(&node, "rotation", 4, document))
+    map = map * Imath::Quatd((*q)[3], (*q)[0], (*q)[1], (*q)[2]).normalized().toMatrix44();
+  if (const auto t = numbers(&node, "translation", 3, document))
+    map = map * translation({(*t)[0], (*t)[1], (*t)[2]});
+  return map;
+}
+
+void set_view(const JsonValue& camera, const M44d& map, const Document& document) {
+  constexpr double kHeight = 720;
+  Door& door = document.door;
+  GivenCamera given;
+  given.where = camera.where;
+  given.to_world = scaling({1, 1, -1}) * map;  // it looks along -z
+  if (text(&camera, "type", "perspective") != "perspective")
+    door.note(camera.where, "an orthographic camera has no counterpart here: perspective");
+  const double aspect =
+      std::clamp(number(&camera, "perspective/aspectRatio", 4.0 / 3, document), 0.01, 100.0);
+  const double half_y = std::tan(number(&camera, "perspective/yfov", 0.8, document) / 2);
+  given.fov_deg = 2 * std::atan(half_y * std::min(aspect, 1.0)) / kDegree;
+  given.resolution = {static_cast<std::int64_t>(std::lround(kHeight * aspect)),
+                      static_cast<std::int64_t>(kHeight)};
+  set_camera(given, door);
+}
+
+// From far enough along z to see a ball around all meshes.
+void set_default_view(const Document& document) {
+  Door& door = document.door;
+  const SourcePosition& where = document.root.where;
+  door.note(where, "the file has no camera: one that sees all along -z");
+  Imath::Box3d box;
+  const auto read = load_mesh_file(document.file, FileMaterials::named, where, door.diagnostics,
+                                   FileCoordinates::ignored, door.inputs);
+  if (!read) return;
+  for (const MeshFile::Submesh& part : read->submeshes)
+    for (const V3d& vertex : part.mesh.vertices) box.extendBy(vertex);
+  GivenCamera given;
+  given.where = where;
+  given.fov_deg = 40;
+  given.resolution = {960, 720};
+  const double distance = box.size().length() / 2 / std::sin(given.fov_deg * kDegree / 2);
+  given.to_world = scaling({1, 1, -1}) * translation(box.center() + V3d(0, 0, distance));
+  set_camera(given, door);
+}
+
+void add_light(const JsonValue& light, const M44d& map, const Document& document) {
+  const std::string type = text(&light, "type", "");
+  const LinearRgb rgb = colour(&light, "color", {1, 1, 1}, document);
+  const double strength = number(&light, "intensity", 1, document) / kLuminousEfficacy;
+  const LampSpectrum lamp = lamp_of(rgb, strength, light.where, document.door);
+  const V3d at = V3d(0, 0, 0) * map;
+  V3d along;
+  map.multDirMatrix(V3d(0, 0, -1), along);
+  if (find(&light, "range") != nullptr)
+    document.door.note(light.where, "light goes on without end here: its range is dropped");
+  if (type == "point") {
+    add_lamp(
+        spec::PointLamp{{at}, doors::emission_of<spec::PointEmission, Quantity::luminous_intensity>(lamp)},
+        light.where, document.door);
+  } else if (type == "spot") {
+    const double inner = number(&light, "spot/innerConeAngle", 0, document) / kDegree;
+    const double outer = number(&light, "spot/outerConeAngle", std::numbers::pi / 4, document) / kDegree;
+    add_lamp(spec::SpotLamp{{at, along, hard_cone(inner, outer, light.where, document.door)},
+                            doors::emission_of<spec::PointEmission, Quantity::luminous_intensity>(lamp)},
+             light.where, document.door);
+  } else if (type == "directional") {
+    spec::BeamLamp beam;
+    beam.source.towards = -along;
+    beam.emission = doors::emission_of<spec::BeamEmission, Quantity::illuminance>(lamp);
+    add_lamp(beam, light.where, document.door);
+  } else {
+    document.door.diagnostics.error(
+        light.where, unknown_name("light", type, std::vector<std::string>{"directional", "point", "spot"}));
+  }
+}
+
+void see_mesh(const JsonValue& mesh, Placed& placed, const Document& document) {
+  for (const JsonValue& primitive : list(&mesh, "primitives")) {
+    const JsonValue* material = find(&primitive, "material");
+    if (material == nullptr)
+      placed.materials.insert(std::nullopt);
+    else if (element(document, "materials", material) != nullptr)
+      placed.materials.insert(static_cast<std::size_t>(std::get<double>(material->value)));
+  }
+}
+
+// Looks at every node of the scene, each at most once.
+Placed walk(const Document& document) {
+  Placed placed;
+  struct Visit {
+    const JsonValue* node;
+    M44d parent;
+  };
+  std::vector<Visit> visits;
+  std::set<const JsonValue*> seen;
+  const auto push = [&](const JsonValue::Array& nodes, const M44d& parent) {
+    for (auto index = nodes.rbegin(); index != nodes.rend(); ++index)
+      if (const JsonValue* node = element(document, "nodes", &*index); node && seen.insert(node).second)
+        visits.push_back({node, parent});
+  };
+  const JsonValue::Array& scenes = list(&document.root, "scenes");
+  const JsonValue* chosen = find(&document.root, "scene");
+  const JsonValue* scene = chosen           ? element(document, "scenes", chosen)
+                           : scenes.empty() ? nullptr
+                                            : &scenes.front();
+  if (scene == nullptr) document.door.diagnostics.error(document.root.where, "it has no scene");
+  push(list(scene, "nodes"), M44d());
+  while (!visits.empty()) {
+    const Visit visit = visits.back();
+    visits.pop_back();
+    const M44d map = local_map(*visit.node, document) * visit.parent;
+    if (const JsonValue* camera = element(document, "cameras", find(visit.node, "camera"))) {
+      if (placed.has_camera)
+        document.door.note(camera->where, "a scene has one camera here: the first");
+      else
+        set_view(*camera, map, document);
+      placed.has_camera = true;
+    }
+    if (const JsonValue* light = element(document, "extensions/KHR_lights_punctual/lights",
+                                         find(visit.node, "extensions/KHR_lights_punctual/light")))
+      add_light(*light, map, document);
+    if (const JsonValue* mesh = element(document, "meshes", find(visit.node, "mesh")))
+      see_mesh(*mesh, placed, document);
+    push(list(visit.node, "children"), map);
+  }
+  return placed;
+}
+
+// The triangles of one material, one shape.
+void add_shape(std::optional<std::size_t> number, const Document& document) {
+  Door& door = document.door;
+  const JsonValue* material = number ? &list(&document.root, "materials")[*number] : nullptr;
+  const SourcePosition where = material ? material->where : document.root.where;
+  const std::string name = name_of(document, number);
+  spec::MeshBody body;
+  body.surface.where = where;
+  body.surface.value = spec::MeshPart{{{door.name_of(document.file)}, where}, {{name}, where}};
+  body.material =
+      spec::MaterialName{{door.add_material(name, material_of(material, where, document))}, where};
+  if (material != nullptr) {
+    if (const auto emission = emission_of(material, document)) {
+      static_cast<spec::Emission&>(body.emission.emplace()) = *emission;
+      const JsonValue* both = find(material, "doubleSided");
+      body.two_sided = both && std::get_if<bool>(&both->value) && std::get<bool>(both->value);
+    }
+  }
+  door.scene.shapes.push_back({name, std::move(body), where});
+}
+
+void read_scene(const Document& document) {
+  Door& door = document.door;
+  door.scene.sensor.emplace().counts = spec::StandardObserver{{{Observer::cie1931}, document.root.where}};
+  const Placed placed = walk(document);
+  std::set<std::string> names;
+  for (const auto& material : placed.materials)
+    // One shape holds the triangles of all materials of a name.
+    if (names.insert(name_of(document, material)).second)
+      add_shape(material, document);
+    else
+      door.note(document.root.where, "materials of one name are taken for one");
+  if (door.diagnostics.has_errors()) return;
+  if (!placed.has_camera) set_default_view(document);
+  const bool emits = std::ranges::any_of(door.scene.shapes, [](const spec::Shape& shape) {
+    return std::get<spec::MeshBody>(shape.kind).emission.has_value();
+  });
+  if (door.scene.lights.empty() && !emits) door.note(document.root.where, "nothing shines in this scene");
+}
+
+}  // namespace
+}  // namespace gltf
+
+bool read_gltf_scene(const std::filesystem::path& file, Door& door) {
+  gltf::Document document{door, file};
+  if (gltf::read_document(document)) gltf::read_scene(document);
+  return !door.diagnostics.has_errors();
+}
+
+}  // namespace abbe::doors
