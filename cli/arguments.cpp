@@ -95,6 +95,17 @@ SampleRange parse_sample_range(const std::string& option, const std::string& tex
   return ranges->front();
 }
 
+ServerAddress parse_server_address(const std::string& option, const std::string& text) {
+  ServerAddress address;
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string::npos) address.host = text.substr(0, colon);
+  if (address.host.starts_with('[') && address.host.ends_with(']'))
+    address.host = address.host.substr(1, address.host.size() - 2);
+  if (address.host.empty()) refuse(option, "\"" + text + "\"", "port or address:port");
+  address.port = static_cast<int>(parse_integer(option, text.substr(colon + 1), 0, 65535));
+  return address;
+}
+
 Override parse_override(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || !text.starts_with('/'))

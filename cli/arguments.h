@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "description/load.h"
+#include "preview/page_server.h"
 #include "transport/render/render.h"
 #include "transport/render/sampled_areas.h"
 
@@ -36,6 +37,8 @@ namespace abbe::cli {
 [[nodiscard]] Crop parse_crop(const std::string& option, const std::string& text);
 /// "a:b", whole numbers with a < b.
 [[nodiscard]] SampleRange parse_sample_range(const std::string& option, const std::string& text);
+/// "port" or "address:port", an address of IPv6 in brackets; without one this machine alone.
+[[nodiscard]] ServerAddress parse_server_address(const std::string& option, const std::string& text);
 /// "/pointer=value".
 [[nodiscard]] Override parse_override(const std::string& option, const std::string& text);
 

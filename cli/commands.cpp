@@ -83,6 +83,10 @@ void add_render(CLI::App& app, Command& command) {
       ->type_name("FILE.png");
   render.add_option("--stats", sub->stats, "Write what the render did as JSON, - for standard output")
       ->type_name("FILE.json");
+  add_parsed(render, "--preview", sub->preview, parse_server_address,
+             "Show the render on a page while it runs, on a port of this machine (0: any free one) or of an "
+             "address",
+             "[ADDRESS:]PORT");
   add_max_memory(render, sub.options);
   render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
   render.add_flag(

@@ -27,6 +27,7 @@
 #include "io/file_lock.h"
 #include "io/picture.h"
 #include "io/standard_stream.h"
+#include "preview/preview.h"
 #include "transport/render/threads.h"
 
 namespace abbe::cli {
@@ -159,7 +160,18 @@ Scene load_together(const RenderOptions& options, Inputs& inputs, const Crew& cr
   return *std::move(scene);
 }
 
-RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch) {
+// Lets the page follow the render, beside what follows it already.
+void show_on(Preview& preview, abbe::RenderOptions& how) {
+  how.wants_to_see = [&preview] { return preview.wants_to_see(); };
+  how.show = [&preview](const RenderResult& result) { preview.show(result); };
+  how.progress = [&preview, before = how.progress](const Progress& progress) {
+    if (before) before(progress);
+    preview.tell(progress);
+  };
+}
+
+RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch,
+                   Preview* preview = nullptr) {
   ProgressDisplay display;
   abbe::RenderOptions how = how_to_render(options);
   const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
@@ -167,6 +179,7 @@ RenderPart develop(const Scene& scene, const RenderOptions& options, const Inter
   how.crew = crew();
   if (!options.quiet && how.crew.rank == 0)
     how.progress = [&display](const Progress& progress) { display(progress); };
+  if (preview != nullptr) show_on(*preview, how);
   const fs::path& checkpoint = options.checkpoint;
   if (!checkpoint.empty())
     how.checkpoint = [&](const RenderResult& result) {
@@ -235,10 +248,22 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   return text(answer, true);
 }
 
-DisplayTransform chosen_display(const Scene& scene, const RenderOptions& options) {
+ViewOptions chosen_view(const RenderOptions& options) {
   ViewOptions view = options.view;
   if (view.config.empty()) view.config = users_configuration();
-  return display_of(scene, view);
+  return view;
+}
+
+// Its pictures are a copy of the planes, and the next copy of them.
+void start_preview(std::optional<Preview>& preview, const Scene& scene, const RenderOptions& options,
+                   Inputs& inputs) {
+  if (!options.preview) return;
+  const std::size_t pixels =
+      static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height);
+  inputs.take_memory("the preview", 2 * sizeof(float) * pixels * scene.film_planes().size());
+  preview.emplace(scene, identity_of(scene, name_of(options.scene), how_to_render(options)),
+                  chosen_view(options), *options.preview, thread_count(options.threads));
+  say("watch the render at " + preview->url());
 }
 
 // To standard output where there is no file.
@@ -281,7 +306,7 @@ int render(const RenderOptions& options) {
   costs.load = costs.command.spent();
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty() || !outputs.gamut.empty())
-    metered(costs.display, [&] { display = chosen_display(scene, options); })();
+    metered(costs.display, [&] { display = display_of(scene, chosen_view(options)); })();
   if (display) require_distinct(files_of(outputs, options), display->files());
   if (options.explain) tell(describe(scene));
   if (!options.quiet) note_polarisation(scene.needs);
@@ -289,10 +314,12 @@ int render(const RenderOptions& options) {
   warn_of_lost_light(scene, options.strict);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
-  const RenderPart part = develop(scene, options, watch);
+  std::optional<Preview> preview;
+  start_preview(preview, scene, options, inputs);
+  const RenderPart part = develop(scene, options, watch, preview ? &*preview : nullptr);
   const RenderStats& stats = part.result.stats;
   const auto write_display = [&] {
-    write_pictures(outputs, *display, scene, shown_film(scene, part), options.quiet);
+    write_pictures(outputs, *display, scene, shown_film(scene, film_image(part)), options.quiet);
   };
   std::vector<std::function<void()>> writers;
   if (!options.checkpoint.empty())
@@ -303,6 +330,7 @@ int render(const RenderOptions& options) {
   if (!options.stats.empty())
     writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
   write_all(writers);
+  if (preview) preview->end(part.result);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.error, ", ")));

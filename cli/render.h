@@ -9,6 +9,7 @@
 #include "calibration/output/display.h"
 #include "description/load.h"
 #include "io/inputs.h"
+#include "preview/page_server.h"
 #include "transport/render/render.h"
 
 namespace abbe::cli {
@@ -34,6 +35,7 @@ struct RenderOptions {
   int threads = 0;
   std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;
+  std::optional<ServerAddress> preview;  ///< Where a page shows the render; nowhere unless asked.
   bool explain = false;
   bool strict = false;  ///< What makes the image wrong ends the command: of the scene before it starts (3), a
                         ///< sample that is not finite after the image is written (70).

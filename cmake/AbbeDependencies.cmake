@@ -6,7 +6,7 @@ foreach(package ${Abbe_PACKAGES})
   find_package(${package} REQUIRED)
 endforeach()
 # OpenImageIO's CMake config demands its tools package and OpenCV headers.
-foreach(module ${Abbe_PKGCONFIG} OpenImageIO)
+foreach(module ${Abbe_PKGCONFIG} OpenImageIO cpp-httplib)
   pkg_check_modules(${module} REQUIRED IMPORTED_TARGET ${module})
 endforeach()
 find_package(RapidJSON REQUIRED)

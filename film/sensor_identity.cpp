@@ -99,14 +99,18 @@ DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
   return make_display(scene.channels, *white.spectrum, view, white.xy);
 }
 
-Image film_image(const RenderPart& part) {
-  Image film = image_of(part);
-  return film.metadata.contains(kSpectralBinsKey) ? spectral_film_image(film) : film;
+Image film_image(Image planes) {
+  if (planes.metadata.contains(kSpectralBinsKey)) return spectral_film_image(planes);
+  return planes;
 }
 
-Image shown_film(const Scene& scene, const RenderPart& part) {
-  Image film = film_image(part);
-  return scene.mosaic ? demosaic(film, kRawPlane, *scene.mosaic, scene.channel_names()) : film;
+Image film_image(const RenderPart& part) {
+  return film_image(image_of(part));
+}
+
+Image shown_film(const Scene& scene, Image film) {
+  if (scene.mosaic) return demosaic(film, kRawPlane, *scene.mosaic, scene.channel_names());
+  return film;
 }
 
 }  // namespace abbe

@@ -13,10 +13,12 @@ namespace abbe {
 /// Takes what `shown_film` gives to pictures. Throws what `make_display` throws.
 [[nodiscard]] DisplayTransform display_of(const Scene& scene, const ViewOptions& view = {});
 
-/// A film as its file holds it: of a spectral sensor, radiances in the spectral layout and a preview R, G, B
-/// [cd/m^2]; of any other its planes.
+/// The planes of a film as its file holds them, told by their metadata: of a spectral sensor, radiances in
+/// the spectral layout and a preview R, G, B [cd/m^2]; of any other themselves.
+[[nodiscard]] Image film_image(Image planes);
+/// The same of a part, with its variance.
 [[nodiscard]] Image film_image(const RenderPart& part);
-/// What a display shows of it: of a mosaic, a plane for each channel.
-[[nodiscard]] Image shown_film(const Scene& scene, const RenderPart& part);
+/// What a display shows of a film as its file holds it: of a mosaic, a plane for each channel.
+[[nodiscard]] Image shown_film(const Scene& scene, Image film);
 
 }  // namespace abbe

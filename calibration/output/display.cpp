@@ -88,6 +88,31 @@ std::string choose(const char* option, const std::string& asked, int count,
   return asked;
 }
 
+/// The display and the view that options choose of a configuration.
+struct ChosenView {
+  OCIO::ConstConfigRcPtr config;
+  std::string display;
+  std::string view;
+};
+
+ChosenView choose_view(const ViewOptions& options) {
+  const bool own = options.config.empty();
+  std::istringstream text(own ? ocio_config_text({}) : "");
+  const OCIO::ConstConfigRcPtr config =
+      own ? OCIO::Config::CreateFromStream(text) : OCIO::Config::CreateFromFile(options.config.c_str());
+  // All displays, not the active ones: $OCIO_ACTIVE_DISPLAYS is about a user's configuration.
+  const std::string display =
+      choose("--screen", options.display, own ? config->getNumDisplaysAll() : config->getNumDisplays(),
+             [&](int i) { return own ? config->getDisplayAll(i) : config->getDisplay(i); });
+  const std::string view = choose("--view", options.view, config->getNumViews(display.c_str()),
+                                  [&](int i) { return config->getView(display.c_str(), i); });
+  return {config, display, view};
+}
+
+[[noreturn]] void refuse_configuration(const ViewOptions& options, const OCIO::Exception& why) {
+  throw Error(options.config.empty() ? ErrorCode::internal : ErrorCode::input, "OpenColorIO", why.what());
+}
+
 // What the view can take in, in Abbe's own configuration or a user's.
 Gamut gamut_of(bool own, const std::string& display, const std::string& view) {
   if (!own || view != kPlainView) return Gamut(kAcesCg);
@@ -112,21 +137,25 @@ std::filesystem::path users_configuration() {
   return named == nullptr ? "" : named;
 }
 
+std::vector<std::string> view_names(const ViewOptions& options) {
+  try {
+    const auto [config, display, view] = choose_view(options);
+    std::vector<std::string> names{view};
+    for (int i = 0; i < config->getNumViews(display.c_str()); ++i)
+      if (const std::string name = config->getView(display.c_str(), i); name != view) names.push_back(name);
+    return names;
+  } catch (const OCIO::Exception& e) {
+    refuse_configuration(options, e);
+  }
+}
+
 DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
                                    std::optional<CorrectionFit> fit, const ViewOptions& options)
     : channels_(std::move(channels)), to_xyz_d65_(to_xyz_d65), fit_(std::move(fit)) {
   require_displayable(channels_.size());
   const bool own = options.config.empty();
   try {
-    std::istringstream text(own ? ocio_config_text({}) : "");
-    const OCIO::ConstConfigRcPtr config =
-        own ? OCIO::Config::CreateFromStream(text) : OCIO::Config::CreateFromFile(options.config.c_str());
-    // All displays, not the active ones: $OCIO_ACTIVE_DISPLAYS is about a user's configuration.
-    const std::string display =
-        choose("--screen", options.display, own ? config->getNumDisplaysAll() : config->getNumDisplays(),
-               [&](int i) { return own ? config->getDisplayAll(i) : config->getDisplay(i); });
-    const std::string view = choose("--view", options.view, config->getNumViews(display.c_str()),
-                                    [&](int i) { return config->getView(display.c_str(), i); });
+    const auto [config, display, view] = choose_view(options);
     const std::string input = own ? kReferenceSpace : aces_space(*config, options.config.string());
     const Gamut gamut = gamut_of(own, display, view);
     const Matrix3 from_xyz = own ? Matrix3() : rgb_to_xyz_d65(kAces2065).inverse();
@@ -142,7 +171,7 @@ DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matr
     const OCIO::ConstProcessorMetadataRcPtr used = processor->getProcessorMetadata();
     for (int i = 0; i < used->getNumFiles(); ++i) files_.emplace_back(used->getFile(i));
   } catch (const OCIO::Exception& e) {
-    throw Error(own ? ErrorCode::internal : ErrorCode::input, "OpenColorIO", e.what());
+    refuse_configuration(options, e);
   }
 }
 

@@ -35,6 +35,10 @@ struct ViewOptions {
 /// The configuration that $OCIO names; empty when it names none.
 [[nodiscard]] std::filesystem::path users_configuration();
 
+/// The views of the display that the options choose, theirs first. Throws Error{usage} for an unknown display
+/// or view, Error{input} for a configuration that cannot be read.
+[[nodiscard]] std::vector<std::string> view_names(const ViewOptions& options);
+
 /// Takes the linear values of one sensor to the code values of a display, through OpenColorIO.
 class DisplayTransform {
  public:

@@ -62,9 +62,9 @@ SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
     const std::string name = bin_name(bins, bin);
     const ImageChannel* value = film.find(name);
     const ImageChannel* variance = film.find(variance_of(name));
-    if (value == nullptr || variance == nullptr)
-      throw Error(ErrorCode::internal, name, "the film lacks a bin of its sensor");
+    if (value == nullptr) throw Error(ErrorCode::internal, name, "the film lacks a bin of its sensor");
     image.bands.push_back({bins.center_nm(bin), divided(value->values, exposure_per_radiance, 1)});
+    if (variance == nullptr) continue;
     image.others.push_back({variance_of(spectral_channel(bins.center_nm(bin))),
                             divided(variance->values, exposure_per_radiance, 2)});
   }

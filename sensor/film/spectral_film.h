@@ -24,8 +24,8 @@ struct SpectralBins {
 [[nodiscard]] std::vector<Channel> spectral_channels(const SpectralBins& bins);
 
 /// The film of those channels as radiances. `exposure_per_radiance` [s sr] is, pixel by pixel, what a
-/// radiance is multiplied by to give the radiant exposure. `Variance.` channels are divided by its square. Of
-/// the film's metadata and channels all others are kept.
+/// radiance is multiplied by to give the radiant exposure. `Variance.` channels, where there are any, are
+/// divided by its square. Of the film's metadata and channels all others are kept.
 [[nodiscard]] SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                                           std::span<const double> exposure_per_radiance);
 

@@ -76,6 +76,7 @@ class Rendering {
     if (result_.unfinished) run_round({result_.unfinished->samples});
     for (auto round = next_round(); !round.empty() && !all_follow(finished()); round = next_round()) {
       run_round(round);
+      if (all_follow(options_.wants_to_see && options_.wants_to_see())) show();
       if (all_follow(save_is_due())) save();
     }
     collect();
@@ -215,6 +216,11 @@ class Rendering {
     options_.checkpoint(result_);
     last_save_s_ = elapsed();
     saving_s_ = last_save_s_ - begin;
+  }
+
+  void show() {
+    collect();
+    if (leads()) options_.show(result_);
   }
 
   [[nodiscard]] double share() const {

@@ -48,6 +48,9 @@ struct RenderOptions {
   double checkpoint_interval_s = 60;
   const std::atomic<bool>* stop = nullptr;  ///< Stops after the pass that runs, so that the mean is right.
   std::function<void(const Progress&)> progress = {};
+  /// Asked after each pass whether `show` is to be called with what is done: whole passes, never a part.
+  std::function<bool()> wants_to_see = {};
+  std::function<void(const RenderResult&)> show = {};
   Crew crew = {};  ///< The processes that render this together.
 };
 

@@ -1,0 +1,124 @@
+#include "preview/viewer_film.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "film/sensor_identity.h"
+#include "io/error.h"
+#include "io/picture.h"
+#include "io/spectral_exr.h"
+
+namespace abbe {
+namespace {
+
+// Of one snapshot, at a time.
+constexpr std::size_t kMaxPictures = 16;
+
+// Adds the time it lives to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::atomic<double>& sum_s) : sum_s_(sum_s) {}
+  ~Stopwatch() { sum_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  std::atomic<double>& sum_s_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+ViewerFilm::ViewerFilm(const Scene& scene, ViewOptions options)
+    : scene_(scene), options_(std::move(options)), views_(view_names(options_)) {
+  try {
+    transforms_.emplace(views_.front(), display_of(scene_, options_));
+  } catch (const Error& error) {
+    if (error.code == ErrorCode::internal) throw;
+    displayable_ = false;
+    views_ = scene_.channel_names();
+  }
+}
+
+void ViewerFilm::replace(Snapshot snapshot) {
+  auto next = std::make_shared<Shown>();
+  next->samples = snapshot.samples;
+  next->film = std::move(snapshot.film);
+  const std::scoped_lock lock(swap_);
+  next->number = latest_->number + 1;
+  latest_ = std::move(next);
+}
+
+std::shared_ptr<ViewerFilm::Shown> ViewerFilm::latest() const {
+  const std::scoped_lock lock(swap_);
+  return latest_;
+}
+
+std::uint64_t ViewerFilm::number() const {
+  return latest()->number;
+}
+
+std::uint64_t ViewerFilm::samples() const {
+  return latest()->samples;
+}
+
+void ViewerFilm::make_film(Shown& shown) const {
+  if (shown.made) return;
+  shown.film = film_image(std::move(shown.film));
+  if (scene_.mosaic) shown.demosaiced = shown_film(scene_, shown.film);
+  shown.made = true;
+}
+
+const DisplayTransform& ViewerFilm::transform(const std::string& view) {
+  const auto known = transforms_.find(view);
+  if (known != transforms_.end()) return known->second;
+  if (displayable_) {
+    ViewOptions options = options_;
+    options.view = view;
+    return transforms_.emplace(view, display_of(scene_, options)).first->second;
+  }
+  const auto channel = std::find_if(scene_.channels.begin(), scene_.channels.end(),
+                                    [&view](const Channel& c) { return c.name == view; });
+  return transforms_.emplace(view, make_display({*channel}, Curve(1.0), options_)).first->second;
+}
+
+std::shared_ptr<const std::string> ViewerFilm::picture(const std::string& view, double stops) {
+  const std::scoped_lock lock(work_);
+  const std::shared_ptr<Shown> shown = latest();
+  if (shown->number == 0 || std::find(views_.begin(), views_.end(), view) == views_.end()) return nullptr;
+  auto& pictures = shown->pictures;
+  if (const auto made = pictures.find({view, stops}); made != pictures.end()) return made->second;
+  const Stopwatch watch(spent_s_);
+  make_film(*shown);
+  const DisplayTransform& display = transform(view);
+  const Image& planes = scene_.mosaic ? shown->demosaiced : shown->film;
+  const std::optional<double> white = scene_.output.display_exposure;
+  const double scale = white ? 1 / *white : display.automatic_scale(planes);
+  Image image = display(planes, scale * std::exp2(stops)).image;
+  image.metadata.clear();
+  if (pictures.size() == kMaxPictures) pictures.clear();
+  return pictures[{view, stops}] = std::make_shared<const std::string>(encoded_picture(".png", image));
+}
+
+std::optional<ViewerFilm::Pixel> ViewerFilm::pixel(int x, int y) {
+  const std::scoped_lock lock(work_);
+  const std::shared_ptr<Shown> shown = latest();
+  if (shown->number == 0 || x < 0 || y < 0 || x >= scene_.camera.width || y >= scene_.camera.height)
+    return std::nullopt;
+  const Stopwatch watch(spent_s_);
+  make_film(*shown);
+  const Image& film = shown->film;
+  Pixel pixel{shown->samples, {}};
+  for (const ImageChannel& channel : film.channels) {
+    const auto name = parse_spectral_channel(channel.name, "");
+    pixel.values.push_back(
+        {channel.name,
+         channel.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
+                        static_cast<std::size_t>(x)],
+         name ? std::optional(name->center_nm) : std::nullopt});
+  }
+  return pixel;
+}
+
+}  // namespace abbe
