@@ -145,11 +145,14 @@ void Film::set_samples(std::vector<std::uint64_t> per_replicate) {
 }
 
 void Film::add(const Film& other) {
-  const Crop from = other.crop();
-  const std::size_t row = other.sums_.size() / static_cast<std::size_t>(from.y1 - from.y0);
-  for (int y = from.y0; y < from.y1; ++y) {
-    const Int128* more = &other.sums_[other.index(pixel_at(from.x0, y), 0)];
-    Int128* sums = &sums_[index(pixel_at(from.x0, y), 0)];
+  const Crop own = crop();
+  const Crop of = other.crop();
+  const int x0 = std::max(own.x0, of.x0);
+  const auto row =
+      std::max(std::min(own.x1, of.x1) - x0, 0) * std::ptrdiff_t{shape_.channels} * shape_.replicates;
+  for (int y = std::max(own.y0, of.y0); row > 0 && y < std::min(own.y1, of.y1); ++y) {
+    const Int128* more = &other.sums_[other.index(pixel_at(x0, y), 0)];
+    Int128* sums = &sums_[index(pixel_at(x0, y), 0)];
     std::transform(more, more + row, sums, sums, std::plus<>());
   }
 }

@@ -63,8 +63,8 @@ class Film {
 
   /// Sets how many samples per pixel each replicate has received.
   void set_samples(std::vector<std::uint64_t> per_replicate);
-  /// Adds the sums of a film that differs in its crop at most, which lies within that of this film; its
-  /// samples are for the caller to add.
+  /// Adds the sums of a film that differs in its crop at most, of the pixels that both have; its samples are
+  /// for the caller to add.
   void add(const Film& other);
   /// The sums themselves, for processes that add theirs up.
   [[nodiscard]] std::span<Int128> sums() { return sums_; }

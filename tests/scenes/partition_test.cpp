@@ -175,7 +175,7 @@ TEST(Resume, AStopIsSavedAtOnceAndEndsThePass) {
   EXPECT_EQ(saved.front().unfinished->items, 1U);  // a tile of a thread
   EXPECT_TRUE(saved.front().samples.empty());
 
-  // Through a file, which is a checkpoint but no part.
+  // Through a file, which is a checkpoint but no part, as a tile has none of the photons yet.
   const auto path = std::filesystem::path(testing::TempDir()) /
                     ("abbe_unfinished_" + std::to_string(::getpid()) + ".abbepart");
   write_part(path, {{"sensor_channels", "R,G,B"}}, saved.front());
@@ -187,6 +187,75 @@ TEST(Resume, AStopIsSavedAtOnceAndEndsThePass) {
   EXPECT_EQ(end.samples, stopped.samples);
   EXPECT_EQ(end.film.bytes(), whole.film.bytes());
   EXPECT_EQ(end.stats.paths, whole.stats.paths);
+}
+
+// A render that saves itself amid passes, until one of its savings is as wanted.
+template <typename Wanted>
+RenderResult saved_amid_a_pass(const Scene& scene, Wanted wanted) {
+  std::optional<RenderResult> saved;
+  RenderOptions options;
+  options.threads = 1;
+  options.checkpoint_interval_s = 0;
+  options.checkpoint = [&](const RenderResult& result) {
+    if (!saved && result.unfinished && wanted(result)) saved = copy(result);
+  };
+  (void)render(scene, options);
+  if (!saved) throw Error(ErrorCode::internal, "test", "no saving was as wanted");
+  return *std::move(saved);
+}
+
+// Only of films without photons, which fall on all pixels.
+class SavedAmidAPass : public testing::Test {
+ protected:
+  RenderPart through_file(const RenderResult& saved) const {
+    const auto path =
+        std::filesystem::path(testing::TempDir()) / ("abbe_amid_" + std::to_string(::getpid()) + ".abbepart");
+    write_part(path, identity_, saved);
+    RenderPart part = read_part(path);
+    EXPECT_EQ(read_part_header(path).areas, header_of(part).areas);
+    EXPECT_EQ(read_part_header(path).shape, header_of(part).shape);
+    std::filesystem::remove(path);
+    return part;
+  }
+  // Those samples of those pixels, rendered on their own.
+  RenderPart anew(const SampledAreas& areas, const PartHeader& header) const {
+    RenderPart sum = empty_part(header);
+    for (const SampledArea& area : areas)
+      for (const SampleRange& range : area.samples) {
+        RenderPart part{identity_, render(scene_, {.crop = area.pixels, .samples = range})};
+        part.identity[kCropKey] = to_text(area.pixels);
+        merge(sum, part, "anew");
+      }
+    return sum;
+  }
+
+  const Scene scene_ =
+      test::load("cornell.json", {{"/sensor/resolution", "[100, 70]"}, {"/render/samples", "128"}});
+  const FilmIdentity identity_{{"sensor_channels", "X,Y,Z"}, {kStatedSamplesKey, "128"}};
+};
+
+TEST_F(SavedAmidAPass, PixelsOfTheTilesDoneHaveItsSamples) {
+  const RenderPart part = through_file(saved_amid_a_pass(
+      scene_, [](const RenderResult& r) { return !r.samples.empty() && r.unfinished->items > 8; }));
+  const PartHeader header = header_of(part);
+  EXPECT_EQ(part.result.film.crop(), (Crop{0, 0, 100, 70}));
+  ASSERT_GE(header.areas.size(), 2U);
+  EXPECT_GT(count(header.areas.front().samples), count(header.areas.back().samples));
+  const PartHeader empty{header.identity, header.shape, {}};
+  EXPECT_EQ(anew(header.areas, empty).result.film.bytes(), part.result.film.bytes());
+  // The rest may be rendered by others.
+  RenderPart sum = anew(missing_samples(header), empty);
+  merge(sum, part, "saved");
+  EXPECT_EQ(sum.result.film.bytes(), render(scene_, {}).film.bytes());
+}
+
+TEST_F(SavedAmidAPass, AFilmWithoutAWholePassIsThatOfItsTiles) {
+  const RenderPart part = through_file(saved_amid_a_pass(
+      scene_, [](const RenderResult& r) { return r.samples.empty() && r.unfinished->items <= 7; }));
+  const Crop crop = part.result.film.crop();
+  EXPECT_EQ(crop.y1, 16);
+  const RenderPart alone = anew(header_of(part).areas, {part.identity, part.result.film.shape(), {}});
+  EXPECT_EQ(alone.result.film.bytes(), part.result.film.bytes());
 }
 
 TEST(Merge, RefusesWhatDoesNotBelongTogether) {

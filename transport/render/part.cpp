@@ -8,11 +8,13 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/part_file.h"
 #include "io/text.h"
 #include "sensor/film/recorded_white.h"
+#include "transport/render/pass.h"
 
 namespace abbe {
 namespace {
@@ -129,11 +131,6 @@ std::optional<ParsedHeader> parse_header(FilmIdentity header) {
   throw Error(ErrorCode::input, path.string(), "holds no part of a render");
 }
 
-void require_finished(const fs::path& path, const std::optional<UnfinishedPass>& unfinished) {
-  if (unfinished)
-    throw Error(ErrorCode::input, path.string(), "was saved amid a sample, which render --resume completes");
-}
-
 std::uint64_t stated_samples(const FilmIdentity& identity) {
   const auto stated = identity.find(kStatedSamplesKey);
   const auto number =
@@ -164,6 +161,29 @@ std::string of_pixels(const Crop& pixels, const FilmShape& shape) {
   return whole ? "" : fmt::format(" of pixels {}", to_text(pixels));
 }
 
+// Of a checkpoint saved amid a pass: the pixels of its tiles that are done have its samples too, and a film
+// that has no others is one of these pixels.
+void count_done_tiles(const fs::path& path, ParsedHeader& parsed) {
+  if (!parsed.unfinished) return;
+  PartHeader& header = parsed.header;
+  if (header.shape.photons > 0)
+    throw Error(ErrorCode::input, path.string(),
+                "was saved amid the photons of a sample, which render --resume completes");
+  if (parsed.samples.empty()) header.areas.clear();
+  for (const Crop& tiles : tiles_done(header.shape, parsed.unfinished->items))
+    (void)add(header.areas, {tiles, {parsed.unfinished->samples}});
+  if (header.areas.empty()) throw Error(ErrorCode::input, path.string(), "holds no sample of any pixel yet");
+  set_crop(header, bounds(header.areas));
+}
+
+// What the pixels of a crop have of a film.
+Film cropped(Film film, const FilmShape& shape) {
+  if (shape == film.shape()) return film;
+  Film crop(shape);
+  crop.add(film);
+  return crop;
+}
+
 SampledAreas areas_of(const RenderPart& part) {
   if (!part.areas.empty() || part.result.samples.empty()) return part.areas;
   return {{part.result.film.crop(), part.result.samples}};
@@ -179,6 +199,14 @@ void set_areas(RenderPart& part, SampledAreas areas) {
   result.film.set_samples(count_per_replicate(result.samples, result.film.replicates()));
   const bool everywhere = areas.size() == 1 && areas.front().pixels == result.film.crop();
   part.areas = everywhere ? SampledAreas{} : std::move(areas);
+}
+
+std::pair<ParsedHeader, Film> read_sums(const fs::path& path) {
+  PartFile file = read_part_file(path);
+  auto parsed = parse_header(std::move(file.header));
+  auto film = parsed ? Film::from_bytes(parsed->header.shape, file.bytes) : std::nullopt;
+  if (!film) refuse_contents(path);
+  return {*std::move(parsed), *std::move(film)};
 }
 
 }  // namespace
@@ -205,26 +233,25 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
 }
 
 RenderPart read_checkpoint(const fs::path& path) {
-  PartFile file = read_part_file(path);
-  auto parsed = parse_header(std::move(file.header));
-  auto film = parsed ? Film::from_bytes(parsed->header.shape, file.bytes) : std::nullopt;
-  if (!film) refuse_contents(path);
-  RenderPart part{std::move(parsed->header.identity),
-                  {std::move(*film), {}, parsed->stats, parsed->unfinished}};
-  set_areas(part, std::move(parsed->header.areas));
+  auto [parsed, film] = read_sums(path);
+  RenderPart part{std::move(parsed.header.identity), {std::move(film), {}, parsed.stats, parsed.unfinished}};
+  set_areas(part, std::move(parsed.header.areas));
   return part;
 }
 
 RenderPart read_part(const fs::path& path) {
-  RenderPart part = read_checkpoint(path);
-  require_finished(path, part.result.unfinished);
+  auto [parsed, film] = read_sums(path);
+  count_done_tiles(path, parsed);
+  RenderPart part{std::move(parsed.header.identity),
+                  {cropped(std::move(film), parsed.header.shape), {}, parsed.stats}};
+  set_areas(part, std::move(parsed.header.areas));
   return part;
 }
 
 PartHeader read_part_header(const fs::path& path) {
   auto parsed = parse_header(read_part_file_header(path));
   if (!parsed) refuse_contents(path);
-  require_finished(path, parsed->unfinished);
+  count_done_tiles(path, *parsed);
   return std::move(parsed->header);
 }
 

@@ -49,9 +49,12 @@ struct PartHeader {
 void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result,
                 const SampledAreas& areas = {});
 
-/// Throws Error{input} for a file that is missing, torn, damaged, no part, or saved amid a pass.
+/// Throws Error{input} for a file that is missing, torn, damaged, no part, or saved amid a pass of a film
+/// with photons. Of one saved amid another pass the pixels whose tiles were done have its samples too; where
+/// no pass was done before, its film is that of these pixels.
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
-/// Reads a part for a render to go on with, as `read_part` does, but it may have been saved amid a pass.
+/// Reads a part for a render to go on with, as `read_part` does, with what there is of a pass that was not
+/// finished.
 [[nodiscard]] RenderPart read_checkpoint(const std::filesystem::path& path);
 /// Reads no sums, so that damage to them is not found; throws as `read_part` does otherwise.
 [[nodiscard]] PartHeader read_part_header(const std::filesystem::path& path);

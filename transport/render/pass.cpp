@@ -20,6 +20,24 @@ constexpr std::uint32_t pieces(std::uint64_t whole, std::uint32_t piece) {
 
 }  // namespace
 
+std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items) {
+  const std::uint32_t tiles_x = pieces(static_cast<std::uint64_t>(shape.width), kTile);
+  const auto edge = [](std::uint64_t tiles, int end) {
+    return static_cast<int>(std::min(tiles * kTile, static_cast<std::uint64_t>(end)));
+  };
+  const int top = edge(items / tiles_x, shape.height);
+  const Crop pixels = pixels_of(shape);
+  std::vector<Crop> done;
+  for (const Crop& rows :
+       {Crop{0, 0, shape.width, top}, Crop{0, top, edge(items % tiles_x, shape.width),
+                                           edge(std::uint64_t{items} / tiles_x + 1, shape.height)}}) {
+    const Crop kept{std::max(rows.x0, pixels.x0), std::max(rows.y0, pixels.y0), std::min(rows.x1, pixels.x1),
+                    std::min(rows.y1, pixels.y1)};
+    if (kept.x0 < kept.x1 && kept.y0 < kept.y1) done.push_back(kept);
+  }
+  return done;
+}
+
 Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
            std::uint32_t done, std::uint64_t seed)
     : plan_(plan),

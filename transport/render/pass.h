@@ -23,6 +23,10 @@ struct PassCounts {
   TruncatedPaths cut = {};
 };
 
+/// The pixels of which the first items of a pass without photons have all samples: rectangles of a film of
+/// this shape that do not overlap.
+[[nodiscard]] std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items);
+
 /// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.
 /// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Each technique of
 /// the plan has a stage of work items, tiles or batches of photons, that threads take from one counter, so
