@@ -5,6 +5,7 @@
 #include "cli/answer.h"
 #include "description/load.h"
 #include "transport/path/ray_trace.h"
+#include "validation/layout/lamp_rays.h"
 
 namespace abbe::cli {
 namespace {
@@ -75,15 +76,26 @@ void print_readable(const Json& answer) {
   for (const char* key : {"final_origin", "final_dir", "deviation_deg"}) print({{key, answer[key]}}, false);
 }
 
+BasicRay<double> first_ray(const Scene& scene, const TraceOptions& options) {
+  if (options.direction && !(options.direction->length() > 0))
+    throw Error(ErrorCode::usage, "--dir", "a direction must not be zero");
+  if (options.origin && options.direction)
+    return {*options.origin * scene.unit_m - scene.origin_m, options.direction->normalized()};
+  if (options.light.empty())
+    throw Error(ErrorCode::usage, "trace", "needs --origin and --dir, or --from-light");
+  std::optional<BasicRay<double>> ray = middle_ray(scene, light_named(scene, options.light, "--from-light"));
+  if (!ray) throw Error(ErrorCode::usage, "--from-light", "light from everywhere has no middle");
+  if (options.direction) ray->direction = options.direction->normalized();
+  return *ray;
+}
+
 }  // namespace
 
 int trace(const TraceOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
-  if (!(options.direction.length() > 0))
-    throw Error(ErrorCode::usage, "--dir", "a direction must not be zero");
-  const BasicRay<double> ray{options.origin * scene.unit_m - scene.origin_m, options.direction.normalized()};
+  const BasicRay<double> ray = first_ray(scene, options);
   const RayTrace trace = trace_ray(scene, ray, options.wavelength_nm, options.max_events);
   Json answer;
   answer["events"] = Json::array();

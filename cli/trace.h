@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include <ImathVec.h>
 
@@ -12,11 +14,12 @@ namespace abbe::cli {
 struct TraceOptions {
   std::filesystem::path scene;  ///< "-" is standard input.
   double wavelength_nm = 0;
-  Imath::V3d origin{0, 0, 0};
-  Imath::V3d direction{0, 0, 0};
+  std::optional<Imath::V3d> origin;     ///< Needed without a light.
+  std::optional<Imath::V3d> direction;  ///< Needed without a light, whose middle ray it is otherwise.
   int max_events = 64;
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
+  std::string light = {};  ///< Where the ray starts, in place of an origin.
 };
 
 /// Follows one ray through a scene and prints what happens to it. Returns the exit code.

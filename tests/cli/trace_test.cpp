@@ -86,10 +86,15 @@ TEST(TraceDiffuse, EndsWithAHit) {
 
 TEST(TraceFaults, RaysNeedADirectionAndAScene) {
   const auto ball = scratch().write("scene.json", ball_scene());
-  EXPECT_EQ(fault([&] { cli::trace({ball, 550, {0, 0, 0}, {0, 0, 0}}); }, "--dir"), ErrorCode::usage);
+  EXPECT_EQ(fault(
+                [&] {
+                  cli::trace({ball, 550, Imath::V3d(0, 0, 0), Imath::V3d(0, 0, 0)});
+                },
+                "--dir"),
+            ErrorCode::usage);
   EXPECT_EQ(fault(
                 [] {
-                  cli::trace({"/nowhere/scene.json", 550, {0, 0, 0}, {0, 0, 1}});
+                  cli::trace({"/nowhere/scene.json", 550, Imath::V3d(0, 0, 0), Imath::V3d(0, 0, 1)});
                 },
                 "/nowhere"),
             ErrorCode::input);

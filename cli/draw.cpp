@@ -1,0 +1,47 @@
+#include "cli/draw.h"
+
+#include <array>
+
+#include "cli/answer.h"
+#include "cli/output_files.h"
+#include "description/load.h"
+#include "io/atomic_file.h"
+#include "io/extension.h"
+#include "io/standard_stream.h"
+#include "validation/layout/lamp_rays.h"
+#include "validation/layout/layout.h"
+
+namespace abbe::cli {
+namespace {
+
+std::vector<BasicRay<double>> rays_of(const Scene& scene, const DrawOptions& options) {
+  if (options.origin)
+    return {{*options.origin * scene.unit_m - scene.origin_m, options.direction.normalized()}};
+  std::vector<BasicRay<double>> rays;
+  if (options.rays == 0) return rays;
+  for (const Light& light : scene.lights)
+    for (const BasicRay<double>& ray : lamp_rays(scene, light, options.rays)) rays.push_back(ray);
+  return rays;
+}
+
+}  // namespace
+
+int draw(const DrawOptions& options) {
+  require_extension(options.output, {".svg"});
+  require_writable(options.output);
+  if (options.origin && !(options.direction.length() > 0))
+    throw Error(ErrorCode::usage, "--dir", "a direction must not be zero");
+  Diagnostics diagnostics;
+  Inputs inputs(options.max_memory_bytes);
+  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  require_distinct(std::array{options.output}, inputs.files());
+  std::vector<DrawnRay> drawn;
+  for (const double nm : options.wavelengths_nm)
+    for (const BasicRay<double>& ray : rays_of(scene, options))
+      drawn.push_back(drawn_ray(scene, ray, nm, options.max_events));
+  const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
+  write_atomically(options.output, layout_drawing(scene, drawn, name));
+  return 0;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,192 @@
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+#include <gtest/gtest.h>
+
+#include "cli/draw.h"
+#include "cli/query.h"
+#include "cli/trace.h"
+#include "description/load.h"
+#include "io/data_directory.h"
+#include "tests/cli/json_output.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+#include "transport/path/ray_trace.h"
+#include "validation/layout/lamp_rays.h"
+#include "validation/layout/layout.h"
+#include "validation/layout/outline.h"
+
+namespace abbe::test {
+namespace {
+
+using V3d = Imath::V3d;
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr DrawingPlane kElevation{{1, 0, 0}, {0, 0, 1}};
+
+Scene loaded(const std::string& text) {
+  Diagnostics diagnostics;
+  auto scene = load_scene(scratch().write("draw.json", text), {}, diagnostics);
+  if (!scene) throw Error(ErrorCode::scene, "draw.json", diagnostics.text());
+  return *std::move(scene);
+}
+
+// The scene of the prism, with these lights in place of its environment.
+std::string prism_with(const std::string& lights) {
+  const std::string text = prism_scene();
+  const std::size_t begin = text.find(R"("lights": [)") + 11;
+  return text.substr(0, begin) + lights + text.substr(text.find("],\n  \"shapes\""));
+}
+
+// Across the prism at an angle of incidence, as the scene's file has it [mm].
+struct Across {
+  V3d origin, direction;
+};
+Across across_prism(double incidence_deg) {
+  const double elevation = (incidence_deg - 30) * kDegree;
+  const V3d direction(std::cos(elevation), 0, std::sin(elevation));
+  return {V3d(-7.5, 1.25, 4.330127018922193) - 60.0 * direction, direction};
+}
+
+struct Line {
+  double nm, x0, y0, x1, y1;
+  std::string color;
+};
+std::vector<Line> rays_in(const std::string& svg) {
+  static const std::regex kRay(
+      R"re(<line x1="([-\d.]+)" y1="([-\d.]+)" x2="([-\d.]+)" y2="([-\d.]+)" class="ray" data-nm="(\d+\.?\d*)" stroke="(#\w+)")re");
+  std::vector<Line> lines;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), kRay), end; at != end; ++at)
+    lines.push_back({std::stod((*at)[5]), std::stod((*at)[1]), std::stod((*at)[2]), std::stod((*at)[3]),
+                     std::stod((*at)[4]), (*at)[6]});
+  return lines;
+}
+
+TEST(Draw, RaysLeaveAPrismAtTheDeviationOfItsFormula) {
+  const Scene scene = loaded(prism_scene());
+  const auto [origin, direction] = across_prism(50);
+  for (const double nm : {486.1327, 587.5618, 656.2725}) {
+    const DrawnRay ray = drawn_ray(scene, {origin * scene.unit_m - scene.origin_m, direction}, nm, 64);
+    ASSERT_EQ(ray.points.size(), 4U);
+    const double deviation = json_output(cli::query_prism, {"N-BK7", 60, {nm}, 50})["deviation_deg"];
+    EXPECT_NEAR(angle_deg(ray.points[1] - ray.points[0], ray.points[3] - ray.points[2]), deviation, 1e-9)
+        << nm;
+  }
+}
+
+// Each view has the same pixels per length, so that angles are true.
+TEST(Draw, TheDrawingShowsThatDeviationInTheWavelengthsColour) {
+  const auto [origin, direction] = across_prism(50);
+  const auto path = scratch() / "prism.svg";
+  ASSERT_EQ(
+      cli::draw({scratch().write("draw.json", prism_scene()), path, {486.1327, 656.2725}, origin, direction}),
+      0);
+  const std::vector<Line> lines = rays_in(read_file(path));
+  ASSERT_EQ(lines.size(), 12U);  // three pieces of two rays in two views
+  for (const std::size_t first : {6U, 9U}) {
+    const Line& in = lines[first];
+    const Line& out = lines[first + 2];
+    const double turn =
+        (std::atan2(out.y1 - out.y0, out.x1 - out.x0) - std::atan2(in.y1 - in.y0, in.x1 - in.x0)) / kDegree;
+    EXPECT_NEAR(
+        turn, json_output(cli::query_prism, {"N-BK7", 60, {in.nm}, 50})["deviation_deg"].get<double>(), 0.05);
+  }
+  EXPECT_EQ(wavelength_color(656.2725), lines[9].color);
+  EXPECT_EQ(wavelength_color(650).substr(0, 3), "#ff");
+  EXPECT_EQ(wavelength_color(450).substr(5), "ff");
+  EXPECT_EQ(wavelength_color(1000), "#909090");
+  const std::string svg = read_file(path);
+  for (const char* there :
+       {">prism<", ">camera<", "class=\"field\"", " mm<", "Plan (x, y)", "Elevation (x, z)"})
+    EXPECT_NE(svg.find(there), std::string::npos) << there;
+}
+
+// d sin(angle) (1 - cos(angle) / (n cos(angle within))) [Born & Wolf].
+TEST(Draw, ASlabShiftsRays) {
+  constexpr double kThickness = 0.01;
+  constexpr double kIndex = 1.5;
+  Mesh box;
+  for (int i = 0; i < 8; ++i)
+    box.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? kThickness : 0);
+  box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  EXPECT_EQ(outline(box, kElevation).size(), 12U);  // its edges, without the diagonals
+  Scene scene{};
+  scene.materials.push_back({"glass", DielectricMaterial{"constant", RefractiveIndex(kIndex)}});
+  scene.shapes.push_back({"slab", box, 0});
+  scene.commit();
+  const double angle = 40 * kDegree;
+  const V3d direction(std::sin(angle), 0, std::cos(angle));
+  const DrawnRay ray = drawn_ray(scene, {V3d(0, 0, 0) - 0.5 * direction, direction}, 550, 64);
+  ASSERT_EQ(ray.points.size(), 4U);
+  EXPECT_NEAR((ray.points[3] - ray.points[2]).normalized().dot(direction), 1, 1e-12);
+  const double inside = std::asin(std::sin(angle) / kIndex);
+  EXPECT_NEAR((ray.points[2] - ray.points[0]).cross(direction).length(),
+              kThickness * std::sin(angle) * (1 - std::cos(angle) / (kIndex * std::cos(inside))), 1e-12);
+}
+
+TEST(Draw, RoundShapesHaveTheirCircumference) {
+  const auto circle = outline(Sphere{{1, 2, 3}, 0.5}, kElevation);
+  for (const V3d& p : circle.front()) EXPECT_NEAR(std::hypot(p.x - 1, p.z - 3), 0.5, 1e-12);
+  // A sphere sheared by x + y is seen along y as an ellipse.
+  Imath::M44d sheared;
+  sheared[1][0] = 1;
+  const Shape placed = PlacedShape{make_prototype(Sphere{{0, 0, 0}, 1}),
+                                   std::make_shared<const Placement>(Placement{sheared, sheared.inverse()})};
+  double widest = 0;
+  const auto ellipse = outline(placed, kElevation);
+  for (const V3d& p : ellipse.front()) {
+    EXPECT_NEAR(p.x * p.x / 2 + p.z * p.z, 1, 1e-12);
+    widest = std::max(widest, p.x);
+  }
+  EXPECT_NEAR(widest, std::numbers::sqrt2, 1e-12);
+}
+
+TEST(Draw, LampsSendTheirRaysWhereTheyLight) {
+  const Scene scene = loaded(prism_with(
+      R"({"name": "spot", "spot": {"at": [-100, 0, 0], "direction": [1, 0, 0], "half_angle_deg": 5}, "emission": {"illuminant": "A", "radiant_flux_W": 1}},
+         {"name": "lamp", "quad": {"corner": [-50, -1, -1], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2]}, "emission": {"illuminant": "A", "radiant_flux_W": 1}},
+         {"name": "sky", "environment": {}, "emission": {"illuminant": "D65", "radiance": 1}},
+         {"name": "beam", "directional": {"towards": [0, 0, 1], "irradiance": 1}})"));
+  const Light& spot = light_named(scene, "spot", "--from-light");
+  const auto rays = lamp_rays(scene, spot, 5);
+  ASSERT_EQ(rays.size(), 10U);
+  EXPECT_NEAR(angle_deg(rays.front().direction, {1, 0, 0}), 5, 1e-5);
+  EXPECT_NEAR(angle_deg(rays[2].direction, {1, 0, 0}), 0, 1e-5);
+  for (const auto& ray : lamp_rays(scene, light_named(scene, "lamp", ""), 3))
+    EXPECT_GT(ray.direction.x, 0.49);
+  for (const auto& ray : lamp_rays(scene, light_named(scene, "beam", ""), 3))
+    EXPECT_EQ(ray.direction, V3d(0, 0, -1));
+  EXPECT_TRUE(lamp_rays(scene, light_named(scene, "sky", ""), 3).empty());
+  EXPECT_EQ(fault([&] { (void)light_named(scene, "sun", "--from-light"); },
+                  "--from-light: no such light (got \"sun\", allowed spot, lamp, sky, beam)"),
+            ErrorCode::usage);
+}
+
+TEST(TraceFromLight, StartsInTheMiddleOfWhatItLights) {
+  const auto scene = scratch().write(
+      "lit.json",
+      prism_with(
+          R"({"name": "lamp", "quad": {"corner": [-50, -1, -1], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2]}, "emission": {"illuminant": "A", "radiant_flux_W": 1}},
+             {"name": "sky", "environment": {}, "emission": {"illuminant": "D65", "radiance": 1}})"));
+  cli::TraceOptions options{scene, 587.5618, {}, {}};
+  options.light = "lamp";
+  const json found = json_output(cli::trace, options);
+  ASSERT_EQ(found["events"].size(), 3U);
+  EXPECT_EQ(found["events"][0]["shape"], "prism");
+  EXPECT_NEAR(found["events"][0]["angle_in_deg"].get<double>(), 30, 1e-5);
+  // A lamp that floats do not hold exactly is not what its own rays meet.
+  cli::TraceOptions cornell{data_directory() / "scenes" / "cornell.json", 550, {}, {}};
+  cornell.light = "lamp";
+  EXPECT_NE(json_output(cli::trace, cornell)["events"][0]["shape"], "lamp");
+  options.direction = V3d(-1, 0, 0);
+  EXPECT_EQ(json_output(cli::trace, options)["events"][0]["kind"], "hit");  // the lamp itself
+  options.light = "sky";
+  options.direction = {};
+  EXPECT_EQ(fault([&] { (void)cli::trace(options); }, "no middle"), ErrorCode::usage);
+  options.light = "";
+  EXPECT_EQ(fault([&] { (void)cli::trace(options); }, "needs --origin and --dir"), ErrorCode::usage);
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,108 @@
+#include "validation/layout/lamp_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+using V3d = Imath::V3d;
+
+constexpr double kSurfaceFan = std::numbers::pi / 3;
+// How far beside its surface, which is known in float, a ray leaves a lamp, as a share of the scene.
+constexpr double kClear = 1e-6;
+
+V3d middle_of(const Scene& scene) {
+  return scene.bounds.isEmpty() ? V3d(0) : scene.bounds.center();
+}
+
+double radius_of(const Scene& scene) {
+  return scene.bounds.isEmpty() ? 1 : scene.bounds.size().length() / 2;
+}
+
+// Two directions across another, the first of them horizontal.
+std::pair<V3d, V3d> across(const V3d& axis) {
+  V3d side = V3d(0, 0, 1).cross(axis);
+  if (side.length() < 1e-6) side = V3d(1, 0, 0);
+  side.normalize();
+  return {side, axis.cross(side).normalized()};
+}
+
+struct MiddleRay {
+  const Scene& scene;
+
+  std::optional<BasicRay<double>> operator()(const AreaLight& light) const {
+    const SurfacePoint at = sample_area(scene.shapes[light.shape].shape, light.triangle_cdf, {0.5F, 0.5F});
+    const V3d normal = V3d(at.normal).normalized();
+    return BasicRay<double>{V3d(at.point) + kClear * radius_of(scene) * normal, normal};
+  }
+  std::optional<BasicRay<double>> operator()(const PointLight& light) const {
+    const V3d towards = middle_of(scene) - light.position;
+    return BasicRay<double>{light.position, towards.length() > 0 ? towards.normalized() : V3d(1, 0, 0)};
+  }
+  std::optional<BasicRay<double>> operator()(const SpotLight& light) const {
+    return BasicRay<double>{light.position, light.axis};
+  }
+  std::optional<BasicRay<double>> operator()(const DirectionalLight& light) const {
+    return from_infinity(light.towards);
+  }
+  std::optional<BasicRay<double>> operator()(const SunLight& light) const {
+    return from_infinity(light.towards);
+  }
+  std::optional<BasicRay<double>> operator()(const EnvironmentLight&) const { return std::nullopt; }
+
+  [[nodiscard]] BasicRay<double> from_infinity(const V3d& towards) const {
+    return {middle_of(scene) + 1.5 * radius_of(scene) * towards, -towards};
+  }
+};
+
+// Half the angle of the fan.
+double fan_of(const Light& light) {
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
+    return 2 * std::asin(std::sqrt(std::min(1.0, static_cast<double>(spot->cap) / 2)));
+  return light.is<PointLight>() ? std::numbers::pi : kSurfaceFan;
+}
+
+}  // namespace
+
+const Light& light_named(const Scene& scene, const std::string& name, const std::string& option) {
+  std::vector<std::string> names;
+  for (const Light& light : scene.lights) {
+    if (light.name == name) return light;
+    names.push_back(light.name);
+  }
+  throw Error(ErrorCode::usage, option,
+              fmt::format("no such light (got \"{}\", allowed {})", name, fmt::join(names, ", ")));
+}
+
+std::optional<BasicRay<double>> middle_ray(const Scene& scene, const Light& light) {
+  return std::visit(MiddleRay{scene}, light.kind);
+}
+
+std::vector<BasicRay<double>> lamp_rays(const Scene& scene, const Light& light, int count) {
+  const std::optional<BasicRay<double>> middle = middle_ray(scene, light);
+  if (!middle) return {};
+  const V3d& axis = middle->direction;
+  const auto [side, up] = across(axis);
+  const double fan = fan_of(light);
+  std::vector<BasicRay<double>> rays;
+  for (const V3d& of : {side, up})
+    for (int i = 0; i < count; ++i) {
+      // From -1 to 1; a whole circle would have its ends twice.
+      const double share = count == 1 ? 0 : 2.0 * i / (light.is<PointLight>() ? count : count - 1) - 1;
+      if (light.at_infinity())
+        rays.push_back({middle->origin + share * radius_of(scene) * of, axis});
+      else
+        rays.push_back({middle->origin, std::cos(share * fan) * axis + std::sin(share * fan) * of});
+    }
+  return rays;
+}
+
+}  // namespace abbe

@@ -1,0 +1,217 @@
+#include "validation/layout/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "spectral/colorimetry.h"
+#include "transport/path/ray_trace.h"
+#include "validation/layout/lamp_rays.h"
+#include "validation/layout/outline.h"
+#include "validation/picture/display_color.h"
+#include "validation/plot/svg.h"
+
+namespace abbe {
+namespace {
+
+using V3d = Imath::V3d;
+
+constexpr double kViewWidth = 860;
+constexpr double kMaxViewHeight = 520;
+constexpr double kMargin = 30;
+constexpr double kTop = 50;
+constexpr double kBetween = 60;
+constexpr std::size_t kMaxNames = 60;
+
+struct View {
+  const char* name;
+  DrawingPlane plane;
+};
+const std::array<View, 2> kViews{
+    {{"Plan (x, y)", {{1, 0, 0}, {0, 1, 0}}}, {"Elevation (x, z)", {{1, 0, 0}, {0, 0, 1}}}}};
+
+// Of what is near, the lamps that have a place and the camera.
+Imath::Box3d drawn_box(const Scene& scene) {
+  Imath::Box3d box = scene.bounds;
+  box.extendBy(position(scene.camera));
+  for (const Light& light : scene.lights)
+    if (!light.at_infinity())
+      if (const auto ray = middle_ray(scene, light)) box.extendBy(ray->origin);
+  const V3d room(0.05 * std::max(box.size().length(), 1e-9));
+  return {box.min - room, box.max + room};
+}
+
+// Where a point of space is in the drawing.
+struct Projection {
+  DrawingPlane plane;
+  Imath::Box3d box;
+  double scale;  // pixels per metre
+  double top;
+
+  [[nodiscard]] double x(const V3d& p) const { return kMargin + scale * (p - box.min).dot(plane.right); }
+  [[nodiscard]] double y(const V3d& p) const { return top + scale * (box.max - p).dot(plane.up); }
+  [[nodiscard]] double height() const { return scale * box.size().dot(plane.up); }
+  [[nodiscard]] SvgPoints points(const std::vector<V3d>& line) const {
+    SvgPoints points;
+    for (const V3d& p : line) points.emplace_back(x(p), y(p));
+    return points;
+  }
+};
+
+// The part of a line within the drawing; nothing of one beyond it.
+std::vector<V3d> clipped(const V3d& from, const V3d& to, const Imath::Box3d& box) {
+  double first = 0;
+  double last = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = to[axis] - from[axis];
+    if (way == 0) {
+      if (from[axis] < box.min[axis] || from[axis] > box.max[axis]) return {};
+      continue;
+    }
+    const double a = (box.min[axis] - from[axis]) / way;
+    const double b = (box.max[axis] - from[axis]) / way;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  if (first >= last) return {};
+  return {from + first * (to - from), from + last * (to - from)};
+}
+
+std::string ray_elements(const DrawnRay& ray, const Projection& to) {
+  std::string elements;
+  const std::string look =
+      fmt::format("class=\"ray\" data-nm=\"{:g}\" stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.8\"",
+                  ray.wavelength_nm, wavelength_color(ray.wavelength_nm));
+  for (std::size_t i = 0; i + 1 < ray.points.size(); ++i)
+    if (const auto line = clipped(ray.points[i], ray.points[i + 1], to.box); !line.empty())
+      elements += svg_line(to.x(line[0]), to.y(line[0]), to.x(line[1]), to.y(line[1]), look);
+  return elements;
+}
+
+std::string shape_elements(const Scene& scene, const Projection& to) {
+  std::string elements;
+  std::set<std::string> named;
+  for (const ShapeInstance& shape : scene.shapes) {
+    if (shape.far) continue;
+    const bool lamp = shape.light >= 0;
+    for (const auto& line : outline(shape.shape, to.plane))
+      elements +=
+          svg_polyline(to.points(line), fmt::format("class=\"shape\" stroke=\"{}\" stroke-width=\"{}\"",
+                                                    lamp ? "#b08000" : "#303030", lamp ? 2.5 : 1.2));
+    if (shape.name.empty() || named.size() == kMaxNames || !named.insert(shape.name).second) continue;
+    const V3d middle = bounds(shape.shape).center();
+    elements += svg_text(to.x(middle), to.y(middle), shape.name,
+                         "text-anchor=\"middle\" fill=\"#303030\" fill-opacity=\"0.8\" font-size=\"10\"");
+  }
+  return elements;
+}
+
+std::string lamp_elements(const Scene& scene, const Projection& to) {
+  std::string elements;
+  for (const Light& light : scene.lights) {
+    if (light.is<AreaLight>() || light.at_infinity()) continue;
+    const V3d at = middle_ray(scene, light)->origin;
+    elements += svg_circle(to.x(at), to.y(at), 4, "class=\"lamp\" fill=\"#ffd040\" stroke=\"#b08000\"");
+    elements += svg_text(to.x(at) + 7, to.y(at) - 5, light.name, "fill=\"#b08000\" font-size=\"10\"");
+  }
+  return elements;
+}
+
+// The camera, and lines along what it sees at the middles of the film's edges.
+std::string camera_elements(const Scene& scene, const Projection& to) {
+  const Camera& camera = scene.camera;
+  const V3d at = position(camera);
+  std::string elements = svg_circle(to.x(at), to.y(at), 4, "class=\"camera\" fill=\"#3060c0\"");
+  elements += svg_text(to.x(at) + 7, to.y(at) + 12, "camera", "fill=\"#3060c0\" font-size=\"10\"");
+  if (traits(camera).surface_normal) return elements;
+  const auto width = static_cast<float>(camera.width);
+  const auto height = static_cast<float>(camera.height);
+  const double reach = to.box.size().length();
+  for (const Imath::V2f& film : {Imath::V2f(0, height / 2), Imath::V2f(width, height / 2),
+                                 Imath::V2f(width / 2, 0), Imath::V2f(width / 2, height)}) {
+    const CameraRay ray = sample_ray(camera, film, {0.5F, 0.5F}, SampledSpectrum(550.0F), 0);
+    const auto line = clipped(at, at + reach * V3d(ray.ray.direction).normalized(), to.box);
+    if (!line.empty())
+      elements +=
+          svg_line(to.x(line[0]), to.y(line[0]), to.x(line[1]), to.y(line[1]),
+                   "class=\"field\" stroke=\"#3060c0\" stroke-width=\"0.7\" stroke-dasharray=\"5 4\"");
+  }
+  return elements;
+}
+
+std::string unit_name(double unit_m) {
+  static const std::map<double, std::string> kNames{
+      {1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {1e-6, "um"}, {0.0254, "in"}};
+  const auto found = kNames.find(unit_m);
+  return found == kNames.end() ? "units" : found->second;
+}
+
+// 1, 2 or 5 times a power of ten of the scene's units, about a fifth of the width.
+std::string scale_bar(const Scene& scene, double scale, double y) {
+  const double wanted = kViewWidth / 5 / (scale * scene.unit_m);
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  const double length = power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);
+  const double end = kMargin + length * scene.unit_m * scale;
+  return svg_line(kMargin, y, end, y, "class=\"scale\" stroke=\"black\" stroke-width=\"2\"") +
+         svg_text(end + 8, y + 4, fmt::format("{:g} {}", length, unit_name(scene.unit_m)), "");
+}
+
+std::string legend(const std::vector<DrawnRay>& rays, double y) {
+  std::set<double> wavelengths;
+  for (const DrawnRay& ray : rays) wavelengths.insert(ray.wavelength_nm);
+  std::string elements;
+  double x = kMargin + kViewWidth / 2;
+  for (const double nm : wavelengths) {
+    elements +=
+        svg_line(x, y, x + 18, y, fmt::format("stroke=\"{}\" stroke-width=\"2\"", wavelength_color(nm)));
+    elements += svg_text(x + 22, y + 4, fmt::format("{:g} nm", nm), "");
+    x += 85;
+  }
+  return elements;
+}
+
+}  // namespace
+
+DrawnRay drawn_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, int max_events) {
+  const RayTrace trace = trace_ray(scene, ray, wavelength_nm, max_events);
+  DrawnRay drawn{wavelength_nm, {ray.origin}};
+  for (const TraceEvent& event : trace.events)
+    if (event.kind != TraceEvent::Kind::escape) drawn.points.push_back(event.at.point);
+  if (!trace.events.empty() && trace.events.back().kind == TraceEvent::Kind::escape)
+    drawn.points.push_back(trace.last.origin + drawn_box(scene).size().length() * trace.last.direction);
+  return drawn;
+}
+
+std::string wavelength_color(double wavelength_nm) {
+  const ColorMatching& observer = color_matching(Observer::cie1931);
+  LinearRgb rgb =
+      linear_rgb_of_xyz({observer.x(wavelength_nm), observer.y(wavelength_nm), observer.z(wavelength_nm)});
+  const double most = *std::max_element(rgb.begin(), rgb.end());
+  if (!(most > 1e-3)) return "#909090";
+  for (double& v : rgb) v /= most;
+  return css_color(display_code(rgb));
+}
+
+std::string layout_drawing(const Scene& scene, const std::vector<DrawnRay>& rays, const std::string& title) {
+  const Imath::Box3d box = drawn_box(scene);
+  const V3d size = box.size();
+  const double scale = std::min(kViewWidth / size.x, kMaxViewHeight / std::max(size.y, size.z));
+  std::string elements;
+  double top = kTop;
+  for (const View& view : kViews) {
+    const Projection to{view.plane, box, scale, top + 18};
+    elements += svg_text(kMargin, top + 8, view.name, "font-weight=\"bold\"");
+    elements += camera_elements(scene, to);
+    for (const DrawnRay& ray : rays) elements += ray_elements(ray, to);
+    elements += shape_elements(scene, to) + lamp_elements(scene, to);
+    top += to.height() + kBetween;
+  }
+  elements += scale_bar(scene, scale, top) + legend(rays, top);
+  return svg_document(kViewWidth + 2 * kMargin, top + 30, title, elements);
+}
+
+}  // namespace abbe
