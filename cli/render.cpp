@@ -28,6 +28,7 @@
 #include "io/picture.h"
 #include "io/standard_stream.h"
 #include "preview/preview.h"
+#include "preview/tev_viewer.h"
 #include "transport/render/threads.h"
 
 namespace abbe::cli {
@@ -160,18 +161,37 @@ Scene load_together(const RenderOptions& options, Inputs& inputs, const Crew& cr
   return *std::move(scene);
 }
 
-// Lets the page follow the render, beside what follows it already.
-void show_on(Preview& preview, abbe::RenderOptions& how) {
-  how.wants_to_see = [&preview] { return preview.wants_to_see(); };
-  how.show = [&preview](const RenderResult& result) { preview.show(result); };
-  how.progress = [&preview, before = how.progress](const Progress& progress) {
-    if (before) before(progress);
-    preview.tell(progress);
-  };
+/// Those who watch the render, of whom there may be none.
+struct Watchers {
+  std::optional<Preview> page = {};
+  std::optional<TevViewer> viewer = {};
+
+  [[nodiscard]] bool page_wants() { return page && page->wants_to_see(); }
+  [[nodiscard]] bool viewer_wants() { return viewer && viewer->wants_to_see(); }
+  void show(const RenderResult& result) {
+    if (page_wants()) page->show(result);
+    if (viewer_wants()) viewer->show(result);
+  }
+  void end(const RenderResult& result) {
+    if (viewer) viewer->end(result);
+    if (page) page->end(result);
+  }
+};
+
+// Lets them follow the render, beside what follows it already.
+void show_to(Watchers& watchers, abbe::RenderOptions& how) {
+  if (!watchers.page && !watchers.viewer) return;
+  how.wants_to_see = [&watchers] { return watchers.page_wants() || watchers.viewer_wants(); };
+  how.show = [&watchers](const RenderResult& result) { watchers.show(result); };
+  if (watchers.page)
+    how.progress = [&watchers, before = how.progress](const Progress& progress) {
+      if (before) before(progress);
+      watchers.page->tell(progress);
+    };
 }
 
 RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch,
-                   Preview* preview = nullptr) {
+                   Watchers& watchers) {
   ProgressDisplay display;
   abbe::RenderOptions how = how_to_render(options);
   const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
@@ -179,7 +199,7 @@ RenderPart develop(const Scene& scene, const RenderOptions& options, const Inter
   how.crew = crew();
   if (!options.quiet && how.crew.rank == 0)
     how.progress = [&display](const Progress& progress) { display(progress); };
-  if (preview != nullptr) show_on(*preview, how);
+  show_to(watchers, how);
   const fs::path& checkpoint = options.checkpoint;
   if (!checkpoint.empty())
     how.checkpoint = [&](const RenderResult& result) {
@@ -254,16 +274,23 @@ ViewOptions chosen_view(const RenderOptions& options) {
   return view;
 }
 
-// Its pictures are a copy of the planes, and the next copy of them.
-void start_preview(std::optional<Preview>& preview, const Scene& scene, const RenderOptions& options,
-                   Inputs& inputs) {
-  if (!options.preview) return;
+// What they are shown is a copy of the planes, and the next copy of them.
+void call_watchers(Watchers& watchers, const Scene& scene, const RenderOptions& options, Inputs& inputs) {
   const std::size_t pixels =
       static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height);
-  inputs.take_memory("the preview", 2 * sizeof(float) * pixels * scene.film_planes().size());
-  preview.emplace(scene, identity_of(scene, name_of(options.scene), how_to_render(options)),
-                  chosen_view(options), *options.preview, thread_count(options.threads));
-  say("watch the render at " + preview->url());
+  const std::size_t bytes = 2 * sizeof(float) * pixels * scene.film_planes().size();
+  const int threads = thread_count(options.threads);
+  const auto identity = [&] { return identity_of(scene, name_of(options.scene), how_to_render(options)); };
+  if (options.preview) {
+    inputs.take_memory("the preview", bytes);
+    watchers.page.emplace(scene, identity(), chosen_view(options), *options.preview, threads);
+    say("watch the render at " + watchers.page->url());
+  }
+  if (options.tev) {
+    inputs.take_memory("the viewer", bytes);
+    watchers.viewer.emplace(scene, identity(), *options.tev, threads,
+                            [](const std::string& warning) { say("warning: " + warning); });
+  }
 }
 
 // To standard output where there is no file.
@@ -293,7 +320,8 @@ int render(const RenderOptions& options) {
   const LeaderTells silence(crew());
   Scene scene = load_together(options, inputs, crew());
   if (crew().rank != 0) {
-    (void)develop(scene, options, InterruptWatch());
+    Watchers none;
+    (void)develop(scene, options, InterruptWatch(), none);
     return 0;
   }
   const Outputs outputs = choose_outputs(options, scene, inputs);
@@ -314,9 +342,9 @@ int render(const RenderOptions& options) {
   warn_of_lost_light(scene, options.strict);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
-  std::optional<Preview> preview;
-  start_preview(preview, scene, options, inputs);
-  const RenderPart part = develop(scene, options, watch, preview ? &*preview : nullptr);
+  Watchers watchers;
+  call_watchers(watchers, scene, options, inputs);
+  const RenderPart part = develop(scene, options, watch, watchers);
   const RenderStats& stats = part.result.stats;
   const auto write_display = [&] {
     write_pictures(outputs, *display, scene, shown_film(scene, film_image(part)), options.quiet);
@@ -330,7 +358,7 @@ int render(const RenderOptions& options) {
   if (!options.stats.empty())
     writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
   write_all(writers);
-  if (preview) preview->end(part.result);
+  watchers.end(part.result);
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
                     stats.samples_per_pixel, stats.wall_s, error_text(stats.error, ", ")));

@@ -36,6 +36,7 @@ struct RenderOptions {
   std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;
   std::optional<ServerAddress> preview;  ///< Where a page shows the render; nowhere unless asked.
+  std::optional<ServerAddress> tev;      ///< Of a viewer that is shown the render; none unless asked.
   bool explain = false;
   bool strict = false;  ///< What makes the image wrong ends the command: of the scene before it starts (3), a
                         ///< sample that is not finite after the image is written (70).

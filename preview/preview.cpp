@@ -67,8 +67,7 @@ bool Preview::wants_to_see() {
   if (!is_watched()) return false;
   cost_s_ += film_.take_time_spent();
   const std::chrono::duration<double> pause(cost_s_ / threads_ / kMaxShare);
-  return film_.number() == 0 ||
-         Clock::now() - shown_ > std::max<std::chrono::duration<double>>(pause, kMinPause);
+  return Clock::now() - shown_ > std::max<std::chrono::duration<double>>(pause, kMinPause);
 }
 
 void Preview::show(const RenderResult& result) {

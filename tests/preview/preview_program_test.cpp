@@ -9,6 +9,7 @@
 #include "io/exr.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/preview/tev_listener.h"
 
 // A render that is watched while it runs.
 
@@ -169,6 +170,22 @@ TEST(Preview, APortThatIsTakenOrNoneEndsTheCommandBeforeItRenders) {
     EXPECT_EQ(none.code, 2) << address;
     EXPECT_NE(none.err.find("--preview"), std::string::npos) << none.err;
   }
+}
+
+TEST(Tev, IsShownTheFilmThatIsWritten) {
+  TevListener viewer;
+  const std::string port = std::to_string(viewer.address().port);
+  const Outcome run =
+      abbe("render " + ball() + " --quiet --time 1s -o " + file("tev.exr") + " --tev " + port);
+  EXPECT_EQ(run.code, 0) << run.err;
+  viewer.wait();
+  const Image film = read_exr(file("tev.exr"));
+  ASSERT_EQ(viewer.channels.size(), 3U);
+  for (const auto& [channel, values] : viewer.channels)
+    EXPECT_EQ(values, film.find(channel)->values) << channel;
+  const Outcome none = abbe("render " + ball() + " -o " + file("none.exr") + " --tev " + port);
+  EXPECT_EQ(none.code, 5);
+  EXPECT_NE(none.err.find("127.0.0.1:" + port + ": no viewer listens there"), std::string::npos) << none.err;
 }
 
 }  // namespace

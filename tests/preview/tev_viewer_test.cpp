@@ -1,0 +1,83 @@
+#include "preview/tev_viewer.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "film/rendered_film.h"
+#include "film/sensor_identity.h"
+#include "tests/preview/tev_listener.h"
+#include "tests/scenes/scene_fixture.h"
+
+namespace abbe {
+namespace {
+
+using test::TevListener;
+
+struct Rendered {
+  Scene scene;
+  RenderPart part;
+};
+Rendered rendered(const std::string& resolution) {
+  Scene scene = test::load(
+      "cornell.json",
+      {{"/sensor/resolution", resolution}, {"/sensor/pixel_pitch_um", "30"}, {"/render/samples", "2"}});
+  RenderResult result = render(scene, {.threads = 2});
+  RenderPart part{identity_of(scene, "cornell.json", {}), std::move(result)};
+  return {std::move(scene), std::move(part)};
+}
+
+TEST(TevViewer, IsSentTheFilm) {
+  const Rendered made = rendered("[700, 401]");  // of more rows than one packet takes
+  TevListener viewer;
+  {
+    TevViewer sender(made.scene, made.part.identity, viewer.address(), 2,
+                     [](const std::string& text) { FAIL() << text; });
+    EXPECT_TRUE(sender.wants_to_see());
+    sender.show(made.part.result);
+    sender.end(made.part.result);
+  }
+  viewer.wait();
+  EXPECT_EQ(viewer.name.substr(0, 14), "cornell.json (");
+  EXPECT_EQ(viewer.width, 700);
+  EXPECT_EQ(viewer.height, 401);
+  EXPECT_EQ(viewer.updates, 12);  // two packets of each channel, twice
+  const Image film = film_image(made.part);
+  ASSERT_EQ(viewer.channels.size(), 3U);
+  for (const auto& [channel, values] : viewer.channels)
+    EXPECT_EQ(values, film.find(channel)->values) << channel;
+}
+
+TEST(TevViewer, OneThatGoesAwayIsToldOnceAndLeftAlone) {
+  const Rendered made = rendered("[700, 401]");
+  TevListener viewer(2);
+  std::atomic<int> warnings = 0;
+  {
+    TevViewer sender(made.scene, made.part.identity, viewer.address(), 2,
+                     [&](const std::string&) { ++warnings; });
+    sender.show(made.part.result);
+    viewer.wait();
+    for (int i = 0; i < 3; ++i) sender.end(made.part.result);
+    EXPECT_FALSE(sender.wants_to_see());
+  }
+  EXPECT_EQ(warnings, 1);
+}
+
+TEST(TevViewer, WhereNoneListensThereIsAnError) {
+  const Rendered made = rendered("[4, 4]");
+  int port = 0;
+  {
+    TevListener viewer(0);
+    port = viewer.address().port;
+    const TevViewer sender(made.scene, made.part.identity, viewer.address(), 1, [](const std::string&) {});
+  }
+  try {
+    const TevViewer sender(made.scene, made.part.identity, {"127.0.0.1", port}, 1, [](const std::string&) {});
+    FAIL() << "a viewer was found";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::output);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
