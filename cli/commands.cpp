@@ -50,8 +50,9 @@ void add_render(CLI::App& app, Command& command) {
       add_parsed(render, "--time", sub->time_limit_s, parse_seconds,
                  "Stop after this time, as 60s, 2m or 1h; with --error, at whichever comes first", "TIME");
   spp->excludes(error)->excludes(time);
-  add_parsed(render, "--integrator", sub->integrator, one_of<Integrator>({"auto", "path", "light"}),
-             "Technique", "auto|path|light");
+  add_parsed(render, "--integrator", sub->integrator,
+             one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}), "Technique",
+             fmt::format("{}", fmt::join(kIntegratorNames, "|")));
   add_parsed(render, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Seed of the random numbers", "N");
   add_parsed(render, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),

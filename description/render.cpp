@@ -9,7 +9,8 @@ using namespace schema;
 Fields fields(Tag<Render>) {
   return describe(
       "render", "How to render.",
-      {defaulted("integrator", &Render::integrator, word<Integrator>("integrator", {"auto", "path", "light"}),
+      {defaulted("integrator", &Render::integrator,
+                 word<Integrator>("integrator", {kIntegratorNames.begin(), kIntegratorNames.end()}),
                  "Which techniques find the light."),
        defaulted("samples", &Render::samples, {1, kMaxSamples}, "Samples per pixel."),
        field("max_depth", &Render::max_depth, {1, 100000},

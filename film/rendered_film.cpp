@@ -13,8 +13,7 @@
 namespace abbe {
 
 const char* integrator_name(Integrator integrator) {
-  constexpr std::array kNames{"auto", "path", "light"};
-  return kNames.at(static_cast<std::size_t>(integrator));
+  return kIntegratorNames.at(static_cast<std::size_t>(integrator));
 }
 
 FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,

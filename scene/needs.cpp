@@ -320,6 +320,12 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
     return classes;
   }
   if (!specular) return classes;
+  if (scene.render.integrator == Integrator::bdpt) {
+    add(names_of(scene, [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); }),
+        "E S+ (D S+)* L",
+        "a point, spot or directional light where no two vertices in a row but the eye's scatter");
+    return classes;
+  }
   const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
   const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
   add(names_of(scene, delta), "E S+ L",

@@ -37,7 +37,9 @@ struct ChartInstance {
 };
 
 /// Which techniques render the scene.
-enum class Integrator { automatic, path, light };
+enum class Integrator { automatic, path, light, bdpt };
+/// Their words in scenes, commands and films, in that order.
+inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt"};
 
 /// How to render, as the scene file asks.
 struct RenderSettings {

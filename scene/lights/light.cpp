@@ -92,8 +92,12 @@ std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emit
   const double pdf = drawn ? *drawn : density_by_area(emitter, d, distance, Imath::V3d(at.normal));
   const Imath::V3f wi(d * (1 / distance));
   if (!(pdf > 0) || !emits_towards(light, at.normal, -wi)) return std::nullopt;
-  return LightSample{wi, static_cast<float>(distance), 1, static_cast<float>(pdf),
-                     offset_point(at.point, at.normal, -wi)};
+  return LightSample{wi,
+                     static_cast<float>(distance),
+                     1,
+                     static_cast<float>(pdf),
+                     offset_point(at.point, at.normal, -wi),
+                     at.normal};
 }
 
 // Intensity falls off with the square of the distance, worked out in double: a lamp may be very near.

@@ -112,6 +112,7 @@ struct LightSample {
   float pdf;
   Imath::V3f end;  ///< Where a shadow ray ends: the point of the light, moved off its surface; meaningless
                    ///< at infinity.
+  Imath::V3f normal{0, 0, 0};  ///< Outward, of an area light there; zero for the others.
 };
 
 struct ShapeInstance;

@@ -16,10 +16,17 @@ bool same_film(const Film& a, const Film& b) {
   return true;
 }
 
-class SameBits : public testing::TestWithParam<const char*> {};
+struct Rendered {
+  const char* scene;
+  const char* integrator;
+};
+
+class SameBits : public testing::TestWithParam<Rendered> {};
 
 TEST_P(SameBits, WhateverTheNumberOfThreads) {
-  const Scene scene = test::load(GetParam(), {{"/sensor/resolution", "[80, 45]"}, {"/render/samples", "20"}});
+  const Scene scene = test::load(GetParam().scene, {{"/render/integrator", GetParam().integrator},
+                                                    {"/sensor/resolution", "[80, 45]"},
+                                                    {"/render/samples", "20"}});
   const RenderResult one = render(scene, {.threads = 1});
   ASSERT_GT(frame_mean_error(one.film), 0);
   EXPECT_TRUE(same_film(one.film, render(scene, {.threads = 2}).film));
@@ -27,16 +34,22 @@ TEST_P(SameBits, WhateverTheNumberOfThreads) {
 }
 
 TEST_P(SameBits, AnotherSeedIsAnotherFilm) {
-  const std::vector<Override> small{{"/sensor/resolution", "[80, 45]"}, {"/render/samples", "4"}};
+  const std::vector<Override> small{{"/render/integrator", GetParam().integrator},
+                                    {"/sensor/resolution", "[80, 45]"},
+                                    {"/render/samples", "4"}};
   std::vector<Override> reseeded = small;
   reseeded.push_back({"/render/seed", "1"});
-  EXPECT_FALSE(same_film(render(test::load(GetParam(), small), {}).film,
-                         render(test::load(GetParam(), reseeded), {}).film));
+  EXPECT_FALSE(same_film(render(test::load(GetParam().scene, small), {}).film,
+                         render(test::load(GetParam().scene, reseeded), {}).film));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, testing::Values("prism.json", "cornell.json", "glass_sphere.json"),
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
+                         testing::Values(Rendered{"prism.json", "auto"}, Rendered{"cornell.json", "auto"},
+                                         Rendered{"glass_sphere.json", "auto"},
+                                         Rendered{"glass_sphere.json", "bdpt"}),
                          [](const auto& info) {
-                           return std::string(info.param, std::strchr(info.param, '.'));
+                           const char* scene = info.param.scene;
+                           return std::string(scene, std::strchr(scene, '.')) + "_" + info.param.integrator;
                          });
 
 // Needs only skip what would add nothing. The technique of tracing light takes over paths from another, so
@@ -63,16 +76,20 @@ TEST(Needs, ForcedOnLeaveTheFilm) {
 }
 
 TEST(Crop, PixelsInsideAreThoseOfTheWholeFilm) {
-  const Scene scene =
-      test::load("cornell.json", {{"/sensor/resolution", "[64, 64]"}, {"/render/samples", "4"}});
-  const RenderResult whole = render(scene, {});
-  const RenderResult part = render(scene, {.crop = Crop{10, 20, 30, 40}});
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const auto pixel = static_cast<std::size_t>(y * 64 + x);
-      const bool inside = x >= 10 && x < 30 && y >= 20 && y < 40;
-      EXPECT_EQ(part.film.mean(pixel, 0), inside ? whole.film.mean(pixel, 0) : 0) << x << ", " << y;
-    }
+  for (const char* integrator : {"path", "bdpt"}) {
+    const Scene scene = test::load(
+        "cornell.json",
+        {{"/render/integrator", integrator}, {"/sensor/resolution", "[64, 64]"}, {"/render/samples", "4"}});
+    const RenderResult whole = render(scene, {});
+    const RenderResult part = render(scene, {.crop = Crop{10, 20, 30, 40}});
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) {
+        const auto pixel = static_cast<std::size_t>(y * 64 + x);
+        const bool inside = x >= 10 && x < 30 && y >= 20 && y < 40;
+        EXPECT_EQ(part.film.mean(pixel, 0), inside ? whole.film.mean(pixel, 0) : 0)
+            << integrator << ": " << x << ", " << y;
+      }
+  }
 }
 
 // Of two processes, the other of which does as much as the first.

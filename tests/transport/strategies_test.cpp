@@ -8,6 +8,9 @@
 #include "spectral/sources.h"
 #include "transport/path/path_recorder.h"
 #include "transport/plan/plan.h"
+#include "transport/technique/bidirectional.h"
+#include "transport/technique/path.h"
+#include "transport/technique/subpaths.h"
 
 namespace abbe {
 namespace {
@@ -17,13 +20,16 @@ using Imath::V3f;
 constexpr std::uint32_t kCount = 1 << 15;
 constexpr std::uint32_t kBatch = 1 << 10;
 
+enum class Filling { nothing, fog, glass, gold, sky };
+
 struct Look {
   Camera camera;
-  bool fog;
+  Filling filling;
 };
 
-// A coloured wall, a rough golden panel and a lamp, all apart from one another; with fog, a ball of it that
-// scatters and absorbs unevenly hangs before the wall.
+// A coloured wall, a rough golden panel and a lamp, all apart from one another. A ball of fog that scatters
+// and absorbs unevenly may hang before the wall, or one of gold; one of glass that disperses may stick in the
+// wall; or there are a sky, a wide sun and a small lamp as well.
 Scene room(const Look& look) {
   Scene scene{};
   scene.camera = look.camera;
@@ -35,14 +41,27 @@ Scene room(const Look& look) {
   scene.shapes.push_back({"panel", Quad{{-2, -2.2, 1}, {0, 0, 2.5}, {4, 0, 0}}, 1});
   scene.shapes.push_back({"lamp", Quad{{-0.5, 3, 1.5}, {1, 0, 0}, {0, 0, 1}}, 0, 0});
   scene.lights.push_back({"lamp", AreaLight{2, false}, Curve(1.0)});
-  if (look.fog) {
+  if (look.filling == Filling::sky) {
+    scene.lights.push_back({"sky", EnvironmentLight{}, Curve({{300, 0.1}, {1100, 0.4}})});
+    scene.lights.push_back({"sun", SunLight{V3f(0.6F, 0.64F, -0.48F), 0.05F}, Curve(3.0)});
+    scene.lights.push_back({"bulb", PointLight{{1, -1, 1.5}}, Curve({{300, 0.4}, {1100, 0.1}})});
+  }
+  if (look.filling == Filling::glass) {
+    scene.materials.push_back(
+        {"glass", DielectricMaterial{"glass", RefractiveIndex(Curve({{300, 1.7}, {1100, 1.4}}), Curve(),
+                                                              IndexMedium::air, 300, 1100)}});
+    scene.shapes.push_back({"ball", Sphere{{0, -1.4, 4}, 1.4}, 2});
+  }
+  if (look.filling == Filling::gold) scene.shapes.push_back({"ball", Sphere{{0, 0, 2.4}, 1}, 1});
+  if (look.filling == Filling::fog) {
     MediumMaterial thin;
-    thin.filling.scattering_per_m = Curve({{300, 0.2}, {1100, 0.6}});
+    thin.filling.scattering_per_m = Curve({{300, 0.5}, {1100, 2}});
     thin.filling.absorption_per_m = Curve(0.1);
     thin.filling.phase = HenyeyGreensteinPhase{0.4F};
     scene.materials.push_back({"fog", thin});
     scene.shapes.push_back({"fog", Sphere{{0, 0, 2.4}, 1}, 2});
   }
+  scene.render.integrator = Integrator::bdpt;
   scene.render.roulette_depth = -1;
   scene.render.max_depth = 3;
   scene.commit();
@@ -52,42 +71,22 @@ Scene room(const Look& look) {
 const CameraFrame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const Camera kPinhole{Pinhole{kFrame, 0.05, 0.005}, 1, 1, 0.04};
 const Camera kLens{ThinLens{kFrame, 0.05, 2, 0.05}, 1, 1, 0.04};
+const Camera kMeter{IrradianceProbe{{0, 0, 0}, {0, 0, 1}}, 1, 1, 0.04};
 
-RecordedPath camera_path(const Scene& scene, const Plan& plan, const Sampler& sampler, std::uint32_t i) {
-  const auto film = sampler.group(kFilmGroup);
-  const auto lens = sampler.group(kLensGroup);
+RecordedPath camera_path(const Plan& plan, const Sampler& sampler, std::uint32_t i) {
   RecordedPath path(sampler, i);
-  path.packet = draw_packet(plan.wavelengths, film[2]);
-  const CameraRay start =
-      sample_ray(scene.camera, {film[0], film[1]}, {lens[0], lens[1]}, path.lambda_nm(), film[kTimeNumber]);
-  path.ray = start.ray;
-  const auto of = density(scene.camera, start.ray, path.lambda_nm());
-  path.vertices = {{.at = CameraVertex{start.ray.origin}, .packet = path.packet, .time = start.ray.time}};
-  path.vertices[0].pdf_forward = SampledSpectrum(of ? of->pdf_position : 0);
-  path.direction_pdf = of ? of->pdf_direction : SampledSpectrum();
-  path.packet.throughput *= start.weight;
+  path.packet = draw_packet(plan.wavelengths, sampler.group(kFilmGroup)[2]);
+  start_from_camera(plan, 0, 0, path);
   return path;
 }
 
 // Of the same wavelengths and hero as the camera path it is to be joined to.
-RecordedPath light_path(const Scene& scene, const PathPacket& packet, const Sampler& sampler,
+RecordedPath light_path(const Plan& plan, RayCaster& caster, const PathPacket& packet, const Sampler& sampler,
                         std::uint32_t i) {
-  const auto a = sampler.group(kAimGroup);
-  const auto b = sampler.group(kEmissionGroup);
-  const Light& light = scene.lights[0];
-  const EmissionPoint from = sample_emission_point(light, scene.shapes, {b[0], b[1]});
-  const V3f wo = emission_direction(light, from.normal, {a[0], a[1]});
-  const EmissionDensity of = emission_density(light, from.normal, wo, 1);
   RecordedPath path(sampler, i);
-  path.packet = packet;
-  path.packet.throughput = light.emission(packet.wavelengths.lambda_nm) *
-                           (from.normal.dot(wo) / (of.pdf_position * of.pdf_direction));
-  path.packet.lane_pdf = SampledSpectrum(1.0F);
-  path.ray = spawn(from.point, from.normal, wo, a[kTimeNumber]);
-  path.vertices = {{.at = LightVertex{0, from.point, from.normal}, .packet = path.packet}};
-  path.vertices[0].packet.throughput = SampledSpectrum(1 / of.pdf_position);
-  path.vertices[0].pdf_forward = SampledSpectrum(of.pdf_position);
-  path.direction_pdf = SampledSpectrum(of.pdf_direction);
+  path.packet.wavelengths = packet.wavelengths;
+  path.packet.hero = packet.hero;
+  start_from_light(plan, caster, path);
   return path;
 }
 
@@ -100,23 +99,17 @@ double value(const PathVertex& a, const PathVertex& b, const SampledSpectrum& jo
 struct Estimate {
   double sum = 0;
   double squares = 0;
+  double count = kCount;  // of paths, some of which find nothing
   void add(double x) {
     sum += x;
     squares += x * x;
   }
-  [[nodiscard]] double mean() const { return sum / kCount; }
-  [[nodiscard]] double variance() const { return (squares / kCount - mean() * mean()) / kCount; }
+  [[nodiscard]] double mean() const { return sum / count; }
+  [[nodiscard]] double variance() const { return (squares / count - mean() * mean()) / count; }
 };
 
-// Two recorded paths that are joined by their `t`th and `s`th vertices, the first being the ends' own. Where
-// t is 0 the camera's point was drawn for the light's path alone.
-struct Joint {
-  std::span<const PathVertex> x;  ///< From the camera, to the one joined.
-  std::span<const PathVertex> y;  ///< From the light, likewise.
-  SampledSpectrum contribution;   ///< See `connect`.
-};
-
-// Calls `visit` with every way to join paths that scatter `events` times in all.
+// Joins recorded paths in every way that scatters `events` times in all, and calls `visit` with how many of
+// these are the light's path's and what it finds. Where none is the camera's its point is drawn anew.
 template <typename Visit>
 void join_all(const Scene& scene, RayCaster& caster, int events, Visit visit) {
   const Plan plan = make_plan(scene);
@@ -126,9 +119,9 @@ void join_all(const Scene& scene, RayCaster& caster, int events, Visit visit) {
     from_camera.paths().clear();
     from_light.paths().clear();
     for (std::uint32_t i = 0; i < kBatch; ++i) {
-      from_camera.paths().push_back(camera_path(scene, plan, {5, Purpose::camera, 0, 0, first + i}, i));
-      from_light.paths().push_back(
-          light_path(scene, from_camera.paths().back().packet, {5, Purpose::light, 0, 0, first + i}, i));
+      from_camera.paths().push_back(camera_path(plan, {5, Purpose::camera, 0, 0, first + i}, i));
+      from_light.paths().push_back(light_path(plan, caster, from_camera.paths().back().packet,
+                                              {5, Purpose::light, 0, 0, first + i}, i));
     }
     from_camera.run();
     from_light.run();
@@ -139,17 +132,14 @@ void join_all(const Scene& scene, RayCaster& caster, int events, Visit visit) {
       for (std::size_t s = 0; s <= static_cast<std::size_t>(events); ++s) {
         const std::size_t t = static_cast<std::size_t>(events) - s;
         if (s >= y.size() || t >= x.size()) continue;
-        PathVertex lens = x[0];
+        PathVertex a = x[t];
         if (t == 0) {
           const auto seen = sample_towards(scene.camera, point_of(y[s]), {u[0], u[1]}, y[s].lambda_nm(), 0);
           if (!seen) continue;
-          lens.at = CameraVertex{seen->lens_point};
-          lens.packet.throughput = SampledSpectrum(1 / lens.pdf_forward[0]);
+          a.at = CameraVertex{seen->lens_point};
         }
-        const std::span<const PathVertex> camera =
-            t == 0 ? std::span<const PathVertex>(&lens, 1) : std::span(x).first(t + 1);
-        const auto joined = connect(scene, caster, camera.back(), y[s]);
-        if (joined) visit(Joint{camera, std::span(y).first(s + 1), joined->contribution});
+        const auto joined = connect(scene, caster, a, y[s]);
+        if (joined) visit(s, value(a, y[s], joined->contribution));
       }
     }
   }
@@ -159,62 +149,14 @@ void join_all(const Scene& scene, RayCaster& caster, int events, Visit visit) {
 std::vector<Estimate> strategies(const Scene& scene, int events) {
   RayCaster caster(scene);
   std::vector<Estimate> found(static_cast<std::size_t>(events) + 1);
-  join_all(scene, caster, events, [&](const Joint& joint) {
-    found[joint.y.size() - 1].add(value(joint.x.back(), joint.y.back(), joint.contribution));
-  });
+  join_all(scene, caster, events, [&](std::size_t s, double value) { found[s].add(value); });
   return found;
-}
-
-// Density of the vertex `to`, drawn from `from`, which came from or goes to `before`.
-SampledSpectrum density_between(const Scene& scene, RayCaster& caster, const PathVertex* before,
-                                const PathVertex& from, const PathVertex& to) {
-  const V3f back = before != nullptr ? way_from(from, *before).direction : V3f(0);
-  const Way way = way_from(from, to);
-  return direction_pdf(scene, from, back, way.direction) * solid_angle_per_area(scene, from, to) *
-         transmission_along(scene, caster, from, way).density * to.event_pdf;
-}
-
-// sum_j f_j/p(lambda_j) / sum_st sum_k P_st,k: the balance heuristic over all strategies and lanes, with the
-// densities that the vertices hold and those across the joint.
-double balanced(const Scene& scene, RayCaster& caster, const Joint& joint) {
-  const std::size_t n = joint.x.size();
-  const std::size_t m = joint.y.size();
-  std::vector<const PathVertex*> all;
-  for (const PathVertex& vertex : joint.x) all.push_back(&vertex);
-  for (std::size_t j = m; j-- > 0;) all.push_back(&joint.y[j]);
-  const auto at = [&](std::size_t i) { return i < all.size() ? all[i] : nullptr; };
-  std::vector<SampledSpectrum> by_camera(n + m);
-  std::vector<SampledSpectrum> by_light(n + m);
-  for (std::size_t i = 0; i < n + m; ++i) {
-    const bool own = i < n;
-    const bool near_joint = own ? i + 2 >= n : i < n + 2;
-    by_camera[i] = own          ? all[i]->pdf_forward
-                   : near_joint ? density_between(scene, caster, at(i - 2), *all[i - 1], *all[i])
-                                : all[i]->pdf_reverse;
-    by_light[i] = !own         ? all[i]->pdf_forward
-                  : near_joint ? density_between(scene, caster, at(i + 2), *all[i + 1], *all[i])
-                               : all[i]->pdf_reverse;
-  }
-  SampledSpectrum sum;
-  SampledSpectrum ours;
-  for (std::size_t split = 1; split < n + m; ++split) {
-    SampledSpectrum product(1.0F);
-    for (std::size_t i = 0; i < n + m; ++i) product *= i < split ? by_camera[i] : by_light[i];
-    sum += product;
-    if (split == n) ours = product;
-  }
-  // Throughputs and lane densities of a packet have a unit in common.
-  const PathPacket& a = joint.x.back().packet;
-  const PathPacket& b = joint.y.back().packet;
-  const SampledSpectrum f = a.throughput * b.throughput * joint.contribution / a.wavelengths.pdf *
-                            (ours[a.hero] / (a.lane_pdf[a.hero] * b.lane_pdf[b.hero]));
-  return static_cast<double>(f.sum() / sum.sum());
 }
 
 TEST(Strategies, FindTheSameLight) {
   for (const Camera& camera : {kPinhole, kLens})
     for (int events = 1; events <= 3; ++events) {
-      const Scene scene = room({camera, false});
+      const Scene scene = room({camera, Filling::nothing});
       const std::vector<Estimate> found = strategies(scene, events);
       for (std::size_t s = 0; s < found.size(); ++s) {
         EXPECT_GT(found[s].mean(), 0) << s;
@@ -227,7 +169,7 @@ TEST(Strategies, FindTheSameLight) {
 
 // Within fog a connection between two of its points has no finite variance: only the outermost strategies.
 TEST(Strategies, FindTheSameLightThroughFog) {
-  const Scene scene = room({kPinhole, true});
+  const Scene scene = room({kPinhole, Filling::fog});
   for (int events = 1; events <= 2; ++events) {
     const std::vector<Estimate> found = strategies(scene, events);
     const Estimate& camera = found.front();
@@ -238,24 +180,83 @@ TEST(Strategies, FindTheSameLightThroughFog) {
   }
 }
 
-// Weighed over all of them by the densities that are stored, they add up to the same again, and to less noise
-// than the best of them alone.
+// What a technique finds along paths of one sample each, of a film of one pixel.
+template <typename Trace>
+Estimate found_by(Trace trace) {
+  constexpr std::uint32_t kMany = 1 << 17;
+  Estimate sum{0, 0, kMany};
+  for (std::uint32_t first = 0; first < kMany; first += kBatch) {
+    std::vector<double> values(kBatch);
+    trace(first,
+          [&](std::uint32_t i, const FilmPoint&, std::span<const double> more) { values[i] += more[0]; });
+    for (const double value : values) sum.add(value);
+  }
+  return sum;
+}
+Estimate found_by_path_tracing(const Scene& scene) {
+  const Plan plan = make_plan(scene);
+  RayCaster caster(scene);
+  PathTracer tracer(plan, caster);
+  return found_by([&](std::uint32_t first, const Deposit& deposit) {
+    std::vector<PixelSample> samples;
+    for (std::uint32_t i = 0; i < kBatch; ++i)
+      samples.push_back({0, 0, Sampler(7, Purpose::camera, 0, 0, first + i)});
+    tracer.trace(samples, deposit);
+  });
+}
+Estimate found_bidirectionally(const Scene& scene) {
+  const Plan plan = make_plan(scene);
+  RayCaster caster(scene);
+  BidirectionalTracer tracer(plan, caster);
+  return found_by([&](std::uint32_t first, const Deposit& deposit) {
+    std::vector<PixelPair> pairs;
+    for (std::uint32_t i = 0; i < kBatch; ++i)
+      pairs.push_back({0, 0, Sampler(7, Purpose::camera, 0, 0, first + i),
+                       Sampler(7, Purpose::light, 0, 0, first + i), true});
+    tracer.trace(pairs, deposit);
+  });
+}
+
+// Weighed over all of them by the densities that are stored, they add up to what path tracing finds: of paths
+// of any number of events, through fog and glass, off gold, of lights of all kinds, and into a meter, which
+// no photon is connected to. Where path tracing is at its best, the others' share of the weight costs little.
 TEST(Strategies, AddUpBalanced) {
-  for (const bool fog : {false, true})
-    for (int events = 1; events <= 3; ++events) {
-      const Scene scene = room({kLens, fog});
-      RayCaster caster(scene);
-      Estimate sum;
-      std::vector<Estimate> alone(static_cast<std::size_t>(events) + 1);
-      join_all(scene, caster, events, [&](const Joint& joint) {
-        sum.add(balanced(scene, caster, joint));
-        alone[joint.y.size() - 1].add(value(joint.x.back(), joint.y.back(), joint.contribution));
-      });
-      const Estimate& path_tracing = alone.front();
-      EXPECT_NEAR(sum.mean() / path_tracing.mean(), 1,
-                  4.5 * std::sqrt(sum.variance() + path_tracing.variance()) / path_tracing.mean())
-          << events << " events" << (fog ? " through fog" : "");
-      for (const Estimate& one : alone) EXPECT_LT(sum.variance(), 1.1 * one.variance());
+  for (const Camera& camera : {kPinhole, kLens, kMeter})
+    for (const Filling filling :
+         {Filling::nothing, Filling::fog, Filling::glass, Filling::gold, Filling::sky})
+      for (const int events : {1, 4}) {
+        SCOPED_TRACE(testing::Message() << events << " events, filling " << static_cast<int>(filling));
+        Scene scene = room({camera, filling});
+        scene.render.max_depth = events;
+        const Estimate sum = found_bidirectionally(scene);
+        scene.render.integrator = Integrator::path;
+        const Estimate alone = found_by_path_tracing(scene);
+        EXPECT_NEAR(sum.mean() / alone.mean(), 1,
+                    4.5 * std::sqrt(sum.variance() + alone.variance()) / alone.mean());
+        EXPECT_LT(sum.variance(), 1.25 * alone.variance());
+      }
+}
+
+// A path that glass refracts or mirrors has the same densities whichever end records it.
+TEST(RecordedPaths, SingleDirectionsAreAsDenseFromEitherEnd) {
+  const Bsdf glass = DielectricBsdf{SampledSpectrum(1.5F), false};
+  const auto at = [&glass](const V3f& wo) {
+    return SurfaceVertex({V3f(0), V3f(0, 0, 1), 0, 0}, Basis<float>(V3f(0, 0, 1)), wo, glass);
+  };
+  for (const V3f& wo : {V3f(0.6F, 0, 0.8F), V3f(0, 0.28F, -0.96F)})
+    for (const float lobe : {0.001F, 0.9F}) {
+      const SurfaceVertex there = at(wo);
+      const auto radiance = there.scatter({lobe, {}}, 0, TransportMode::radiance);
+      const SurfaceVertex back = at(radiance->wi);
+      const auto power = back.scatter({lobe, {}}, 0, TransportMode::power);
+      ASSERT_LT((power->wi - wo).length(), 1e-6);
+      const auto camera = PathRecorder<TransportMode::radiance>::single_direction(there, *radiance, 0);
+      const auto light = PathRecorder<TransportMode::power>::single_direction(back, *power, 0);
+      EXPECT_NEAR(light.forward[0] / camera.back[0], 1, 1e-5);
+      EXPECT_NEAR(light.back[0] / camera.forward[0], 1, 1e-5);
+      // dw_light/dw_camera is 1 of a mirror, and here n_c^2 cos_c / (n_l^2 cos_l).
+      const float n = radiance->transmitted ? (wo.z > 0 ? 1 / 1.5F : 1.5F) : 1;
+      EXPECT_NEAR(camera.back[0] / camera.forward[0], n * n * std::abs(wo.z / radiance->wi.z), 1e-5);
     }
 }
 
@@ -269,13 +270,13 @@ float seen_size(const PathVertex& from, const PathVertex& to) {
 
 // From one vertex to the next a recorded path has gone with the product of the densities of its pieces.
 TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
-  for (const bool fog : {false, true}) {
-    const Scene scene = room({kLens, fog});
+  for (const Filling filling : {Filling::nothing, Filling::fog}) {
+    const Scene scene = room({kLens, filling});
     RayCaster caster(scene);
     const Plan plan = make_plan(scene);
     PathRecorder<TransportMode::radiance> recorder(scene, caster);
     for (std::uint32_t i = 0; i < kBatch; ++i)
-      recorder.paths().push_back(camera_path(scene, plan, {6, Purpose::camera, 0, 0, i}, i));
+      recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, i}, i));
     recorder.run();
     int within = 0;
     for (const RecordedPath& path : recorder.paths()) {
@@ -309,7 +310,7 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
         for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(to.pdf_reverse[j] / expected[j], 1, 2e-3);
       }
     }
-    EXPECT_EQ(within > 50, fog);
+    EXPECT_EQ(within > 50, filling == Filling::fog);
   }
 }
 

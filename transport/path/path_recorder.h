@@ -1,6 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,12 +15,21 @@
 
 namespace abbe {
 
+/// A light that a path has met by itself.
+struct MetLight {
+  std::size_t after;  ///< So many of its vertices.
+  PathVertex vertex;
+};
+
 /// A path under way that keeps its vertices.
 struct RecordedPath : Walk {
   using Walk::Walk;
   std::vector<PathVertex> vertices;
-  /// Density [1/sr] with which the last vertex drew the ray, lane by lane; 0 as one of single directions.
+  std::vector<MetLight> met;  ///< By one from the camera.
+  /// Density [1/sr] with which the last vertex drew the ray, lane by lane; of a single direction, see below.
   SampledSpectrum direction_pdf{1.0F};
+  float carried_at_start = 1;  ///< What roulette compares with.
+  float eta_scale = 1;         ///< What refraction has taken off radiance, which counts as still there.
 };
 
 /// Random walks whose vertices are kept for other techniques to join: of paths from the camera, which carry
@@ -26,6 +39,13 @@ struct RecordedPath : Walk {
 ///     pdf_reverse(x_i) = p(w_i') dw/dA pass,     p(w_i') that of the direction to it from x_{i+1},
 /// `pass` being the density of coming through the matter between, and in matter that of an event there,
 /// e^(-depth) s_k with the extinction s_k. [Veach1997, sec. 10.2]
+///
+/// Of a single direction p is the event's share of the light, the same both ways: the probability of a
+/// reflection, the transmittance of what is let through. It is the factor of a Dirac distribution over the
+/// directions towards the light. The distribution over those towards the camera, which a path from there
+/// would draw back, is as dense times
+///     dw_light/dw_camera = (n_c^2 |cos_c|)/(n_l^2 |cos_l|),
+/// so that the densities of all ways in which a path may come about are in one measure.
 template <TransportMode mode>
 class PathRecorder {
  public:
@@ -36,25 +56,57 @@ class PathRecorder {
       : scene_(scene), caster_(caster), walks_(scene, caster) {}
 
   /// All paths: those to be walked start with their ray, packet, surroundings, first vertex and
-  /// `direction_pdf`.
+  /// `direction_pdf`; the others have no vertex.
   [[nodiscard]] std::vector<RecordedPath>& paths() { return walks_.paths(); }
-  /// Walks all of them to their ends.
+  /// Walks them to their ends.
   void run() {
-    walks_.going().resize(paths().size());
-    for (std::uint32_t i = 0; i < walks_.going().size(); ++i) walks_.going()[i] = i;
+    for (std::uint32_t i = 0; i < paths().size(); ++i)
+      if (!paths()[i].vertices.empty()) walks_.going().push_back(i);
     walks_.run(*this);
   }
 
+  /// Densities of a direction that a vertex has drawn, and of that back to the vertex before.
+  struct BothWays {
+    SampledSpectrum forward, back;
+  };
+  /// Those of a single direction.
+  [[nodiscard]] static BothWays single_direction(const SurfaceVertex& vertex, const BsdfSample& event,
+                                                 int hero) {
+    const float eta2 = vertex.squared_eta(event, hero);
+    const float cosines = std::abs(vertex.wo.z / event.wi.z);
+    const SampledSpectrum share = delta_share(event, eta2, mode);
+    if constexpr (mode == TransportMode::radiance)
+      return {share, share * (cosines / eta2)};
+    else
+      return {share * (eta2 / cosines), share};
+  }
+
   // What RandomWalks asks.
-  void escape(RecordedPath& /*path*/) {}
-  void meet(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  void escape(RecordedPath& path) {
+    if (mode == TransportMode::power || scene_.background().empty()) return;
+    path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
+    for (const std::uint32_t light : scene_.background()) {
+      const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
+      if (sun == nullptr || sun->shows(path.ray.direction))
+        keep_light(path, {light, path.ray.direction, Imath::V3f(0), true});
+    }
+  }
+  void meet(RecordedPath& path, const SurfaceHit& hit) {
+    const std::int32_t light = scene_.shapes[hit.shape].light;
+    if (mode == TransportMode::power || light < 0) return;
+    const auto index = static_cast<std::uint32_t>(light);
+    if (emits_towards(scene_.lights[index], hit.normal, -path.ray.direction))
+      keep_light(path, {index, hit.point, hit.normal});
+  }
   void reach(RecordedPath& path, const SurfaceVertex& vertex) {
-    keep(path, {.at = vertex, .beyond = vertex.behind(scene_, path.around.inside)}, SampledSpectrum(1.0F));
+    path.vertices.push_back(
+        come_to(path, {.at = vertex, .beyond = vertex.behind(scene_, path.around.inside)}));
   }
   void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
   void connect_within(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& /*u*/) {
-    keep(path, {.at = MediumVertex{path.ray.origin, path.ray.direction, phase}, .beyond = path.around.inside},
-         path.around.medium.extinction_per_m);
+    path.vertices.push_back(come_to(path, {.at = MediumVertex{path.ray.origin, path.ray.direction, phase},
+                                           .beyond = path.around.inside,
+                                           .event_pdf = path.around.medium.extinction_per_m}));
   }
   [[nodiscard]] std::optional<BsdfSample> scatter(const RecordedPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
@@ -62,16 +114,19 @@ class PathRecorder {
   }
   [[nodiscard]] bool follows(RecordedPath& /*path*/, const BsdfSample& /*event*/) const { return true; }
   [[nodiscard]] bool follows_within(const RecordedPath& /*path*/) const { return true; }
-  [[nodiscard]] float kept(RecordedPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& event) {
+  [[nodiscard]] float kept(RecordedPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
     path.vertices.back().delta = event.delta;
-    leave(path);
+    if (mode == TransportMode::radiance) path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
+    leave(path, event.delta ? single_direction(vertex, event, path.packet.hero) : both_ways(path));
     return carried(path);
   }
   [[nodiscard]] float kept_within(RecordedPath& path) {
-    leave(path);
+    leave(path, both_ways(path));
     return carried(path);
   }
-  [[nodiscard]] float carried(const RecordedPath& path) const { return path.packet.carried(); }
+  [[nodiscard]] float carried(const RecordedPath& path) const {
+    return path.packet.carried() * path.eta_scale / path.carried_at_start;
+  }
   void resolve_connections() {}
 
  private:
@@ -83,30 +138,31 @@ class PathRecorder {
     return transmission_along(scene_, caster_, from, way).density;
   }
 
-  // `event` is the density of an event, given that the way led there.
-  void keep(RecordedPath& path, PathVertex vertex, const SampledSpectrum& event) {
+  // The vertex that a path has come to, with all that the path tells of it.
+  [[nodiscard]] PathVertex come_to(const RecordedPath& path, PathVertex vertex) {
     vertex.packet = path.packet;
     vertex.inside = path.around.inside;
     vertex.time = path.ray.time;
-    vertex.event_pdf = event;
     const PathVertex& before = path.vertices.back();
-    vertex.pdf_forward =
-        path.direction_pdf * solid_angle_per_area(scene_, before, vertex) * passing(before, vertex) * event;
-    path.vertices.push_back(std::move(vertex));
+    vertex.pdf_forward = path.direction_pdf * solid_angle_per_area(scene_, before, vertex) *
+                         passing(before, vertex) * vertex.event_pdf;
+    return vertex;
+  }
+  void keep_light(RecordedPath& path, const LightVertex& light) {
+    path.met.push_back({path.vertices.size(), come_to(path, {.at = light})});
   }
 
-  // The last vertex has drawn the path's ray: what it would have drawn the other way, and what it did.
-  void leave(RecordedPath& path) {
+  [[nodiscard]] BothWays both_ways(const RecordedPath& path) const {
+    const PathVertex& vertex = path.vertices.back();
+    const Imath::V3f back = way_from(vertex, path.vertices[path.vertices.size() - 2]).direction;
+    return {direction_pdf(scene_, vertex, back, path.ray.direction),
+            direction_pdf(scene_, vertex, path.ray.direction, back)};
+  }
+  void leave(RecordedPath& path, const BothWays& drawn) {
     const PathVertex& vertex = path.vertices.back();
     PathVertex& before = path.vertices[path.vertices.size() - 2];
-    if (vertex.delta) {
-      path.direction_pdf = SampledSpectrum();
-      return;
-    }
-    const Imath::V3f back = way_from(vertex, before).direction;
-    path.direction_pdf = abbe::direction_pdf(scene_, vertex, back, path.ray.direction);
-    before.pdf_reverse = abbe::direction_pdf(scene_, vertex, path.ray.direction, back) *
-                         solid_angle_per_area(scene_, vertex, before) * passing(before, vertex) *
+    path.direction_pdf = drawn.forward;
+    before.pdf_reverse = drawn.back * solid_angle_per_area(scene_, vertex, before) * passing(before, vertex) *
                          before.event_pdf;
   }
 

@@ -67,6 +67,13 @@ struct SurfaceVertex {
       event->weight *= shading_normal_correction(frame.to_world(event->wi), event->wi, mode);
     return event;
   }
+  /// By which refraction has divided radiance, were the event's light radiance: the square of the index it
+  /// goes on in over that it came in, at the hero's wavelength; 1 where nothing is refracted.
+  [[nodiscard]] float squared_eta(const BsdfSample& event, int hero) const {
+    if (!event.transmitted) return 1;
+    const float n = index_inside(bsdf, hero);
+    return wo.z > 0 ? n * n : 1 / (n * n);
+  }
   /// f(wo, wi) of the model, corrected likewise, towards a direction in the world and local.
   [[nodiscard]] SampledSpectrum f(const Imath::V3f& world, const Imath::V3f& local,
                                   TransportMode mode) const {

@@ -16,10 +16,10 @@ namespace {
 std::vector<bool> traced_lights(const Scene& scene) {
   std::vector<bool> traced(scene.lights.size(), false);
   const std::vector<Technique> techniques = chosen_techniques(scene);
-  if (!uses(techniques, Technique::light)) return traced;
-  const bool light_only = techniques.size() == 1;
+  if (!starts_at_lights(techniques)) return traced;
+  const bool all = !uses(techniques, Technique::path);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    traced[i] = !scene.lights[i].is_environment() && (light_only || scene.needs.light_is_traced[i]);
+    traced[i] = !scene.lights[i].is_environment() && (all || scene.needs.light_is_traced[i]);
   return traced;
 }
 
@@ -85,27 +85,28 @@ std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, con
 Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
              const std::vector<bool>& traced) {
   const bool light_only = techniques == std::vector{Technique::light};
-  const bool traces_light = uses(techniques, Technique::light);
+  const bool traces_light = starts_at_lights(techniques);
   std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
-  Plan plan{scene,
-            make_wavelengths(scene, emissions),
-            LightSampler(scene, emissions.seen),
-            PowerLightSampler(traced_powers),
-            traced,
-            traces_light ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
-            std::move(techniques),
-            static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
-            1,
-            nominal_value(scene, emissions),
-            make_own_wavelengths(scene, emissions),
-            around_camera(scene),
-            std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
+  Plan plan{
+      scene,
+      make_wavelengths(scene, emissions),
+      LightSampler(scene, emissions.seen),
+      PowerLightSampler(traced_powers),
+      traced,
+      uses(techniques, Technique::light) ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
+      std::move(techniques),
+      static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
+      1,
+      nominal_value(scene, emissions),
+      make_own_wavelengths(scene, emissions),
+      around_camera(scene),
+      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
   if (traces_light && plan.traced_lights.empty()) {
-    plan.techniques.pop_back();
+    std::erase(plan.techniques, Technique::light);
     plan.traced.assign(scene.lights.size(), false);
   }
   return plan;
@@ -113,7 +114,11 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
 
 std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) {
   if (auto faint = too_faint(nominal_value(scene, emissions))) return faint;
-  return refusal(scene, traced_lights(scene), scene.render.integrator == Integrator::light);
+  std::vector<bool> traced = traced_lights(scene);
+  const bool aims = uses(chosen_techniques(scene), Technique::light);
+  for (std::size_t i = 0; i < traced.size(); ++i)
+    traced[i] = traced[i] && (aims || scene.lights[i].at_infinity());  // others shine everywhere
+  return refusal(scene, traced, scene.render.integrator != Integrator::automatic);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace abbe {
 enum class Technique : std::uint8_t {
   path,   ///< Path tracing from the camera [Kajiya1986]: `PathTracer`.
   light,  ///< Light tracing [Arvo1986]: `LightTracer`.
+  bdpt,   ///< Bidirectional path tracing [Veach1997]: `BidirectionalTracer`. Alone.
 };
 
 /// The name of a technique in scenes and answers.
@@ -25,6 +26,9 @@ enum class Technique : std::uint8_t {
 
 /// Whether a technique is among some.
 [[nodiscard]] bool uses(std::span<const Technique> techniques, Technique technique);
+
+/// Whether one of some starts paths from lights.
+[[nodiscard]] bool starts_at_lights(std::span<const Technique> techniques);
 
 /// Tells which classes of paths a technique owns beside the others of `active`, in the notation of
 /// [Heckbert1990]: E is the camera, S an event of a single direction, D any other, and L the light.

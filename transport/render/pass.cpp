@@ -53,10 +53,18 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
   tiles_x_ = pieces(width, kTile);
   photons_ = plan.photons;
   path_interval_ = plan.path_interval;
-  for (const Technique technique : plan.techniques)
-    stages_.push_back(technique == Technique::path
-                          ? Stage{tiles_x_ * pieces(height, kTile), &Pass::render_tile}
-                          : Stage{pieces(photons_, kPhotonBatch), &Pass::trace_batch});
+  const std::uint32_t tiles = tiles_x_ * pieces(height, kTile);
+  for (const Technique technique : plan.techniques) switch (technique) {
+      case Technique::path:
+        stages_.push_back({tiles, &Pass::render_tile});
+        break;
+      case Technique::light:
+        stages_.push_back({pieces(photons_, kPhotonBatch), &Pass::trace_batch});
+        break;
+      case Technique::bdpt:
+        stages_.push_back({tiles, &Pass::join_tile});
+        break;
+    }
   for (const Stage& stage : stages_) items_ += stage.items;
 }
 
@@ -142,32 +150,58 @@ void Pass::sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker) {
   worker.path_tracer.trace(worker.pixels, deposit);
 }
 
+// Paths from lights may come to any pixel of the film; those that are not asked for get nothing.
+Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
+  return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+    if (at.x < crop_.x0 || at.x >= crop_.x1 || at.y < crop_.y0 || at.y >= crop_.y1 || !keeps(values, worker))
+      return;
+    film_.add(static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film_.width()) +
+                  static_cast<std::size_t>(at.x),
+              static_cast<int>(replicate(sample)), values);
+  };
+}
+
+// The paths from lights are those of all pixels, whichever are asked for.
+void Pass::join_tile(std::uint32_t tile, Worker& worker) {
+  const auto x0 = static_cast<int>(tile % tiles_x_ * kTile);
+  const auto y0 = static_cast<int>(tile / tiles_x_ * kTile);
+  for (std::uint64_t s = first_; s < last_; ++s) {
+    const auto index = static_cast<std::uint32_t>(s / static_cast<std::uint64_t>(film_.replicates()));
+    worker.pairs.clear();
+    for (int y = y0; y < std::min(y0 + static_cast<int>(kTile), film_.height()); ++y)
+      for (int x = x0; x < std::min(x0 + static_cast<int>(kTile), film_.width()); ++x) {
+        const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
+        worker.pairs.push_back({x, y, Sampler(seed_, Purpose::camera, replicate(s), pixel, index),
+                                photon_sampler(s, pixel),
+                                x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1});
+        worker.counts.paths += worker.pairs.back().seen ? 2 : 1;
+      }
+    worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));
+  }
+}
+
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   const std::uint64_t begin = std::uint64_t{batch} * kPhotonBatch;
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
-    const Deposit deposit = [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
-      if (at.x < crop_.x0 || at.x >= crop_.x1 || at.y < crop_.y0 || at.y >= crop_.y1 ||
-          !keeps(values, worker))
-        return;
-      film_.add(static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film_.width()) +
-                    static_cast<std::size_t>(at.x),
-                static_cast<int>(replicate(s)), values);
-    };
+    const Deposit deposit = splats_of(s, worker);
     for (std::uint64_t first = begin; first < end; first += kTogether)
       trace_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker, deposit);
   }
+}
+
+Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
+  const std::uint64_t index = sample / static_cast<std::uint64_t>(film_.replicates()) * photons_ + photon;
+  return {seed_, Purpose::light, replicate(sample), static_cast<std::uint32_t>(index >> 32),
+          static_cast<std::uint32_t>(index)};
 }
 
 // Those from `first` to `last` of a sample.
 void Pass::trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
                          const Deposit& deposit) const {
   worker.photons.clear();
-  for (std::uint64_t photon = first; photon < last; ++photon) {
-    const std::uint64_t index = sample / static_cast<std::uint64_t>(film_.replicates()) * photons_ + photon;
-    worker.photons.emplace_back(seed_, Purpose::light, replicate(sample),
-                                static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(index));
-  }
+  for (std::uint64_t photon = first; photon < last; ++photon)
+    worker.photons.push_back(photon_sampler(sample, photon));
   worker.counts.paths += worker.photons.size();
   worker.light_tracer.trace(worker.photons, deposit);
 }

@@ -10,6 +10,7 @@
 
 #include "sensor/film/film.h"
 #include "transport/render/render.h"
+#include "transport/technique/bidirectional.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
 
@@ -52,14 +53,17 @@ class Pass {
     explicit Worker(const Plan& plan)
         : caster(plan.scene),
           path_tracer(plan, caster),
-          light_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)) {}
+          light_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)),
+          bidirectional_tracer(plan, caster) {}
     Worker(const Worker&) = delete;  // the tracers refer to the caster
     Worker& operator=(const Worker&) = delete;
 
     RayCaster caster;
     PathTracer path_tracer;
     LightTracer light_tracer;
+    BidirectionalTracer bidirectional_tracer;
     std::vector<PixelSample> pixels;
+    std::vector<PixelPair> pairs;
     std::vector<Sampler> photons;
     std::vector<double> values;  // of a camera path, as the film takes them
     PassCounts counts;
@@ -75,9 +79,12 @@ class Pass {
   void do_item(std::uint32_t item, Worker& worker);
   void render_tile(std::uint32_t tile, Worker& worker);
   void sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker);
+  void join_tile(std::uint32_t tile, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
   void trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
                      const Deposit& deposit) const;
+  [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
+  [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
   [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, std::uint32_t pixel) const;

@@ -8,6 +8,7 @@
 
 #include "transport/render/pass.h"
 #include "transport/render/threads.h"
+#include "transport/technique/bidirectional.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
 
@@ -21,8 +22,8 @@ constexpr std::uint32_t kBatches = 64;
 constexpr std::uint32_t kBatch = 256;
 constexpr double kAll = kBatches * kBatch;
 
-// Camera paths through pixels all over the film, whose mean stands for all pixels.
-void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+// Pixels all over the film.
+std::vector<PixelSample> pixels_of(const Plan& plan, std::uint32_t batch) {
   const Camera& camera = plan.scene.camera;
   std::vector<PixelSample> samples;
   for (std::uint32_t i = batch * kBatch; i < (batch + 1) * kBatch; ++i) {
@@ -31,10 +32,27 @@ void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, Expo
     const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
     samples.push_back({x, y, Sampler(kSeedOfPilots, Purpose::camera, 0, 0, i)});
   }
+  return samples;
+}
+
+// Camera paths, whose mean stands for all pixels.
+void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+  const Camera& camera = plan.scene.camera;
   PathTracer tracer(plan, caster);
   tracer.tell_lights_apart(sums);
-  tracer.trace(samples, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  tracer.trace(pixels_of(plan, batch), [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
   for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kAll;
+}
+
+void expose_joined(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+  std::vector<PixelPair> pairs;
+  for (const PixelSample& sample : pixels_of(plan, batch)) {
+    const auto i = static_cast<std::uint32_t>(batch * kBatch + pairs.size());
+    pairs.push_back({sample.x, sample.y, sample.sampler, {kSeedOfPilots, Purpose::light, 0, 0, i}, true});
+  }
+  BidirectionalTracer tracer(plan, caster);
+  tracer.tell_lights_apart(sums);
+  tracer.trace(pairs, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
 }
 
 void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
@@ -76,6 +94,7 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
     for (std::uint32_t batch = next++; batch < kBatches; batch = next++) {
       if (uses(plan.techniques, Technique::path)) expose_batch(plan, batch, caster, batches[batch]);
       if (uses(plan.techniques, Technique::light)) expose_photons(plan, batch, caster, batches[batch]);
+      if (uses(plan.techniques, Technique::bdpt)) expose_joined(plan, batch, caster, batches[batch]);
     }
   });
   // In their order, whichever threads traced them.

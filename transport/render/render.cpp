@@ -54,12 +54,12 @@ class Rendering {
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
                                                        static_cast<std::uint64_t>(scene.camera.height)))),
-        result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
-                     replicate_count(scene, options), plan_.nominal_value,
-                     uses(plan_.techniques, Technique::light) ? plan_.photons : 0, plan_.path_interval,
-                     options.crop),
-                {},
-                {}} {
+        result_{
+            Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
+                 replicate_count(scene, options), plan_.nominal_value,
+                 starts_at_lights(plan_.techniques) ? plan_.photons : 0, plan_.path_interval, options.crop),
+            {},
+            {}} {
     if (start) {
       if (start->film.shape() != result_.film.shape())
         throw Error(ErrorCode::input, "render", "the film to go on with has another shape");

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "transport/technique/bidirectional.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
 
@@ -27,20 +28,25 @@ void trace_some(const Plan& plan, RayCaster& caster) {
   const std::uint32_t pixels = width * static_cast<std::uint32_t>(scene.camera.height);
   PathTracer path_tracer(plan, caster);
   LightTracer light_tracer(plan, caster, 1);
+  BidirectionalTracer bidirectional_tracer(plan, caster);
   const Deposit dropped = [](std::uint32_t, const FilmPoint&, std::span<const double>) {};
   std::vector<PixelSample> samples;
   std::vector<Sampler> photons;
+  std::vector<PixelPair> pairs;
   for (std::uint32_t first = 0; first < kPaths; first += kTogether) {
     samples.clear();
     photons.clear();
+    pairs.clear();
     for (std::uint32_t i = first; i < first + kTogether; ++i) {
       const auto pixel = static_cast<std::uint32_t>(std::uint64_t{i} * pixels / kPaths);
       samples.push_back({static_cast<int>(pixel % width), static_cast<int>(pixel / width),
                          Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels)});
       photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
+      pairs.push_back({samples.back().x, samples.back().y, samples.back().sampler, photons.back(), true});
     }
     if (uses(plan.techniques, Technique::path)) path_tracer.trace(samples, dropped);
     if (uses(plan.techniques, Technique::light)) light_tracer.trace(photons, dropped);
+    if (uses(plan.techniques, Technique::bdpt)) bidirectional_tracer.trace(pairs, dropped);
   }
 }
 

@@ -243,10 +243,7 @@ bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {
 }
 
 float PathTracer::kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
-  if (event.transmitted) {
-    const float n = index_inside(vertex.bsdf, path.packet.hero);
-    path.eta_scale *= vertex.wo.z > 0 ? n * n : 1 / (n * n);
-  }
+  path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
   return carried(path);
 }
 

@@ -146,7 +146,7 @@ void draw_render(Drawing& drawing) {
   const Json& resolution = drawing.scene["sensor"]["resolution"];
   const int pixels = resolution[0].get<int>() * resolution[1].get<int>();
   Json& render = drawing.scene["render"];
-  render["integrator"] = one_of(random, {"auto", "auto", "path", "light"});
+  render["integrator"] = one_of(random, {"auto", "auto", "path", "light", "bdpt"});
   render["samples"] = static_cast<int>(std::min(1000, kMostPaths / pixels) * decades(random, 0.01, 1) + 1);
   render["seed"] = integer(random, 0, 1 << 30);
   const bool plays = chance(random, 0.8);

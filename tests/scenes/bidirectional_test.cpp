@@ -1,0 +1,72 @@
+// Bidirectional path tracing beside the other techniques.
+#include "tests/scenes/scene_fixture.h"
+#include "transport/render/render.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kLargestZ = 5.6;  // see technique_test.cpp
+
+Film film_by(const char* integrator, const std::string& scene, int samples, std::vector<Override> settings) {
+  settings.push_back({"/render/integrator", integrator});
+  settings.push_back({"/render/samples", std::to_string(samples)});
+  settings.push_back({"/sensor/resolution", "[48, 48]"});
+  return render(test::load(scene, settings), {}).film;
+}
+
+// Caustics, coats that absorb, matter in matter, reliefs, smoke and milk: the light is the same as by paths
+// from the camera alone, region by region.
+TEST(Bidirectional, FindsTheLightOfPathTracing) {
+  const std::vector<Override> big_lamp{{"/lights/0/sphere/radius", "1.2"}};
+  struct Compared {
+    const char* scene;
+    std::vector<Override> settings;
+    int samples;
+    double within = 0.015;  // of one another, all over
+  };
+  for (const auto& [scene, settings, samples, within] :
+       {Compared{"glass_sphere.json", big_lamp, 256}, Compared{"cornell.json", {}, 128},
+        Compared{"materials/coated_glass.json", {}, 64}, Compared{"materials/nested.json", {}, 64},
+        Compared{"materials/oxide_on_metal.json", {}, 64}, Compared{"materials/textures.json", {}, 64},
+        Compared{"materials/smoke.json", {}, 64}, Compared{"materials/milk.json", {}, 64, 0.04}}) {
+    SCOPED_TRACE(scene);
+    const test::Comparison c = test::compare_regions(film_by("path", scene, 2 * samples, settings),
+                                                     film_by("bdpt", scene, samples, settings), 4);
+    EXPECT_LT(c.largest_z, kLargestZ);
+    EXPECT_NEAR(c.ratio, 1, within);
+  }
+}
+
+// A lamp that shines up at a ceiling from close by: what camera paths meet, hardly any connection of theirs
+// lights.
+TEST(Bidirectional, FindsLightThatConnectionsOfPathTracingDoNot) {
+  const std::string scene = R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 40}, "from": [0, 1, -4], "to": [0, 1, 0], "up": [0, 1, 0]},
+    "sensor": {"resolution": [16, 16], "observer": "1931"},
+    "materials": {"grey": {"diffuse": {"reflectance": 0.6}}},
+    "lights": [{"name": "lamp", "quad": {"corner": [-0.1, 1.9, -0.1], "edge_u": [0, 0, 0.2],
+                                         "edge_v": [0.2, 0, 0]}, "emission": {"spectrum": 1, "radiance": 100}}],
+    "shapes": [{"name": "ceiling", "quad": {"corner": [-2, 2, -2], "edge_u": [4, 0, 0], "edge_v": [0, 0, 4]},
+                "material": "grey"},
+               {"name": "floor", "quad": {"corner": [-2, 0, -2], "edge_u": [0, 0, 4], "edge_v": [4, 0, 0]},
+                "material": "grey"}],
+    "render": {"samples": 256, "integrator": "INTEGRATOR"}})";
+  const auto film = [&](const std::string& integrator) {
+    std::string text = scene;
+    text.replace(text.find("INTEGRATOR"), 10, integrator);
+    return render(test::load_text(text), {}).film;
+  };
+  const Film path = film("path");
+  const Film both = film("bdpt");
+  const test::Comparison c = test::compare_regions(path, both, 2);
+  EXPECT_LT(c.largest_z, kLargestZ);
+  const auto variance = [](const Film& f) {
+    double sum = 0;
+    for (std::size_t pixel = 0; pixel < 256; ++pixel) sum += f.variance(pixel, 1);
+    return sum;
+  };
+  EXPECT_LT(10 * variance(both), variance(path));
+}
+
+}  // namespace
+}  // namespace abbe

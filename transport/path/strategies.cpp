@@ -1,0 +1,111 @@
+#include "transport/path/strategies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/path/connect.h"
+
+namespace abbe {
+namespace {
+
+bool is_delta_light(const Scene& scene, const PathVertex& vertex) {
+  const auto* light = std::get_if<LightVertex>(&vertex.at);
+  return light != nullptr && scene.lights[light->light].is_delta();
+}
+
+// Of a direction that the vertex `from` draws to its neighbour `to`.
+SampledSpectrum direction_between(const Scene& scene, const JoinedPath& path, std::size_t from,
+                                  std::size_t to) {
+  const PathVertex& vertex = *path.z[from];
+  const std::size_t other = to > from ? from - 1 : from + 1;
+  const bool camera = other >= path.z.size();
+  const Imath::V3f before = camera ? Imath::V3f(0) : way_from(vertex, *path.z[other]).direction;
+  return direction_pdf(scene, vertex, before, way_from(vertex, *path.z[to]).direction);
+}
+
+// How many paths of strategy `t` there are for each path through the pixel; 0 where it cannot make this one.
+float count(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
+  const std::size_t last = path.z.size() - 1;
+  const auto joins = [&](std::size_t i) {  // light goes there in more than a single direction
+    const bool joint = path.t <= last && (i == path.t || i + 1 == path.t);
+    return i == 0 || i == last || joint || !path.z[i]->delta;
+  };
+  if (t > last) return 1;
+  if (!joins(t - 1) || !joins(t)) return 0;
+  if (t > 1) return 1;
+  return t == last ? static_cast<float>(ends.camera_takes_lights) : ends.lens_connections;
+}
+
+}  // namespace
+
+StrategyWeights::StrategyWeights(const Scene& scene, RayCaster& caster)
+    : scene_(scene), caster_(caster), has_free_paths_(has_free_paths(scene)) {}
+
+// Vertices that their own path has drawn know how, and beyond the two next to the joint how the other way;
+// beside the joint that depends on what is joined.
+SampledSpectrum StrategyWeights::by_camera(const JoinedPath& path, std::size_t i) const {
+  const PathVertex& vertex = *path.z[i];
+  if (i < path.t) return vertex.pdf_forward;
+  if (is_delta_light(scene_, vertex)) return {};
+  if (i > path.t + 1) return vertex.pdf_reverse;
+  return drawn(path, direction_between(scene_, path, i - 1, i), i - 1, i);
+}
+
+SampledSpectrum StrategyWeights::by_light(const JoinedPath& path, const EndDensities& ends,
+                                          std::size_t i) const {
+  const std::size_t last = path.z.size() - 1;
+  const PathVertex& vertex = *path.z[i];
+  if (i == last) return SampledSpectrum(ends.light_start);
+  const bool emitted = i + 1 == last;
+  if (emitted && !(ends.emission > 0)) return {};
+  if (i >= path.t) return vertex.pdf_forward;
+  if (i + 2 < path.t) return vertex.pdf_reverse;
+  return drawn(path, emitted ? SampledSpectrum(ends.emission) : direction_between(scene_, path, i + 1, i),
+               i + 1, i);
+}
+
+SampledSpectrum StrategyWeights::drawn(const JoinedPath& path, const SampledSpectrum& direction,
+                                       std::size_t from, std::size_t to) const {
+  const PathVertex& a = *path.z[from];
+  const PathVertex& b = *path.z[to];
+  const SampledSpectrum density = direction * solid_angle_per_area(scene_, a, b) * b.event_pdf;
+  if (!has_free_paths_) return density;
+  return density * (std::max(from, to) == path.t ? path.passed : passed_between(a, b));
+}
+
+SampledSpectrum StrategyWeights::passed_between(const PathVertex& a, const PathVertex& b) const {
+  if (a.at_infinity()) return passed_between(b, a);  // both ways alike; none can start there
+  return transmission_along(scene_, caster_, a, way_from(a, b)).density;
+}
+
+float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
+  const std::size_t last = path.z.size() - 1;
+  const int hero = path.z[0]->packet.hero;
+  // Everything over the hero's density of the strategy in hand. First what the light makes of z_t' ... z_k,
+  at_.resize(last + 1);
+  from_light_.assign(last + 2, SampledSpectrum(1.0F));
+  for (std::size_t i = last; i > 0; --i) {
+    Densities& at = at_[i];
+    at.by_camera = by_camera(path, i);
+    at.by_light = by_light(path, ends, i);
+    at.ours = i < path.t ? at.by_camera[hero] : at.by_light[hero];
+    if (i == last && path.t == last) at.ours = ends.light_connection;
+    from_light_[i] = from_light_[i + 1] * at.by_light * (1 / at.ours);
+  }
+  // then, strategy by strategy, times what the camera makes of z_1 ... z_{t'-1}.
+  const SampledSpectrum connected(ends.light_connection / at_[last].ours);
+  SampledSpectrum from_camera(1.0F);
+  SampledSpectrum sum;
+  for (std::size_t t = 1; t <= last + 1; ++t) {
+    if (const float n = count(path, ends, t); n > 0)
+      sum += from_camera * (t == last ? connected : from_light_[t]) * n;
+    if (t <= last) from_camera *= at_[t].by_camera * (1 / at_[t].ours);
+  }
+  // Throughputs are measured in the unit of their lane densities, which need not be that of the hero.
+  float unit = path.z[path.t - 1]->packet.lane_pdf[hero];
+  if (path.t <= last) unit *= path.z[path.t]->packet.lane_pdf[hero];
+  const float weight = 1 / (sum.sum() * unit);
+  return std::isfinite(weight) ? weight : 0.0F;
+}
+
+}  // namespace abbe

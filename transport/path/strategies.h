@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "transport/path/path_vertex.h"
+#include "transport/path/ray_caster.h"
+
+namespace abbe {
+
+/// A path z_0 z_1 ... z_k from the camera to a light, of which one from the camera made the first `t`
+/// vertices and one from the light the rest.
+struct JoinedPath {
+  std::vector<const PathVertex*> z;
+  std::size_t t = 0;
+  SampledSpectrum passed{1.0F};  ///< `Connection::density` of the way between both.
+};
+
+/// Densities at the ends of a path, which depend on how techniques start there.
+struct EndDensities {
+  float light_start = 0;       ///< Of the light's point, where a path sets out from it,
+  float light_connection = 0;  ///< and where z_{k-1} is connected to a light drawn for it.
+  /// Of the light's direction to z_{k-1}, of one that sets out; for light from infinity of the way's place. 0
+  /// where none is to come from there, whatever the path did.
+  float emission = 0;
+  /// How many paths from lights may be connected to a pixel of the camera for each path through it; 0 where
+  /// it takes no connections.
+  float lens_connections = 0;
+  bool camera_takes_lights = false;  ///< Whether a light may be connected to the camera itself.
+};
+
+/// The balance heuristic over all lanes and all ways in which a path may have come about, z_0 ... z_{t-1}
+/// from the camera and z_t ... z_k from the light [Veach1997, eq. 10.9] [Wilkie2014, eq. 6]:
+///     w f / P_t,hero = [f / P_t,hero] / sum_k sum_t' n_t' P_t',k / P_t,hero,
+///     P_t',k = prod_{i < t'} p_k(z_{i-1} -> z_i) prod_{i >= t'} p_k(z_{i+1} -> z_i),
+/// P_t',k being the density of strategy t', were lane k the hero, and n_t' the number of its paths for each
+/// path through the pixel. Strategies that would join at a vertex where light goes in a single direction are
+/// left out. Roulette is not looked at, as it changes no mean. Serves one thread.
+class StrategyWeights {
+ public:
+  StrategyWeights(const Scene& scene, RayCaster& caster);
+
+  /// What the path's contribution by its throughputs is to be multiplied by.
+  [[nodiscard]] float of(const JoinedPath& path, const EndDensities& ends);
+
+ private:
+  // How densely a vertex is drawn from the one before it, and from the one after.
+  struct Densities {
+    SampledSpectrum by_camera;
+    SampledSpectrum by_light;
+    float ours = 0;  // by the strategy in hand, were it the hero's
+  };
+
+  [[nodiscard]] SampledSpectrum by_camera(const JoinedPath& path, std::size_t i) const;
+  [[nodiscard]] SampledSpectrum by_light(const JoinedPath& path, const EndDensities& ends,
+                                         std::size_t i) const;
+  [[nodiscard]] SampledSpectrum drawn(const JoinedPath& path, const SampledSpectrum& direction,
+                                      std::size_t from, std::size_t to) const;
+  [[nodiscard]] SampledSpectrum passed_between(const PathVertex& a, const PathVertex& b) const;
+
+  const Scene& scene_;
+  RayCaster& caster_;
+  bool has_free_paths_;
+  std::vector<Densities> at_;                // of the path in hand
+  std::vector<SampledSpectrum> from_light_;  // products of what the light makes of z_i ... z_k
+};
+
+}  // namespace abbe

@@ -1,0 +1,183 @@
+#include "transport/technique/bidirectional.h"
+
+#include <algorithm>
+
+#include "transport/path/connect.h"
+#include "transport/technique/subpaths.h"
+
+namespace abbe {
+namespace {
+
+// Whether light goes there in more than single directions, so that it can be connected to something.
+bool joins(const PathVertex& vertex) {
+  const auto* surface = std::get_if<SurfaceVertex>(&vertex.at);
+  return surface == nullptr || scatters(surface->bsdf);
+}
+
+// The numbers for connections of the vertex after `i` others.
+std::array<float, 4> connection_numbers(const Sampler& sampler, std::size_t i) {
+  return sampler.group(scattering_group(static_cast<int>(i) - 1) + 1);
+}
+
+}  // namespace
+
+BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
+    : plan_(plan),
+      scene_(plan.scene),
+      caster_(caster),
+      meter_(traits(plan.scene.camera).surface_normal.has_value()),
+      most_vertices_(static_cast<std::size_t>(most_events(plan.scene.render)) + 2),
+      response_(film_response_of(plan.scene)),
+      from_camera_(plan.scene, caster),
+      from_light_(plan.scene, caster),
+      weights_(plan.scene, caster),
+      values_(response_.planes()) {}
+
+void BidirectionalTracer::trace(std::span<const PixelPair> samples, const Deposit& deposit) {
+  deposit_ = &deposit;
+  for (std::size_t first = 0; first < samples.size(); first += kTogether)
+    trace_together(samples.subspan(first, std::min(kTogether, samples.size() - first)),
+                   static_cast<std::uint32_t>(first));
+}
+
+// The estimate of a film value is, over paths x_0 x_1 ... from the camera and y_0 y_1 ... from a light,
+//     sum_st w_st [T_x / P_x] [T_y / P_y] f_x f_y G T,
+// the throughputs up to x_{t-1} and y_{s-1} over their densities, times what joins the two (`connect`); for
+// s = 0 x_t is on a light by itself, for s = 1 a point of a light is drawn for x_{t-1} instead of y_0, and
+// for t = 1 a point of the lens for y_{s-1}, which may expose another pixel. `StrategyWeights` balances all
+// of them.
+void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std::uint32_t first) {
+  first_ = first;
+  from_camera_.paths().clear();
+  from_light_.paths().clear();
+  at_.assign(samples.size(), {});
+  found_.assign(samples.size(), SampledSpectrum());
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    const PixelPair& sample = samples[i];
+    RecordedPath& eye = from_camera_.paths().emplace_back(sample.camera, i);
+    RecordedPath& photon = from_light_.paths().emplace_back(sample.light, i);
+    eye.packet = photon.packet = draw_packet(plan_.wavelengths, sample.camera.group(kFilmGroup)[2]);
+    if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, eye);
+    start_from_light(plan_, caster_, photon);
+  }
+  from_camera_.run();
+  from_light_.run();
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    join(i);
+    if (samples[i].seen) expose(i, at_[i], found_[i]);
+  }
+}
+
+void BidirectionalTracer::join(std::uint32_t i) {
+  const std::vector<PathVertex>& x = from_camera_.paths()[i].vertices;
+  const std::vector<PathVertex>& y = from_light_.paths()[i].vertices;
+  for (const MetLight& met : from_camera_.paths()[i].met) meet(i, met);
+  for (std::size_t t = meter_ ? 1 : 2; t <= x.size(); ++t) {
+    if (!joins(x[t - 1])) continue;
+    if (t < most_vertices_) connect_to_light(i, t);
+    for (std::size_t s = 2; s <= y.size() && s + t <= most_vertices_; ++s)
+      if (joins(y[s - 1])) connect(i, t, s);
+  }
+  for (std::size_t s = 2; !meter_ && s <= y.size() && s < most_vertices_; ++s)
+    if (joins(y[s - 1])) connect_to_lens(i, s);
+}
+
+void BidirectionalTracer::meet(std::uint32_t i, const MetLight& met) {
+  set_joined(i, met.after, 0);
+  joined_.z.push_back(&met.vertex);
+  joined_.t = joined_.z.size();
+  joined_.passed = SampledSpectrum(1.0F);
+  const PathVertex& lit = *joined_.z[met.after - 1];
+  const auto& light = std::get<LightVertex>(met.vertex.at);
+  const float weight = weights_.of(joined_, end_densities(plan_, lit, met.vertex));
+  add(i, at_[i], light.light,
+      met.vertex.packet.throughput *
+          emission_from(scene_.lights[light.light], way_from(lit, met.vertex).direction,
+                        met.vertex.lambda_nm()) *
+          weight);
+}
+
+void BidirectionalTracer::connect_to_light(std::uint32_t i, std::size_t t) {
+  const RecordedPath& eye = from_camera_.paths()[i];
+  const auto light = light_for(plan_, eye.vertices[t - 1], connection_numbers(eye.sampler, t - 1));
+  if (!light) return;
+  set_joined(i, t, 0);
+  joined_.z.push_back(&*light);
+  add_joined(i, film_point(i, t, *light));
+}
+
+void BidirectionalTracer::connect(std::uint32_t i, std::size_t t, std::size_t s) {
+  set_joined(i, t, s);
+  add_joined(i, film_point(i, t, from_light_.paths()[i].vertices[s - 1]));
+}
+
+void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
+  const RecordedPath& photon = from_light_.paths()[i];
+  const PathVertex& from = photon.vertices[s - 1];
+  const std::array<float, 4> u = connection_numbers(photon.sampler, s - 1);
+  const auto seen = sample_towards(scene_.camera, point_of(from), {u[0], u[1]}, from.lambda_nm(), from.time);
+  if (!seen) return;
+  PathVertex lens;
+  lens.at = CameraVertex{seen->lens_point};
+  const auto of = density(scene_.camera, ray_at(seen->lens_point, way_from(lens, from).direction, from.time),
+                          from.lambda_nm());
+  if (!of) return;
+  lens.packet.wavelengths = from.packet.wavelengths;
+  lens.packet.hero = from.packet.hero;
+  lens.packet.throughput = SampledSpectrum(1 / of->pdf_position);
+  lens.inside = lens.beyond = plan_.camera_inside;
+  lens.time = from.time;
+  set_joined(i, 0, s);
+  joined_.z.insert(joined_.z.begin(), &lens);
+  joined_.t = 1;
+  add_joined(i, {static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, from.time});
+}
+
+// The first `t` vertices from the camera, and the first `s` from the light.
+void BidirectionalTracer::set_joined(std::uint32_t i, std::size_t t, std::size_t s) {
+  joined_.z.clear();
+  for (std::size_t k = 0; k < t; ++k) joined_.z.push_back(&from_camera_.paths()[i].vertices[k]);
+  for (std::size_t k = s; k-- > 0;) joined_.z.push_back(&from_light_.paths()[i].vertices[k]);
+  joined_.t = t;
+}
+
+void BidirectionalTracer::add_joined(std::uint32_t i, const FilmPoint& at) {
+  const PathVertex& a = *joined_.z[joined_.t - 1];
+  const PathVertex& b = *joined_.z[joined_.t];
+  const std::optional<Connection> joint = abbe::connect(scene_, caster_, a, b);
+  if (!joint) return;
+  joined_.passed = joint->density;
+  const PathVertex& light = *joined_.z.back();
+  const PathVertex& lit = *joined_.z[joined_.z.size() - 2];
+  const float weight = weights_.of(joined_, end_densities(plan_, lit, light));
+  add(i, at, std::get<LightVertex>(light.at).light,
+      a.packet.throughput * b.packet.throughput * joint->contribution * weight);
+}
+
+// A meter sees each light under an angle of its own.
+FilmPoint BidirectionalTracer::film_point(std::uint32_t i, std::size_t t, const PathVertex& b) {
+  FilmPoint at = at_[i];
+  const PathVertex& camera = from_camera_.paths()[i].vertices[0];
+  if (meter_ && t == 1) at.cos_film = way_from(camera, b).direction.dot(*normal_of(scene_, camera));
+  return at;
+}
+
+void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_t light,
+                              const SampledSpectrum& contribution) {
+  const bool own = at.x == at_[i].x && at.y == at_[i].y && at.cos_film == at_[i].cos_film;
+  if (own && by_light_ == nullptr) {
+    found_[i] += contribution;
+    return;
+  }
+  expose(i, at, contribution);
+  if (by_light_ != nullptr) by_light_->add(light, values_);
+}
+
+void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution) {
+  const SampledWavelengths& wavelengths = from_light_.paths()[i].packet.wavelengths;
+  std::fill(values_.begin(), values_.end(), 0.0);
+  response_.add(at, wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_);
+  (*deposit_)(first_ + i, at, values_);
+}
+
+}  // namespace abbe

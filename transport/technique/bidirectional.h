@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sampling/sampler.h"
+#include "transport/path/film_response.h"
+#include "transport/path/path_recorder.h"
+#include "transport/path/strategies.h"
+#include "transport/plan/plan.h"
+
+namespace abbe {
+
+/// One sample of a pixel, with a path from a light beside that from the camera.
+struct PixelPair {
+  int x;
+  int y;
+  Sampler camera;
+  Sampler light;
+  bool seen;  ///< Whether the pixel itself is asked for; if not, its light's path exposes others alone.
+};
+
+/// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]: a path from the camera and one from a
+/// light, of the same wavelengths and hero, are joined at all of their vertices, and what they carry is
+/// balanced over all strategies and lanes. Serves one thread.
+///
+/// Owned: every path that ends on a light with area, and of those that end on another one all that have two
+/// neighbouring vertices, the light's own included, where light does not go in a single direction.
+class BidirectionalTracer {
+ public:
+  BidirectionalTracer(const Plan& plan, RayCaster& caster);
+
+  /// Lets the tracer, from now on, also add up what each light deposits.
+  void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
+
+  /// Traces both paths of each of some samples, and deposits what they find by their numbers.
+  void trace(std::span<const PixelPair> samples, const Deposit& deposit);
+
+ private:
+  // Samples whose paths take each step together.
+  static constexpr std::size_t kTogether = 64;
+
+  void trace_together(std::span<const PixelPair> samples, std::uint32_t first);
+  void join(std::uint32_t i);
+  void meet(std::uint32_t i, const MetLight& met);
+  void connect_to_light(std::uint32_t i, std::size_t t);
+  void connect(std::uint32_t i, std::size_t t, std::size_t s);
+  void connect_to_lens(std::uint32_t i, std::size_t s);
+  void set_joined(std::uint32_t i, std::size_t t, std::size_t s);
+  void add_joined(std::uint32_t i, const FilmPoint& at);
+  [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
+  void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution);
+  void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);
+
+  const Plan& plan_;
+  const Scene& scene_;
+  RayCaster& caster_;
+  bool meter_;  // instead of a lens
+  std::size_t most_vertices_;
+  FilmResponse response_;
+  PathRecorder<TransportMode::radiance> from_camera_;
+  PathRecorder<TransportMode::power> from_light_;
+  const Deposit* deposit_ = nullptr;
+  ExposureByLight* by_light_ = nullptr;
+  std::uint32_t first_ = 0;             // number of the first of the samples under way
+  std::vector<FilmPoint> at_;           // where each exposes the film,
+  std::vector<SampledSpectrum> found_;  // and with what
+  StrategyWeights weights_;
+  JoinedPath joined_;
+  std::vector<double> values_;  // of one deposit
+};
+
+}  // namespace abbe

@@ -1,0 +1,181 @@
+#include "transport/technique/subpaths.h"
+
+#include <cmath>
+
+#include "scene/extent.h"
+#include "scene/lights/emission.h"
+#include "scene/shapes/basis.h"
+#include "transport/path/dimensions.h"
+
+namespace abbe {
+namespace {
+
+// A ball around what is near, which light from infinity is sent through.
+struct Ball {
+  Imath::V3f center;
+  float radius;
+};
+Ball ball_around(const Scene& scene) {
+  const Imath::V3d center = scene.bounds.isEmpty() ? Imath::V3d(0) : scene.bounds.center();
+  return {Imath::V3f(center), static_cast<float>(scene_radius(scene.bounds))};
+}
+
+// The first vertex of a path from a light, and its ray.
+struct Departure {
+  LightVertex from;
+  Ray ray;
+  EmissionDensity density;
+};
+
+Departure leave_near(const Light& light, std::uint32_t index, const Scene& scene,
+                     const std::array<float, 4>& aim, const std::array<float, 4>& start) {
+  const EmissionPoint from = sample_emission_point(light, scene.shapes, {start[0], start[1]});
+  const Imath::V3f wo = emission_direction(light, from.normal, {aim[0], aim[1]});
+  const float time = aim[kTimeNumber];
+  const Ray ray =
+      light.is<AreaLight>() ? spawn(from.point, from.normal, wo, time) : ray_at(from.point, wo, time);
+  return {{index, from.point, from.normal}, ray, emission_density(light, from.normal, wo, 1)};
+}
+
+// Uniformly over the disc that the ball shows it.
+std::optional<Departure> leave_infinity(const Light& light, std::uint32_t index, const Scene& scene,
+                                        RayCaster& caster, const std::array<float, 4>& aim,
+                                        const std::array<float, 4>& start) {
+  const LightSample from = *sample_light(light, scene.shapes, Imath::V3f(0), {start[0], start[1]});
+  const Ball ball = ball_around(scene);
+  const Basis<float> across(from.wi);
+  const float phi = 2 * std::numbers::pi_v<float> * aim[1];
+  const float r = ball.radius * std::sqrt(aim[0]);
+  const Imath::V3f origin =
+      ball.center + across.to_world({r * std::cos(phi), r * std::sin(phi), 2 * ball.radius});
+  if (caster.occluded(way_along(ray_at(origin, from.wi, aim[kTimeNumber])))) return std::nullopt;
+  return Departure{{index, from.wi, Imath::V3f(0), true},
+                   ray_at(origin, -from.wi, aim[kTimeNumber]),
+                   emission_density(light, Imath::V3f(0), -from.wi, ball.radius)};
+}
+
+// Where light arrives at a vertex, to be chosen for it.
+LightSampleContext place_of(const Scene& scene, const PathVertex& vertex) {
+  if (const auto* surface = std::get_if<SurfaceVertex>(&vertex.at)) return surface->place();
+  LightSampleContext place{point_of(vertex), std::nullopt};
+  if (std::holds_alternative<CameraVertex>(vertex.at)) place.side = normal_of(scene, vertex);
+  return place;
+}
+
+// Of a path that has its packet, ray and surroundings.
+PathVertex& first_vertex(RecordedPath& path) {
+  constexpr std::size_t kUsually = 8;
+  path.vertices.reserve(kUsually);
+  PathVertex& vertex = path.vertices.emplace_back();
+  vertex.packet = path.packet;
+  vertex.inside = vertex.beyond = path.around.inside;
+  vertex.time = path.ray.time;
+  return vertex;
+}
+
+}  // namespace
+
+FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path) {
+  const Scene& scene = plan.scene;
+  const std::array<float, 4> film = path.sampler.group(kFilmGroup);
+  const std::array<float, 4> lens = path.sampler.group(kLensGroup);
+  const CameraRay start =
+      sample_ray(scene.camera, {static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]},
+                 {lens[0], lens[1]}, path.lambda_nm(), film[kTimeNumber]);
+  path.ray = start.ray;
+  if (!plan.camera_inside.empty()) path.around.enter(scene, plan.camera_inside, path.lambda_nm());
+  const std::optional<CameraDensity> of = density(scene.camera, start.ray, path.lambda_nm());
+  if (of) {
+    PathVertex& lens_point = first_vertex(path);
+    lens_point.at = CameraVertex{start.ray.origin};
+    lens_point.packet.throughput *= 1 / of->pdf_position;
+    lens_point.pdf_forward = SampledSpectrum(of->pdf_position);
+    path.direction_pdf = of->pdf_direction;
+  }
+  path.packet.throughput *= start.weight;
+  path.carried_at_start = path.packet.carried();
+  return {x, y, start.cos_film, start.ray.time};
+}
+
+void start_from_light(const Plan& plan, RayCaster& caster, RecordedPath& path) {
+  if (plan.traced_lights.empty()) return;
+  const Scene& scene = plan.scene;
+  const std::array<float, 4> aim = path.sampler.group(kAimGroup);
+  const std::array<float, 4> start = path.sampler.group(kEmissionGroup);
+  const PowerLightSampler::SampledLight pick = plan.traced_lights.pick(start[3]);
+  const Light& light = scene.lights[pick.light];
+  const std::optional<Departure> departure =
+      light.at_infinity() ? leave_infinity(light, pick.light, scene, caster, aim, start)
+                          : leave_near(light, pick.light, scene, aim, start);
+  if (!departure || !(departure->density.pdf_direction > 0)) return;
+  const float pdf_point = pick.probability * (light.at_infinity() ? departure->density.pdf_direction
+                                                                  : departure->density.pdf_position);
+  const float pdf_way =
+      light.at_infinity() ? departure->density.pdf_position : departure->density.pdf_direction;
+  path.ray = departure->ray;
+  if (const MediumStack& inside = plan.light_inside[pick.light]; !inside.empty())
+    path.around.enter(scene, inside, path.lambda_nm());
+
+  PathVertex& origin = first_vertex(path);
+  origin.at = departure->from;
+  origin.packet.throughput *= 1 / pdf_point;
+  origin.pdf_forward = SampledSpectrum(pdf_point);
+  path.direction_pdf = SampledSpectrum(pdf_way);
+  path.packet.throughput *=
+      sent_towards(scene, origin, path.ray.direction, TransportMode::power) * (1 / (pdf_point * pdf_way));
+  path.carried_at_start = path.packet.carried();
+  if (path.packet.throughput.is_zero()) path.vertices.clear();
+}
+
+std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
+                                    const std::array<float, 4>& u) {
+  if (plan.path_lights.empty()) return std::nullopt;
+  const Scene& scene = plan.scene;
+  const LightSampleContext place = place_of(scene, vertex);
+  const LightSampler::Pick pick = plan.path_lights.pick(place.point, place.normal(), u[0]);
+  const Light& light = scene.lights[pick.light];
+  const std::optional<LightSample> to = sample_light(light, scene.shapes, place.point, {u[1], u[2]});
+  if (!to) return std::nullopt;
+  const bool far = light.at_infinity();
+  std::optional<PathVertex> drawn(std::in_place);
+  drawn->at = LightVertex{pick.light, far ? to->wi : to->end, to->normal, far};
+  drawn->packet.wavelengths = vertex.packet.wavelengths;
+  drawn->packet.hero = vertex.packet.hero;
+  drawn->time = vertex.time;
+  const float per_area = light.is_delta() ? 1 : solid_angle_per_area(scene, vertex, *drawn);
+  const float pdf = pick.probability * to->pdf * per_area;
+  drawn->packet.throughput = SampledSpectrum(1 / pdf);
+  drawn->pdf_forward = SampledSpectrum(pdf);
+  return drawn;
+}
+
+EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVertex& light) {
+  const Scene& scene = plan.scene;
+  const auto& at = std::get<LightVertex>(light.at);
+  const Light& emitter = scene.lights[at.light];
+  EndDensities ends;
+  const CameraTraits camera = traits(scene.camera);
+  ends.camera_takes_lights = camera.surface_normal.has_value();
+  ends.lens_connections = ends.camera_takes_lights ? 1 : static_cast<float>(plan.photons);
+  const Way way = way_from(light, lit);
+  if (!plan.traced_lights.empty()) {
+    const Ball ball = ball_around(scene);
+    const EmissionDensity of = emission_density(emitter, at.normal, way.direction, ball.radius);
+    const float chosen = plan.traced_lights.probability(at.light);
+    const bool within = (point_of(lit) - ball.center).length2() <= ball.radius * ball.radius;
+    ends.light_start = chosen * (at.at_infinity ? of.pdf_direction : of.pdf_position);
+    ends.emission = at.at_infinity ? (within ? of.pdf_position : 0) : of.pdf_direction;
+  }
+  const LightSampleContext place = place_of(scene, lit);
+  if (!plan.path_lights.empty()) {
+    const float chosen = plan.path_lights.probability(at.light, place.point, place.normal());
+    ends.light_connection =
+        emitter.is_delta()
+            ? chosen
+            : chosen * light_pdf(emitter, scene.shapes, place.point, -way.direction, at.point, at.normal) *
+                  solid_angle_per_area(scene, lit, light);
+  }
+  return ends;
+}
+
+}  // namespace abbe

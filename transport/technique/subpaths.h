@@ -1,0 +1,28 @@
+#pragma once
+
+#include "transport/path/film_response.h"
+#include "transport/path/path_recorder.h"
+#include "transport/path/strategies.h"
+#include "transport/plan/plan.h"
+
+namespace abbe {
+
+/// Sets a path out from the camera through pixel (x, y), with its packet and by its own numbers. Returns
+/// where it exposes the film.
+FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path);
+
+/// Sets a path out from one of the plan's traced lights, with its packet and by its own numbers, as the light
+/// emits by itself. Light from infinity comes in through the disc that the scene fills, seen from there.
+/// Where it gets nowhere the path has no vertex.
+void start_from_light(const Plan& plan, RayCaster& caster, RecordedPath& path);
+
+/// A point of a light, chosen for a vertex by the four numbers `u`, to connect it to; nothing where none of
+/// its light arrives.
+[[nodiscard]] std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
+                                                  const std::array<float, 4>& u);
+
+/// What the functions above draw the ends of a path by whose last vertex is `light` and the one before
+/// `lit`, and how often light is connected to the camera.
+[[nodiscard]] EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVertex& light);
+
+}  // namespace abbe
