@@ -101,6 +101,14 @@ void add_render(CLI::App& app, Command& command) {
   render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }
 
+void add_follow(CLI::App& app, Follow& follow) {
+  add_parsed(
+      app, "--follow", follow, one_of<Follow>({"refraction", "reflection", "both"}),
+      "Which way where a surface reflects and lets through (default: refraction); both follows all, in "
+      "branches",
+      "refraction|reflection|both");
+}
+
 void add_scene_commands(CLI::App& app, Command& command) {
   const Sub<InfoOptions> info_sub(app, "info", "Say what a scene contains, needs and skips", command, info);
   info_sub.app->add_option("scene", info_sub->scene, "Scene file, or - for standard input")
@@ -128,6 +136,7 @@ void add_scene_commands(CLI::App& app, Command& command) {
       ->excludes(origin);
   add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
              "Events to follow at most (default 64)", "N");
+  add_follow(*sub.app, sub->follow);
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
@@ -151,6 +160,7 @@ void add_draw(CLI::App& app, Command& command) {
   direction->needs(origin);
   add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
              "Events to follow at most (default 64)", "N");
+  add_follow(*sub.app, sub->follow);
   add_max_memory(*sub.app, sub.options);
 }
 

@@ -1,6 +1,7 @@
 #include "cli/draw.h"
 
 #include <array>
+#include <utility>
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
@@ -38,7 +39,8 @@ int draw(const DrawOptions& options) {
   std::vector<DrawnRay> drawn;
   for (const double nm : options.wavelengths_nm)
     for (const BasicRay<double>& ray : rays_of(scene, options))
-      drawn.push_back(drawn_ray(scene, ray, nm, options.max_events));
+      for (DrawnRay& way : drawn_rays(scene, ray, nm, options.max_events, options.follow))
+        drawn.push_back(std::move(way));
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
   write_atomically(options.output, layout_drawing(scene, drawn, name));
   return 0;

@@ -7,6 +7,7 @@
 #include <ImathVec.h>
 
 #include "io/inputs.h"
+#include "transport/path/ray_trace.h"
 
 namespace abbe::cli {
 
@@ -20,6 +21,7 @@ struct DrawOptions {
   int rays = 9;  ///< Of each lamp and wavelength in each of two planes; 0 for none.
   int max_events = 64;
   std::size_t max_memory_bytes = default_memory_limit();
+  Follow follow = Follow::refraction;
 };
 
 /// Draws plan and elevation of a scene. Returns the exit code.

@@ -4,7 +4,6 @@
 
 #include "cli/answer.h"
 #include "description/load.h"
-#include "transport/path/ray_trace.h"
 #include "validation/layout/lamp_rays.h"
 
 namespace abbe::cli {
@@ -44,7 +43,7 @@ Json event_answer(const Scene& scene, const TraceEvent& event) {
   if (!event.passage) return answer;
   const Passage& passage = *event.passage;
   answer["n_from"] = passage.n_from;
-  answer["n_to"] = passage.n_to;
+  if (passage.n_to > 0) answer["n_to"] = passage.n_to;
   if (passage.k_to > 0) answer["k_to"] = passage.k_to;
   answer["angle_in_deg"] = passage.angle_in_deg;
   answer["angle_out_deg"] = passage.angle_out_deg;
@@ -53,27 +52,95 @@ Json event_answer(const Scene& scene, const TraceEvent& event) {
   return answer;
 }
 
-void warn_beyond_data(const Scene& scene, const RayTrace& trace, double wavelength_nm) {
+// Where a branch's light went, with its shares of power in a tree.
+void add_way(const Scene& scene, const RayTrace& trace, bool tree, Json& answer) {
+  answer["events"] = Json::array();
   for (const TraceEvent& event : trace.events) {
-    if (!event.passage) continue;
-    const Material& material = scene.materials[scene.shapes[event.shape].material];
-    const auto* metal = std::get_if<ConductorMaterial>(&material.model);
-    const RefractiveIndex* index = metal != nullptr ? &metal->index : interior(material);
-    if (index == nullptr) continue;  // matter without an interface
-    if (wavelength_nm >= index->low_nm() && wavelength_nm <= index->high_nm()) continue;
-    say(fmt::format("warning: the index of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm",
-                    material.name, index->low_nm(), index->high_nm()));
-    return;
+    Json told = event_answer(scene, event);
+    if (tree) told["share"] = event.share;
+    if (tree && event.kind != TraceEvent::Kind::escape) {
+      told["R"] = event.R;
+      told["T"] = event.T;
+    }
+    answer["events"].push_back(std::move(told));
   }
+  answer["final_origin"] = file_point(scene, trace.last.origin);
+  answer["final_dir"] = list(trace.last.direction);
 }
 
-void print_readable(const Json& answer) {
-  for (const Json& event : answer["events"]) {
+Json branch_answer(const Scene& scene, const RayTree& tree, std::size_t number) {
+  const RayBranch& branch = tree.branches[number];
+  Json answer{{"branch", number},
+              {"from_branch", branch.from},
+              {"from_event", branch.event},
+              {"share", branch.share}};
+  add_way(scene, branch.trace, true, answer);
+  answer["deviation_deg"] = angle_deg(tree.branches.front().start.direction, branch.trace.last.direction);
+  return answer;
+}
+
+Json tree_answer(const Scene& scene, const RayTree& tree, bool with_branches) {
+  const RayBranch& main = tree.branches.front();
+  Json answer;
+  add_way(scene, main.trace, with_branches, answer);
+  answer["deviation_deg"] = angle_deg(main.start.direction, main.trace.last.direction);
+  if (!with_branches) return answer;
+  answer["branches"] = Json::array();
+  for (std::size_t i = 1; i < tree.branches.size(); ++i)
+    answer["branches"].push_back(branch_answer(scene, tree, i));
+  answer["cut_branches"] = tree.cut;
+  answer["cut_share"] = tree.cut_share;
+  return answer;
+}
+
+// The first index, if any, that is asked for beyond its data.
+void warn_beyond_data(const Scene& scene, const RayTree& tree, double wavelength_nm) {
+  for (const RayBranch& branch : tree.branches)
+    for (const TraceEvent& event : branch.trace.events) {
+      if (!event.passage) continue;
+      const Material& material = scene.materials[scene.shapes[event.shape].material];
+      for (const IndexUse& use : indices(material)) {
+        const RefractiveIndex& index = *use.index;
+        if (wavelength_nm >= index.low_nm() && wavelength_nm <= index.high_nm()) continue;
+        say(fmt::format(
+            "warning: the index of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm",
+            material.name, index.low_nm(), index.high_nm()));
+        return;
+      }
+    }
+}
+
+void warn_cut(const RayTree& tree, const TraceOptions& options, const FollowLimits& limits) {
+  if (options.follow == Follow::both && tree.cut > 0)
+    say(fmt::format(
+        "warning: cut {} branches, with {:.2g} of the power, after {} events, {} branches or below "
+        "a share of {:g}",
+        tree.cut, tree.cut_share, limits.max_events, limits.most_branches, limits.least_share));
+  else if (tree.branches.front().trace.cut_short)
+    say(fmt::format("warning: stopped after {} events", limits.max_events));
+}
+
+void print_events(const Json& events) {
+  for (const Json& event : events) {
     fmt::print("{}\n", event["kind"].get<std::string>());
     for (const auto& [key, value] : event.items())
       if (key != "kind") fmt::print("  {}", text({{key, value}}, false));
   }
-  for (const char* key : {"final_origin", "final_dir", "deviation_deg"}) print({{key, answer[key]}}, false);
+}
+
+void print_readable(const Json& answer) {
+  const auto print_rest = [](const Json& way) {
+    for (const auto& [key, value] : way.items())
+      if (key != "events" && key != "branches") print({{key, value}}, false);
+  };
+  print_events(answer["events"]);
+  print_rest(answer);
+  if (!answer.contains("branches")) return;
+  for (const Json& branch : answer["branches"]) {
+    fmt::print("\n");
+    print_rest(branch);
+    print_events(branch["events"]);
+  }
 }
 
 BasicRay<double> first_ray(const Scene& scene, const TraceOptions& options) {
@@ -96,19 +163,15 @@ int trace(const TraceOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
   const BasicRay<double> ray = first_ray(scene, options);
-  const RayTrace trace = trace_ray(scene, ray, options.wavelength_nm, options.max_events);
-  Json answer;
-  answer["events"] = Json::array();
-  for (const TraceEvent& event : trace.events) answer["events"].push_back(event_answer(scene, event));
-  answer["final_origin"] = file_point(scene, trace.last.origin);
-  answer["final_dir"] = list(trace.last.direction);
-  answer["deviation_deg"] = angle_deg(ray.direction, trace.last.direction);
+  const FollowLimits limits{.max_events = options.max_events};
+  const RayTree tree = follow_ray(scene, ray, options.wavelength_nm, options.follow, limits);
+  const Json answer = tree_answer(scene, tree, options.follow == Follow::both);
   if (options.json)
     print(answer, true);
   else
     print_readable(answer);
-  warn_beyond_data(scene, trace, options.wavelength_nm);
-  if (trace.cut_short) say(fmt::format("warning: stopped after {} events", options.max_events));
+  warn_beyond_data(scene, tree, options.wavelength_nm);
+  warn_cut(tree, options, limits);
   return 0;
 }
 

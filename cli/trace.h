@@ -7,6 +7,7 @@
 #include <ImathVec.h>
 
 #include "io/inputs.h"
+#include "transport/path/ray_trace.h"
 
 namespace abbe::cli {
 
@@ -20,6 +21,7 @@ struct TraceOptions {
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
   std::string light = {};  ///< Where the ray starts, in place of an origin.
+  Follow follow = Follow::refraction;
 };
 
 /// Follows one ray through a scene and prints what happens to it. Returns the exit code.

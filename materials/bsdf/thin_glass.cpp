@@ -1,10 +1,9 @@
 #include "materials/bsdf/thin_glass.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "materials/bsdf/mirror.h"
-#include "materials/interface/fresnel.h"
+#include "materials/interface/thin_sheet.h"
 
 namespace abbe {
 namespace {
@@ -13,19 +12,9 @@ struct Sheet {
   float reflected, transmitted;
 };
 
-// For light of one polarisation, `r` reflected and `t` let pass by each face.
-Sheet polarised(float r, float t, float a) {
-  const float passed = t * t * a / (1 - r * r * a * a);
-  return {r + passed * r * a, passed};
-}
-
 Sheet sheet(float cos_i, float n, float depth) {
-  const FresnelPower<float> f = fresnel_dielectric(cos_i, n);
-  if (!(f.cos_t > 0)) return {1, 0};  // total reflection
-  const float a = std::exp(-depth / f.cos_t);
-  const Sheet s = polarised(f.Rs, f.Ts, a);
-  const Sheet p = polarised(f.Rp, f.Tp, a);
-  return {(s.reflected + p.reflected) / 2, (s.transmitted + p.transmitted) / 2};
+  const FresnelPower<float> power = sheet_power(cos_i, n, depth);
+  return {power.R(), power.transmitted()};
 }
 
 }  // namespace

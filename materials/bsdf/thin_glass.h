@@ -6,13 +6,8 @@
 
 namespace abbe {
 
-/// A sheet of clear or tinted glass with the same outside on both sides: light is reflected or passes
-/// straight on, the reflections between its faces summed without interference, s and p apart,
-///
-///   R = r + t^2 r a^2/(1 - r^2 a^2),  T = t^2 a/(1 - r^2 a^2),
-///
-/// with r + t = 1 of one face and a what is left after one passage inside. All wavelengths go the same ways.
-/// [Stokes1862]
+/// A sheet of clear or tinted glass with the same outside on both sides, by `sheet_power`: light is reflected
+/// or passes straight on. All wavelengths go the same ways.
 struct ThinGlassBsdf {
   static constexpr bool kScatters = false;
 

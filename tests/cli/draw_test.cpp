@@ -66,7 +66,9 @@ TEST(Draw, RaysLeaveAPrismAtTheDeviationOfItsFormula) {
   const Scene scene = loaded(prism_scene());
   const auto [origin, direction] = across_prism(50);
   for (const double nm : {486.1327, 587.5618, 656.2725}) {
-    const DrawnRay ray = drawn_ray(scene, {origin * scene.unit_m - scene.origin_m, direction}, nm, 64);
+    const DrawnRay ray =
+        drawn_rays(scene, {origin * scene.unit_m - scene.origin_m, direction}, nm, 64, Follow::refraction)
+            .at(0);
     ASSERT_EQ(ray.points.size(), 4U);
     const double deviation = json_output(cli::query_prism, {"N-BK7", 60, {nm}, 50})["deviation_deg"];
     EXPECT_NEAR(angle_deg(ray.points[1] - ray.points[0], ray.points[3] - ray.points[2]), deviation, 1e-9)
@@ -117,12 +119,28 @@ TEST(Draw, ASlabShiftsRays) {
   scene.commit();
   const double angle = 40 * kDegree;
   const V3d direction(std::sin(angle), 0, std::cos(angle));
-  const DrawnRay ray = drawn_ray(scene, {V3d(0, 0, 0) - 0.5 * direction, direction}, 550, 64);
+  const DrawnRay ray =
+      drawn_rays(scene, {V3d(0, 0, 0) - 0.5 * direction, direction}, 550, 64, Follow::refraction).at(0);
   ASSERT_EQ(ray.points.size(), 4U);
   EXPECT_NEAR((ray.points[3] - ray.points[2]).normalized().dot(direction), 1, 1e-12);
   const double inside = std::asin(std::sin(angle) / kIndex);
   EXPECT_NEAR((ray.points[2] - ray.points[0]).cross(direction).length(),
               kThickness * std::sin(angle) * (1 - std::cos(angle) / (kIndex * std::cos(inside))), 1e-12);
+}
+
+TEST(Draw, BranchesAreFainterTheLessTheyAre) {
+  const auto [origin, direction] = across_prism(50);
+  cli::DrawOptions options{
+      scratch().write("draw.json", prism_scene()), scratch() / "both.svg", {550}, origin, direction};
+  options.follow = Follow::both;
+  ASSERT_EQ(cli::draw(options), 0);
+  const std::string svg = read_file(options.output);
+  EXPECT_NE(svg.find("stroke-opacity=\"0.8\""), std::string::npos);
+  const std::size_t lines = rays_in(svg).size();
+  EXPECT_GT(lines, 6U);  // more than the three pieces of the main branch in two views
+  const auto rays = drawn_rays(loaded(prism_scene()), {V3d(-0.06, 0, 0), {1, 0, 0.1}}, 550, 64, Follow::both);
+  for (const DrawnRay& ray : rays) EXPECT_GE(ray.share, kLeastDrawnShare);
+  EXPECT_LT(rays.back().share, 0.1);
 }
 
 TEST(Draw, RoundShapesHaveTheirCircumference) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
 #include <numbers>
 
-#include "materials/interface/snell.h"
 #include "transport/path/interface.h"
+#include "transport/path/ray_turn.h"
 
 namespace abbe {
 namespace {
@@ -14,54 +17,6 @@ using Kind = TraceEvent::Kind;
 
 // A hit nearer than this share of the distances involved is the surface the ray starts from.
 constexpr double kSelf = 1e-11;
-
-struct Turn {
-  Kind kind;
-  Imath::V3d direction;
-  Passage passage;
-};
-
-// `outside` is the index of what the glass, or the metal below, is in.
-Turn refract_or_reflect(const DielectricMaterial& glass, const Imath::V3d& wo, const Imath::V3d& outward,
-                        double wavelength_nm, double outside) {
-  const bool entering = wo.dot(outward) > 0;
-  const Imath::V3d normal = entering ? outward : -outward;
-  const double inside = glass.index.n(wavelength_nm);
-  const double n_from = entering ? outside : inside;
-  const double n_to = entering ? inside : outside;
-  const FresnelPower<double> power =
-      coated_power(glass.coating, wavelength_nm, inside, 0, normal.dot(wo), !entering, outside);
-  const std::optional<Imath::V3d> through = refract(wo, normal, n_to / n_from);
-  const Imath::V3d direction = through ? *through : reflect(wo, normal);
-  return {through ? Kind::refract : Kind::total_reflection,
-          direction,
-          {n_from, n_to, 0, angle_deg(wo, normal), angle_deg(direction, through ? -normal : normal), power.Rs,
-           power.Rp}};
-}
-
-Turn mirror(const ConductorMaterial& metal, const Imath::V3d& wo, const Imath::V3d& outward,
-            double wavelength_nm, double outside) {
-  const Imath::V3d normal = wo.dot(outward) > 0 ? outward : -outward;
-  const double n = metal.index.n(wavelength_nm);
-  const double k = metal.index.k(wavelength_nm);
-  const FresnelPower<double> power =
-      coated_power(metal.coating, wavelength_nm, n, k, normal.dot(wo), false, outside);
-  const Imath::V3d direction = reflect(wo, normal);
-  return {Kind::reflect,
-          direction,
-          {outside, n, k, angle_deg(wo, normal), angle_deg(direction, normal), power.Rs, power.Rp}};
-}
-
-std::optional<Turn> turn(const Material& material, const Imath::V3d& wo, const Imath::V3d& outward,
-                         double wavelength_nm, double outside) {
-  if (const auto* glass = std::get_if<DielectricMaterial>(&material.model))
-    return refract_or_reflect(*glass, wo, outward, wavelength_nm, outside);
-  if (const auto* metal = std::get_if<ConductorMaterial>(&material.model))
-    return mirror(*metal, wo, outward, wavelength_nm, outside);
-  if (!is_boundary(material)) return std::nullopt;
-  const double angle = angle_deg(wo, wo.dot(outward) > 0 ? outward : -outward);
-  return Turn{Kind::refract, -wo, {outside, outside, 0, angle, angle, 0, 0}};
-}
 
 // What a ray meets at once: in scenes of nested matter all surfaces that touch.
 struct Meeting {
@@ -93,6 +48,171 @@ Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& fi
   return {met[boundary.acting.value_or(0)], boundary, spread};
 }
 
+// The matter that a ray ran through to where it meets something. Without nesting it is that of a surface met
+// from behind.
+const Material* matter_before(const Scene& scene, const BasicRay<double>& ray,
+                              const std::optional<ExactHit>& hit, const MediumStack& inside) {
+  const auto material = [&scene](std::uint32_t shape) {
+    return &scene.materials[scene.shapes[shape].material];
+  };
+  if (scene.needs.nesting) return inside.empty() ? nullptr : material(inside.innermost());
+  return hit && hit->hit.normal.dot(ray.direction) > 0 ? material(hit->shape) : nullptr;
+}
+
+// What the matter on the way leaves of a ray's power, by Beer's law.
+double transmittance(const Material* matter, const BasicRay<double>& ray, double distance,
+                     double wavelength_nm) {
+  if (matter == nullptr) return 1;
+  const RefractiveIndex* index = interior(*matter);
+  double extinction_per_m = index != nullptr ? index->absorption_per_m(wavelength_nm) : 0;
+  const Medium* filling = medium(*matter);
+  if (filling != nullptr)
+    extinction_per_m += filling->absorption_per_m(wavelength_nm) + filling->scattering_per_m(wavelength_nm);
+  if (!(extinction_per_m > 0)) return 1;
+  if (filling != nullptr && filling->grid)
+    distance = filling->grid
+                   ->march(Imath::V3f(ray.origin), Imath::V3f(ray.direction), static_cast<float>(distance),
+                           std::numeric_limits<float>::infinity())
+                   .column;
+  return std::exp(-extinction_per_m * distance);
+}
+
+// A ray on its way.
+struct Traveller {
+  BasicRay<double> ray;
+  MediumStack inside;
+  double nearest;    // at which it may meet something
+  double share = 1;  // of the power
+  int events = 0;    // so far
+  std::size_t from = 0, event = 0;
+};
+
+class Follower {
+ public:
+  Follower(const Scene& scene, double wavelength_nm, Follow follow, const FollowLimits& limits)
+      : scene_(scene),
+        wavelength_nm_(wavelength_nm),
+        follow_(follow),
+        limits_(limits),
+        size_(scene.bounds.isEmpty() ? 0 : scene.bounds.size().length()) {}
+
+  RayTree operator()(const BasicRay<double>& ray) {
+    const bool nested = scene_.needs.nesting;
+    wait({ray, nested ? enclosing(scene_, Imath::V3f(ray.origin)) : MediumStack{}, 0});
+    while (!waiting_.empty()) {
+      const Traveller next = waiting_.begin()->second;
+      waiting_.erase(waiting_.begin());
+      if (tree_.branches.size() < limits_.most_branches)
+        follow_branch(next);
+      else
+        cut(next);
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  void wait(const Traveller& traveller) { waiting_.emplace(traveller.share, traveller); }
+
+  void cut(const Traveller& traveller) {
+    ++tree_.cut;
+    tree_.cut_share += traveller.share;
+  }
+
+  void follow_branch(Traveller now) {
+    const bool main = tree_.branches.empty();
+    tree_.branches.push_back({{{}, now.ray, false}, now.ray, now.share, now.from, now.event});
+    bool goes_on = true;
+    while (goes_on && now.events < limits_.max_events && (main || now.share >= limits_.least_share))
+      goes_on = step(now);
+    RayTrace& trace = tree_.branches.back().trace;
+    trace.last = now.ray;
+    trace.cut_short = goes_on && now.events == limits_.max_events;
+    if (goes_on) cut(now);
+  }
+
+  // To what the ray meets next, and past it. Whether it goes on.
+  bool step(Traveller& now) {
+    std::vector<TraceEvent>& events = tree_.branches.back().trace.events;
+    const std::optional<ExactHit> hit = intersect_exact(scene_, now.ray, now.nearest);
+    now.share *= transmittance(matter_before(scene_, now.ray, hit, now.inside), now.ray,
+                               hit ? hit->hit.t : std::numeric_limits<double>::infinity(), wavelength_nm_);
+    if (!hit) {
+      events.push_back({.kind = Kind::escape, .at = {}, .share = now.share});
+      return false;
+    }
+    const Meeting met = meet(scene_, now.ray, *hit, now.nearest, now.inside);
+    now.ray.origin = met.acting.hit.point;
+    if (!met.boundary.acting) {
+      send(now, met, now.ray.direction, true);
+      return true;
+    }
+    ++now.events;
+    const double outside = met.boundary.outside != nullptr ? met.boundary.outside->n(wavelength_nm_) : 1;
+    const Turn turn = turn_at(scene_, met.acting, -now.ray.direction, wavelength_nm_, outside);
+    const Way* way = way_of(turn);
+    TraceEvent event{.kind = Kind::hit,
+                     .at = met.acting.hit,
+                     .shape = met.acting.shape,
+                     .passage = {},
+                     .share = now.share,
+                     .R = turn.reflected ? turn.R : 0,
+                     .T = turn.through ? turn.T : 0};
+    if (way != nullptr) {
+      event.kind = way->kind;
+      event.passage = turn.passage;
+      event.passage->angle_out_deg = way->angle_deg;
+    }
+    events.push_back(event);
+    if (follow_ == Follow::both) part(now, met, turn, way);
+    if (way == nullptr) return false;
+    const bool through = turn.through && way == &*turn.through;
+    now.share *= through ? event.T : event.R;
+    send(now, met, way->direction, through);
+    return true;
+  }
+
+  // The way of the branch itself, nullptr where it ends.
+  [[nodiscard]] const Way* way_of(const Turn& turn) const {
+    const Way* reflected = turn.reflected ? &*turn.reflected : nullptr;
+    const Way* through = turn.through ? &*turn.through : nullptr;
+    if (follow_ == Follow::reflection) return reflected != nullptr ? reflected : through;
+    if (turn.ends) return nullptr;
+    return through != nullptr ? through : reflected;
+  }
+
+  // The ways on that the branch does not take itself.
+  void part(const Traveller& now, const Meeting& met, const Turn& turn, const Way* taken) {
+    for (const bool through : {false, true}) {
+      const std::optional<Way>& way = through ? turn.through : turn.reflected;
+      if (!way || taken == &*way) continue;
+      Traveller other = now;
+      other.share *= through ? turn.T : turn.R;
+      other.from = tree_.branches.size() - 1;
+      other.event = tree_.branches.back().trace.events.size() - 1;
+      send(other, met, way->direction, through);
+      if (other.share >= limits_.least_share)
+        wait(other);
+      else
+        cut(other);
+    }
+  }
+
+  void send(Traveller& now, const Meeting& met, const Imath::V3d& direction, bool through) const {
+    now.ray.direction = direction;
+    if (through) now.inside = met.boundary.beyond;
+    now.nearest = kSelf * (size_ + now.ray.origin.length()) +
+                  met.spread / std::abs(met.acting.hit.normal.dot(direction));
+  }
+
+  const Scene& scene_;
+  double wavelength_nm_;
+  Follow follow_;
+  const FollowLimits& limits_;
+  double size_;
+  RayTree tree_;
+  std::multimap<double, Traveller, std::greater<>> waiting_;  // of equal shares the earlier one first
+};
+
 }  // namespace
 
 double angle_deg(const Imath::V3d& a, const Imath::V3d& b) {
@@ -101,40 +221,15 @@ double angle_deg(const Imath::V3d& a, const Imath::V3d& b) {
   return 2 * std::atan2((u - v).length(), (u + v).length()) * 180 / std::numbers::pi;
 }
 
+RayTree follow_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, Follow follow,
+                   const FollowLimits& limits) {
+  return Follower(scene, wavelength_nm, follow, limits)(ray);
+}
+
 RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, int max_events) {
-  RayTrace trace{{}, ray, true};
-  BasicRay<double>& now = trace.last;
-  const double size = scene.bounds.isEmpty() ? 0 : scene.bounds.size().length();
-  MediumStack inside = scene.needs.nesting ? enclosing(scene, Imath::V3f(ray.origin)) : MediumStack{};
-  double nearest = 0;
-  while (static_cast<int>(trace.events.size()) < max_events) {
-    const std::optional<ExactHit> hit = intersect_exact(scene, now, nearest);
-    if (!hit) {
-      trace.events.push_back({Kind::escape, {}, 0, {}});
-      trace.cut_short = false;
-      break;
-    }
-    const auto [acting, boundary, spread] = meet(scene, now, *hit, nearest, inside);
-    now.origin = acting.hit.point;
-    bool through = true;
-    if (boundary.acting) {
-      const double outside = boundary.outside != nullptr ? boundary.outside->n(wavelength_nm) : 1;
-      const Material& material = scene.materials[scene.shapes[acting.shape].material];
-      const std::optional<Turn> next =
-          turn(material, -now.direction, acting.hit.normal, wavelength_nm, outside);
-      if (!next) {
-        trace.events.push_back({Kind::hit, acting.hit, acting.shape, {}});
-        trace.cut_short = false;
-        break;
-      }
-      now.direction = next->direction.normalized();
-      trace.events.push_back({next->kind, acting.hit, acting.shape, next->passage});
-      through = next->kind == Kind::refract;
-    }
-    if (through) inside = boundary.beyond;
-    nearest = kSelf * (size + now.origin.length()) + spread / std::abs(acting.hit.normal.dot(now.direction));
-  }
-  return trace;
+  return follow_ray(scene, ray, wavelength_nm, Follow::refraction, {.max_events = max_events})
+      .branches.front()
+      .trace;
 }
 
 }  // namespace abbe

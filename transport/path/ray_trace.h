@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,7 +12,8 @@ namespace abbe {
 /// What a smooth surface does to a ray. Indices are relative to air; n_to is that of the other side, which a
 /// reflected ray does not enter.
 struct Passage {
-  double n_from, n_to;
+  double n_from;
+  double n_to;  ///< 0 of a mirror without an index.
   double k_to;  ///< Extinction of the other side; 0 for dielectrics.
   double angle_in_deg, angle_out_deg;
   double Rs, Rp;
@@ -23,7 +25,9 @@ struct TraceEvent {
   Kind kind;
   ShapeHit<double> at;  ///< Nothing of it holds for `escape`.
   std::uint32_t shape = 0;
-  std::optional<Passage> passage;  ///< Of a smooth surface.
+  std::optional<Passage> passage = {};  ///< Of a smooth surface.
+  double share = 1;                     ///< Of the ray's power at its start, what arrives.
+  double R = 0, T = 0;                  ///< Of what arrives, what goes on reflected and through.
 };
 
 /// A ray's whole way.
@@ -33,9 +37,46 @@ struct RayTrace {
   bool cut_short;         ///< Still going after as many events as were allowed.
 };
 
-/// Follows one ray in double precision by the shapes' own code: refracted by dielectrics where they let it
-/// pass, straight on through boundaries of matter, reflected by metals, ended by other surfaces. Coordinates
-/// are the scene's own [m].
+/// Which way is followed where a surface both reflects and lets through.
+enum class Follow { refraction, reflection, both };
+
+/// Where following ends.
+struct FollowLimits {
+  int max_events = 64;        ///< From the start of the ray, through all branches.
+  double least_share = 1e-6;  ///< Of the power; branches of less are cut, but not the main one.
+  std::size_t most_branches = 10000;
+};
+
+/// One of the ways of a ray, from the event at which it parted from another.
+struct RayBranch {
+  RayTrace trace;
+  BasicRay<double> start;
+  double share;           ///< Of the ray's power, what sets out.
+  std::size_t from = 0;   ///< The branch it parted from, an earlier one; of the main branch itself.
+  std::size_t event = 0;  ///< At this event of that.
+};
+
+/// All the ways of a ray that were followed: first the main one, then the others, those of more power first.
+/// What does not end on surfaces is in what escapes, in what is absorbed and in `cut_share`.
+struct RayTree {
+  std::vector<RayBranch> branches;
+  std::size_t cut = 0;   ///< Branches that end, or do not begin, as the limits forbid to go on.
+  double cut_share = 0;  ///< Their power.
+};
+
+/// Follows one ray in double precision by the shapes' own code, through every surface that sends light on in
+/// single directions: refracted by smooth dielectrics, straight on through panes and boundaries of matter,
+/// reflected by metals, mirrors and coats. Surfaces that scatter end it. `Follow::refraction` reflects it
+/// only where nothing is let through, `Follow::reflection` lets it through only where nothing is reflected,
+/// and `Follow::both` follows refraction in the main branch, which ends at a surface that also scatters, and
+/// every other way in a branch of its own. Coordinates are the scene's own [m].
+///
+/// Shares of power are, as in renders, those of light that arrives unpolarised at every surface. On the way
+/// between surfaces matter takes what it absorbs and scatters.
+[[nodiscard]] RayTree follow_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
+                                 Follow follow, const FollowLimits& limits);
+
+/// The main branch alone, as `Follow::refraction` has it.
 [[nodiscard]] RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
                                  int max_events);
 

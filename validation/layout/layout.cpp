@@ -5,11 +5,11 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "spectral/colorimetry.h"
-#include "transport/path/ray_trace.h"
 #include "validation/layout/lamp_rays.h"
 #include "validation/layout/outline.h"
 #include "validation/picture/display_color.h"
@@ -81,11 +81,16 @@ std::vector<V3d> clipped(const V3d& from, const V3d& to, const Imath::Box3d& box
   return {from + first * (to - from), from + last * (to - from)};
 }
 
+// Decades of power are even steps.
+double opacity(double share) {
+  return std::clamp(1 - 0.85 * std::log(share) / std::log(kLeastDrawnShare), 0.15, 1.0);
+}
+
 std::string ray_elements(const DrawnRay& ray, const Projection& to) {
   std::string elements;
-  const std::string look =
-      fmt::format("class=\"ray\" data-nm=\"{:g}\" stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"0.8\"",
-                  ray.wavelength_nm, wavelength_color(ray.wavelength_nm));
+  const std::string look = fmt::format(
+      "class=\"ray\" data-nm=\"{:g}\" stroke=\"{}\" stroke-width=\"0.8\" stroke-opacity=\"{:.2g}\"",
+      ray.wavelength_nm, wavelength_color(ray.wavelength_nm), 0.8 * opacity(ray.share));
   for (std::size_t i = 0; i + 1 < ray.points.size(); ++i)
     if (const auto line = clipped(ray.points[i], ray.points[i + 1], to.box); !line.empty())
       elements += svg_line(to.x(line[0]), to.y(line[0]), to.x(line[1]), to.y(line[1]), look);
@@ -176,14 +181,20 @@ std::string legend(const std::vector<DrawnRay>& rays, double y) {
 
 }  // namespace
 
-DrawnRay drawn_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, int max_events) {
-  const RayTrace trace = trace_ray(scene, ray, wavelength_nm, max_events);
-  DrawnRay drawn{wavelength_nm, {ray.origin}};
-  for (const TraceEvent& event : trace.events)
-    if (event.kind != TraceEvent::Kind::escape) drawn.points.push_back(event.at.point);
-  if (!trace.events.empty() && trace.events.back().kind == TraceEvent::Kind::escape)
-    drawn.points.push_back(trace.last.origin + drawn_box(scene).size().length() * trace.last.direction);
-  return drawn;
+std::vector<DrawnRay> drawn_rays(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
+                                 int max_events, Follow follow) {
+  const FollowLimits limits{.max_events = max_events, .least_share = kLeastDrawnShare};
+  std::vector<DrawnRay> rays;
+  for (const RayBranch& branch : follow_ray(scene, ray, wavelength_nm, follow, limits).branches) {
+    DrawnRay drawn{wavelength_nm, {branch.start.origin}, branch.share};
+    const RayTrace& trace = branch.trace;
+    for (const TraceEvent& event : trace.events)
+      if (event.kind != TraceEvent::Kind::escape) drawn.points.push_back(event.at.point);
+    if (!trace.events.empty() && trace.events.back().kind == TraceEvent::Kind::escape)
+      drawn.points.push_back(trace.last.origin + drawn_box(scene).size().length() * trace.last.direction);
+    rays.push_back(std::move(drawn));
+  }
+  return rays;
 }
 
 std::string wavelength_color(double wavelength_nm) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "transport/path/ray_trace.h"
 
 namespace abbe {
 
@@ -11,11 +12,16 @@ namespace abbe {
 struct DrawnRay {
   double wavelength_nm;
   std::vector<Imath::V3d> points;
+  double share = 1;  ///< Of the power, at its start: the less, the fainter it is drawn.
 };
 
-/// Follows a ray (`trace_ray`); one that leaves the scene is drawn on as far again as the scene is large.
-[[nodiscard]] DrawnRay drawn_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
-                                 int max_events);
+/// Branches of less power are not drawn.
+inline constexpr double kLeastDrawnShare = 1e-3;
+
+/// Follows a ray (`follow_ray`), the main branch first; one that leaves the scene is drawn on as far again as
+/// the scene is large.
+[[nodiscard]] std::vector<DrawnRay> drawn_rays(const Scene& scene, const BasicRay<double>& ray,
+                                               double wavelength_nm, int max_events, Follow follow);
 
 /// The colour of a wavelength as displays come nearest to it; grey where nobody sees it.
 [[nodiscard]] std::string wavelength_color(double wavelength_nm);

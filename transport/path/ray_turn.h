@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "transport/path/ray_trace.h"
+
+namespace abbe {
+
+/// A way on from a surface.
+struct Way {
+  TraceEvent::Kind kind;  ///< refract, reflect or total_reflection
+  Imath::V3d direction;
+  double angle_deg;  ///< To the normal.
+};
+
+/// What a surface does to a ray: the ways on, and of the power that arrives unpolarised what takes them.
+struct Turn {
+  std::optional<Way> reflected, through;
+  double R = 0, T = 0;
+  Passage passage = {};  ///< But for the angle out.
+  bool ends = true;      ///< Light that takes neither is scattered, or all of it is.
+};
+
+/// Of a ray that arrives at `at` on a shape from `wo`; `outside` is the index of what the shape's matter is
+/// in.
+[[nodiscard]] Turn turn_at(const Scene& scene, const ExactHit& at, const Imath::V3d& wo, double wavelength_nm,
+                           double outside);
+
+}  // namespace abbe
