@@ -15,13 +15,12 @@
 #include "cli/compare.h"
 #include "cli/convert.h"
 #include "cli/develop.h"
-#include "cli/draw.h"
 #include "cli/info.h"
 #include "cli/material_commands.h"
 #include "cli/merge.h"
+#include "cli/ray_commands.h"
 #include "cli/render.h"
 #include "cli/slurm_help.h"
-#include "cli/trace.h"
 #include "cli/usage.h"
 #include "cli/validate.h"
 #include "cli/version.h"
@@ -101,67 +100,13 @@ void add_render(CLI::App& app, Command& command) {
   render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }
 
-void add_follow(CLI::App& app, Follow& follow) {
-  add_parsed(
-      app, "--follow", follow, one_of<Follow>({"refraction", "reflection", "both"}),
-      "Which way where a surface reflects and lets through (default: refraction); both follows all, in "
-      "branches",
-      "refraction|reflection|both");
-}
-
-void add_scene_commands(CLI::App& app, Command& command) {
-  const Sub<InfoOptions> info_sub(app, "info", "Say what a scene contains, needs and skips", command, info);
-  info_sub.app->add_option("scene", info_sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  add_max_memory(*info_sub.app, info_sub.options);
-  add_json(*info_sub.app, info_sub->json);
-
-  const Sub<TraceOptions> sub(app, "trace", "Follow one ray through a scene in double precision", command,
-                              trace);
+void add_info(CLI::App& app, Command& command) {
+  const Sub<InfoOptions> sub(app, "info", "Say what a scene contains, needs and skips", command, info);
   sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
       ->required()
       ->type_name("SCENE");
-  add_parsed(*sub.app, "--lambda", sub->wavelength_nm, number_in(kMinWavelengthNm, kMaxWavelengthNm),
-             "Wavelength in standard air", "NM")
-      ->required();
-  CLI::Option* origin = add_parsed(*sub.app, "--origin", sub->origin, parse_vector,
-                                   "Where the ray starts, in scene units", "X,Y,Z");
-  add_parsed(*sub.app, "--dir", sub->direction, parse_vector, "Its direction, of any length", "X,Y,Z");
-  sub.app
-      ->add_option(
-          "--from-light", sub->light,
-          "Start at this light, in the middle of what it lights unless --dir tells another direction")
-      ->type_name("NAME")
-      ->excludes(origin);
-  add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
-             "Events to follow at most (default 64)", "N");
-  add_follow(*sub.app, sub->follow);
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
-}
-
-void add_draw(CLI::App& app, Command& command) {
-  const Sub<DrawOptions> sub(app, "draw", "Draw plan and elevation of a scene, with rays", command, draw);
-  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  sub.app->add_option("-o,--output", sub->output, "Drawing to write")->required()->type_name("FILE.svg");
-  add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
-             "Wavelengths of the rays (default 450,550,650)", "NM,...");
-  CLI::Option* rays = add_parsed(*sub.app, "--rays", sub->rays, integer_in<int>(0, 1000),
-                                 "Rays of each lamp in each of two planes (default 9)", "N");
-  CLI::Option* origin =
-      add_parsed(*sub.app, "--origin", sub->origin, parse_vector,
-                 "Where one ray starts, in place of those of lamps, in scene units", "X,Y,Z");
-  CLI::Option* direction =
-      add_parsed(*sub.app, "--dir", sub->direction, parse_vector, "Its direction, of any length", "X,Y,Z");
-  origin->needs(direction)->excludes(rays);
-  direction->needs(origin);
-  add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
-             "Events to follow at most (default 64)", "N");
-  add_follow(*sub.app, sub->follow);
-  add_max_memory(*sub.app, sub.options);
 }
 
 void add_merge(CLI::App& app, Command& command) {
@@ -396,7 +341,8 @@ void add_commands(CLI::App& app, Command& command) {
   add_render(app, command);
   add_merge(app, command);
   add_convert(app, command);
-  add_scene_commands(app, command);
+  add_info(app, command);
+  add_trace(app, command);
   add_draw(app, command);
   add_query(app, command);
   add_lab(app, command);

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/command_options.h"
+
+namespace abbe::cli {
+
+/// `abbe trace`.
+void add_trace(CLI::App& app, Command& command);
+/// `abbe draw`.
+void add_draw(CLI::App& app, Command& command);
+
+}  // namespace abbe::cli
