@@ -149,7 +149,7 @@ class Follower {
     ++now.events;
     const double outside = met.boundary.outside != nullptr ? met.boundary.outside->n(wavelength_nm_) : 1;
     const Turn turn = turn_at(scene_, met.acting, -now.ray.direction, wavelength_nm_, outside);
-    const Way* way = way_of(turn);
+    const RayWay* way = way_of(turn);
     TraceEvent event{.kind = Kind::hit,
                      .at = met.acting.hit,
                      .shape = met.acting.shape,
@@ -172,18 +172,18 @@ class Follower {
   }
 
   // The way of the branch itself, nullptr where it ends.
-  [[nodiscard]] const Way* way_of(const Turn& turn) const {
-    const Way* reflected = turn.reflected ? &*turn.reflected : nullptr;
-    const Way* through = turn.through ? &*turn.through : nullptr;
+  [[nodiscard]] const RayWay* way_of(const Turn& turn) const {
+    const RayWay* reflected = turn.reflected ? &*turn.reflected : nullptr;
+    const RayWay* through = turn.through ? &*turn.through : nullptr;
     if (follow_ == Follow::reflection) return reflected != nullptr ? reflected : through;
     if (turn.ends) return nullptr;
     return through != nullptr ? through : reflected;
   }
 
   // The ways on that the branch does not take itself.
-  void part(const Traveller& now, const Meeting& met, const Turn& turn, const Way* taken) {
+  void part(const Traveller& now, const Meeting& met, const Turn& turn, const RayWay* taken) {
     for (const bool through : {false, true}) {
-      const std::optional<Way>& way = through ? turn.through : turn.reflected;
+      const std::optional<RayWay>& way = through ? turn.through : turn.reflected;
       if (!way || taken == &*way) continue;
       Traveller other = now;
       other.share *= through ? turn.T : turn.R;

@@ -56,13 +56,13 @@ Turn turn_at(const Scene& scene, const ExactHit& at, const Imath::V3d& wo, doubl
     const bool bends = std::holds_alternative<DielectricMaterial>(material.model);
     const auto through =
         bends ? refract(wo, normal, turn.passage.n_to / turn.passage.n_from) : std::optional(-wo);
-    if (through) turn.through = Way{Kind::refract, through->normalized(), angle_deg(*through, -normal)};
+    if (through) turn.through = RayWay{Kind::refract, through->normalized(), angle_deg(*through, -normal)};
   }
   if (turn.R > 0) {
     const Imath::V3d direction = reflect(wo, normal);
     const bool total = !turn.through && !opaque(material);
-    turn.reflected = Way{total ? Kind::total_reflection : Kind::reflect, direction.normalized(),
-                         angle_deg(direction, normal)};
+    turn.reflected = RayWay{total ? Kind::total_reflection : Kind::reflect, direction.normalized(),
+                            angle_deg(direction, normal)};
   }
   return turn;
 }

@@ -7,7 +7,7 @@
 namespace abbe {
 
 /// A way on from a surface.
-struct Way {
+struct RayWay {
   TraceEvent::Kind kind;  ///< refract, reflect or total_reflection
   Imath::V3d direction;
   double angle_deg;  ///< To the normal.
@@ -15,7 +15,7 @@ struct Way {
 
 /// What a surface does to a ray: the ways on, and of the power that arrives unpolarised what takes them.
 struct Turn {
-  std::optional<Way> reflected, through;
+  std::optional<RayWay> reflected, through;
   double R = 0, T = 0;
   Passage passage = {};  ///< But for the angle out.
   bool ends = true;      ///< Light that takes neither is scattered, or all of it is.
