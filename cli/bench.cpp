@@ -42,7 +42,7 @@ BenchSettings settings_of(const BenchOptions& options) {
 
 int list_suites(bool as_json) {
   Json answer;
-  for (const Suite& suite : bench_suites()) answer[suite.name] = suite.description;
+  for (const BenchSuite& suite : bench_suites()) answer[suite.name] = suite.description;
   print(answer, as_json);
   return 0;
 }
@@ -105,7 +105,7 @@ int bench(const BenchOptions& options) {
   if (options.list) return list_suites(options.json);
   if (options.scale) return scale(options);
   if (options.soak_paths > 0) return soak(options);
-  const std::vector<Suite> suites = choose_suites(options.suites);
+  const std::vector<BenchSuite> suites = choose_suites(options.suites);
   if (!options.output.empty()) {
     require_report_folder(options.output);
     require_distinct(report_files(options.output, suites), std::array{options.baseline});
@@ -113,7 +113,7 @@ int bench(const BenchOptions& options) {
   const std::vector<BaselineRow> before = read_baseline(options.baseline);
   BenchReport report{this_machine(), settings_of(options), {}, {}, {}};
   if (!options.quick) report.rivals = load_rivals();
-  for (const Suite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));
+  for (const BenchSuite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));
   report.changes = compare_runs(before, baseline_rows(report.runs));
   if (!options.baseline.empty() && report.changes.empty())
     say("warning: no render of the baseline is of the same suite, sample count and seed");

@@ -14,7 +14,7 @@ namespace {
 
 using test::BenchFolder;
 
-Suite small_furnace(const std::string& reflectance = "0.8") {
+BenchSuite small_furnace(const std::string& reflectance = "0.8") {
   return {"small",
           "",
           "scenes/furnace.json",

@@ -89,9 +89,9 @@ LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals) {
 }
 
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder,
-                                                std::span<const Suite> suites) {
+                                                std::span<const BenchSuite> suites) {
   std::vector<std::filesystem::path> files{folder / "bench.csv", folder / "bench.json"};
-  for (const Suite& suite : suites) files.push_back(folder / (suite.name + ".svg"));
+  for (const BenchSuite& suite : suites) files.push_back(folder / (suite.name + ".svg"));
   return files;
 }
 
@@ -102,7 +102,7 @@ void require_report_folder(const std::filesystem::path& folder) {
 }
 
 void write_report(const std::filesystem::path& folder, const BenchReport& report) {
-  std::vector<Suite> suites;
+  std::vector<BenchSuite> suites;
   for (const SuiteRun& run : report.runs) suites.push_back(run.suite);
   const std::vector<std::filesystem::path> files = report_files(folder, suites);
   write_atomically(files[0], csv_text(report.runs));

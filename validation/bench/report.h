@@ -36,7 +36,7 @@ struct BenchReport {
 
 /// The files of a report on those suites.
 [[nodiscard]] std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder,
-                                                              std::span<const Suite> suites);
+                                                              std::span<const BenchSuite> suites);
 
 /// Makes the folder of a report if need be. Throws Error{output} now if nothing can be written there later.
 void require_report_folder(const std::filesystem::path& folder);

@@ -57,7 +57,7 @@ void accumulate(BenchRow& sum, const BenchRow& row, double weight) {
 
 }  // namespace
 
-SuiteRun run_suite(const Suite& suite, const BenchSettings& settings) {
+SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings) {
   const auto say = [&](const std::string& message) {
     if (settings.say) settings.say(suite.name + ": " + message);
   };

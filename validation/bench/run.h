@@ -47,7 +47,7 @@ struct BenchRow {
 
 /// What a suite gave.
 struct SuiteRun {
-  Suite suite;
+  BenchSuite suite;
   int width, height;
   std::string scene_sha256;
   double load_cpu_s;  ///< Reading the scene and building its acceleration structure.
@@ -57,7 +57,7 @@ struct SuiteRun {
 };
 
 /// Renders a suite at every sample count and seed.
-[[nodiscard]] SuiteRun run_suite(const Suite& suite, const BenchSettings& settings);
+[[nodiscard]] SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings);
 
 /// Square root of an error that noise may have made negative: 0 then.
 [[nodiscard]] double root_of(double mean_square);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Where the scene file is: in the data, or copied beside the meshes it names.
-fs::path scene_file(const Suite& suite, const fs::path& cache, Diagnostics& diagnostics) {
+fs::path scene_file(const BenchSuite& suite, const fs::path& cache, Diagnostics& diagnostics) {
   constexpr std::uint32_t kTerrainCells = 724;  // 1 048 352 triangles
   constexpr std::uint32_t kBallRows = 513;      // 1 050 624 triangles
   fs::path shipped = data_directory() / suite.scene;
@@ -32,8 +32,8 @@ fs::path scene_file(const Suite& suite, const fs::path& cache, Diagnostics& diag
 
 }  // namespace
 
-const std::vector<Suite>& bench_suites() {
-  static const std::vector<Suite> suites{
+const std::vector<BenchSuite>& bench_suites() {
+  static const std::vector<BenchSuite> suites{
       {"furnace",
        "a closed sphere where every pixel is the same: little noise, many bounces",
        "scenes/furnace.json",
@@ -66,12 +66,12 @@ const std::vector<Suite>& bench_suites() {
   return suites;
 }
 
-std::vector<Suite> choose_suites(const std::vector<std::string>& names) {
-  const std::vector<Suite>& all = bench_suites();
+std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names) {
+  const std::vector<BenchSuite>& all = bench_suites();
   if (names.empty()) return all;
   std::vector<std::string> known;
-  for (const Suite& suite : all) known.push_back(suite.name);
-  std::vector<Suite> chosen;
+  for (const BenchSuite& suite : all) known.push_back(suite.name);
+  std::vector<BenchSuite> chosen;
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) throw Error(ErrorCode::usage, "", unknown_name("suite", name, known));
@@ -80,7 +80,7 @@ std::vector<Suite> choose_suites(const std::vector<std::string>& names) {
   return chosen;
 }
 
-Scene load_suite(const Suite& suite, const fs::path& cache, bool quick) {
+Scene load_suite(const BenchSuite& suite, const fs::path& cache, bool quick) {
   Diagnostics diagnostics;
   const fs::path file = scene_file(suite, cache, diagnostics);
   std::optional<Scene> scene = load_scene(file, suite.settings, diagnostics);

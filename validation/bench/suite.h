@@ -10,7 +10,7 @@
 namespace abbe {
 
 /// A scene that is rendered against the clock.
-struct Suite {
+struct BenchSuite {
   std::string name;  ///< As in `data/bench/rivals.csv`.
   std::string description;
   std::string scene;                    ///< Relative to the data directory.
@@ -19,13 +19,13 @@ struct Suite {
 };
 
 /// All suites, in the order they run.
-[[nodiscard]] const std::vector<Suite>& bench_suites();
+[[nodiscard]] const std::vector<BenchSuite>& bench_suites();
 
 /// The suites of those names, all for none. Throws Error{usage} for another name.
-[[nodiscard]] std::vector<Suite> choose_suites(const std::vector<std::string>& names);
+[[nodiscard]] std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names);
 
 /// The scene of a suite, any mesh it needs written to a folder of `cache` first; with `quick` a film of a
 /// quarter of the edges. Throws Error{input} with the loader's complaints.
-[[nodiscard]] Scene load_suite(const Suite& suite, const std::filesystem::path& cache, bool quick);
+[[nodiscard]] Scene load_suite(const BenchSuite& suite, const std::filesystem::path& cache, bool quick);
 
 }  // namespace abbe
