@@ -142,7 +142,7 @@ void add_convert(CLI::App& app, Command& command) {
       ->type_name("FILE.json");
   sub.app
       ->add_option("--materials", sub->materials,
-                   "Materials by name, {NAME: MATERIAL, …} as scene files have them, in place of those of "
+                   "Materials by name, {NAME: MATERIAL, ...} as scene files have them, in place of those of "
                    "another renderer's scene")
       ->type_name("FILE.json");
   add_overrides(*sub.app, sub.options, "Replace a value of the scene file; may be repeated");
