@@ -71,6 +71,12 @@ bool ignore_image(tinygltf::Image* /*image*/, int /*number*/, std::string* /*err
   return true;
 }
 
+// Whether a file that requires the extension has the same meshes as without it.
+bool leaves_meshes_alone(const std::string& extension) {
+  return extension.starts_with("KHR_materials_") || extension == "KHR_lights_punctual" ||
+         extension == "KHR_texture_transform";
+}
+
 bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading) {
   if (!sound(bytes, reading)) return false;
   Files files{reading, model};
@@ -102,7 +108,7 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
   if (!error.empty()) return reading.refuse(error.substr(0, valid_prefix(error)));
   if (!model.asset.version.starts_with("2.")) return reading.refuse("no glTF 2.0 asset");
   for (const std::string& extension : model.extensionsRequired)
-    if (!extension.starts_with("KHR_materials_"))
+    if (!leaves_meshes_alone(extension))
       return reading.refuse(fmt::format("it requires the extension {}, which is not read", extension));
   return true;
 }

@@ -34,7 +34,7 @@ TEST_F(GltfTest, WarnsOfLightsAndCameras) {
   EXPECT_EQ(load_with(asset).find("warning: mesh"), std::string::npos);
   asset.nodes = R"([{"mesh": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}])";
   asset.more = R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
-      "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "directional"}]}})";
+      "extensionsUsed": ["KHR_lights_punctual"], "extensionsRequired": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "directional"}]}})";
   const std::string warned = load_with(asset);
   EXPECT_NE(warned.find("a.gltf\": its lights are not read (2 of them)"), std::string::npos) << warned;
   EXPECT_NE(warned.find("a.gltf\": its cameras are not read (1 of them)"), std::string::npos) << warned;

@@ -337,6 +337,22 @@ TEST(Unreached, ClassesOfTheLightTracerAlone) {
   EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E (S|D)* L", "E L", "E S (S|D)* L"}));
 }
 
+TEST(Unreached, ClassesOfBidirectionalPathTracing) {
+  Scene scene = floor_scene();
+  scene.render.integrator = Integrator::bdpt;
+  add_bulb(scene);
+  scene.commit();
+  EXPECT_TRUE(unreached(scene, scene.needs, false).empty()) << "nothing is specular";
+  add_ball(scene, kGlass);
+  scene.commit();
+  EXPECT_EQ(unreached_expressions(scene, false), Expressions{"E S+ (D S+)* L"});
+  scene.lights.clear();
+  add_lamp(scene, 0.1);
+  add_sky(scene);
+  scene.commit();
+  EXPECT_TRUE(unreached(scene, scene.needs, false).empty()) << "both have area";
+}
+
 TEST(Needs, EveryLampIsHeldAgainstEverySpecularShape) {
   Scene scene = floor_scene();
   testing::Random random(31);
