@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <strings.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -112,9 +113,12 @@ class HttpServer : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override {
     Connection connection(socket);
     bool closed = false;
-    // Answers on one machine are not worth compressing.
-    return process_request(connection, true, closed,
-                           [](httplib::Request& request) { request.headers.erase("Accept-Encoding"); });
+    // Answers on one machine are not worth compressing, and whoever asks for parts is given the whole.
+    return process_request(connection, true, closed, [](httplib::Request& request) {
+      request.headers.erase("Accept-Encoding");
+      request.headers.erase("Range");
+      request.ranges.clear();
+    });
   }
 };
 
@@ -125,13 +129,39 @@ void set_options(int socket) {
   (void)::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
 }
 
+bool is_same_name(const std::string& a, const std::string& b) {
+  return ::strcasecmp(a.c_str(), b.c_str()) == 0;
+}
+
 // By no more than its text: what a name server says of a name is up to others.
 bool is_loopback(const std::string& host) {
   in_addr v4{};
   in6_addr v6{};
   if (::inet_pton(AF_INET, host.c_str(), &v4) == 1) return ntohl(v4.s_addr) >> 24 == 127;
   if (::inet_pton(AF_INET6, host.c_str(), &v6) == 1) return IN6_IS_ADDR_LOOPBACK(&v6) != 0;
-  return host == "localhost";
+  return is_same_name(host, "localhost");
+}
+
+bool is_address(const std::string& host) {
+  in6_addr bytes{};
+  return ::inet_pton(AF_INET, host.c_str(), &bytes) == 1 || ::inet_pton(AF_INET6, host.c_str(), &bytes) == 1;
+}
+
+// This machine's name.
+std::string own_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+// Whether no stranger can have let the name that a page is asked by point at this machine: addresses have no
+// names, and its own names are not for strangers to give.
+bool is_own(const std::string& host, const std::string& listens_at) {
+  if (host.empty()) return false;
+  if (is_loopback(host)) return true;
+  if (is_loopback(listens_at)) return false;
+  const std::string own = own_name();
+  return is_address(host) || is_same_name(host, own) || is_same_name(host, own.substr(0, own.find('.'))) ||
+         is_same_name(host, listens_at);
 }
 
 // The host of "host:port", "[host]:port" or either without a port.
@@ -160,8 +190,9 @@ struct PageServer::Listener {
 
   [[nodiscard]] PageAnswer reply(const httplib::Request& request) const {
     if (request.method != "GET" && request.method != "HEAD") return failure(405, "allowed: GET, HEAD");
-    if (is_loopback(host) && !is_loopback(host_of(request.get_header_value("Host"))))
-      return failure(403, "asked by the name of another host");
+    if (request.get_header_value_count("Host") > 1) return failure(400, "asked by several names");
+    if (!is_own(host_of(request.get_header_value("Host")), host))
+      return failure(403, "asked by the name of another host: ask by the address of this one");
     PageRequest question{request.path, {}};
     for (const auto& [key, value] : request.params) question.parameters.emplace(key, value);
     try {
@@ -184,6 +215,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
   server.set_default_headers(
       {{"Cache-Control", "no-store"},
        {"Content-Security-Policy", "default-src 'self' 'unsafe-inline'; img-src 'self' data:"},
+       {"Cross-Origin-Resource-Policy", "same-origin"},
        {"X-Content-Type-Options", "nosniff"}});
   server.set_pre_routing_handler(
       [listener = listener_.get()](const httplib::Request& request, httplib::Response& response) {

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -98,6 +99,48 @@ TEST(PageServer, RefusesNamesOfOtherHosts) {
     EXPECT_EQ(client.Get("/there", {{"Host", host}})->status, 403) << host;
   for (const char* host : {"localhost", "localhost:80", "127.0.0.1:80", "[::1]:80", "127.0.0.1"})
     EXPECT_EQ(client.Get("/there", {{"Host", host}})->status, 200) << host;
+}
+
+TEST(PageServer, OnOpenAddressesRefusesThemTooButItsOwnName) {
+  const PageServer server({"0.0.0.0", 0}, echo);
+  httplib::Client client("127.0.0.1", port_of(server));
+  std::array<char, 256> name{};
+  ASSERT_EQ(::gethostname(name.data(), name.size() - 1), 0);
+  const std::string own = name.data();
+  for (const std::string& host :
+       {std::string("elsewhere.example"), std::string("192.168.1.20.elsewhere.example:80"),
+        own + ".elsewhere.example", "elsewhere." + own, std::string()})
+    EXPECT_EQ(client.Get("/there", {{"Host", host}})->status, 403) << host;
+  for (const std::string& host : {std::string("192.168.1.20:8080"), std::string("[2001:db8::1]:80"),
+                                  std::string("LocalHost:80"), own, own + ":80"})
+    EXPECT_EQ(client.Get("/there", {{"Host", host}})->status, 200) << host;
+}
+
+TEST(PageServer, RefusesQuestionsByTwoNames) {
+  const PageServer server({}, echo);
+  const Socket socket(port_of(server));
+  std::string heard;
+  ASSERT_TRUE(socket.say("GET /there HTTP/1.1\r\nHost: localhost\r\nHost: elsewhere.example\r\n\r\n"));
+  EXPECT_TRUE(socket.closes_within(1s, &heard));
+  EXPECT_EQ(heard.substr(0, 13), "HTTP/1.1 400 ") << heard;
+}
+
+// Many overlapping parts would make a large answer of a small page.
+TEST(PageServer, GivesTheWholeToThoseWhoAskForParts) {
+  const PageServer server({}, echo);
+  httplib::Client client("127.0.0.1", port_of(server));
+  for (const char* parts : {"bytes=0-1", "bytes=0-1,0-2,1-2"}) {
+    const auto answer = client.Get("/there?word=glass", {{"Range", parts}});
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 200) << parts;
+    EXPECT_EQ(answer->body, "glass") << parts;
+  }
+}
+
+TEST(PageServer, LetsNoOtherPageShowItsAnswers) {
+  const PageServer server({}, echo);
+  httplib::Client client("127.0.0.1", port_of(server));
+  EXPECT_EQ(client.Get("/there")->get_header_value("Cross-Origin-Resource-Policy"), "same-origin");
 }
 
 TEST(PageServer, DropsLongQuestions) {
