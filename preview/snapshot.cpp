@@ -9,7 +9,7 @@ namespace abbe {
 Snapshot take_snapshot(const Scene& scene, const FilmIdentity& identity, const RenderResult& result,
                        int threads) {
   const Film& film = result.film;
-  Snapshot snapshot{result.stats.samples_per_pixel, {film.width(), film.height(), {}, identity}};
+  Snapshot snapshot{result.stats.samples_per_pixel, film.crop(), {film.width(), film.height(), {}, identity}};
   for (const std::string& plane : scene.film_planes())
     snapshot.film.channels.push_back({plane, std::vector<float>(snapshot.film.pixels())});
   std::atomic<int> next_row = 0;

@@ -5,6 +5,7 @@
 #include "film/sensor_identity.h"
 #include "io/image.h"
 #include "scene/scene.h"
+#include "sensor/film/crop.h"
 #include "transport/render/part.h"
 
 namespace abbe {
@@ -12,6 +13,7 @@ namespace abbe {
 /// A film under way, after a whole number of passes.
 struct Snapshot {
   std::uint64_t samples = 0;  ///< Per pixel.
+  Crop crop = {};             ///< The pixels that are rendered.
   Image film = {};            ///< Its planes, without variance, and what they tell of their sensor.
 };
 

@@ -44,6 +44,7 @@ ViewerFilm::ViewerFilm(const Scene& scene, ViewOptions options)
 void ViewerFilm::replace(Snapshot snapshot) {
   auto next = std::make_shared<Shown>();
   next->samples = snapshot.samples;
+  next->crop = snapshot.crop;
   next->film = std::move(snapshot.film);
   const std::scoped_lock lock(swap_);
   next->number = latest_->number + 1;
@@ -104,8 +105,8 @@ std::shared_ptr<const std::string> ViewerFilm::picture(const std::string& view, 
 std::optional<ViewerFilm::Pixel> ViewerFilm::pixel(int x, int y) {
   const std::scoped_lock lock(work_);
   const std::shared_ptr<Shown> shown = latest();
-  if (shown->number == 0 || x < 0 || y < 0 || x >= scene_.camera.width || y >= scene_.camera.height)
-    return std::nullopt;
+  const Crop& rendered = shown->crop;  // none before the first snapshot
+  if (x < rendered.x0 || y < rendered.y0 || x >= rendered.x1 || y >= rendered.y1) return std::nullopt;
   const Stopwatch watch(spent_s_);
   make_film(*shown);
   const Image& film = shown->film;

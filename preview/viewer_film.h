@@ -46,7 +46,7 @@ class ViewerFilm {
     std::uint64_t samples;
     std::vector<Value> values;
   };
-  /// Nothing before the first snapshot and for a pixel there is not.
+  /// Nothing before the first snapshot and for a pixel that is not rendered.
   [[nodiscard]] std::optional<Pixel> pixel(int x, int y);
 
   /// Time spent on what was asked [s], since the last call.
@@ -57,6 +57,7 @@ class ViewerFilm {
   struct Shown {
     std::uint64_t number = 0;
     std::uint64_t samples = 0;
+    Crop crop{};
     Image film;        // planes until `made`, then as the film's file holds it
     Image demosaiced;  // what displays are given of a mosaic's
     bool made = false;

@@ -22,9 +22,9 @@ struct Rendered {
   RenderPart part;
 };
 
-Rendered rendered(const std::string& sensor) {
+Rendered rendered(const std::string& sensor, std::optional<Crop> crop = {}) {
   Scene scene = test::load("cornell.json", {{"/sensor", sensor}, {"/render/samples", "8"}});
-  RenderResult result = render(scene, {.threads = 2});
+  RenderResult result = render(scene, {.threads = 2, .crop = crop});
   RenderPart part{identity_of(scene, "cornell.json", {}), std::move(result)};
   return {std::move(scene), std::move(part)};
 }
@@ -48,6 +48,16 @@ TEST(ViewerFilm, PixelsAreThoseOfTheFilmsFile) {
     EXPECT_FALSE(film.pixel(12, 0));
     EXPECT_FALSE(film.pixel(0, -1));
   }
+}
+
+TEST(ViewerFilm, HasThePixelsOfItsCropAlone) {
+  const Rendered made = rendered(kSpectral, Crop{3, 2, 7, 5});
+  ViewerFilm film(made.scene, {});
+  EXPECT_FALSE(film.pixel(0, 0));  // there is no film yet
+  film.replace(take_snapshot(made.scene, made.part.identity, made.part.result, 1));
+  for (const auto& [x, y] : {std::pair{3, 2}, {6, 2}, {3, 4}, {6, 4}}) EXPECT_TRUE(film.pixel(x, y)) << x;
+  for (const auto& [x, y] : {std::pair{2, 2}, {7, 4}, {3, 1}, {6, 5}, {0, 0}})
+    EXPECT_FALSE(film.pixel(x, y)) << x << ", " << y;
 }
 
 TEST(ViewerFilm, MakesAPictureOnceForAllWhoAskForIt) {
