@@ -181,6 +181,24 @@ TEST(Draw, LampsSendTheirRaysWhereTheyLight) {
             ErrorCode::usage);
 }
 
+TEST(Draw, WhatIsFarLeavesNoTrace) {
+  const std::string near =
+      R"({"name": "near", "point": {"at": [-100, 0, 30]}, "emission": {"illuminant": "A", "luminous_intensity": 1}})";
+  const auto drawing = [](const std::string& lights) {
+    const auto path = scratch() / "far.svg";
+    EXPECT_EQ(cli::draw({scratch().write("draw.json", prism_with(lights)), path, {550}, {}}), 0);
+    return read_file(path);
+  };
+  const std::string expected = drawing(near);
+  EXPECT_FALSE(rays_in(expected).empty());
+  for (
+      const char* far :
+      {R"({"name": "far", "point": {"at": [0, 1e12, 0]}, "emission": {"illuminant": "A", "luminous_intensity": 1}})",
+       R"({"name": "far", "spot": {"at": [-1e12, 0, 0], "direction": [1, 0, 0], "half_angle_deg": 5}, "emission": {"illuminant": "A", "radiant_flux_W": 1}})",
+       R"({"name": "far", "quad": {"corner": [-1e12, -1, -1], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2]}, "emission": {"illuminant": "A", "radiant_flux_W": 1}})"})
+    EXPECT_TRUE(drawing(near + ", " + far) == expected) << far;
+}
+
 TEST(TraceFromLight, StartsInTheMiddleOfWhatItLights) {
   const auto scene = scratch().write(
       "lit.json",

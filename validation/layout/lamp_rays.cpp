@@ -86,9 +86,13 @@ std::optional<BasicRay<double>> middle_ray(const Scene& scene, const Light& ligh
   return std::visit(MiddleRay{scene}, light.kind);
 }
 
+bool is_left_out(const Scene& scene, const Light& light) {
+  return !scene.bounds.isEmpty() && scene.is_far(light);
+}
+
 std::vector<BasicRay<double>> lamp_rays(const Scene& scene, const Light& light, int count) {
   const std::optional<BasicRay<double>> middle = middle_ray(scene, light);
-  if (!middle) return {};
+  if (!middle || is_left_out(scene, light)) return {};
   const V3d& axis = middle->direction;
   const auto [side, up] = across(axis);
   const double fan = fan_of(light);

@@ -17,10 +17,13 @@ namespace abbe {
 /// infinity the one through that. Nothing of an environment.
 [[nodiscard]] std::optional<BasicRay<double>> middle_ray(const Scene& scene, const Light& light);
 
+/// Whether a drawing leaves a light out: one that is far from all that is near.
+[[nodiscard]] bool is_left_out(const Scene& scene, const Light& light);
+
 /// Rays of a lamp for a drawing: `count` at least 1 in each of two planes through the middle ray, the first
 /// of which contains the horizontal: fanned over its cone, over 60 degrees to both sides of a surface's
 /// normal, over the whole circle around a point; in parallel across what is near from infinity. None of an
-/// environment.
+/// environment and of a light that is left out.
 [[nodiscard]] std::vector<BasicRay<double>> lamp_rays(const Scene& scene, const Light& light, int count);
 
 }  // namespace abbe

@@ -39,7 +39,7 @@ Imath::Box3d drawn_box(const Scene& scene) {
   Imath::Box3d box = scene.bounds;
   box.extendBy(position(scene.camera));
   for (const Light& light : scene.lights)
-    if (!light.at_infinity())
+    if (!light.at_infinity() && !is_left_out(scene, light))
       if (const auto ray = middle_ray(scene, light)) box.extendBy(ray->origin);
   const V3d room(0.05 * std::max(box.size().length(), 1e-9));
   return {box.min - room, box.max + room};
@@ -118,7 +118,7 @@ std::string shape_elements(const Scene& scene, const Projection& to) {
 std::string lamp_elements(const Scene& scene, const Projection& to) {
   std::string elements;
   for (const Light& light : scene.lights) {
-    if (light.is<AreaLight>() || light.at_infinity()) continue;
+    if (light.is<AreaLight>() || light.at_infinity() || is_left_out(scene, light)) continue;
     const V3d at = middle_ray(scene, light)->origin;
     elements += svg_circle(to.x(at), to.y(at), 4, "class=\"lamp\" fill=\"#ffd040\" stroke=\"#b08000\"");
     elements += svg_text(to.x(at) + 7, to.y(at) - 5, light.name, "fill=\"#b08000\" font-size=\"10\"");
