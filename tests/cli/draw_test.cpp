@@ -199,6 +199,22 @@ TEST(Draw, WhatIsFarLeavesNoTrace) {
     EXPECT_TRUE(drawing(near + ", " + far) == expected) << far;
 }
 
+TEST(Draw, ACameraAloneStandsInARoomOfAMetre) {
+  const std::string alone =
+      R"({"abbe": 1, "camera": {"pinhole": {"fov_deg": 40}, "from": [0, 0, 5], "to": [0, 0, 0], "up": [0, 1, 0]},
+          "sensor": {"resolution": [8, 8], "observer": "1931"}, "lights": [)";
+  for (const std::string light :
+       {R"({"name": "sun", "directional": {"towards": [1, 0, 0], "irradiance": 1}})",
+        R"({"name": "sky", "environment": {}, "emission": {"illuminant": "D65", "luminance": 3}})", ""}) {
+    const auto path = scratch() / "alone.svg";
+    ASSERT_EQ(cli::draw({scratch().write("draw.json", alone + light + "]}"), path, {550}, {}}), 0) << light;
+    const std::string svg = read_file(path);
+    EXPECT_NE(svg.find(">0.5 m<"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("class=\"field\""), std::string::npos) << svg;
+    EXPECT_EQ(rays_in(svg).empty(), light.find("sun") == std::string::npos) << svg;
+  }
+}
+
 TEST(TraceFromLight, StartsInTheMiddleOfWhatItLights) {
   const auto scene = scratch().write(
       "lit.json",

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "scene/extent.h"
 
 namespace abbe {
 namespace {
@@ -21,10 +22,6 @@ constexpr double kClear = 1e-6;
 
 V3d middle_of(const Scene& scene) {
   return scene.bounds.isEmpty() ? V3d(0) : scene.bounds.center();
-}
-
-double radius_of(const Scene& scene) {
-  return scene.bounds.isEmpty() ? 1 : scene.bounds.size().length() / 2;
 }
 
 // Two directions across another, the first of them horizontal.
@@ -41,7 +38,7 @@ struct MiddleRay {
   std::optional<BasicRay<double>> operator()(const AreaLight& light) const {
     const SurfacePoint at = sample_area(scene.shapes[light.shape].shape, light.triangle_cdf, {0.5F, 0.5F});
     const V3d normal = V3d(at.normal).normalized();
-    return BasicRay<double>{V3d(at.point) + kClear * radius_of(scene) * normal, normal};
+    return BasicRay<double>{V3d(at.point) + kClear * scene_radius(scene.bounds) * normal, normal};
   }
   std::optional<BasicRay<double>> operator()(const PointLight& light) const {
     const V3d towards = middle_of(scene) - light.position;
@@ -59,7 +56,7 @@ struct MiddleRay {
   std::optional<BasicRay<double>> operator()(const EnvironmentLight&) const { return std::nullopt; }
 
   [[nodiscard]] BasicRay<double> from_infinity(const V3d& towards) const {
-    return {middle_of(scene) + 1.5 * radius_of(scene) * towards, -towards};
+    return {middle_of(scene) + 1.5 * scene_radius(scene.bounds) * towards, -towards};
   }
 };
 
@@ -102,7 +99,7 @@ std::vector<BasicRay<double>> lamp_rays(const Scene& scene, const Light& light, 
       // From -1 to 1; a whole circle would have its ends twice.
       const double share = count == 1 ? 0 : 2.0 * i / (light.is<PointLight>() ? count : count - 1) - 1;
       if (light.at_infinity())
-        rays.push_back({middle->origin + share * radius_of(scene) * of, axis});
+        rays.push_back({middle->origin + share * scene_radius(scene.bounds) * of, axis});
       else
         rays.push_back({middle->origin, std::cos(share * fan) * axis + std::sin(share * fan) * of});
     }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/extent.h"
 #include "spectral/colorimetry.h"
 #include "validation/layout/lamp_rays.h"
 #include "validation/layout/outline.h"
@@ -34,14 +35,16 @@ struct View {
 const std::array<View, 2> kViews{
     {{"Plan (x, y)", {{1, 0, 0}, {0, 1, 0}}}, {"Elevation (x, z)", {{1, 0, 0}, {0, 0, 1}}}}};
 
-// Of what is near, the lamps that have a place and the camera.
+// Of what is near, the lamps that have a place and the camera; with room around, of an empty scene's radius
+// where the camera stands alone.
 Imath::Box3d drawn_box(const Scene& scene) {
   Imath::Box3d box = scene.bounds;
   box.extendBy(position(scene.camera));
   for (const Light& light : scene.lights)
     if (!light.at_infinity() && !is_left_out(scene, light))
       if (const auto ray = middle_ray(scene, light)) box.extendBy(ray->origin);
-  const V3d room(0.05 * std::max(box.size().length(), 1e-9));
+  const double size = box.size().length();
+  const V3d room(size > 0 ? 0.05 * size : scene_radius({}));
   return {box.min - room, box.max + room};
 }
 
