@@ -17,6 +17,17 @@ namespace {
   throw Error(ErrorCode::usage, option, fmt::format("got {}, allowed {}", got, allowed));
 }
 
+ServerAddress parse_address(const std::string& option, const std::string& text, int least_port) {
+  ServerAddress address;
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string::npos) address.host = text.substr(0, colon);
+  if (address.host.starts_with('[') && address.host.ends_with(']'))
+    address.host = address.host.substr(1, address.host.size() - 2);
+  if (address.host.empty()) refuse(option, "\"" + text + "\"", "port or address:port");
+  address.port = static_cast<int>(parse_integer(option, text.substr(colon + 1), least_port, 65535));
+  return address;
+}
+
 }  // namespace
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, double low,
@@ -96,14 +107,11 @@ SampleRange parse_sample_range(const std::string& option, const std::string& tex
 }
 
 ServerAddress parse_server_address(const std::string& option, const std::string& text) {
-  ServerAddress address;
-  const std::size_t colon = text.rfind(':');
-  if (colon != std::string::npos) address.host = text.substr(0, colon);
-  if (address.host.starts_with('[') && address.host.ends_with(']'))
-    address.host = address.host.substr(1, address.host.size() - 2);
-  if (address.host.empty()) refuse(option, "\"" + text + "\"", "port or address:port");
-  address.port = static_cast<int>(parse_integer(option, text.substr(colon + 1), 0, 65535));
-  return address;
+  return parse_address(option, text, 0);
+}
+
+ServerAddress parse_viewer_address(const std::string& option, const std::string& text) {
+  return parse_address(option, text, 1);
 }
 
 Override parse_override(const std::string& option, const std::string& text) {

@@ -39,6 +39,9 @@ namespace abbe::cli {
 [[nodiscard]] SampleRange parse_sample_range(const std::string& option, const std::string& text);
 /// "port" or "address:port", an address of IPv6 in brackets; without one this machine alone.
 [[nodiscard]] ServerAddress parse_server_address(const std::string& option, const std::string& text);
+/// "port" or "host:port" of a program that listens, the port above 0 and an address of IPv6 in brackets;
+/// without a host on this machine.
+[[nodiscard]] ServerAddress parse_viewer_address(const std::string& option, const std::string& text);
 /// "/pointer=value".
 [[nodiscard]] Override parse_override(const std::string& option, const std::string& text);
 

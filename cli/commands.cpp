@@ -88,7 +88,7 @@ void add_render(CLI::App& app, Command& command) {
              "Show the render on a page while it runs, on a port of this machine (0: any free one) or of an "
              "address",
              "[ADDRESS:]PORT");
-  add_parsed(render, "--tev", sub->tev, parse_server_address,
+  add_parsed(render, "--tev", sub->tev, parse_viewer_address,
              "Show the render in the viewer tev, which listens there", "[HOST:]PORT");
   add_max_memory(render, sub.options);
   render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");

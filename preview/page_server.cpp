@@ -181,6 +181,11 @@ PageAnswer failure(int status, const std::string& why) {
 
 }  // namespace
 
+std::string to_text(const ServerAddress& address) {
+  const bool v6 = address.host.find(':') != std::string::npos;
+  return fmt::format("{}:{}", v6 ? "[" + address.host + "]" : address.host, address.port);
+}
+
 struct PageServer::Listener {
   HttpServer server = {};
   std::string host = {};
@@ -226,7 +231,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
                     : server.bind_to_port(address.host, address.port) ? address.port
                                                                       : -1;
   if (listener_->port < 0)
-    throw Error(ErrorCode::output, fmt::format("{}:{}", address.host, address.port),
+    throw Error(ErrorCode::output, to_text(address),
                 "cannot be listened on: another program does, or there is no such address");
   server.let_more_wait();
   listener_->thread = std::jthread([&server] { (void)server.listen_after_bind(); });
@@ -238,8 +243,7 @@ PageServer::~PageServer() {
 }
 
 std::string PageServer::url() const {
-  const bool v6 = listener_->host.find(':') != std::string::npos;
-  return fmt::format("http://{}:{}/", v6 ? "[" + listener_->host + "]" : listener_->host, listener_->port);
+  return "http://" + to_text({listener_->host, listener_->port}) + "/";
 }
 
 }  // namespace abbe

@@ -13,6 +13,9 @@ struct ServerAddress {
   int port = 0;  ///< 0: any that is free.
 };
 
+/// "host:port", an address of IPv6 in brackets.
+[[nodiscard]] std::string to_text(const ServerAddress& address);
+
 /// A question to a server of pages.
 struct PageRequest {
   std::string path;

@@ -40,9 +40,7 @@ int connected(const ServerAddress& address) {
     }
     ::freeaddrinfo(found);
   }
-  if (socket < 0)
-    throw Error(ErrorCode::output, fmt::format("{}:{}", address.host, address.port),
-                "no viewer listens there");
+  if (socket < 0) throw Error(ErrorCode::output, to_text(address), "no viewer listens there");
   return socket;
 }
 

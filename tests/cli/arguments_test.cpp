@@ -83,6 +83,18 @@ TEST(Arguments, CropsAreWholeAndNotEmpty) {
     EXPECT_NE(refusal([&] { return parse_crop("--crop", text); }), "accepted") << text;
 }
 
+TEST(Arguments, AddressesAreAPortOrAHostAndAPort) {
+  EXPECT_EQ(parse_server_address("--preview", "0").host, "127.0.0.1");
+  const ServerAddress v6 = parse_viewer_address("--tev", "[::1]:14158");
+  EXPECT_EQ(v6.host, "::1");
+  EXPECT_EQ(v6.port, 14158);
+  EXPECT_EQ(parse_viewer_address("--tev", "desk:1").host, "desk");
+  for (const char* text : {"0", "desk:0"})
+    EXPECT_NE(refusal([&] { return parse_viewer_address("--tev", text); }).find("[1, 65535]"),
+              std::string::npos)
+        << text;
+}
+
 TEST(Arguments, OverridesArePointerAndValue) {
   const Override set = parse_override("--set", "/lights/0/name=a=b");
   EXPECT_EQ(set.pointer, "/lights/0/name");

@@ -214,6 +214,15 @@ TEST(PageServer, AnswersManyAtOnce) {
   EXPECT_EQ(answered, 100);
 }
 
+TEST(PageServer, NamesAddressesOfIpv6InBrackets) {
+  try {
+    const PageServer server({"2001:db8::1", 80}, echo);  // no machine has this one
+    FAIL() << server.url();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find("[2001:db8::1]:80: cannot"), 0U) << error.what();
+  }
+}
+
 TEST(PageServer, RefusesAPortThatIsTakenAndLeavesItsOwn) {
   int port = 0;
   {

@@ -71,11 +71,15 @@ TEST(TevViewer, WhereNoneListensThereIsAnError) {
     port = viewer.address().port;
     const TevViewer sender(made.scene, made.part.identity, viewer.address(), 1, [](const std::string&) {});
   }
-  try {
-    const TevViewer sender(made.scene, made.part.identity, {"127.0.0.1", port}, 1, [](const std::string&) {});
-    FAIL() << "a viewer was found";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ErrorCode::output);
+  for (const char* host : {"127.0.0.1", "::1"}) {
+    try {
+      const TevViewer sender(made.scene, made.part.identity, {host, port}, 1, [](const std::string&) {});
+      FAIL() << "a viewer was found";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::output);
+      EXPECT_EQ(std::string(error.what()), (std::string(host) == "::1" ? "[::1]" : host) +
+                                               (":" + std::to_string(port)) + ": no viewer listens there");
+    }
   }
 }
 
