@@ -215,6 +215,23 @@ TEST(Draw, ACameraAloneStandsInARoomOfAMetre) {
   }
 }
 
+TEST(TraceFromLight, StartsOnTheSurfaceInDouble) {
+  const std::string emission = R"("emission": {"illuminant": "A", "radiant_flux_W": 1}})";
+  const Scene scene = loaded(prism_with(
+      R"({"name": "quad", "quad": {"corner": [-50.1, -1.3, -0.7], "edge_u": [0, 2.2, 0], "edge_v": [0, 0, 1.9]}, )" +
+      emission +
+      R"(, {"name": "disc", "disc": {"center": [-40.3, 0.1, 0.7], "normal": [1, 2, 3], "radius": 0.3}, )" +
+      emission + R"(, {"name": "ball", "sphere": {"center": [-30.7, 0.1, 5.3], "radius": 0.37}, )" +
+      emission));
+  const auto start = [&scene](const std::string& name) {
+    const V3d origin = middle_ray(scene, light_named(scene, name, "")).value().origin;
+    return (origin + scene.origin_m) / scene.unit_m;  // in the file's millimetres
+  };
+  EXPECT_LT((start("quad") - V3d(-50.1, -0.2, 0.25)).length(), 1e-9);
+  EXPECT_LT((start("disc") - V3d(-40.3, 0.1, 0.7)).length(), 1e-9);
+  EXPECT_NEAR((start("ball") - V3d(-30.7, 0.1, 5.3)).length(), 0.37, 1e-9);
+}
+
 TEST(TraceFromLight, StartsInTheMiddleOfWhatItLights) {
   const auto scene = scratch().write(
       "lit.json",

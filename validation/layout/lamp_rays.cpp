@@ -17,8 +17,8 @@ namespace {
 using V3d = Imath::V3d;
 
 constexpr double kSurfaceFan = std::numbers::pi / 3;
-// How far beside its surface, which is known in float, a ray leaves a lamp, as a share of the scene.
-constexpr double kClear = 1e-6;
+// How far beside its surface, which is known in double, a ray leaves a lamp, as a share of the scene.
+constexpr double kClear = 1e-12;
 
 V3d middle_of(const Scene& scene) {
   return scene.bounds.isEmpty() ? V3d(0) : scene.bounds.center();
@@ -32,13 +32,30 @@ std::pair<V3d, V3d> across(const V3d& axis) {
   return {side, axis.cross(side).normalized()};
 }
 
+struct SurfaceMiddle {
+  V3d point;
+  V3d normal;
+};
+
+// Points are drawn in float: those of round and meshed lamps are put onto their surface.
+SurfaceMiddle surface_middle(const AreaLight& light, const Shape& shape) {
+  if (const auto* quad = std::get_if<Quad>(&shape))
+    return {quad->corner + (quad->edge_u + quad->edge_v) / 2, normal_of(*quad)};
+  if (const auto* disc = std::get_if<Disc>(&shape)) return {disc->center, disc->normal};
+  const SurfacePoint drawn = sample_area(shape, light.triangle_cdf, {0.5F, 0.5F});
+  const V3d point(drawn.point);
+  const V3d normal = V3d(drawn.normal).normalized();
+  const V3d above = point + 8 * float_step(largest_coordinate(point)) * normal;
+  const auto hit = intersect(shape, BasicRay<double>{above, -normal}, 0.0);
+  return hit ? SurfaceMiddle{hit->point, hit->normal} : SurfaceMiddle{point, normal};
+}
+
 struct MiddleRay {
   const Scene& scene;
 
   std::optional<BasicRay<double>> operator()(const AreaLight& light) const {
-    const SurfacePoint at = sample_area(scene.shapes[light.shape].shape, light.triangle_cdf, {0.5F, 0.5F});
-    const V3d normal = V3d(at.normal).normalized();
-    return BasicRay<double>{V3d(at.point) + kClear * scene_radius(scene.bounds) * normal, normal};
+    const auto [point, normal] = surface_middle(light, scene.shapes[light.shape].shape);
+    return BasicRay<double>{point + kClear * (scene_radius(scene.bounds) + point.length()) * normal, normal};
   }
   std::optional<BasicRay<double>> operator()(const PointLight& light) const {
     const V3d towards = middle_of(scene) - light.position;
