@@ -1,5 +1,6 @@
 """Watches a spectral render in a browser: its page shows the picture within two seconds of the first pass and the spectrum under the mouse,
-follows exposure and view, and says when the render has ended; nothing is fetched from elsewhere, and the console stays silent.
+tells which pixels are not rendered, follows exposure and view, and says when the render has ended; nothing is fetched from elsewhere, and the
+console stays silent.
 
 browser.py PROGRAM SCENE
 """
@@ -87,6 +88,9 @@ def watch(browser: Browser, url: str) -> None:
     require(browser.value("!document.getElementById('spectrum').hidden"), "no spectrum is drawn")
     drawn = "document.getElementById('spectrum').getContext('2d').getImageData(0, 0, 340, 200).data.some((v, i) => v === 255 && i % 4 === 0)"
     require(browser.value(drawn), "the spectrum has no line")
+    browser.point_at(box[0] + box[2] * 2.5 / 96, box[1] + box[3] * 60.5 / 96)
+    browser.wait_for("document.getElementById('place').textContent === 'Pixel 2, 60 is not rendered'", 2)
+    require(browser.value("document.getElementById('spectrum').hidden"), "a spectrum is drawn of a pixel that is not rendered")
     before = browser.value("document.getElementById('picture').src")
     browser.value("document.getElementById('exposure').value = 2; document.getElementById('exposure').dispatchEvent(new Event('input'))")
     browser.wait_for("document.getElementById('picture').src.includes('exposure=2&')", 3)
@@ -109,8 +113,8 @@ def check_events(events: list[dict], url: str) -> None:
 
 def main(program: str, scene: str) -> None:
     with tempfile.TemporaryDirectory() as scratch:
-        render = subprocess.Popen([program, "render", scene, "--set", SENSOR, "--time", "15", "--threads", "1", "--preview", "0", "--quiet",
-                                   "-o", f"{scratch}/film.exr"], stderr=subprocess.PIPE, text=True, cwd=scratch)
+        render = subprocess.Popen([program, "render", scene, "--set", SENSOR, "--time", "15", "--threads", "1", "--crop", "8,0,96,96",
+                                   "--preview", "0", "--quiet", "-o", f"{scratch}/film.exr"], stderr=subprocess.PIPE, text=True, cwd=scratch)
         url = re.search(r"http://\S+", render.stderr.readline()).group()
         browser = Browser(f"{scratch}/profile")
         try:
