@@ -95,8 +95,6 @@ Fields fields(Tag<Camera>) {
 namespace abbe::description {
 namespace {
 
-constexpr double kDefaultFNumber = 4;  // of a pinhole
-
 /// An opening, and what share of the light the lens passes.
 struct Aperture {
   double f_number;

@@ -61,6 +61,9 @@ struct Camera {
 
 namespace abbe::description {
 
+/// The f-number that sets the exposure of a pinhole without one of its own.
+inline constexpr double kDefaultFNumber = 4;
+
 /// The camera before the sensor's film. Reports what no table can say: a T-stop faster than its f-number, a
 /// view of no direction, a lens that cannot focus; nothing after an error.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,

@@ -34,8 +34,8 @@ class DoorsTest : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
-  // What a file is converted to, nothing after an error; `told` is all that is said then.
-  std::optional<spec::Scene> convert(const std::string& name, const std::string& text,
+  // The text that a file is converted to, nothing after an error; `told_` is all that is said then.
+  std::optional<std::string> written(const std::string& name, const std::string& text,
                                      const std::string& materials = "") {
     put(name, text);
     Diagnostics diagnostics;
@@ -44,11 +44,20 @@ class DoorsTest : public ::testing::Test {
       put("materials.json", materials);
       conversion.materials = folder_ / "materials.json";
     }
-    const auto written = convert_scene(folder_ / name, conversion, diagnostics);
+    auto written = convert_scene(folder_ / name, conversion, diagnostics);
     told_ = diagnostics.text();
-    if (!written) return std::nullopt;
+    code_ = diagnostics.code();
+    return written;
+  }
+  // The same as a scene.
+  std::optional<spec::Scene> convert(const std::string& name, const std::string& text,
+                                     const std::string& materials = "") {
+    const auto json_text = written(name, text, materials);
+    if (!json_text) return std::nullopt;
+    Diagnostics diagnostics;
     const auto json =
-        parse_json(std::make_shared<const SourceText>(SourceText{"written", *written}), diagnostics);
+        parse_json(std::make_shared<const SourceText>(SourceText{"written", *json_text}), diagnostics);
+    told_ += diagnostics.text();
     return json ? schema::read<spec::Scene>(*json, diagnostics) : std::nullopt;
   }
 
@@ -71,6 +80,7 @@ class DoorsTest : public ::testing::Test {
 
   std::filesystem::path folder_;
   std::string told_;
+  std::optional<ErrorCode> code_;  // Of the last conversion.
 };
 
 struct DoorFault {

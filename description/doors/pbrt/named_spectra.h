@@ -19,14 +19,19 @@ inline constexpr std::array<Renamed, 6> kMetals{{{"metal-Ag", "Ag_Johnson"},
                                                  {"metal-CuZn", "CuZn_Cu70Zn30_Querry"},
                                                  {"metal-TiO2", "TiO2_Sarkar"}}};
 
-inline constexpr std::array<Renamed, 8> kGlasses{{{"glass-BK7", "N-BK7"},
+/// The last three are the tables of SF5, SF10 and SF11 there.
+inline constexpr std::array<Renamed, 7> kGlasses{{{"glass-BK7", "N-BK7"},
                                                   {"glass-BAF10", "N-BAF10"},
                                                   {"glass-FK51A", "N-FK51A"},
                                                   {"glass-LASF9", "schott/N-LASF9"},
-                                                  {"glass-F5", "schott/F5"},
-                                                  {"glass-SF5", "schott/SF5"},
-                                                  {"glass-SF10", "SF10"},
-                                                  {"glass-SF11", "N-SF11"}}};
+                                                  {"glass-F5", "schott/SF5"},
+                                                  {"glass-F10", "SF10"},
+                                                  {"glass-F11", "SF11"}}};
+
+/// Of MgO no table is shipped: its index at the d line by the dispersion of [Stephens1952], and no
+/// absorption.
+inline constexpr std::string_view kMagnesia = "metal-MgO";
+inline constexpr double kMagnesiaIndex = 1.7375;
 
 inline constexpr std::array<Renamed, 17> kIlluminants{{{"stdillum-A", "A"},
                                                        {"stdillum-D50", "D50"},

@@ -33,10 +33,16 @@ std::string_view metal_of(std::string_view name) {
 
 std::optional<Spectrum> file_or_name(const std::string& name, const SourcePosition& where, World& world) {
   if (auto illuminant = renamed(kIlluminants, name)) return Shipped{*illuminant};
+  if (metal_of(name) == kMagnesia) {
+    world.door.note(
+        where, fmt::format("no table of MgO is shipped: the number {} at all wavelengths", kMagnesiaIndex));
+    return name.ends_with("-k") ? 0.0 : kMagnesiaIndex;
+  }
   if (name.find('.') != std::string::npos) return read_spectrum_file(world.folder / name, where, world.door);
   std::vector<std::string> names;
   add_names(kIlluminants, names);
   add_names(kMetals, names);
+  names.emplace_back(kMagnesia);
   add_names(kGlasses, names);
   world.door.diagnostics.error(where, unknown_name("spectrum", name, names));
   return std::nullopt;

@@ -4,18 +4,29 @@
 #include <cmath>
 #include <numbers>
 
+#include "description/camera.h"
 #include "description/doors/shared/placement.h"
 
 namespace abbe::doors {
 
 namespace {
 
-// The lens of that opening whose view is that wide when it focuses there: its film, of pixels as by default,
-// is where the view asks for it, and its focal length follows from both distances.
-spec::ThinLens lens_of(const GivenCamera& camera, double pixel_pitch_um) {
+// Brightness does not depend on the opening of the other renderer's lens, nor on the size of its film. So its
+// film is where the lens of that opening exposes as the pinhole does, which alone leaves brightness as it is.
+double film_distance_of(const GivenCamera& camera) {
+  return 2 * camera.lens_radius * description::kDefaultFNumber;
+}
+
+// The distance of pixels that makes the view that wide on a film there [um].
+double pixel_pitch_um(const GivenCamera& camera) {
   const auto pixels = static_cast<double>(std::min(camera.resolution[0], camera.resolution[1]));
-  const double half_film = pixels * pixel_pitch_um * 1e-6 / 2;
-  const double film_distance = half_film / std::tan(camera.fov_deg * std::numbers::pi / 360);
+  const double half_film = film_distance_of(camera) * std::tan(camera.fov_deg * std::numbers::pi / 360);
+  return 2 * half_film / pixels * 1e6;
+}
+
+// The lens of that opening before that film: its focal length follows from the distances of film and focus.
+spec::ThinLens lens_of(const GivenCamera& camera) {
+  const double film_distance = film_distance_of(camera);
   spec::ThinLens lens;
   lens.focal_length = 1 / (1 / camera.focus_distance + 1 / film_distance);
   lens.aperture.f_number = lens.focal_length / (2 * camera.lens_radius);
@@ -42,7 +53,8 @@ void set_camera(const GivenCamera& camera, Door& door) {
   spec::Camera& said = door.scene.camera.emplace();
   said.where = camera.where;
   if (camera.lens_radius > 0 && camera.focus_distance > 0) {
-    said.kind = spec::ThinLensCamera{lens_of(camera, door.scene.sensor->pixel_pitch_um), view};
+    door.scene.sensor->pixel_pitch_um = pixel_pitch_um(camera);
+    said.kind = spec::ThinLensCamera{lens_of(camera), view};
     return;
   }
   spec::PinholeCamera pinhole{{}, view};

@@ -1,0 +1,54 @@
+// What scenes of pbrt in the wild say and small examples do not.
+#include <cmath>
+
+#include "io/exr.h"
+#include "pbrt_scenes.h"
+
+namespace abbe {
+namespace {
+
+using testing::kBegin;
+using testing::PbrtTest;
+using testing::SphereBody;
+
+TEST_F(PbrtTest, GlassesAreThoseOfItsNames) {
+  const auto index = [&](const std::string& name) {
+    return std::get<std::string>(
+        material<spec::Dielectric>("Material \"dielectric\" \"spectrum eta\" \"" + name + "\"")
+            .ior.ior.value);
+  };
+  EXPECT_EQ(index("glass-F5"), "schott/SF5");
+  EXPECT_EQ(index("glass-F10"), "SF10");
+  EXPECT_EQ(index("glass-F11"), "SF11");
+}
+
+TEST_F(PbrtTest, MagnesiaIsANumber) {
+  const auto metal = material<spec::Conductor>(
+      "Material \"conductor\" \"spectrum eta\" \"metal-MgO-eta\" \"spectrum k\" \"metal-MgO-k\"");
+  const auto& index = std::get<spec::MetalIor>(metal.ior.value);
+  EXPECT_EQ(index.n, 1.7375);
+  EXPECT_EQ(index.k, 0);
+  EXPECT_TRUE(tells("no table of MgO is shipped")) << told_;
+}
+
+TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
+  for (const char* radius : {"0.001", "0.05", "0.5"}) {
+    SCOPED_TRACE(radius);
+    const auto made = convert("a.pbrt",
+                              "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 8\nScale -1 1 "
+                              "1\nCamera \"perspective\" \"float fov\" 40 \"float lensradius\" " +
+                                  std::string(radius) + " \"float focaldistance\" 5\nWorldBegin\n");
+    ASSERT_TRUE(made) << told_;
+    const auto& lens = std::get<spec::ThinLensCamera>(made->camera->kind).lens;
+    const double f = lens.focal_length;
+    const double image_distance = 1 / (1 / f - 1.0 / 5);
+    EXPECT_NEAR(f / lens.aperture.f_number.value() / 2, std::stod(radius), 1e-9);
+    // The number that the pinhole has by default.
+    EXPECT_NEAR(image_distance / (2 * std::stod(radius)), 4, 1e-9);
+    EXPECT_NEAR(2 * std::atan(8 * made->sensor->pixel_pitch_um * 1e-6 / 2 / image_distance) * 180 / M_PI, 40,
+                1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
