@@ -17,6 +17,7 @@
 
 #include "description/meshes/gltf_json.h"
 #include "description/meshes/gltf_material.h"
+#include "description/meshes/gltf_names.h"
 #include "description/meshes/gltf_numbers.h"
 #include "description/meshes/mesh_formats.h"
 #include "io/json.h"
@@ -30,7 +31,7 @@ namespace {
 // holds, and, because each gets a copy, one buffer without a name at most.
 bool sound(std::string_view bytes, MeshReading& reading) {
   const auto json = gltf_json(bytes);
-  if (!json) return reading.refuse("malformed or truncated GLB");
+  if (!json) return reading.refuse(kBadGlb);
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() ||
       json->size() > std::numeric_limits<std::int32_t>::max())
     return reading.refuse("file too large");
@@ -280,6 +281,8 @@ bool walk(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& r
     if (seen[static_cast<std::size_t>(visit.node)])
       return reading.refuse(fmt::format("node {} is reached twice", visit.node));
     seen[static_cast<std::size_t>(visit.node)] = true;
+    if (node->rotation == std::vector<double>(4, 0.0))
+      return reading.refuse(fmt::format("node {}: a rotation of length 0", visit.node));
     const Imath::M44d map = local_map(*node) * visit.parent;
     if (node->mesh != -1) {
       const auto* mesh = at(model.meshes, node->mesh);
@@ -290,6 +293,13 @@ bool walk(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& r
     push(node->children, map);
   }
   return true;
+}
+
+void name_apart(std::vector<FileMaterial>& materials) {
+  std::vector<std::string> names;
+  for (const FileMaterial& material : materials) names.push_back(material.name);
+  names = distinct_names(std::move(names));
+  for (std::size_t i = 0; i < names.size(); ++i) materials[i].name = std::move(names[i]);
 }
 
 }  // namespace
@@ -307,9 +317,10 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
     for (std::size_t i = 0; i < model.materials.size(); ++i)
       if (!read_gltf_material(model.materials[i], i, reading)) return false;
     if (meshes.contains(std::nullopt)) {  // what the format says then
-      reading.file.materials.push_back({"default", {1, 1, 1}, std::nullopt, {"metallic 1"}});
+      reading.file.materials.push_back({kDefaultGltfMaterial, {1, 1, 1}, std::nullopt, {"metallic 1"}});
     }
   }
+  name_apart(reading.file.materials);
   for (auto& [material, mesh] : meshes) {
     if (mesh.triangles.empty()) continue;  // points and lines
     if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();

@@ -17,7 +17,8 @@ std::optional<std::string_view> gltf_json(std::string_view bytes) {
   constexpr std::size_t kHeaders = 20;  // of the file and its first chunk
   constexpr std::size_t kHeader = 8;
   if (!bytes.starts_with("glTF")) return bytes;
-  if (bytes.size() < kHeaders || word_at(bytes, kHeader) < kHeaders || word_at(bytes, kHeader) > bytes.size())
+  if (bytes.size() < kHeaders || word_at(bytes, 4) != 2 || word_at(bytes, kHeader) < kHeaders ||
+      word_at(bytes, kHeader) > bytes.size())
     return std::nullopt;
   const std::string_view rest = bytes.substr(kHeaders, word_at(bytes, kHeader) - kHeaders);
   const std::size_t json = word_at(bytes, 12);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include "description/meshes/gltf_names.h"
+
 namespace abbe {
 namespace {
 
@@ -55,7 +57,7 @@ bool read_transmission(const tinygltf::Material& from, FileMaterial& material, M
 
 bool read_gltf_material(const tinygltf::Material& from, std::size_t number, MeshReading& reading) {
   FileMaterial material;
-  material.name = from.name.empty() ? fmt::format("material {}", number) : from.name;
+  material.name = from.name.empty() ? unnamed_gltf_material(number) : from.name;
   const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
   const std::vector<double>& color = surface.baseColorFactor;
   if (!std::all_of(color.begin(), color.end(), [](double x) { return x >= 0 && x <= 1; }))

@@ -35,7 +35,87 @@ class GltfDoorTest : public testing::DoorsTest {
   }
 };
 
+TEST_F(GltfDoorTest, MaterialsOfOneNameStayTwo) {
+  const std::string paint = R"({"name": "paint", "pbrMetallicRoughness": {"metallicFactor": 0}})";
+  const std::string lamp = R"({"name": "paint", "emissiveFactor": [1, 1, 1]})";
+  const auto made = convert("a.gltf", two(paint + ", " + lamp).text());
+  ASSERT_TRUE(made) << told_;
+  ASSERT_EQ(made->shapes.size(), 2U);
+  EXPECT_EQ(part(*made, 0), "paint");
+  EXPECT_EQ(part(*made, 1), "paint 2");
+  EXPECT_EQ(std::get<spec::Principled>(made->materials.at(0).value.model).metallic, 0);
+  EXPECT_EQ(made->materials.at(1).name, "paint 2");
+  EXPECT_FALSE(std::get<spec::MeshBody>(made->shapes[0].kind).emission);
+  EXPECT_TRUE(std::get<spec::MeshBody>(made->shapes[1].kind).emission);
+}
+
+TEST_F(GltfDoorTest, NamesGivenForWantOfOneClashWithNone) {
+  const auto numbered = convert("a.gltf", two(R"({}, {"name": "material 0"})").text());
+  ASSERT_TRUE(numbered) << told_;
+  EXPECT_EQ(part(*numbered, 0), "material 0");
+  EXPECT_EQ(part(*numbered, 1), "material 0 2");
+  const auto bare = convert("a.gltf", two(R"({"name": "default"})", kPrimitive).text());
+  ASSERT_TRUE(bare) << told_;
+  EXPECT_EQ(part(*bare, 0), "default 2");
+  EXPECT_EQ(part(*bare, 1), "default");
+}
+
+TEST_F(GltfDoorTest, LinesAreDroppedAlone) {
+  const std::string lines = kPrimitive + R"(, "mode": 1, "material": 1)";
+  const auto made = convert("a.gltf", two(R"({"name": "brass"}, {"name": "wire"})", lines).text());
+  ASSERT_TRUE(made) << told_;
+  ASSERT_EQ(made->shapes.size(), 1U);
+  EXPECT_EQ(part(*made, 0), "brass");
+  EXPECT_TRUE(tells("points and lines have no surface: dropped")) << told_;
+  Asset nothing = two(R"({"name": "brass"})", lines);
+  nothing.primitive = kPrimitive + R"(, "mode": 0, "material": 0)";
+  const auto empty = convert("a.gltf", nothing.text());
+  ASSERT_TRUE(empty) << told_;
+  EXPECT_TRUE(empty->shapes.empty());
+}
+
+TEST_F(GltfDoorTest, WhatIsDroppedIsTold) {
+  Asset asset = two(R"({"name": "m"}, {"name": "n"})");
+  asset.nodes =
+      R"([{"mesh": 0, "skin": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}}, {"camera": 0, "translation": [0, 0, 5]}])";
+  asset.primitive =
+      R"("attributes": {"POSITION": 0, "COLOR_0": 0}, "indices": 1, "material": 0, "targets": [{"POSITION": 0}],
+      "extensions": {"KHR_materials_variants": {"mappings": []}})";
+  asset.more += R"(, "skins": [{"joints": [0]}], "animations": [{"channels": [], "samplers": []}])";
+  ASSERT_TRUE(convert("a.gltf", asset.text())) << told_;
+  for (const char* what : {"EXT_mesh_gpu_instancing of a node has no counterpart here: dropped",
+                           "a skin has no counterpart here: the mesh stands as it is stored",
+                           "morph targets have no counterpart here: the mesh stands as it is stored",
+                           "colours of vertices have no counterpart here: dropped",
+                           "KHR_materials_variants of a primitive has no counterpart here: dropped",
+                           "nothing moves during an exposure here: animations are dropped"})
+    EXPECT_TRUE(tells(what)) << told_ << "lacks " << what;
+  EXPECT_TRUE(convert("a.gltf", two(R"({"name": "m"}, {"name": "n"})").text()));
+  EXPECT_FALSE(tells("no counterpart")) << told_;
+}
+
+TEST_F(GltfDoorTest, BinaryFilesAreOfVersion2) {
+  std::string old = testing::whole_glb();
+  old[4] = 1;
+  EXPECT_FALSE(convert("a.glb", old));
+  EXPECT_TRUE(tells("not of version 2")) << told_;
+}
+
+TEST_F(GltfDoorTest, RotationsHaveADirection) {
+  Asset asset = two(R"({"name": "m"}, {"name": "n"})");
+  asset.nodes = R"([{"mesh": 0, "rotation": [0, 0, 0, 0]}, {"camera": 0, "translation": [0, 0, 5]}])";
+  EXPECT_FALSE(convert("a.gltf", asset.text()));
+  EXPECT_TRUE(tells("/nodes/0/rotation: error: a rotation of length 0")) << told_;
+}
+
 using GltfMeshTest = testing::MeshFileTest;
+
+TEST_F(GltfMeshTest, RotationsHaveADirection) {
+  Asset asset;
+  asset.nodes = R"([{"mesh": 0, "rotation": [0, 0, 0, 0]}])";
+  expect_refused("a.gltf",
+                 {{"no rotation", asset.text(), ErrorCode::input, "node 0: a rotation of length 0"}});
+}
 
 }  // namespace
 }  // namespace abbe

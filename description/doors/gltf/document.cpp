@@ -25,7 +25,7 @@ bool read_document(Document& document) {
   if (door.inputs != nullptr) door.inputs->add_file(document.file);
   const auto json = gltf_json(bytes);
   if (!json) {
-    door.diagnostics.error(where, "malformed or truncated GLB", ErrorCode::input);
+    door.diagnostics.error(where, kBadGlb, ErrorCode::input);
     return false;
   }
   auto root =

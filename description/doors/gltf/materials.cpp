@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "description/doors/shared/materials.h"
+#include "description/meshes/gltf_names.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::doors::gltf {
@@ -172,12 +173,14 @@ void note_rest(const JsonValue* material, const SourcePosition& where, const Doc
 
 }  // namespace
 
-std::string name_of(const Document& document, std::optional<std::size_t> number) {
-  if (!number) return "default";
-  const JsonValue::Array& all = list(&document.root, "materials");
-  const std::string unnamed = fmt::format("material {}", *number);
-  const std::string name = *number < all.size() ? text(&all[*number], "name", "") : "";
-  return name.empty() ? unnamed : name;
+std::vector<std::string> names_of_materials(const Document& document) {
+  std::vector<std::string> names;
+  for (const JsonValue& material : list(&document.root, "materials")) {
+    const std::string name = text(&material, "name", "");
+    names.push_back(name.empty() ? unnamed_gltf_material(names.size()) : name);
+  }
+  names.emplace_back(kDefaultGltfMaterial);
+  return distinct_names(std::move(names));
 }
 
 spec::Material material_of(const JsonValue* material, const SourcePosition& where, const Document& document) {

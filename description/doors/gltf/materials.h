@@ -3,13 +3,14 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "description/doors/gltf/document.h"
 
 namespace abbe::doors::gltf {
 
-/// What the reader of meshes calls the material of that number, none of what has no material.
-[[nodiscard]] std::string name_of(const Document& document, std::optional<std::size_t> number);
+/// What the reader of meshes calls the materials, and last what has none.
+[[nodiscard]] std::vector<std::string> names_of_materials(const Document& document);
 
 /// The material: a metallic and rough surface, or, where it transmits, glass, a pane of it without a volume.
 /// What has no counterpart is noted.

@@ -41,8 +41,11 @@ M44d local_map(const JsonValue& node, const Document& document) {
   if (const auto m = numbers(&node, "matrix", 16, document)) return from_rows(*m).transposed();
   M44d map;
   if (const auto s = numbers(&node, "scale", 3, document)) map = scaling({(*s)[0], (*s)[1], (*s)[2]});
-  if (const auto q = numbers(&node, "rotation", 4, document))
+  if (const auto q = numbers(&node, "rotation", 4, document)) {
+    if (*q == std::vector<double>(4, 0.0))
+      document.door.diagnostics.error(find(&node, "rotation")->where, "a rotation of length 0");
     map = map * Imath::Quatd((*q)[3], (*q)[0], (*q)[1], (*q)[2]).normalized().toMatrix44();
+  }
   if (const auto t = numbers(&node, "translation", 3, document))
     map = map * translation({(*t)[0], (*t)[1], (*t)[2]});
   return map;
@@ -116,8 +119,35 @@ void add_light(const JsonValue& light, const M44d& map, const Document& document
   }
 }
 
+// Extensions that nothing here stands for; `of` names what has them.
+void note_extensions(const JsonValue& object, std::string_view of, const Document& document) {
+  const JsonValue* extensions = find(&object, "extensions");
+  const auto* all = extensions ? std::get_if<JsonValue::Object>(&extensions->value) : nullptr;
+  if (all == nullptr) return;
+  for (const JsonValue::Member& member : *all)
+    if (member.first != "KHR_lights_punctual")
+      document.door.note(member.second.where,
+                         fmt::format("{} of {} has no counterpart here: dropped", member.first, of));
+}
+
+// What a primitive holds beyond triangles.
+void note_lost(const JsonValue& primitive, const Document& document) {
+  Door& door = document.door;
+  if (find(&primitive, "targets") != nullptr)
+    door.note(primitive.where, "morph targets have no counterpart here: the mesh stands as it is stored");
+  if (find(&primitive, "attributes/COLOR_0") != nullptr)
+    door.note(primitive.where, "colours of vertices have no counterpart here: dropped");
+  note_extensions(primitive, "a primitive", document);
+}
+
 void see_mesh(const JsonValue& mesh, Placed& placed, const Document& document) {
   for (const JsonValue& primitive : list(&mesh, "primitives")) {
+    constexpr double kTriangles = 4;  // less are points and lines
+    if (number(&primitive, "mode", kTriangles, document) < kTriangles) {
+      document.door.note(primitive.where, "points and lines have no surface: dropped");
+      continue;
+    }
+    note_lost(primitive, document);
     const JsonValue* material = find(&primitive, "material");
     if (material == nullptr)
       placed.materials.insert(std::nullopt);
@@ -146,11 +176,19 @@ Placed walk(const Document& document) {
                            : scenes.empty() ? nullptr
                                             : &scenes.front();
   if (scene == nullptr) document.door.diagnostics.error(document.root.where, "it has no scene");
+  note_extensions(document.root, "the file", document);
+  if (!list(&document.root, "animations").empty())
+    document.door.note(find(&document.root, "animations")->where,
+                       "nothing moves during an exposure here: animations are dropped");
   push(list(scene, "nodes"), M44d());
   while (!visits.empty()) {
     const Visit visit = visits.back();
     visits.pop_back();
     const M44d map = local_map(*visit.node, document) * visit.parent;
+    note_extensions(*visit.node, "a node", document);
+    if (find(visit.node, "skin") != nullptr)
+      document.door.note(visit.node->where,
+                         "a skin has no counterpart here: the mesh stands as it is stored");
     if (const JsonValue* camera = element(document, "cameras", find(visit.node, "camera"))) {
       if (placed.has_camera)
         document.door.note(camera->where, "a scene has one camera here: the first");
@@ -169,11 +207,10 @@ Placed walk(const Document& document) {
 }
 
 // The triangles of one material, one shape.
-void add_shape(std::optional<std::size_t> number, const Document& document) {
+void add_shape(std::optional<std::size_t> number, const std::string& name, const Document& document) {
   Door& door = document.door;
   const JsonValue* material = number ? &list(&document.root, "materials")[*number] : nullptr;
   const SourcePosition where = material ? material->where : document.root.where;
-  const std::string name = name_of(document, number);
   spec::MeshBody body;
   body.surface.where = where;
   body.surface.value = spec::MeshPart{{{door.name_of(document.file)}, where}, {{name}, where}};
@@ -193,13 +230,9 @@ void read_scene(const Document& document) {
   Door& door = document.door;
   door.scene.sensor.emplace().counts = spec::StandardObserver{{{Observer::cie1931}, document.root.where}};
   const Placed placed = walk(document);
-  std::set<std::string> names;
+  const std::vector<std::string> names = names_of_materials(document);
   for (const auto& material : placed.materials)
-    // One shape holds the triangles of all materials of a name.
-    if (names.insert(name_of(document, material)).second)
-      add_shape(material, document);
-    else
-      door.note(document.root.where, "materials of one name are taken for one");
+    add_shape(material, names[material.value_or(names.size() - 1)], document);
   if (door.diagnostics.has_errors()) return;
   if (!placed.has_camera) set_default_view(document);
   const bool emits = std::ranges::any_of(door.scene.shapes, [](const spec::Shape& shape) {
