@@ -50,5 +50,25 @@ TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
   }
 }
 
+TEST_F(PbrtTest, InterfacesAroundMatterHaveAName) {
+  const spec::Scene made = scene(
+      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nMediumInterface \"fog\" \"\"\nMaterial "
+      "\"\"\nShape \"sphere\"\n");
+  EXPECT_EQ(made.materials.at(0).name, "interface with fog");
+}
+
+TEST_F(PbrtTest, ManyMaterialsWithoutANameAreShared) {
+  std::string world;
+  for (int i = 0; i < 3000; ++i)
+    world +=
+        "Material \"diffuse\" \"float reflectance\" 0." + std::to_string(i % 2 + 1) + "\nShape \"sphere\"\n";
+  const spec::Scene made = scene(world);
+  ASSERT_EQ(made.materials.size(), 2U);
+  EXPECT_EQ(made.materials[0].name, "diffuse");
+  EXPECT_EQ(made.materials[1].name, "diffuse 2");
+  EXPECT_EQ(std::get<SphereBody>(made.shapes.at(2).kind).material.value, "diffuse");
+  EXPECT_EQ(std::get<SphereBody>(made.shapes.at(2999).kind).material.value, "diffuse 2");
+}
+
 }  // namespace
 }  // namespace abbe

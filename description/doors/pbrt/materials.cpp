@@ -10,6 +10,7 @@
 #include "description/doors/pbrt/media.h"
 #include "description/doors/pbrt/spectra.h"
 #include "description/doors/shared/materials.h"
+#include "io/schema/write.h"
 
 namespace abbe::doors::pbrt {
 namespace {
@@ -114,12 +115,18 @@ std::string Materials::name_of(const MaterialUse& use) {
                               : "=" + use.name;
   const auto [known, is_new] = names_.try_emplace(key + "|" + use.inside);
   if (!is_new) return known->second;
-  std::string name = use.name.empty() ? use.made.type : use.name;
+  const std::string& type = use.made.type;
+  std::string name = !use.name.empty() ? use.name : type.empty() ? "interface" : type;
   if (!use.inside.empty()) name += " with " + use.inside;
   spec::Material material = converted(use);
   add_relief(use.made, material, world_);
   use.made.parameters.note_unused(fmt::format("material \"{}\"", use.made.type), world_.door);
-  return names_[key + "|" + use.inside] = world_.door.add_material(name, std::move(material));
+  std::string& named = names_[key + "|" + use.inside];
+  if (!use.name.empty()) return named = world_.door.add_material(name, std::move(material));
+  const spec::Materials alone{{name, material, {}}};
+  const auto [equal, is_first] = shared_.try_emplace(to_text(schema::write(spec::materials(), &alone)));
+  if (is_first) equal->second = world_.door.add_material(name, std::move(material));
+  return named = equal->second;
 }
 
 spec::Material Materials::converted(const MaterialUse& use) {

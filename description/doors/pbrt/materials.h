@@ -14,7 +14,7 @@ struct MaterialUse {
   std::string inside;  ///< Name of the medium within; empty without one.
 };
 
-/// The materials of shapes, each converted once.
+/// The materials of shapes, each converted once; those without a name that are equal are one.
 class Materials {
  public:
   explicit Materials(World& world) : world_(world) {}
@@ -28,7 +28,8 @@ class Materials {
   spec::Material mixture(const Made& made);
 
   World& world_;
-  std::map<std::string, std::string> names_{};  // by what is used
+  std::map<std::string, std::string> names_{};   // by what is used
+  std::map<std::string, std::string> shared_{};  // of those without a name, by what they are
 };
 
 }  // namespace abbe::doors::pbrt

@@ -1,6 +1,8 @@
 #include "description/doors/shared/door.h"
 
 #include <algorithm>
+#include <charconv>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,13 +34,21 @@ bool Door::take_file(const fs::path& file, const SourcePosition& where) {
 }
 
 std::string Door::free_material_name(const std::string& name) const {
-  const auto taken = [this](const std::string& candidate) {
-    return std::ranges::find(scene.materials, candidate, &schema::Named<spec::Material>::name) !=
-           scene.materials.end();
-  };
-  std::string free = name;
-  for (int i = 2; taken(free); ++i) free = fmt::format("{} {}", name, i);
-  return free;
+  bool taken = false;
+  std::vector<bool> numbers(scene.materials.size() + 3, false);  // behind the name, one of them free
+  for (const auto& material : scene.materials) {
+    const std::string_view other = material.name;
+    if (!other.starts_with(name)) continue;
+    const std::string_view behind = other.substr(name.size());
+    taken = taken || behind.empty();
+    std::size_t number = 0;
+    if (behind.size() < 2 || behind[0] != ' ' || behind[1] == '0') continue;
+    const auto read = std::from_chars(behind.data() + 1, behind.data() + behind.size(), number);
+    if (read.ec == std::errc() && read.ptr == behind.data() + behind.size() && number < numbers.size())
+      numbers[number] = true;
+  }
+  if (!taken) return name;
+  return fmt::format("{} {}", name, std::find(numbers.begin() + 2, numbers.end(), false) - numbers.begin());
 }
 
 std::string Door::add_material(const std::string& name, spec::Material material) {
