@@ -70,5 +70,16 @@ TEST_F(PbrtTest, ManyMaterialsWithoutANameAreShared) {
   EXPECT_EQ(std::get<SphereBody>(made.shapes.at(2999).kind).material.value, "diffuse 2");
 }
 
+TEST_F(PbrtTest, IncludesHaveALimitInAll) {
+  put("x0.pbrt", "\n");
+  for (int i = 1; i <= 20; ++i) {
+    const std::string before = "Include \"x" + std::to_string(i - 1) + ".pbrt\"\n";
+    put("x" + std::to_string(i) + ".pbrt", before + before);
+  }
+  expect_refused(
+      {{"doubling", kBegin + "Include \"x20.pbrt\"\n", "error: more than 10000 files are included"}});
+  EXPECT_EQ(code_, ErrorCode::resource);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -12,7 +12,8 @@ namespace abbe::doors::pbrt {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
-constexpr std::size_t kMaxFiles = 64;  // that include one another
+constexpr std::size_t kMaxFiles = 64;        // that include one another
+constexpr std::size_t kMaxIncluded = 10000;  // in all
 
 }  // namespace
 
@@ -33,6 +34,10 @@ void Tokens::open(const std::filesystem::path& file) {
 void Tokens::include(const std::filesystem::path& file, const SourcePosition& where) {
   if (files_.size() == kMaxFiles) {
     door_.diagnostics.error(where, fmt::format("more than {} files include one another", kMaxFiles));
+    failed_ = true;
+  } else if (++included_ > kMaxIncluded) {
+    door_.diagnostics.error(where, fmt::format("more than {} files are included", kMaxIncluded),
+                            ErrorCode::resource);
     failed_ = true;
   } else if (!is_file(file, where, door_.diagnostics)) {
     failed_ = true;

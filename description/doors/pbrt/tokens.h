@@ -31,7 +31,7 @@ class Tokens {
   /// The same, which stays the next.
   [[nodiscard]] const std::optional<Token>& peek();
   /// Goes on with another file, and then where it was. Reports one that cannot be read, and files that
-  /// include one another without end.
+  /// include one another without end, or are too many.
   void include(const std::filesystem::path& file, const SourcePosition& where);
   /// Where the last file ended.
   [[nodiscard]] const SourcePosition& end() const { return end_; }
@@ -51,6 +51,7 @@ class Tokens {
   std::optional<Token> peeked_{};
   SourcePosition end_{};
   bool failed_ = false;
+  std::size_t included_ = 0;
 };
 
 }  // namespace abbe::doors::pbrt
