@@ -50,6 +50,30 @@ TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
   }
 }
 
+TEST_F(PbrtTest, WithoutACameraItIsPbrtsOwn) {
+  const auto made = convert("a.pbrt", "WorldBegin\nShape \"sphere\"\n");
+  ASSERT_TRUE(made) << told_;
+  EXPECT_TRUE(tells("the scene has no camera: pbrt's own, of 90 degrees along z")) << told_;
+  const auto& camera = std::get<spec::PinholeCamera>(made->camera->kind);
+  EXPECT_EQ(camera.view.to, Imath::V3d(0, 0, 1));
+  EXPECT_EQ(std::get<spec::FieldOfView>(camera.lens.view).value, 90);
+}
+
+TEST_F(PbrtTest, ParametersAreOfTheirTypeAndOne) {
+  expect_refused({{"an integer", kBegin + "Shape \"sphere\" \"integer radius\" 1\n",
+                   "a.pbrt:5:16: error: \"radius\" is of another type (got integer, allowed float)"},
+                  {"two numbers", kBegin + "Shape \"sphere\" \"float radius\" [1 2]\n",
+                   "a.pbrt:5:16: error: \"radius\" takes one value (got 2)"},
+                  {"a float", "Sampler \"halton\" \"float pixelsamples\" 4\n" + kBegin,
+                   "a.pbrt:1:18: error: \"pixelsamples\" is of another type (got float, allowed integer)"},
+                  {"two points", kBegin + "LightSource \"point\" \"point3 from\" [1 2 3 4 5 6]\n",
+                   "a.pbrt:5:21: error: \"from\" takes 3 values (got 6)"},
+                  {"two truths",
+                   kBegin + "Material \"conductor\" \"bool remaproughness\" [true false]\nShape "
+                            "\"sphere\"\n",
+                   "\"remaproughness\" takes one value (got 2)"}});
+}
+
 TEST_F(PbrtTest, InterfacesAroundMatterHaveAName) {
   const spec::Scene made = scene(
       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nMediumInterface \"fog\" \"\"\nMaterial "

@@ -17,7 +17,7 @@ namespace {
 
 // A number of things, cut to what an int holds.
 int count(const Parameters& p, std::string_view name, int absent, Door& door) {
-  return static_cast<int>(std::clamp(p.number(name, absent, door), -1e9, 1e9));
+  return static_cast<int>(std::clamp(p.integer(name, absent, door), -1e9, 1e9));
 }
 
 // What the sensor counts: X, Y and Z, a camera's channels, or radiances.
@@ -33,7 +33,7 @@ void set_counts(const Made& film, spec::Sensor& sensor, Door& door) {
   else
     sensor.counts = spec::StandardObserver{{{Observer::cie1931}, film.where}};
   if (auto* bins = std::get_if<spec::Bins>(&sensor.counts))
-    bins->step_nm = (bins->to_nm - bins->from_nm) / std::max(p.number("nbuckets", 16, door), 1.0);
+    bins->step_nm = (bins->to_nm - bins->from_nm) / std::max(count(p, "nbuckets", 16, door), 1);
   else if (camera == kSensors.end() && name != "cie1931")
     door.note(film.where,
               fmt::format("no table of the sensor \"{}\" is shipped: the CIE observer in its place", name));
@@ -117,8 +117,13 @@ void set_render(const Picture& picture, Door& door) {
 
 }  // namespace
 
-void set_picture(const Picture& picture, const SourcePosition& end, World& world) {
+void set_picture(const Picture& said, const SourcePosition& end, World& world) {
   Door& door = world.door;
+  Picture picture = said;
+  if (!picture.camera) {
+    door.note(end, "the scene has no camera: pbrt's own, of 90 degrees along z");
+    picture.camera = Made{"perspective", {}, end};
+  }
   set_render(picture, door);
   spec::Sensor& sensor = door.scene.sensor.emplace();
   if (picture.film) {
@@ -131,10 +136,6 @@ void set_picture(const Picture& picture, const SourcePosition& end, World& world
   }
   if (picture.filter && picture.filter->type != "box")
     door.note(picture.filter->where, "a pixel filter has no counterpart here: a box");
-  if (!picture.camera) {
-    door.diagnostics.error(end, "a scene without a camera");
-    return;
-  }
   world.upright = upright_world(picture.camera_to_world);
   if (world.upright != Imath::M44d())
     door.note(picture.camera->where,

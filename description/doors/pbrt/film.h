@@ -17,8 +17,8 @@ struct Picture {
   std::optional<Made> filter{};
 };
 
-/// Sets camera, sensor, render and output of the scene, and what turns the world upright. `end` is where what
-/// is missing would stand.
+/// Sets camera, pbrt's own without one, sensor, render and output of the scene, and what turns the world
+/// upright. `end` is where what is missing would stand.
 void set_picture(const Picture& picture, const SourcePosition& end, World& world);
 
 }  // namespace abbe::doors::pbrt

@@ -166,23 +166,41 @@ const Parameter* Parameters::find(std::string_view name, std::initializer_list<c
   return nullptr;
 }
 
+// The parameter of one of the types, with as many values.
+const Parameter* Parameters::single(std::string_view name, std::initializer_list<const char*> types,
+                                    std::size_t count, Door& door) const {
+  const Parameter* found = find(name, types, door);
+  if (found == nullptr) return nullptr;
+  const std::size_t values = found->numbers.size() + found->texts.size();
+  if (values == count) return found;
+  door.diagnostics.error(found->where,
+                         fmt::format("\"{}\" takes {} (got {})", name,
+                                     count == 1 ? "one value" : fmt::format("{} values", count), values));
+  return nullptr;
+}
+
 double Parameters::number(std::string_view name, double absent, Door& door) const {
-  const Parameter* found = find(name, {"float", "integer"}, door);
+  const Parameter* found = single(name, {"float"}, 1, door);
+  return found ? found->numbers.front() : absent;
+}
+
+double Parameters::integer(std::string_view name, double absent, Door& door) const {
+  const Parameter* found = single(name, {"integer"}, 1, door);
   return found ? found->numbers.front() : absent;
 }
 
 bool Parameters::truth(std::string_view name, bool absent, Door& door) const {
-  const Parameter* found = find(name, {"bool"}, door);
+  const Parameter* found = single(name, {"bool"}, 1, door);
   return found ? found->texts.front() == "true" : absent;
 }
 
 std::string Parameters::text(std::string_view name, const std::string& absent, Door& door) const {
-  const Parameter* found = find(name, {"string", "texture"}, door);
+  const Parameter* found = single(name, {"string", "texture"}, 1, door);
   return found ? found->texts.front() : absent;
 }
 
 Imath::V3d Parameters::point(std::string_view name, const Imath::V3d& absent, Door& door) const {
-  const Parameter* found = find(name, {"point3", "point", "vector3", "vector"}, door);
+  const Parameter* found = single(name, {"point3", "point", "vector3", "vector"}, 3, door);
   return found ? Imath::V3d(found->numbers[0], found->numbers[1], found->numbers[2]) : absent;
 }
 

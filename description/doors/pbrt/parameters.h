@@ -35,8 +35,9 @@ class Parameters {
   [[nodiscard]] const Parameter* find(std::string_view name, std::initializer_list<const char*> types,
                                       Door& door) const;
   [[nodiscard]] bool has(std::string_view name) const;
-  // The same of one kind each, or what holds in its absence.
+  // The same of one kind and one value each, or what holds in its absence; more values are reported.
   [[nodiscard]] double number(std::string_view name, double absent, Door& door) const;
+  [[nodiscard]] double integer(std::string_view name, double absent, Door& door) const;
   [[nodiscard]] bool truth(std::string_view name, bool absent, Door& door) const;
   [[nodiscard]] std::string text(std::string_view name, const std::string& absent, Door& door) const;
   [[nodiscard]] Imath::V3d point(std::string_view name, const Imath::V3d& absent, Door& door) const;
@@ -50,6 +51,9 @@ class Parameters {
   [[nodiscard]] const std::vector<Parameter>& all() const { return list_; }
 
  private:
+  [[nodiscard]] const Parameter* single(std::string_view name, std::initializer_list<const char*> types,
+                                        std::size_t count, Door& door) const;
+
   std::vector<Parameter> list_;
 };
 
