@@ -31,7 +31,10 @@ constexpr std::array<Format, 4> kFormats{{{".glb", doors::read_gltf_scene},
                                           {".xml", doors::read_mitsuba}}};
 
 const Format* format_of(const std::filesystem::path& path) {
-  const auto* found = std::ranges::find(kFormats, path.extension().string(), &Format::extension);
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const auto* found = std::ranges::find(kFormats, extension, &Format::extension);
   return found == kFormats.end() ? nullptr : found;
 }
 
@@ -39,9 +42,16 @@ std::string told(const doors::Note& note) {
   return note.count == 1 ? note.text : fmt::format("{} ({} times)", note.text, note.count);
 }
 
+// The text in one line, as a comment holds it.
+std::string in_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
 // What was approximated or dropped, as warnings and as comments.
 std::string tell_notes(const std::filesystem::path& path, doors::Door& door) {
-  std::string comments = fmt::format("// Converted from {}.", path.filename().string());
+  std::string comments = fmt::format("// Converted from {}.", in_one_line(path.filename().string()));
   if (!door.notes.empty()) comments += " Approximated or dropped:";
   comments += '\n';
   for (const doors::Note& note : door.notes) {
@@ -68,7 +78,8 @@ std::optional<std::string> convert_scene(const std::filesystem::path& path, cons
   if (diagnostics.has_errors()) return std::nullopt;
   const std::string text = tell_notes(path, door) + to_lines(schema::write(door.scene), kJsonWidth);
   // What is written must be a scene: what is wrong with it is told as of it.
-  const auto source = std::make_shared<const SourceText>(SourceText{path.stem().string() + ".json", text});
+  const auto source = std::make_shared<const SourceText>(
+      SourceText{fmt::format("what {} became", path.filename().string()), text});
   if (!load_scene(source, conversion.folder, {}, diagnostics, inputs)) return std::nullopt;
   return text;
 }

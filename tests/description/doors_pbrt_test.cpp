@@ -74,6 +74,11 @@ TEST_F(PbrtTest, ParametersAreOfTheirTypeAndOne) {
                    "\"remaproughness\" takes one value (got 2)"}});
 }
 
+TEST_F(PbrtTest, ExtensionsMayBeCapitals) {
+  ASSERT_TRUE(is_other_scene("A.PBRT"));
+  EXPECT_TRUE(convert("A.PBRT", kBegin + "Shape \"sphere\"\n")) << told_;
+}
+
 TEST_F(PbrtTest, InterfacesAroundMatterHaveAName) {
   const spec::Scene made = scene(
       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nMediumInterface \"fog\" \"\"\nMaterial "
@@ -103,6 +108,18 @@ TEST_F(PbrtTest, IncludesHaveALimitInAll) {
   expect_refused(
       {{"doubling", kBegin + "Include \"x20.pbrt\"\n", "error: more than 10000 files are included"}});
   EXPECT_EQ(code_, ErrorCode::resource);
+}
+
+TEST_F(PbrtTest, WhatItBecameIsNamedAsSuch) {
+  EXPECT_FALSE(convert("a.pbrt", kBegin + "Shape \"sphere\" \"float radius\" -1\n"));
+  EXPECT_TRUE(tells("what a.pbrt became:")) << told_;
+}
+
+TEST_F(PbrtTest, NamesOfFilesStayInTheirLine) {
+  const auto text = written("two\nlines.pbrt", kBegin + "Shape \"sphere\" \"float alpha\" 1\n");
+  ASSERT_TRUE(text) << told_;
+  EXPECT_TRUE(text->starts_with("// Converted from two lines.pbrt. Approximated or dropped:\n")) << *text;
+  EXPECT_TRUE(convert("two\nlines.pbrt", kBegin)) << told_;
 }
 
 }  // namespace
