@@ -50,6 +50,24 @@ TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
   }
 }
 
+TEST_F(PbrtTest, ImagesOfTheSkyGiveTheirMean) {
+  write_exr(folder_ / "sky.exr", {2, 1, {{"R", {1, 3}}, {"G", {2, 6}}, {"B", {0, 8}}}, {}});
+  const auto luminance = [&](const std::string& more) {
+    const spec::Scene made = scene("LightSource \"infinite\" \"string filename\" \"sky.exr\" " + more + "\n");
+    if (made.lights.empty()) return 0.0;
+    const auto& sky = std::get<spec::SkyLamp>(made.lights[0].kind);
+    return std::get<spec::Amount<spec::Quantity::luminance>>(sky.emission.scale).value;
+  };
+  constexpr double kLm = 683.002;
+  const double y = 0.2126390 * 2 + 0.7151687 * 4 + 0.0721923 * 4;  // of Rec.709
+  EXPECT_NEAR(luminance("") / kLm, y, 1e-3);
+  EXPECT_TRUE(tells("its mean from all sides")) << told_;
+  EXPECT_NEAR(luminance("\"float scale\" 10") / kLm, 10 * y, 1e-2);
+  EXPECT_NEAR(luminance("\"float illuminance\" 5") / kLm, 5 / M_PI, 1e-3);
+  expect_refused({{"gone", kBegin + "LightSource \"infinite\" \"string filename\" \"gone.exr\"\n",
+                   "a.pbrt:5:24: error: "}});
+}
+
 TEST_F(PbrtTest, WithoutACameraItIsPbrtsOwn) {
   const auto made = convert("a.pbrt", "WorldBegin\nShape \"sphere\"\n");
   ASSERT_TRUE(made) << told_;

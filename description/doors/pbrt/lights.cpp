@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 
 #include "description/doors/pbrt/spectra.h"
 #include "description/doors/shared/lamps.h"
+#include "description/doors/shared/picture.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe::doors::pbrt {
 namespace {
@@ -69,13 +72,36 @@ void add_distant(const Made& light, const Imath::M44d& m, World& world) {
   add_lamp(beam, light.where, world.door);
 }
 
+// The lamp of an image's mean, which is that of the light from all sides, for its pixels are equal areas. It
+// is normalised where the light asks for an illuminance. Nothing, after an error or a note, without such an
+// image.
+std::optional<LampSpectrum> mean_lamp(const Made& light, const Parameter& file, World& world) {
+  Door& door = world.door;
+  auto colour = mean_colour(world.folder / file.texts.front(), file.where, door);
+  if (!colour) return std::nullopt;
+  const double most = *std::ranges::max_element(*colour);
+  if (!(most > 0)) {
+    door.note(light.where, "an environment's image is black: dropped");
+    return std::nullopt;
+  }
+  door.note(
+      light.where,
+      "an environment's image is laid out as equal areas there, which has no counterpart here: its mean "
+      "from all sides");
+  for (double& value : *colour) value /= most;
+  const double scale = light.parameters.number("scale", 1, door);
+  LampSpectrum sent = lamp_of(*colour, scale * most, light.where, door);
+  if (light.parameters.number("illuminance", 0, door) > 0) sent.photometric = kLuminousEfficacy * scale;
+  return sent;
+}
+
 void add_infinite(const Made& light, World& world) {
-  LampSpectrum sent = lamp(light, "L", world);
+  const Parameter* file = light.parameters.find("filename", {"string"}, world.door);
+  const std::optional<LampSpectrum> said =
+      file ? mean_lamp(light, *file, world) : std::optional(lamp(light, "L", world));
+  if (!said) return;
+  LampSpectrum sent = *said;
   rescale(light, "illuminance", 1 / std::numbers::pi, sent, world);
-  if (light.parameters.find("filename", {"string"}, world.door) != nullptr)
-    world.door.note(light.where,
-                    "an environment's image is laid out as equal areas there, which is not read "
-                    "here: the same light from all sides");
   light.parameters.ignore({"portal"});
   spec::SkyLamp sky;
   sky.emission = emission_of<spec::SkyEmission, Quantity::luminance>(sent);

@@ -1,0 +1,57 @@
+#include "description/doors/shared/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "io/picture.h"
+
+namespace abbe::doors {
+namespace {
+
+bool is_linear(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 3> kLinear{".exr", ".hdr", ".pfm"};
+  return std::ranges::find(kLinear, file.extension().string()) != kLinear.end();
+}
+
+// Nothing if a value is not finite.
+std::optional<double> mean(const ImageChannel& channel, bool linear) {
+  double sum = 0;
+  for (const float value : channel.values) {
+    if (!std::isfinite(value)) return std::nullopt;
+    const double kept = std::max(static_cast<double>(value), 0.0);
+    sum += linear ? kept : srgb_decoded(kept);
+  }
+  return sum / static_cast<double>(channel.values.size());
+}
+
+}  // namespace
+
+std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const SourcePosition& where,
+                                     Door& door) {
+  if (!door.take_file(file, where)) return std::nullopt;
+  const auto refuse = [&](const std::string& what, ErrorCode code) {
+    door.diagnostics.error(where, what, code);
+    return std::nullopt;
+  };
+  try {
+    const Image image = read_image(file, door.inputs);
+    LinearRgb colour{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      constexpr std::array<std::string_view, 3> kNames{"R", "G", "B"};
+      const ImageChannel* channel = image.find(image.find("R") ? kNames.at(c) : "Y");
+      if (channel == nullptr) return refuse("the image has no channels R, G, B or Y", ErrorCode::input);
+      const auto value = mean(*channel, is_linear(file));
+      if (!value) return refuse("the image holds values that are not finite", ErrorCode::input);
+      colour.at(c) = *value;
+    }
+    return colour;
+  } catch (const Error& fault) {
+    return refuse(fault.what(), fault.code);
+  }
+}
+
+}  // namespace abbe::doors
