@@ -290,6 +290,17 @@ TEST_F(MitsubaTest, FaultsHaveTheirPlace) {
   }
 }
 
+TEST_F(MitsubaTest, IncludesHaveALimitInAll) {
+  put("x0.xml", "<scene/>");
+  for (int i = 1; i <= 15; ++i) {
+    const std::string before = "<include filename='x" + std::to_string(i - 1) + ".xml'/>";
+    put("x" + std::to_string(i) + ".xml", "<scene>" + before + before + "</scene>");
+  }
+  EXPECT_FALSE(convert("a.xml", "<scene><include filename='x15.xml'/></scene>"));
+  EXPECT_TRUE(tells("error: more than 10000 files are included")) << told_;
+  EXPECT_EQ(code_, ErrorCode::resource);
+}
+
 TEST_F(MitsubaTest, PrefixesOfAFileCrashNothing) {
   expect_no_crash_at_any_prefix(
       "a.xml",

@@ -73,7 +73,8 @@ class XmlReader {
     }
     if (element.tag == "include") {
       const auto file = folder_ / element["filename"];
-      return is_file(file, element.where, door_.diagnostics) && read(file, to, depth + 1);
+      return door_.take_included(element.where) && is_file(file, element.where, door_.diagnostics) &&
+             read(file, to, depth + 1);
     }
     if (!add_children(node, source, element, depth + 1)) return false;
     element.last = count_;

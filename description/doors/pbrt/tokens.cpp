@@ -12,8 +12,7 @@ namespace abbe::doors::pbrt {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
-constexpr std::size_t kMaxFiles = 64;        // that include one another
-constexpr std::size_t kMaxIncluded = 10000;  // in all
+constexpr std::size_t kMaxFiles = 64;  // that include one another
 
 }  // namespace
 
@@ -35,11 +34,7 @@ void Tokens::include(const std::filesystem::path& file, const SourcePosition& wh
   if (files_.size() == kMaxFiles) {
     door_.diagnostics.error(where, fmt::format("more than {} files include one another", kMaxFiles));
     failed_ = true;
-  } else if (++included_ > kMaxIncluded) {
-    door_.diagnostics.error(where, fmt::format("more than {} files are included", kMaxIncluded),
-                            ErrorCode::resource);
-    failed_ = true;
-  } else if (!is_file(file, where, door_.diagnostics)) {
+  } else if (!door_.take_included(where) || !is_file(file, where, door_.diagnostics)) {
     failed_ = true;
   } else {
     open(file);

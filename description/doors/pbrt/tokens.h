@@ -51,7 +51,6 @@ class Tokens {
   std::optional<Token> peeked_{};
   SourcePosition end_{};
   bool failed_ = false;
-  std::size_t included_ = 0;
 };
 
 }  // namespace abbe::doors::pbrt

@@ -33,6 +33,13 @@ bool Door::take_file(const fs::path& file, const SourcePosition& where) {
   return true;
 }
 
+bool Door::take_included(const SourcePosition& where) {
+  constexpr std::size_t kMaxIncluded = 10000;
+  if (++included <= kMaxIncluded) return true;
+  diagnostics.error(where, fmt::format("more than {} files are included", kMaxIncluded), ErrorCode::resource);
+  return false;
+}
+
 std::string Door::free_material_name(const std::string& name) const {
   bool taken = false;
   std::vector<bool> numbers(scene.materials.size() + 3, false);  // behind the name, one of them free

@@ -26,6 +26,7 @@ struct Door {
   std::filesystem::path folder;  ///< Of the scene to be written, whose files are named as from there.
   spec::Scene scene{};
   std::vector<Note> notes{};
+  std::size_t included = 0;  ///< Files that the other renderer's scene has included so far.
 
   /// Remembers that something was approximated or dropped; the same text is kept once, and counted.
   void note(const SourcePosition& where, const std::string& text);
@@ -34,6 +35,9 @@ struct Door {
   [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;
   /// Counts a file that is read. False, after an error at `where`, if there is no such regular file.
   bool take_file(const std::filesystem::path& file, const SourcePosition& where);
+  /// Counts a file that the scene includes at `where`. False, after an error, if these are too many: a few
+  /// small files that include one another twice each would go on for ever.
+  bool take_included(const SourcePosition& where);
   /// The name itself, or, where materials have it already, the name with a number.
   [[nodiscard]] std::string free_material_name(const std::string& name) const;
   /// Adds a material under a name that is still free, and gives that name.
