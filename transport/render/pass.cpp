@@ -153,8 +153,7 @@ void Pass::sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker) {
 // Paths from lights may come to any pixel of the film; those that are not asked for get nothing.
 Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
   return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
-    if (at.x < crop_.x0 || at.x >= crop_.x1 || at.y < crop_.y0 || at.y >= crop_.y1 || !keeps(values, worker))
-      return;
+    if (!is_asked_for(at.x, at.y) || !keeps(values, worker)) return;
     film_.add(static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film_.width()) +
                   static_cast<std::size_t>(at.x),
               static_cast<int>(replicate(sample)), values);
@@ -172,8 +171,7 @@ void Pass::join_tile(std::uint32_t tile, Worker& worker) {
       for (int x = x0; x < std::min(x0 + static_cast<int>(kTile), film_.width()); ++x) {
         const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
         worker.pairs.push_back({x, y, Sampler(seed_, Purpose::camera, replicate(s), pixel, index),
-                                photon_sampler(s, pixel),
-                                x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1});
+                                photon_sampler(s, pixel), is_asked_for(x, y)});
         worker.counts.paths += worker.pairs.back().seen ? 2 : 1;
       }
     worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));

@@ -85,6 +85,9 @@ class Pass {
                      const Deposit& deposit) const;
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
   [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
+  [[nodiscard]] bool is_asked_for(int x, int y) const {
+    return x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1;
+  }
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
   [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, std::uint32_t pixel) const;
