@@ -220,22 +220,26 @@ Estimate found_bidirectionally(const Scene& scene) {
 // Weighed over all of them by the densities that are stored, they add up to what path tracing finds: of paths
 // of any number of events, through fog and glass, off gold, of lights of all kinds, and into a meter, which
 // no photon is connected to. Where path tracing is at its best, the others' share of the weight costs little.
-TEST(Strategies, AddUpBalanced) {
+class BalancedStrategies : public testing::TestWithParam<Filling> {};
+
+TEST_P(BalancedStrategies, AddUp) {
   for (const Camera& camera : {kPinhole, kLens, kMeter})
-    for (const Filling filling :
-         {Filling::nothing, Filling::fog, Filling::glass, Filling::gold, Filling::sky})
-      for (const int events : {1, 4}) {
-        SCOPED_TRACE(testing::Message() << events << " events, filling " << static_cast<int>(filling));
-        Scene scene = room({camera, filling});
-        scene.render.max_depth = events;
-        const Estimate sum = found_bidirectionally(scene);
-        scene.render.integrator = Integrator::path;
-        const Estimate alone = found_by_path_tracing(scene);
-        EXPECT_NEAR(sum.mean() / alone.mean(), 1,
-                    4.5 * std::sqrt(sum.variance() + alone.variance()) / alone.mean());
-        EXPECT_LT(sum.variance(), 1.25 * alone.variance());
-      }
+    for (const int events : {1, 4}) {
+      SCOPED_TRACE(testing::Message() << events << " events");
+      Scene scene = room({camera, GetParam()});
+      scene.render.max_depth = events;
+      const Estimate sum = found_bidirectionally(scene);
+      scene.render.integrator = Integrator::path;
+      const Estimate alone = found_by_path_tracing(scene);
+      EXPECT_NEAR(sum.mean() / alone.mean(), 1,
+                  4.5 * std::sqrt(sum.variance() + alone.variance()) / alone.mean());
+      EXPECT_LT(sum.variance(), 1.25 * alone.variance());
+    }
 }
+
+INSTANTIATE_TEST_SUITE_P(Fillings, BalancedStrategies,
+                         testing::Values(Filling::nothing, Filling::fog, Filling::glass, Filling::gold,
+                                         Filling::sky));
 
 // A path that glass refracts or mirrors has the same densities whichever end records it.
 TEST(RecordedPaths, SingleDirectionsAreAsDenseFromEitherEnd) {
