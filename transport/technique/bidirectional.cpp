@@ -89,12 +89,11 @@ void BidirectionalTracer::meet(std::uint32_t i, const MetLight& met) {
   joined_.passed = SampledSpectrum(1.0F);
   const PathVertex& lit = *joined_.z[met.after - 1];
   const auto& light = std::get<LightVertex>(met.vertex.at);
-  const float weight = weights_.of(joined_, end_densities(plan_, lit, met.vertex));
   add(i, at_[i], light.light,
       met.vertex.packet.throughput *
           emission_from(scene_.lights[light.light], way_from(lit, met.vertex).direction,
                         met.vertex.lambda_nm()) *
-          weight);
+          weight());
 }
 
 void BidirectionalTracer::connect_to_light(std::uint32_t i, std::size_t t) {
@@ -148,10 +147,16 @@ void BidirectionalTracer::add_joined(std::uint32_t i, const FilmPoint& at) {
   if (!joint) return;
   joined_.passed = joint->density;
   const PathVertex& light = *joined_.z.back();
-  const PathVertex& lit = *joined_.z[joined_.z.size() - 2];
-  const float weight = weights_.of(joined_, end_densities(plan_, lit, light));
   add(i, at, std::get<LightVertex>(light.at).light,
-      a.packet.throughput * b.packet.throughput * joint->contribution * weight);
+      a.packet.throughput * b.packet.throughput * joint->contribution * weight());
+}
+
+// Of the joined path; what its ends are drawn by depends on the light and what it lights.
+float BidirectionalTracer::weight() {
+  EndDensities ends = end_densities(plan_, *joined_.z[joined_.z.size() - 2], *joined_.z.back());
+  ends.camera_takes_lights = meter_;
+  ends.lens_connections = meter_ ? 1 : static_cast<float>(plan_.photons);
+  return weights_.of(joined_, ends);
 }
 
 // A meter sees each light under an angle of its own.

@@ -49,6 +49,7 @@ class BidirectionalTracer {
   void connect_to_lens(std::uint32_t i, std::size_t s);
   void set_joined(std::uint32_t i, std::size_t t, std::size_t s);
   void add_joined(std::uint32_t i, const FilmPoint& at);
+  [[nodiscard]] float weight();
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
   void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution);
   void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);

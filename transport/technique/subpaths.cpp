@@ -154,9 +154,6 @@ EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVe
   const auto& at = std::get<LightVertex>(light.at);
   const Light& emitter = scene.lights[at.light];
   EndDensities ends;
-  const CameraTraits camera = traits(scene.camera);
-  ends.camera_takes_lights = camera.surface_normal.has_value();
-  ends.lens_connections = ends.camera_takes_lights ? 1 : static_cast<float>(plan.photons);
   const Way way = way_from(light, lit);
   if (!plan.traced_lights.empty()) {
     const Ball ball = ball_around(scene);

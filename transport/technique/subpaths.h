@@ -21,8 +21,8 @@ void start_from_light(const Plan& plan, RayCaster& caster, RecordedPath& path);
 [[nodiscard]] std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
                                                   const std::array<float, 4>& u);
 
-/// What the functions above draw the ends of a path by whose last vertex is `light` and the one before
-/// `lit`, and how often light is connected to the camera.
+/// What the functions above draw the ends of a path by whose last vertex is `light` and the one before `lit`.
+/// Of the camera nothing is told.
 [[nodiscard]] EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVertex& light);
 
 }  // namespace abbe
