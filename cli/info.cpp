@@ -11,6 +11,8 @@
 #include "description/load.h"
 #include "film/rendered_film.h"
 #include "film/white.h"
+#include "scene/unreached.h"
+#include "transport/render/collect.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/technique_shares.h"
 #include "transport/render/threads.h"
@@ -65,6 +67,9 @@ Json answer_for(const Scene& scene) {
     answer["techniques"].push_back(name_of(technique));
     answer["owned"][name_of(technique)] = owned_paths(technique, render.techniques);
   }
+  answer["bias"] = nullptr;
+  for (const Technique technique : render.techniques)
+    if (!bias_of(technique).empty()) answer["bias"] = bias_of(technique);
   answer["shares"] = render.shares;
   answer["unreached"] = unreached(scene, scene.needs, uses(render.techniques, Technique::light));
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
@@ -73,7 +78,7 @@ Json answer_for(const Scene& scene) {
                        {"xy", scene.output.white->xy},
                        {"because", scene.output.white->reason}};
   if (render.wavelengths_nm) answer["wavelength_range_nm"] = *render.wavelengths_nm;
-  answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene);
+  answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene) + bytes_of_light_paths(scene);
   return answer;
 }
 
@@ -116,6 +121,7 @@ std::string describe(const Scene& scene) {
   for (const auto& [technique, paths] : answer["owned"].items())
     lines += fmt::format("  {:<10} {}\n", technique, paths.get<std::string>());
   if (!answer["shares"].is_null()) lines += shares_line(answer["shares"]);
+  if (!answer["bias"].is_null()) lines += fmt::format("bias         {}\n", answer["bias"].get<std::string>());
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
   if (answer.contains("wavelength_range_nm"))
     lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),

@@ -29,6 +29,7 @@
 #include "io/standard_stream.h"
 #include "preview/preview.h"
 #include "preview/tev_viewer.h"
+#include "transport/render/collect.h"
 #include "transport/render/threads.h"
 
 namespace abbe::cli {
@@ -342,6 +343,7 @@ int render(const RenderOptions& options) {
   warn_of_lost_light(scene, options.strict);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
+  inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   Watchers watchers;
   call_watchers(watchers, scene, options, inputs);
   const RenderPart part = develop(scene, options, watch, watchers);

@@ -1,10 +1,30 @@
 #include "description/render.h"
 
+#include "description/kinds.h"
 #include "description/render_limits.h"
 
 namespace abbe::spec {
 
 using namespace schema;
+
+Fields fields(Tag<Photons>) {
+  return describe(
+      "photons",
+      "How photons are traced and gathered, by integrators that do it otherwise than `auto`, `light` and "
+      "`bdpt`. Radii shrink from sample to sample.",
+      {field("per_sample", &Photons::per_sample, {1, kMaxPhotons},
+             "Photons of a sample, but of `vcm`, which traces as many as there are pixels; when absent the "
+             "same, but at least 16384."),
+       field("radius", &Photons::radius, kLength,
+             "Radius of the first gathering; such that one photon would lie within, were all spread evenly "
+             "over a ball around the scene, when absent."),
+       defaulted("nearest", &Photons::nearest, {1, 100000},
+                 "Photons that an estimate of `photon-map` is made of."),
+       defaulted(
+           "final_gather", &Photons::final_gather,
+           "Whether `photon-map` looks at its photons one event after the first surface that scatters, and "
+           "there only at those of caustics.")});
+}
 
 Fields fields(Tag<Render>) {
   return describe(
@@ -18,18 +38,25 @@ Fields fields(Tag<Render>) {
              "chance alone ends paths."),
        defaulted("roulette_depth", &Render::roulette_depth, {-1, 10000},
                  "Events before Russian roulette; -1 never plays it, and needs `max_depth`."),
-       defaulted("seed", &Render::seed, {0, kMaxSeed}, "Chooses the random numbers.")});
+       defaulted("seed", &Render::seed, {0, kMaxSeed}, "Chooses the random numbers."),
+       field("photons", &Render::photons)});
 }
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
 
-RenderSettings build(const spec::Render& render, Diagnostics& diagnostics) {
+RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics) {
   if (render.roulette_depth.value < 0 && !render.max_depth)
     diagnostics.error(render.roulette_depth.where,
                       "ends no path, so that max_depth must (got -1 without a max_depth)");
-  return {render.integrator, render.samples, render.max_depth, render.roulette_depth.value, render.seed};
+  RenderSettings settings{render.integrator, render.samples, render.max_depth, render.roulette_depth.value,
+                          render.seed};
+  if (const auto& photons = render.photons) {
+    settings.photons = {photons->per_sample, photons->radius, photons->nearest, photons->final_gather};
+    if (photons->radius) *settings.photons.radius_m *= unit_m;
+  }
+  return settings;
 }
 
 }  // namespace abbe::description

@@ -8,6 +8,15 @@
 
 namespace abbe::spec {
 
+/// How to gather photons.
+struct Photons {
+  std::optional<std::uint64_t> per_sample;
+  std::optional<double> radius;
+  int nearest = 50;
+  bool final_gather = false;
+};
+[[nodiscard]] schema::Fields fields(schema::Tag<Photons>);
+
 /// How to render.
 struct Render {
   Integrator integrator = Integrator::automatic;
@@ -15,6 +24,7 @@ struct Render {
   std::optional<int> max_depth;
   schema::Located<int> roulette_depth{{4}, {}};
   std::uint64_t seed = 0;
+  std::optional<Photons> photons;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 
@@ -22,7 +32,7 @@ struct Render {
 
 namespace abbe::description {
 
-/// Reports paths that nothing ends.
-[[nodiscard]] RenderSettings build(const spec::Render& render, Diagnostics& diagnostics);
+/// Reports paths that nothing ends. Lengths are in units of `unit_m`.
+[[nodiscard]] RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics);
 
 }  // namespace abbe::description

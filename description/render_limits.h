@@ -8,5 +8,6 @@ namespace abbe {
 inline constexpr std::int64_t kMaxSamples = 1 << 24;             ///< As many as a float counts exactly.
 inline constexpr std::int64_t kMaxSeed = std::int64_t{1} << 53;  ///< As many as a double counts exactly.
 inline constexpr std::int64_t kMaxThreads = 1024;
+inline constexpr std::int64_t kMaxPhotons = std::int64_t{1} << 31;  ///< Of a sample.
 
 }  // namespace abbe

@@ -109,7 +109,7 @@ Scene build(const spec::Scene& said, LoadContext& context) {
   const LampSurfaces surfaces = build_lamp_surfaces(said.lights, context, scene);
   if (!context.diagnostics.has_errors()) recentre(scene, context);
   build_lights(said.lights, surfaces, context, scene);
-  if (said.render) scene.render = build(*said.render, context.diagnostics);
+  if (said.render) scene.render = build(*said.render, context.unit_m, context.diagnostics);
   if (said.output) scene.output = build(*said.output, context, scene);
   if (context.diagnostics.has_errors()) return scene;
   check_validity(said.materials, context, scene);

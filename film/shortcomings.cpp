@@ -4,6 +4,7 @@
 
 #include "film/rendered_film.h"
 #include "scene/dark_enclosure.h"
+#include "scene/unreached.h"
 #include "transport/path/roulette.h"
 #include "transport/plan/plan.h"
 

@@ -16,6 +16,7 @@
 #include "python/film.h"
 #include "python/render.h"
 #include "python/scene.h"
+#include "transport/render/collect.h"
 
 namespace abbe::python {
 namespace {
@@ -167,6 +168,7 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   const RenderOptions how = how_to_render(request, scene.render.samples);
   Inputs inputs = handle.inputs();
   inputs.take_memory("the film", film_bytes(scene, how));
+  inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
   for (const auto& shortcoming : {dark_camera(scene), lost_light(scene)})
     if (shortcoming) warn(*shortcoming);

@@ -6,7 +6,8 @@
 namespace abbe {
 
 /// What a sequence of random numbers is for; sequences of different purposes are independent.
-enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3 };
+/// Those of `sample` are for what all paths of a sample have in common.
+enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3, sample = 4 };
 
 /// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, replicate,
 /// stream (a pixel, say), sample index and group: nothing is consumed, so no path depends on what another

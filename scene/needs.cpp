@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene.h"
+#include "scene/small_light.h"
 
 namespace abbe {
 namespace {
@@ -17,15 +18,9 @@ namespace {
 // Solid angle [sr] below which a light is left to the light tracer: path tracing then finds it by chance in
 // less than one in 250 directions.
 constexpr double kSmallLight_sr = 0.05;
-// Below this one it does so in less than one in 12,000 directions: hardly ever.
-constexpr double kTinyLight_sr = 0.001;
 
 const Material& material_of(const Scene& scene, const ShapeInstance& instance) {
   return scene.materials[instance.material];
-}
-
-bool emits(const Light& light) {
-  return light.emission.max() > 0;
 }
 
 constexpr std::array<NeedName, 14> kNeeds{{
@@ -55,41 +50,6 @@ void require(Needs& needs, bool Needs::*need, bool asked, const char* kind, cons
   const auto* known =
       std::find_if(kNeeds.begin(), kNeeds.end(), [need](const NeedName& n) { return n.member == need; });
   needs.because[known->key] = name.empty() ? kind : fmt::format("{} \"{}\"", kind, name);
-}
-
-/// The middle of a specular shape.
-struct SpecularCenter {
-  Imath::V3d at;
-  std::size_t shape;
-};
-// In order of x, so that those near a light are found without asking all.
-std::vector<SpecularCenter> specular_centers(const Scene& scene) {
-  std::vector<SpecularCenter> centers;
-  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
-    if (lobes(material_of(scene, scene.shapes[i])).delta)
-      centers.push_back({bounds(scene.shapes[i].shape).center(), i});
-  std::sort(centers.begin(), centers.end(),
-            [](const SpecularCenter& a, const SpecularCenter& b) { return a.at.x < b.at.x; });
-  return centers;
-}
-
-// Whether the light looks smaller than that from every specular shape; delta lights do from anywhere. A ball
-// of radius r looks larger than the limit from nearer than r/sin, the sine being that of half the limit's
-// cone.
-bool looks_smaller(const Scene& scene, const Light& light, std::span<const SpecularCenter> centers,
-                   double limit_sr) {
-  if (const auto* sun = std::get_if<SunLight>(&light.kind))
-    return 2 * std::numbers::pi * static_cast<double>(sun->cap) < limit_sr;
-  const auto* emitter = std::get_if<AreaLight>(&light.kind);
-  if (emitter == nullptr) return light.is_delta();
-  const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
-  const double cosine = 1 - limit_sr / (2 * std::numbers::pi);
-  const double reach = box.size().length() / 2 / std::sqrt((1 - cosine) * (1 + cosine));
-  auto near = std::lower_bound(centers.begin(), centers.end(), box.center().x - reach,
-                               [](const SpecularCenter& c, double x) { return c.at.x < x; });
-  for (; near != centers.end() && near->at.x <= box.center().x + reach; ++near)
-    if (near->shape != emitter->shape && (near->at - box.center()).length() <= reach) return false;
-  return true;
 }
 
 bool is_black(const Material& material) {
@@ -248,19 +208,6 @@ double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t 
   return std::numeric_limits<double>::infinity();
 }
 
-// The lights of the scene that `select` holds for, by name; of very many, the first ones.
-template <typename Select>
-std::string names_of(const Scene& scene, Select select) {
-  constexpr std::size_t kMostNames = 8;
-  std::string names;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    if (!select(i) || ++count > kMostNames) continue;
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.lights[i].name);
-  }
-  return count > kMostNames ? fmt::format("{} and {} more", names, count - kMostNames) : names;
-}
-
 }  // namespace
 
 bool has_narrow_feature(const Curve& curve, double width_nm) {
@@ -290,61 +237,6 @@ Needs analyse(const Scene& scene) {
   }
   require(needs, &Needs::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return needs;
-}
-
-// Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
-// vertex next to the light scatters. Light tracing reaches every one whose vertex next to the eye scatters.
-std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool light_tracing_active) {
-  const bool specular =
-      std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                  [&](const ShapeInstance& instance) { return lobes(material_of(scene, instance)).delta; });
-  std::vector<PathClass> classes;
-  const auto add = [&classes](const std::string& lights, std::string_view expression,
-                              std::string_view words) {
-    if (!lights.empty()) classes.push_back(fmt::format("{}: {} ({})", expression, words, lights));
-  };
-  const auto& lights = scene.lights;
-  if (scene.render.integrator == Integrator::light) {
-    if (traits(scene.camera).surface_normal) {
-      add(names_of(scene, [](std::size_t) { return true; }), "E (S|D)* L",
-          "everything: photons are not connected to a meter");
-      return classes;
-    }
-    add(names_of(scene, [&](std::size_t i) { return lights[i].is_environment(); }), "E (S|D)* L",
-        "all light of an environment");
-    add(names_of(scene, [&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }), "E L",
-        "lights seen directly");
-    if (specular)
-      add(names_of(scene, [&](std::size_t i) { return !lights[i].is_environment(); }), "E S (S|D)* L",
-          "everything seen in mirrors or through glass");
-    return classes;
-  }
-  if (!specular) return classes;
-  if (scene.render.integrator == Integrator::bdpt) {
-    add(names_of(scene, [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); }),
-        "E S+ (D S+)* L",
-        "a point, spot or directional light where no two vertices in a row but the eye's scatter");
-    return classes;
-  }
-  const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
-  const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
-  add(names_of(scene, delta), "E S+ L",
-      "a point, spot or directional light seen in mirrors or through glass");
-  if (!needs.caustics) return classes;
-  add(names_of(scene, [&](std::size_t i) { return delta(i) && traced(i); }), "E S (S|D)* D (S|D)* S L",
-      "caustics of a point, spot or directional light, seen in mirrors or through glass");
-  add(names_of(scene, [&](std::size_t i) { return delta(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
-      "caustics of a point, spot or directional light");
-  const std::vector<SpecularCenter> centers = specular_centers(scene);
-  const auto tiny = [&](std::size_t i) {
-    return !lights[i].is_delta() && !lights[i].is_environment() && emits(lights[i]) &&
-           looks_smaller(scene, lights[i], centers, kTinyLight_sr);
-  };
-  add(names_of(scene, [&](std::size_t i) { return tiny(i) && traced(i); }), "E S (S|D)* D (S|D)* S L",
-      "caustics of a tiny light, seen in mirrors or through glass, that pilots have not shown");
-  add(names_of(scene, [&](std::size_t i) { return tiny(i) && !traced(i); }), "E (S|D)* D (S|D)* S L",
-      "caustics of a tiny light that pilots have not shown");
-  return classes;
 }
 
 }  // namespace abbe

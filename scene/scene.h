@@ -37,9 +37,29 @@ struct ChartInstance {
 };
 
 /// Which techniques render the scene.
-enum class Integrator { automatic, path, light, bdpt };
+enum class Integrator {
+  automatic,
+  path,
+  light,
+  bdpt,
+  photon_map,
+  ppm,
+  sppm,
+  vcm,
+  photon_brute,
+  adjoint_brute
+};
 /// Their words in scenes, commands and films, in that order.
-inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt"};
+inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt",         "photon-map",
+                                             "ppm",  "sppm", "vcm",   "photon-brute", "adjoint-brute"};
+
+/// How techniques gather photons.
+struct PhotonSettings {
+  std::optional<std::uint64_t> per_sample = {};  ///< Photons of a sample; as many as pixels when absent.
+  std::optional<double> radius_m = {};           ///< Of the first gathering; by the scene's size when absent.
+  int nearest = 50;                              ///< That a photon map's estimate is made of.
+  bool final_gather = false;                     ///< Whether a photon map is looked at one event later.
+};
 
 /// How to render, as the scene file asks.
 struct RenderSettings {
@@ -50,6 +70,7 @@ struct RenderSettings {
   std::optional<int> max_depth = {};
   int roulette_depth = 4;  ///< Events before Russian roulette; a negative value never plays it.
   std::uint64_t seed = 0;
+  PhotonSettings photons = {};
 };
 
 /// Where to write, as the scene file asks; empty when it does not.

@@ -64,7 +64,10 @@ double IrradianceProbe::least_film_cosine(const FilmGrid& /*grid*/) const {
 }
 
 CameraTraits IrradianceProbe::traits() const {
-  return {.surface_normal = normal};
+  CameraTraits of{.surface_normal = normal};
+  if (edge_u.cross(edge_v).length() > 0)
+    of.opening = Opening{middle(), edge_u * 0.5, edge_v * 0.5, normal, false};
+  return of;
 }
 
 }  // namespace abbe

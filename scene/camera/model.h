@@ -49,6 +49,18 @@ struct CameraDensity {
   float cos_film;  ///< Of the angle of incidence on the film.
 };
 
+/// What light comes in through, or falls on: the points center + a u + b v, of a round one with a^2 + b^2 <=
+/// 1, else with |a|, |b| <= 1.
+struct Opening {
+  Imath::V3d center;
+  Imath::V3d u, v;    ///< Not parallel.
+  Imath::V3d normal;  ///< Outward, unit.
+  bool round;
+
+  /// Distance along a ray from without to where it comes in; nothing where it does not.
+  [[nodiscard]] std::optional<double> crossed_by(const Ray& ray) const;
+};
+
 /// What can be told of a camera without a ray.
 struct CameraTraits {
   /// Rays leave an opening all over, so that a lens point has to be drawn, and what is out of focus is
@@ -60,6 +72,7 @@ struct CameraTraits {
   /// Outward unit normal of what takes light from a hemisphere itself. Light is then connected to it as to a
   /// surface, and `sample_towards` connects nothing; every other camera connects.
   std::optional<Imath::V3d> surface_normal = {};
+  std::optional<Opening> opening = {};  ///< That rays come in through by themselves, unless it is a point.
 };
 
 /// What a kind of camera has to answer, all of it. Film positions lie within [0, width] x [0, height], the

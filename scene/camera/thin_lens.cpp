@@ -77,7 +77,9 @@ CameraTraits ThinLens::traits() const {
   return {.depth_of_field = true,
           .image_distance = image_distance,
           .f_number = focal_length / (2 * aperture_radius),
-          .axis = frame.forward};
+          .axis = frame.forward,
+          .opening = Opening{frame.position, frame.right * aperture_radius, frame.up * aperture_radius,
+                             frame.forward, true}};
 }
 
 }  // namespace abbe

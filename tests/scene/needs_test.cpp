@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "scene/extent.h"
+#include "scene/unreached.h"
 #include "scenes.h"
 #include "spectral/sources.h"
 

@@ -27,9 +27,13 @@ Scene small(const char* name, std::vector<Override> settings = {}) {
 struct Seen {
   const char* scene;
   const char* sensor = nullptr;
+  const char* integrator = "auto";
 
   [[nodiscard]] Scene load() const {
-    return sensor == nullptr ? small(scene) : small(scene, {{"/sensor", sensor}});
+    std::vector<Override> settings;
+    if (std::strcmp(integrator, "auto") != 0) settings.push_back({"/render/integrator", integrator});
+    if (sensor != nullptr) settings.push_back({"/sensor", sensor});
+    return small(scene, settings);
   }
 };
 // Everything a sensor may do to photons and camera paths: a mosaic, one of its filters tilting.
@@ -110,10 +114,11 @@ TEST_P(Partition, AnInterruptedRenderGoesOnAsItWouldHave) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Partition,
                          testing::Values(Seen{"prism.json"}, Seen{"cornell.json"}, Seen{"glass_sphere.json"},
-                                         kMosaic),
+                                         kMosaic, Seen{"glass_sphere.json", nullptr, "sppm"},
+                                         Seen{"cornell.json", nullptr, "vcm"}),
                          [](const auto& info) {
                            const char* name = info.param.scene;
-                           return std::string(name, std::strchr(name, '.')) +
+                           return std::string(name, std::strchr(name, '.')) + "_" + info.param.integrator +
                                   (info.param.sensor == nullptr ? "" : "_mosaic");
                          });
 
@@ -151,6 +156,32 @@ TEST(Resume, AStopByErrorFallsOnTheSameSample) {
   odd.target_error = {};
   odd.time_limit_s = 1e9;
   goes_on_to_the_same(render(scene, odd));
+}
+
+// Amid a sample, the photons of which are traced again and not counted twice.
+TEST(Resume, WhatGathersPhotonsGoesOnAsItWouldHave) {
+  for (const char* integrator : {"sppm", "vcm"}) {
+    SCOPED_TRACE(integrator);
+    const Scene scene = small(
+        "cornell.json", {{"/render/integrator", integrator}, {"/render/photons", R"({"per_sample": 500})"}});
+    RenderOptions few;
+    few.samples = SampleRange{0, 3};
+    const RenderResult whole = render(scene, few);
+    int amid = 0;
+    RenderOptions saving = few;
+    saving.checkpoint_interval_s = 0;
+    saving.checkpoint = [&](const RenderResult& result) {
+      amid += result.unfinished ? 1 : 0;
+      const RenderResult end = render(scene, few, copy(result));
+      EXPECT_EQ(end.film.bytes(), whole.film.bytes());
+      EXPECT_EQ(end.stats.rays, whole.stats.rays);
+      EXPECT_EQ(end.stats.paths, whole.stats.paths);
+    };
+    const RenderResult saved = render(scene, saving);
+    EXPECT_EQ(saved.film.bytes(), whole.film.bytes());
+    EXPECT_EQ(saved.stats.rays, whole.stats.rays);
+    EXPECT_GT(amid, 0);
+  }
 }
 
 // However long the pass, what is done can be saved as soon as a stop is asked for; the pass then ends, so

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <span>
 
@@ -46,10 +47,17 @@ TEST_P(SameBits, AnotherSeedIsAnotherFilm) {
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
                          testing::Values(Rendered{"prism.json", "auto"}, Rendered{"cornell.json", "auto"},
                                          Rendered{"glass_sphere.json", "auto"},
-                                         Rendered{"glass_sphere.json", "bdpt"}),
+                                         Rendered{"glass_sphere.json", "bdpt"},
+                                         Rendered{"glass_sphere.json", "sppm"},
+                                         Rendered{"cornell.json", "ppm"}, Rendered{"cornell.json", "vcm"},
+                                         Rendered{"glass_sphere.json", "photon-map"},
+                                         Rendered{"cornell.json", "adjoint-brute"}),
                          [](const auto& info) {
                            const char* scene = info.param.scene;
-                           return std::string(scene, std::strchr(scene, '.')) + "_" + info.param.integrator;
+                           std::string name(scene, std::strchr(scene, '.'));
+                           name += std::string("_") + info.param.integrator;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
                          });
 
 // Needs only skip what would add nothing. The technique of tracing light takes over paths from another, so
@@ -76,7 +84,7 @@ TEST(Needs, ForcedOnLeaveTheFilm) {
 }
 
 TEST(Crop, PixelsInsideAreThoseOfTheWholeFilm) {
-  for (const char* integrator : {"path", "bdpt"}) {
+  for (const char* integrator : {"path", "bdpt", "sppm", "vcm", "photon-map"}) {
     const Scene scene = test::load(
         "cornell.json",
         {{"/render/integrator", integrator}, {"/sensor/resolution", "[64, 64]"}, {"/render/samples", "4"}});

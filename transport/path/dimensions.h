@@ -21,6 +21,10 @@ inline constexpr int kMeterEvent = -1;
 [[nodiscard]] constexpr std::uint32_t scattering_group(int event) {
   return 2 + 2 * static_cast<std::uint32_t>(event - kMeterEvent);
 }
+/// The group for whether a path of brute force is absorbed at an event.
+[[nodiscard]] constexpr std::uint32_t absorption_group(int event) {
+  return 0x40000000 + static_cast<std::uint32_t>(event);
+}
 /// The group for how far a path comes in matter that scatters, before an event.
 [[nodiscard]] constexpr std::uint32_t free_path_group(int event) {
   return 0x80000000 + static_cast<std::uint32_t>(event);

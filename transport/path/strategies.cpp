@@ -23,17 +23,26 @@ SampledSpectrum direction_between(const Scene& scene, const JoinedPath& path, st
   return direction_pdf(scene, vertex, before, way_from(vertex, *path.z[to]).direction);
 }
 
+// Whether light goes on at a vertex in more than a single direction.
+bool joins(const JoinedPath& path, std::size_t i) {
+  const std::size_t last = path.z.size() - 1;
+  const bool joint = path.t <= last && (i + 1 == path.t || (i == path.t && path.merged == nullptr));
+  return i == 0 || i == last || joint || !path.z[i]->delta;
+}
+
 // How many paths of strategy `t` there are for each path through the pixel; 0 where it cannot make this one.
 float count(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
   const std::size_t last = path.z.size() - 1;
-  const auto joins = [&](std::size_t i) {  // light goes there in more than a single direction
-    const bool joint = path.t <= last && (i == path.t || i + 1 == path.t);
-    return i == 0 || i == last || joint || !path.z[i]->delta;
-  };
   if (t > last) return 1;
-  if (!joins(t - 1) || !joins(t)) return 0;
+  if (!joins(path, t - 1) || !joins(path, t)) return 0;
   if (t > 1) return 1;
   return t == last ? static_cast<float>(ends.camera_takes_lights) : ends.lens_connections;
+}
+
+// The same of merging at the last of the first `t` vertices, times the area.
+float merging(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
+  const bool on_surface = t > 1 && std::holds_alternative<SurfaceVertex>(path.z[t - 1]->at);
+  return on_surface && t < path.z.size() && joins(path, t - 1) ? ends.merging : 0;
 }
 
 }  // namespace
@@ -47,7 +56,7 @@ SampledSpectrum StrategyWeights::by_camera(const JoinedPath& path, std::size_t i
   const PathVertex& vertex = *path.z[i];
   if (i < path.t) return vertex.pdf_forward;
   if (is_delta_light(scene_, vertex)) return {};
-  if (i > path.t + 1) return vertex.pdf_reverse;
+  if (i > path.t + 1 || (i > path.t && path.merged != nullptr)) return vertex.pdf_reverse;
   return drawn(path, direction_between(scene_, path, i - 1, i), i - 1, i);
 }
 
@@ -56,6 +65,7 @@ SampledSpectrum StrategyWeights::by_light(const JoinedPath& path, const EndDensi
   const std::size_t last = path.z.size() - 1;
   const PathVertex& vertex = *path.z[i];
   if (i == last) return SampledSpectrum(ends.light_start);
+  if (i + 1 == path.t && path.merged != nullptr) return path.merged->pdf_forward;
   const bool emitted = i + 1 == last;
   if (emitted && !(ends.emission > 0)) return {};
   if (i >= path.t) return vertex.pdf_forward;
@@ -68,12 +78,12 @@ SampledSpectrum StrategyWeights::drawn(const JoinedPath& path, const SampledSpec
                                        std::size_t from, std::size_t to) const {
   const PathVertex& a = *path.z[from];
   const PathVertex& b = *path.z[to];
-  const SampledSpectrum density = direction * solid_angle_per_area(scene_, a, b) * b.event_pdf;
-  if (!has_free_paths_) return density;
-  return density * (std::max(from, to) == path.t ? path.passed : passed_between(a, b));
+  return direction * solid_angle_per_area(scene_, a, b) * b.event_pdf *
+         (std::max(from, to) == path.t ? path.passed : passed_between(a, b));
 }
 
 SampledSpectrum StrategyWeights::passed_between(const PathVertex& a, const PathVertex& b) const {
+  if (!has_free_paths_) return SampledSpectrum(1.0F);
   if (a.at_infinity()) return passed_between(b, a);  // both ways alike; none can start there
   return transmission_along(scene_, caster_, a, way_from(a, b)).density;
 }
@@ -89,7 +99,7 @@ float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
     at.by_camera = by_camera(path, i);
     at.by_light = by_light(path, ends, i);
     at.ours = i < path.t ? at.by_camera[hero] : at.by_light[hero];
-    if (i == last && path.t == last) at.ours = ends.light_connection;
+    if (i == last && path.t == last && path.merged == nullptr) at.ours = ends.light_connection;
     from_light_[i] = from_light_[i + 1] * at.by_light * (1 / at.ours);
   }
   // then, strategy by strategy, times what the camera makes of z_1 ... z_{t'-1}.
@@ -99,11 +109,16 @@ float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
   for (std::size_t t = 1; t <= last + 1; ++t) {
     if (const float n = count(path, ends, t); n > 0)
       sum += from_camera * (t == last ? connected : from_light_[t]) * n;
+    if (const float n = merging(path, ends, t); n > 0)
+      sum += from_camera * at_[t - 1].by_light * from_light_[t] * n;
     if (t <= last) from_camera *= at_[t].by_camera * (1 / at_[t].ours);
   }
   // Throughputs are measured in the unit of their lane densities, which need not be that of the hero.
   float unit = path.z[path.t - 1]->packet.lane_pdf[hero];
-  if (path.t <= last) unit *= path.z[path.t]->packet.lane_pdf[hero];
+  if (path.merged != nullptr)
+    unit *= path.merged->packet.lane_pdf[hero] / path.merged->pdf_forward[hero];
+  else if (path.t <= last)
+    unit *= path.z[path.t]->packet.lane_pdf[hero];
   const float weight = 1 / (sum.sum() * unit);
   return std::isfinite(weight) ? weight : 0.0F;
 }

@@ -14,6 +14,9 @@ struct JoinedPath {
   std::vector<const PathVertex*> z;
   std::size_t t = 0;
   SampledSpectrum passed{1.0F};  ///< `Connection::density` of the way between both.
+  /// Where the path from the light came to as well as that from the camera, whose last vertex it is merged
+  /// with; nullptr where both are connected. It is not among `z`.
+  const PathVertex* merged = nullptr;
 };
 
 /// Densities at the ends of a path, which depend on how techniques start there.
@@ -27,6 +30,9 @@ struct EndDensities {
   /// it takes no connections.
   float lens_connections = 0;
   bool camera_takes_lights = false;  ///< Whether a light may be connected to the camera itself.
+  /// Area that vertices on a surface are merged within [m^2], times the number of paths from lights that any
+  /// path through a pixel may be merged with; 0 where none is.
+  float merging = 0;
 };
 
 /// The balance heuristic over all lanes and all ways in which a path may have come about, z_0 ... z_{t-1}
@@ -34,7 +40,9 @@ struct EndDensities {
 ///     w f / P_t,hero = [f / P_t,hero] / sum_k sum_t' n_t' P_t',k / P_t,hero,
 ///     P_t',k = prod_{i < t'} p_k(z_{i-1} -> z_i) prod_{i >= t'} p_k(z_{i+1} -> z_i),
 /// P_t',k being the density of strategy t', were lane k the hero, and n_t' the number of its paths for each
-/// path through the pixel. Strategies that would join at a vertex where light goes in a single direction are
+/// path through the pixel. Merging at z_m is a strategy too [Georgiev2012], whose density, with N
+/// paths from lights and the radius r, is N pi r^2 prod_{i <= m} p_k(z_{i-1} -> z_i) prod_{i >= m}
+/// p_k(z_{i+1} -> z_i). Strategies that would join at a vertex where light goes in a single direction are
 /// left out. Roulette is not looked at, as it changes no mean. Serves one thread.
 class StrategyWeights {
  public:
@@ -42,6 +50,9 @@ class StrategyWeights {
 
   /// What the path's contribution by its throughputs is to be multiplied by.
   [[nodiscard]] float of(const JoinedPath& path, const EndDensities& ends);
+
+  /// With which density the way between two vertices is come through, lane by lane.
+  [[nodiscard]] SampledSpectrum passed_between(const PathVertex& a, const PathVertex& b) const;
 
  private:
   // How densely a vertex is drawn from the one before it, and from the one after.
@@ -56,8 +67,6 @@ class StrategyWeights {
                                          std::size_t i) const;
   [[nodiscard]] SampledSpectrum drawn(const JoinedPath& path, const SampledSpectrum& direction,
                                       std::size_t from, std::size_t to) const;
-  [[nodiscard]] SampledSpectrum passed_between(const PathVertex& a, const PathVertex& b) const;
-
   const Scene& scene_;
   RayCaster& caster_;
   bool has_free_paths_;

@@ -18,8 +18,9 @@ std::vector<bool> traced_lights(const Scene& scene) {
   const std::vector<Technique> techniques = chosen_techniques(scene);
   if (!starts_at_lights(techniques)) return traced;
   const bool all = !uses(techniques, Technique::path);
+  const bool with_sky = !uses(techniques, Technique::light) && !uses(techniques, Technique::bdpt);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    traced[i] = !scene.lights[i].is_environment() && (all || scene.needs.light_is_traced[i]);
+    traced[i] = (with_sky || !scene.lights[i].is_environment()) && (all || scene.needs.light_is_traced[i]);
   return traced;
 }
 
@@ -67,18 +68,43 @@ std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& 
   return powers;
 }
 
-WavelengthDistribution make_wavelengths(const Scene& scene, const Emissions& emissions) {
+WavelengthDistribution make_wavelengths(const Scene& scene, std::span<const Curve> emissions) {
   std::vector<Curve> responses;
   for (const Channel& channel : scene.channels) responses.push_back(envelope(channel));
-  return {emissions.distinct, responses};
+  return {emissions, responses};
 }
 
-std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene, const Emissions& emissions) {
+std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene,
+                                                         std::span<const Curve> emissions) {
   std::vector<WavelengthDistribution> own;
   if (scene.mosaic)
     for (const Channel& channel : scene.channels)
-      own.emplace_back(emissions.distinct, std::span(&envelope(channel), 1));
+      own.emplace_back(emissions, std::span(&envelope(channel), 1));
   return own;
+}
+
+// Of a sample where they are gathered, so that small films are not blurred more than large ones.
+constexpr std::uint64_t kLeastPhotons = 16384;
+
+// Such that one photon would lie within, were they spread evenly over the ball around the scene.
+double first_gather_radius(const Scene& scene, std::uint64_t photons) {
+  if (scene.render.photons.radius_m) return *scene.render.photons.radius_m;
+  const auto many = static_cast<double>(std::max(photons, kLeastPhotons));
+  return 2 * scene_radius(scene.bounds) / std::sqrt(many);
+}
+
+// Whether the number of photons is nothing that camera paths rely on.
+bool traces_photons_alone(std::span<const Technique> techniques) {
+  return uses(techniques, Technique::photon_brute) ||
+         std::any_of(techniques.begin(), techniques.end(), gathers_photons);
+}
+
+std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniques) {
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
+  return traces_photons_alone(techniques)
+             ? scene.render.photons.per_sample.value_or(std::max(pixels, kLeastPhotons))
+             : pixels;
 }
 
 // Nothing being known of `refusal`.
@@ -86,23 +112,28 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
              const std::vector<bool>& traced) {
   const bool light_only = techniques == std::vector{Technique::light};
   const bool traces_light = starts_at_lights(techniques);
+  const std::vector<Curve> equal_energy{Curve(1.0)};
+  const std::span<const Curve> seen =
+      uses(techniques, Technique::adjoint_brute) ? equal_energy : emissions.distinct;
+  const std::uint64_t photons = photons_of(scene, techniques);
   std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
   Plan plan{
       scene,
-      make_wavelengths(scene, emissions),
+      make_wavelengths(scene, seen),
       LightSampler(scene, emissions.seen),
       PowerLightSampler(traced_powers),
       traced,
       uses(techniques, Technique::light) ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
       std::move(techniques),
-      static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height),
+      photons,
       1,
       nominal_value(scene, emissions),
-      make_own_wavelengths(scene, emissions),
+      make_own_wavelengths(scene, seen),
       around_camera(scene),
-      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
+      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0),
+      static_cast<float>(first_gather_radius(scene, photons))};
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
   if (traces_light && plan.traced_lights.empty()) {
@@ -122,6 +153,10 @@ std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) 
 }
 
 }  // namespace
+
+std::uint64_t photons_of_sample(const Scene& scene) {
+  return photons_of(scene, chosen_techniques(scene));
+}
 
 std::optional<Error> refusal(const Scene& scene) {
   return refusal_of(scene, emissions_of(scene));

@@ -33,6 +33,7 @@ struct Plan {
   std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
   MediumStack camera_inside;                            ///< Where camera paths start,
   std::vector<MediumStack> light_inside;                ///< and photons, likewise.
+  float gather_radius = 0;                              ///< Of the first sample [m].
   /// Where camera paths look for the caustics of lights that photons are not traced from,
   CausticGuide caustics_of_paths = {};
   /// and of all lights that they can meet, once they have come through specular matter from the camera.
@@ -45,6 +46,9 @@ struct Plan {
                                    : own_wavelengths[static_cast<std::size_t>(scene.mosaic->at(x, y))];
   }
 };
+
+/// How many photons the scene asks for in a sample.
+[[nodiscard]] std::uint64_t photons_of_sample(const Scene& scene);
 
 /// Why a scene cannot be rendered, as Error{scene}; nothing where a plan can be made. Photons cannot light it
 /// though it would have them, since a shape that light from afar meets is too large or too far for them, or a

@@ -7,21 +7,13 @@
 namespace abbe {
 
 std::string_view name_of(Technique technique) {
-  constexpr std::array<std::string_view, 3> kNames{"path", "light", "bdpt"};
-  return kNames.at(static_cast<std::size_t>(technique));
+  return kIntegratorNames.at(static_cast<std::size_t>(technique) + 1);
 }
 
 std::vector<Technique> chosen_techniques(const Scene& scene) {
-  switch (scene.render.integrator) {
-    case Integrator::path:
-      return {Technique::path};
-    case Integrator::light:
-      return {Technique::light};
-    case Integrator::bdpt:
-      return {Technique::bdpt};
-    case Integrator::automatic:
-      break;
-  }
+  // Both lists have one order, but for `automatic`, which comes first.
+  if (scene.render.integrator != Integrator::automatic)
+    return {static_cast<Technique>(static_cast<int>(scene.render.integrator) - 1)};
   if (scene.needs.light_tracing) return {Technique::path, Technique::light};
   return {Technique::path};
 }
@@ -31,12 +23,39 @@ bool uses(std::span<const Technique> techniques, Technique technique) {
 }
 
 bool starts_at_lights(std::span<const Technique> techniques) {
-  return uses(techniques, Technique::light) || uses(techniques, Technique::bdpt);
+  return std::any_of(techniques.begin(), techniques.end(), [](Technique technique) {
+    return technique != Technique::path && technique != Technique::adjoint_brute;
+  });
+}
+
+bool gathers_photons(Technique technique) {
+  return technique == Technique::photon_map || technique == Technique::ppm || technique == Technique::sppm;
+}
+
+std::string_view bias_of(Technique technique) {
+  if (technique == Technique::photon_map) return "blurred, over the nearest photons of a sample";
+  if (technique == Technique::vcm || gathers_photons(technique))
+    return "blurred, over a radius that shrinks from sample to sample: consistent, not unbiased";
+  return "";
 }
 
 std::string owned_paths(Technique technique, std::span<const Technique> active) {
-  if (technique == Technique::bdpt)
-    return "E (S|D)* L but, of lights without area, those of no D beside another or L";
+  switch (technique) {
+    case Technique::bdpt:
+      return "E (S|D)* L but, of lights without area, those of no D beside another or L";
+    case Technique::photon_map:
+    case Technique::ppm:
+    case Technique::sppm:
+    case Technique::vcm:
+      return "E (S|D)* L but, of lights without area, E S* L";
+    case Technique::photon_brute:
+      return "E (S|D)* L where E is an opening of some size";
+    case Technique::adjoint_brute:
+      return "E (S|D)* L of lights with area";
+    case Technique::path:
+    case Technique::light:
+      break;
+  }
   const bool alone = active.size() == 1;
   if (technique == Technique::light) return alone ? "E D (S|D)* L" : "E D (S|D)* S L of traced lights";
   return alone ? "E (S|D)* L" : "E (S|D)* L but those of light";

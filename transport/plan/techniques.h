@@ -16,6 +16,15 @@ enum class Technique : std::uint8_t {
   path,   ///< Path tracing from the camera [Kajiya1986]: `PathTracer`.
   light,  ///< Light tracing [Arvo1986]: `LightTracer`.
   bdpt,   ///< Bidirectional path tracing [Veach1997]: `BidirectionalTracer`. Alone.
+  /// Photon density estimation: `PhotonGatherer`. Alone. With so many nearest photons [Jensen1996];
+  photon_map,
+  /// within a radius that shrinks from sample to sample, at the same places [Hachisuka2008],
+  ppm,
+  /// or at new ones [Hachisuka2009].
+  sppm,
+  vcm,            ///< Vertex connection and merging [Georgiev2012]: `BidirectionalTracer`. Alone.
+  photon_brute,   ///< Photons that come through the lens by themselves: `BrutePhotonTracer`. Alone.
+  adjoint_brute,  ///< Paths from the camera that meet lights by themselves: `BruteTracer`. Alone.
 };
 
 /// The name of a technique in scenes and answers.
@@ -29,6 +38,13 @@ enum class Technique : std::uint8_t {
 
 /// Whether one of some starts paths from lights.
 [[nodiscard]] bool starts_at_lights(std::span<const Technique> techniques);
+
+/// Whether a technique gathers photons that all paths from lights of a sample leave first.
+[[nodiscard]] bool gathers_photons(Technique technique);
+
+/// What a technique's estimate converges to with more samples, where that is not plainly the light: "", or
+/// why.
+[[nodiscard]] std::string_view bias_of(Technique technique);
 
 /// Tells which classes of paths a technique owns beside the others of `active`, in the notation of
 /// [Heckbert1990]: E is the camera, S an event of a single direction, D any other, and L the light.

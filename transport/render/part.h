@@ -14,8 +14,6 @@ namespace abbe {
 /// The key under which a film's identity has the samples of the whole render, as `--spp` or its scene state
 /// them; absent where time or error decide.
 inline constexpr const char* kStatedSamplesKey = "samples_stated";
-/// The key of the pixels that a film has, "x0,y0,x1,y1"; absent where it has all.
-inline constexpr const char* kCropKey = "crop";
 /// The keys of the machine code and the processor that a film's bits depend on. Images do not tell them, so
 /// that what different machines see alike is the same file.
 inline constexpr const char* kBuildKey = "build";

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "io/error.h"
+#include "transport/render/collect.h"
 #include "transport/render/threads.h"
 
 namespace abbe {
@@ -48,45 +50,84 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
       last_(samples.last),
       seed_(seed),
       next_(done) {
-  const auto width = static_cast<std::uint32_t>(film.width());
-  const auto height = static_cast<std::uint32_t>(film.height());
-  tiles_x_ = pieces(width, kTile);
+  tiles_x_ = pieces(static_cast<std::uint64_t>(film.width()), kTile);
+  tiles_ = tiles_x_ * pieces(static_cast<std::uint64_t>(film.height()), kTile);
   photons_ = plan.photons;
   path_interval_ = plan.path_interval;
-  const std::uint32_t tiles = tiles_x_ * pieces(height, kTile);
-  for (const Technique technique : plan.techniques) switch (technique) {
-      case Technique::path:
-        stages_.push_back({tiles, &Pass::render_tile});
-        break;
-      case Technique::light:
-        stages_.push_back({pieces(photons_, kPhotonBatch), &Pass::trace_batch});
-        break;
-      case Technique::bdpt:
-        stages_.push_back({tiles, &Pass::join_tile});
-        break;
-    }
-  for (const Stage& stage : stages_) items_ += stage.items;
+  sample_by_sample_ = uses(plan.techniques, Technique::vcm) ||
+                      std::any_of(plan.techniques.begin(), plan.techniques.end(), gathers_photons);
+  for (const Technique technique : plan.techniques) {
+    stages_.push_back(stage_of(technique));
+    items_ += stages_.back().items;
+  }
+}
+
+Pass::Stage Pass::stage_of(Technique technique) const {
+  const std::uint32_t batches = pieces(photons_, kPhotonBatch);
+  const std::uint32_t all_tiles = tiles_ * static_cast<std::uint32_t>(last_ - first_);
+  switch (technique) {
+    case Technique::path:
+      return {tiles_, &Pass::render_tile};
+    case Technique::light:
+      return {batches, &Pass::trace_batch};
+    case Technique::bdpt:
+      return {tiles_, &Pass::join_tile};
+    case Technique::photon_map:
+    case Technique::ppm:
+    case Technique::sppm:
+      return {all_tiles, &Pass::gather_tile};
+    case Technique::vcm:
+      return {all_tiles, &Pass::merge_tile};
+    case Technique::photon_brute:
+      return {batches, &Pass::trace_batch_brutely};
+    case Technique::adjoint_brute:
+      return {tiles_, &Pass::render_tile_brutely};
+  }
+  throw Error(ErrorCode::internal, "", "no such technique");
 }
 
 PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
+  if (!sample_by_sample_) return run_until(items_, threads, pause);
   PassCounts total;
-  std::mutex mutex;
-  run_on_threads(threads, [&] {
-    const PassCounts counts = work(pause);
-    const std::scoped_lock lock(mutex);
-    total.paths += counts.paths;
-    total.rays += counts.rays;
-    total.nonfinite += counts.nonfinite;
-    total.cut += counts.cut;
-  });
+  for (bool paused = false; !paused && !finished();) {
+    const std::uint32_t sample = next_ / tiles_;
+    PassCounts again;  // by a run that was interrupted, these were counted
+    if (left_by_ != sample) collect(first_ + sample, threads, next_ % tiles_ == 0 ? total : again);
+    left_by_ = sample;
+    total += run_until((sample + 1) * tiles_, threads, pause);
+    paused = next_ < (sample + 1) * tiles_;
+  }
   return total;
 }
 
-PassCounts Pass::work(const std::function<bool()>& pause) {
+PassCounts Pass::run_until(std::uint32_t end, int threads, const std::function<bool()>& pause) {
+  PassCounts total;
+  std::mutex mutex;
+  run_on_threads(threads, [&] {
+    const PassCounts counts = work(end, pause);
+    const std::scoped_lock lock(mutex);
+    total += counts;
+  });
+  next_ = std::min(next_.load(), end);  // each thread has asked for one more than there are
+  return total;
+}
+
+void Pass::collect(std::uint64_t sample, int threads, PassCounts& counts) {
+  const LightNumbers numbers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
+  const PathPacket packet = packet_of(sample);
+  left_ = std::monostate();  // first, as both would take their memory
+  if (uses(plan_.techniques, Technique::vcm))
+    left_ = collect_light_paths(plan_, packet, gather_radius(plan_.gather_radius, sample), numbers, threads,
+                                counts);
+  else
+    left_ = collect_photons(plan_, packet, numbers, threads, counts);
+}
+
+PassCounts Pass::work(std::uint32_t end, const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
   Worker worker(plan_);
-  for (std::uint32_t item = next_++; item < items_; item = next_++) {
+  for (std::uint32_t item = next_++; item < end; item = next_++) {
     do_item(item, worker);
     if (pause()) break;
   }
@@ -112,70 +153,126 @@ bool Pass::keeps(std::span<const double> values, Worker& worker) const {
   return good;
 }
 
-void Pass::render_tile(std::uint32_t tile, Worker& worker) {
-  const auto x0 = static_cast<int>(tile % tiles_x_ * kTile);
-  const auto y0 = static_cast<int>(tile / tiles_x_ * kTile);
-  for (std::uint64_t s = first_; s < last_; ++s) sample_tile(x0, y0, s, worker);
+std::uint32_t Pass::index(std::uint64_t sample) const {
+  return static_cast<std::uint32_t>(sample / static_cast<std::uint64_t>(film_.replicates()));
+}
+
+Pass::Tile Pass::tile(std::uint32_t number) const {
+  return {static_cast<int>(number % tiles_x_ * kTile), static_cast<int>(number / tiles_x_ * kTile)};
+}
+
+// What all paths of a sample have in common where they are to be joined across pixels.
+PathPacket Pass::packet_of(std::uint64_t sample) const {
+  return draw_packet(plan_.wavelengths,
+                     Sampler(seed_, Purpose::sample, replicate(sample), 0, index(sample)).group(0)[0]);
 }
 
 // Of the replicate's sequence at a pixel, that of a sample; nothing where the pixel skips it. Which samples
 // these are is chance, for each pixel and replicate, so that the mean over any of them is right.
 std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t pixel) const {
-  const auto index = static_cast<std::uint32_t>(sample / static_cast<std::uint64_t>(film_.replicates()));
-  if (path_interval_ == 1) return index;
+  // Those of progressive photon mapping are the same in all samples.
+  if (uses(plan_.techniques, Technique::ppm)) return 0;
+  if (path_interval_ == 1) return index(sample);
   constexpr std::uint32_t kPhaseGroup = 0xC0000000;
   const float u = Sampler(seed_, Purpose::camera, replicate(sample), pixel, 0).group(kPhaseGroup)[0];
-  const std::uint32_t at = index + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
+  const std::uint32_t at = index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
   if (at % path_interval_ != 0) return std::nullopt;
   return at / path_interval_;
 }
 
 // One sample of each pixel of a tile.
-void Pass::sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker) {
+void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
   constexpr int kEdge = kTile;
-  const auto pixel_at = [this](int x, int y) { return static_cast<std::uint32_t>(y * film_.width() + x); };
   worker.pixels.clear();
-  for (int y = std::max(y0, crop_.y0); y < std::min(y0 + kEdge, crop_.y1); ++y)
-    for (int x = std::max(x0, crop_.x0); x < std::min(x0 + kEdge, crop_.x1); ++x)
-      if (const auto index = path_of(sample, pixel_at(x, y)))
+  for (int y = std::max(tile.y0, crop_.y0); y < std::min(tile.y0 + kEdge, crop_.y1); ++y)
+    for (int x = std::max(tile.x0, crop_.x0); x < std::min(tile.x0 + kEdge, crop_.x1); ++x)
+      if (const auto path = path_of(sample, number_of(x, y)))
         worker.pixels.push_back(
-            {x, y, Sampler(seed_, Purpose::camera, replicate(sample), pixel_at(x, y), *index)});
+            {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), *path)});
   worker.counts.paths += worker.pixels.size();
-  const Deposit deposit = [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+}
+
+// The paths from lights are those of all pixels, whichever are asked for.
+void Pass::take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const {
+  constexpr int kEdge = kTile;
+  worker.pairs.clear();
+  for (int y = tile.y0; y < std::min(tile.y0 + kEdge, film_.height()); ++y)
+    for (int x = tile.x0; x < std::min(tile.x0 + kEdge, film_.width()); ++x)
+      worker.pairs.push_back(
+          {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), index(sample)),
+           photon_sampler(sample, number_of(x, y)), is_asked_for(x, y)});
+}
+
+// Those from `first` to `last` of a sample.
+void Pass::take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const {
+  worker.photons.clear();
+  for (std::uint64_t photon = first; photon < last; ++photon)
+    worker.photons.push_back(photon_sampler(sample, photon));
+  worker.counts.paths += worker.photons.size();
+}
+
+Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
+  const std::uint64_t number = index(sample) * photons_ + photon;
+  return {seed_, Purpose::light, replicate(sample), static_cast<std::uint32_t>(number >> 32),
+          static_cast<std::uint32_t>(number)};
+}
+
+Deposit Pass::pixels_deposit(std::uint64_t sample, Worker& worker) {
+  return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
     worker.values.assign(values.begin(), values.end());
     for (double& value : worker.values) value *= path_interval_;
     if (keeps(worker.values, worker))
-      film_.add(pixel_at(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
+      film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
   };
-  worker.path_tracer.trace(worker.pixels, deposit);
 }
 
 // Paths from lights may come to any pixel of the film; those that are not asked for get nothing.
 Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
   return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
-    if (!is_asked_for(at.x, at.y) || !keeps(values, worker)) return;
-    film_.add(static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film_.width()) +
-                  static_cast<std::size_t>(at.x),
-              static_cast<int>(replicate(sample)), values);
+    if (is_asked_for(at.x, at.y) && keeps(values, worker))
+      film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), values);
   };
 }
 
-// The paths from lights are those of all pixels, whichever are asked for.
-void Pass::join_tile(std::uint32_t tile, Worker& worker) {
-  const auto x0 = static_cast<int>(tile % tiles_x_ * kTile);
-  const auto y0 = static_cast<int>(tile / tiles_x_ * kTile);
+void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
-    const auto index = static_cast<std::uint32_t>(s / static_cast<std::uint64_t>(film_.replicates()));
-    worker.pairs.clear();
-    for (int y = y0; y < std::min(y0 + static_cast<int>(kTile), film_.height()); ++y)
-      for (int x = x0; x < std::min(x0 + static_cast<int>(kTile), film_.width()); ++x) {
-        const auto pixel = static_cast<std::uint32_t>(y * film_.width() + x);
-        worker.pairs.push_back({x, y, Sampler(seed_, Purpose::camera, replicate(s), pixel, index),
-                                photon_sampler(s, pixel), is_asked_for(x, y)});
-        worker.counts.paths += worker.pairs.back().seen ? 2 : 1;
-      }
+    take_pixels(tile(number), s, worker);
+    worker.path_tracer.trace(worker.pixels, pixels_deposit(s, worker));
+  }
+}
+
+void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
+  for (std::uint64_t s = first_; s < last_; ++s) {
+    take_pixels(tile(number), s, worker);
+    worker.adjoint_brute_tracer.trace(worker.pixels, pixels_deposit(s, worker));
+  }
+}
+
+void Pass::gather_tile(std::uint32_t item, Worker& worker) {
+  const std::uint64_t sample = first_ + item / tiles_;
+  GatherKernel kernel{gather_radius(plan_.gather_radius, sample)};
+  if (uses(plan_.techniques, Technique::photon_map)) {
+    kernel.nearest = static_cast<std::size_t>(scene_.render.photons.nearest);
+    kernel.final_gather = scene_.render.photons.final_gather;
+  }
+  take_pixels(tile(item % tiles_), sample, worker);
+  worker.photon_gatherer.trace(worker.pixels, std::get<PhotonCloud>(left_), kernel,
+                               pixels_deposit(sample, worker));
+}
+
+void Pass::join_tile(std::uint32_t number, Worker& worker) {
+  for (std::uint64_t s = first_; s < last_; ++s) {
+    take_pairs(tile(number), s, worker);
+    for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 2 : 1;
     worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));
   }
+}
+
+void Pass::merge_tile(std::uint32_t item, Worker& worker) {
+  const std::uint64_t sample = first_ + item / tiles_;
+  take_pairs(tile(item % tiles_), sample, worker);
+  for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 1 : 0;
+  worker.bidirectional_tracer.trace(worker.pairs, std::get<LightPaths>(left_), splats_of(sample, worker));
 }
 
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
@@ -183,25 +280,20 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
     const Deposit deposit = splats_of(s, worker);
-    for (std::uint64_t first = begin; first < end; first += kTogether)
-      trace_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker, deposit);
+    for (std::uint64_t first = begin; first < end; first += kTogether) {
+      take_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker);
+      worker.light_tracer.trace(worker.photons, deposit);
+    }
   }
 }
 
-Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
-  const std::uint64_t index = sample / static_cast<std::uint64_t>(film_.replicates()) * photons_ + photon;
-  return {seed_, Purpose::light, replicate(sample), static_cast<std::uint32_t>(index >> 32),
-          static_cast<std::uint32_t>(index)};
-}
-
-// Those from `first` to `last` of a sample.
-void Pass::trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
-                         const Deposit& deposit) const {
-  worker.photons.clear();
-  for (std::uint64_t photon = first; photon < last; ++photon)
-    worker.photons.push_back(photon_sampler(sample, photon));
-  worker.counts.paths += worker.photons.size();
-  worker.light_tracer.trace(worker.photons, deposit);
+void Pass::trace_batch_brutely(std::uint32_t batch, Worker& worker) {
+  const std::uint64_t begin = std::uint64_t{batch} * kPhotonBatch;
+  const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
+  for (std::uint64_t s = first_; s < last_; ++s) {
+    take_photons(s, begin, end, worker);
+    worker.brute_photon_tracer.trace(worker.photons, splats_of(s, worker));
+  }
 }
 
 }  // namespace abbe

@@ -6,13 +6,16 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "sensor/film/film.h"
 #include "transport/render/render.h"
 #include "transport/technique/bidirectional.h"
+#include "transport/technique/brute.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
+#include "transport/technique/photon_gathering.h"
 
 namespace abbe {
 
@@ -22,6 +25,14 @@ struct PassCounts {
   std::uint64_t rays = 0;
   std::uint64_t nonfinite = 0;
   TruncatedPaths cut = {};
+
+  PassCounts& operator+=(const PassCounts& more) {
+    paths += more.paths;
+    rays += more.rays;
+    nonfinite += more.nonfinite;
+    cut += more.cut;
+    return *this;
+  }
 };
 
 /// The pixels of which the first items of a pass without photons have all samples: rectangles of a film of
@@ -31,7 +42,9 @@ struct PassCounts {
 /// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.
 /// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Each technique of
 /// the plan has a stage of work items, tiles or batches of photons, that threads take from one counter, so
-/// that those done are always the first ones. No stage waits for the one before.
+/// that those done are always the first ones. No stage waits for the one before, but where paths from the
+/// camera gather what paths from lights have left: then samples are taken one by one, the items being their
+/// tiles, and all threads trace the paths from lights of a sample first.
 class Pass {
  public:
   /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random
@@ -54,7 +67,10 @@ class Pass {
         : caster(plan.scene),
           path_tracer(plan, caster),
           light_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)),
-          bidirectional_tracer(plan, caster) {}
+          bidirectional_tracer(plan, caster),
+          photon_gatherer(plan, caster),
+          brute_photon_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)),
+          adjoint_brute_tracer(plan, caster) {}
     Worker(const Worker&) = delete;  // the tracers refer to the caster
     Worker& operator=(const Worker&) = delete;
 
@@ -62,6 +78,9 @@ class Pass {
     PathTracer path_tracer;
     LightTracer light_tracer;
     BidirectionalTracer bidirectional_tracer;
+    PhotonGatherer photon_gatherer;
+    BrutePhotonTracer brute_photon_tracer;
+    AdjointBruteTracer adjoint_brute_tracer;
     std::vector<PixelSample> pixels;
     std::vector<PixelPair> pairs;
     std::vector<Sampler> photons;
@@ -74,22 +93,41 @@ class Pass {
     std::uint32_t items;
     void (Pass::*work)(std::uint32_t item, Worker& worker);
   };
+  // Where a tile begins.
+  struct Tile {
+    int x0, y0;
+  };
 
-  PassCounts work(const std::function<bool()>& pause);
+  [[nodiscard]] Stage stage_of(Technique technique) const;
+  PassCounts run_until(std::uint32_t end, int threads, const std::function<bool()>& pause);
+  PassCounts work(std::uint32_t end, const std::function<bool()>& pause);
+  void collect(std::uint64_t sample, int threads, PassCounts& counts);
   void do_item(std::uint32_t item, Worker& worker);
   void render_tile(std::uint32_t tile, Worker& worker);
-  void sample_tile(int x0, int y0, std::uint64_t sample, Worker& worker);
+  void render_tile_brutely(std::uint32_t tile, Worker& worker);
+  void gather_tile(std::uint32_t item, Worker& worker);
   void join_tile(std::uint32_t tile, Worker& worker);
+  void merge_tile(std::uint32_t item, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
-  void trace_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker,
-                     const Deposit& deposit) const;
+  void trace_batch_brutely(std::uint32_t batch, Worker& worker);
+
+  [[nodiscard]] Tile tile(std::uint32_t number) const;
+  void take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
+  void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
+  void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
+  [[nodiscard]] PathPacket packet_of(std::uint64_t sample) const;
+  [[nodiscard]] Deposit pixels_deposit(std::uint64_t sample, Worker& worker);
   [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
   [[nodiscard]] bool is_asked_for(int x, int y) const {
     return x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1;
   }
+  [[nodiscard]] std::uint32_t number_of(int x, int y) const {
+    return static_cast<std::uint32_t>(y * film_.width() + x);
+  }
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
+  [[nodiscard]] std::uint32_t index(std::uint64_t sample) const;
   [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, std::uint32_t pixel) const;
 
   const Plan& plan_;
@@ -100,8 +138,12 @@ class Pass {
   std::uint64_t last_;
   std::uint64_t seed_;
   std::uint32_t tiles_x_;
+  std::uint32_t tiles_;
   std::vector<Stage> stages_;
   std::uint32_t items_ = 0;  // of all stages
+  bool sample_by_sample_;
+  std::optional<std::uint32_t> left_by_;  // the sample of the pass whose paths from lights have left this:
+  std::variant<std::monostate, PhotonCloud, LightPaths> left_;
   std::uint64_t photons_;
   std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;

@@ -94,7 +94,8 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
     for (std::uint32_t batch = next++; batch < kBatches; batch = next++) {
       if (uses(plan.techniques, Technique::path)) expose_batch(plan, batch, caster, batches[batch]);
       if (uses(plan.techniques, Technique::light)) expose_photons(plan, batch, caster, batches[batch]);
-      if (uses(plan.techniques, Technique::bdpt)) expose_joined(plan, batch, caster, batches[batch]);
+      if (!uses(plan.techniques, Technique::path) && !uses(plan.techniques, Technique::light))
+        expose_joined(plan, batch, caster, batches[batch]);
     }
   });
   // In their order, whichever threads traced them.

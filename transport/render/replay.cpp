@@ -46,7 +46,8 @@ void trace_some(const Plan& plan, RayCaster& caster) {
     }
     if (uses(plan.techniques, Technique::path)) path_tracer.trace(samples, dropped);
     if (uses(plan.techniques, Technique::light)) light_tracer.trace(photons, dropped);
-    if (uses(plan.techniques, Technique::bdpt)) bidirectional_tracer.trace(pairs, dropped);
+    if (!uses(plan.techniques, Technique::path) && !uses(plan.techniques, Technique::light))
+      bidirectional_tracer.trace(pairs, dropped);
   }
 }
 

@@ -34,10 +34,7 @@ using SampledAreas = std::vector<SampledArea>;
 /// Whether `inner` lies within `outer`.
 [[nodiscard]] bool contains(const Crop& outer, const Crop& inner);
 
-/// A rectangle as text "x0,y0,x1,y1", areas as "x0,y0,x1,y1=0:16,32:64 ..."; and back, nothing for any other
-/// text.
-[[nodiscard]] std::string to_text(const Crop& crop);
-[[nodiscard]] std::optional<Crop> parse_crop(std::string_view text);
+/// Areas as text "x0,y0,x1,y1=0:16,32:64 ..."; and back, nothing for any other text.
 [[nodiscard]] std::string to_text(const SampledAreas& areas);
 [[nodiscard]] std::optional<SampledAreas> parse_sampled_areas(std::string_view text);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "transport/path/connect.h"
+#include "transport/path/merge.h"
 #include "transport/technique/subpaths.h"
 
 namespace abbe {
@@ -12,6 +13,25 @@ namespace {
 bool joins(const PathVertex& vertex) {
   const auto* surface = std::get_if<SurfaceVertex>(&vertex.at);
   return surface == nullptr || scatters(surface->bsdf);
+}
+
+std::vector<LightPaths::Vertex> merged_vertices(const std::vector<RecordedPath>& paths) {
+  std::vector<LightPaths::Vertex> merged;
+  for (std::uint32_t path = 0; path < paths.size(); ++path)
+    for (std::uint32_t k = 1; k < paths[path].vertices.size(); ++k) {
+      const auto* surface = std::get_if<SurfaceVertex>(&paths[path].vertices[k].at);
+      if (surface != nullptr && scatters(surface->bsdf)) merged.push_back({path, k});
+    }
+  return merged;
+}
+
+std::vector<Imath::V3f> places_of(const std::vector<RecordedPath>& paths,
+                                  const std::vector<LightPaths::Vertex>& vertices) {
+  std::vector<Imath::V3f> places;
+  places.reserve(vertices.size());
+  for (const LightPaths::Vertex& at : vertices)
+    places.push_back(point_of(paths[at.path].vertices[at.number]));
+  return places;
 }
 
 // The numbers for connections of the vertex after `i` others.
@@ -33,6 +53,20 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
       weights_(plan.scene, caster),
       values_(response_.planes()) {}
 
+LightPaths::LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of)
+    : paths(std::move(traced)),
+      vertices(merged_vertices(paths)),
+      map(places_of(paths, vertices)),
+      radius(within),
+      packet(of) {}
+
+void BidirectionalTracer::trace(std::span<const PixelPair> samples, const LightPaths& from_lights,
+                                const Deposit& deposit) {
+  from_lights_ = &from_lights;
+  trace(samples, deposit);
+  from_lights_ = nullptr;
+}
+
 void BidirectionalTracer::trace(std::span<const PixelPair> samples, const Deposit& deposit) {
   deposit_ = &deposit;
   for (std::size_t first = 0; first < samples.size(); first += kTogether)
@@ -44,10 +78,12 @@ void BidirectionalTracer::trace(std::span<const PixelPair> samples, const Deposi
 //     sum_st w_st [T_x / P_x] [T_y / P_y] f_x f_y G T,
 // the throughputs up to x_{t-1} and y_{s-1} over their densities, times what joins the two (`connect`); for
 // s = 0 x_t is on a light by itself, for s = 1 a point of a light is drawn for x_{t-1} instead of y_0, and
-// for t = 1 a point of the lens for y_{s-1}, which may expose another pixel. `StrategyWeights` balances all
-// of them.
+// for t = 1 a point of the lens for y_{s-1}, which may expose another pixel. Merging x with y within r adds
+//     sum_y w [T_x / P_x] [T_y / P_y] f / (pi r^2 N).
+// `StrategyWeights` balances all of them.
 void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std::uint32_t first) {
   first_ = first;
+  samples_ = samples;
   from_camera_.paths().clear();
   from_light_.paths().clear();
   at_.assign(samples.size(), {});
@@ -55,10 +91,15 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     const PixelPair& sample = samples[i];
     RecordedPath& eye = from_camera_.paths().emplace_back(sample.camera, i);
-    RecordedPath& photon = from_light_.paths().emplace_back(sample.light, i);
-    eye.packet = photon.packet = draw_packet(plan_.wavelengths, sample.camera.group(kFilmGroup)[2]);
+    if (from_lights_ == nullptr) {
+      RecordedPath& photon = from_light_.paths().emplace_back(sample.light, i);
+      photon.packet = draw_packet(plan_.wavelengths, sample.camera.group(kFilmGroup)[2]);
+      eye.packet = photon.packet;
+      start_from_light(plan_, caster_, photon);
+    } else {
+      eye.packet = from_lights_->packet;
+    }
     if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, eye);
-    start_from_light(plan_, caster_, photon);
   }
   from_camera_.run();
   from_light_.run();
@@ -70,20 +111,21 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
 
 void BidirectionalTracer::join(std::uint32_t i) {
   const std::vector<PathVertex>& x = from_camera_.paths()[i].vertices;
-  const std::vector<PathVertex>& y = from_light_.paths()[i].vertices;
+  const std::vector<PathVertex>& y = own_light_path(i).vertices;
   for (const MetLight& met : from_camera_.paths()[i].met) meet(i, met);
   for (std::size_t t = meter_ ? 1 : 2; t <= x.size(); ++t) {
     if (!joins(x[t - 1])) continue;
     if (t < most_vertices_) connect_to_light(i, t);
     for (std::size_t s = 2; s <= y.size() && s + t <= most_vertices_; ++s)
       if (joins(y[s - 1])) connect(i, t, s);
+    if (from_lights_ != nullptr && t > 1 && std::holds_alternative<SurfaceVertex>(x[t - 1].at)) merge(i, t);
   }
   for (std::size_t s = 2; !meter_ && s <= y.size() && s < most_vertices_; ++s)
     if (joins(y[s - 1])) connect_to_lens(i, s);
 }
 
 void BidirectionalTracer::meet(std::uint32_t i, const MetLight& met) {
-  set_joined(i, met.after, 0);
+  set_joined(i, met.after, own_light_path(i), 0);
   joined_.z.push_back(&met.vertex);
   joined_.t = joined_.z.size();
   joined_.passed = SampledSpectrum(1.0F);
@@ -100,18 +142,18 @@ void BidirectionalTracer::connect_to_light(std::uint32_t i, std::size_t t) {
   const RecordedPath& eye = from_camera_.paths()[i];
   const auto light = light_for(plan_, eye.vertices[t - 1], connection_numbers(eye.sampler, t - 1));
   if (!light) return;
-  set_joined(i, t, 0);
+  set_joined(i, t, own_light_path(i), 0);
   joined_.z.push_back(&*light);
   add_joined(i, film_point(i, t, *light));
 }
 
 void BidirectionalTracer::connect(std::uint32_t i, std::size_t t, std::size_t s) {
-  set_joined(i, t, s);
-  add_joined(i, film_point(i, t, from_light_.paths()[i].vertices[s - 1]));
+  set_joined(i, t, own_light_path(i), s);
+  add_joined(i, film_point(i, t, own_light_path(i).vertices[s - 1]));
 }
 
 void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
-  const RecordedPath& photon = from_light_.paths()[i];
+  const RecordedPath& photon = own_light_path(i);
   const PathVertex& from = photon.vertices[s - 1];
   const std::array<float, 4> u = connection_numbers(photon.sampler, s - 1);
   const auto seen = sample_towards(scene_.camera, point_of(from), {u[0], u[1]}, from.lambda_nm(), from.time);
@@ -126,17 +168,50 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   lens.packet.throughput = SampledSpectrum(1 / of->pdf_position);
   lens.inside = lens.beyond = plan_.camera_inside;
   lens.time = from.time;
-  set_joined(i, 0, s);
+  set_joined(i, 0, photon, s);
   joined_.z.insert(joined_.z.begin(), &lens);
   joined_.t = 1;
   add_joined(i, {static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, from.time});
 }
 
+void BidirectionalTracer::merge(std::uint32_t i, std::size_t t) {
+  const PathVertex& x = from_camera_.paths()[i].vertices[t - 1];
+  from_lights_->map.within(point_of(x), from_lights_->radius, near_);
+  for (const std::uint32_t near : near_) merge(i, t, from_lights_->vertices[near]);
+}
+
+// The camera's last of `t` vertices with one of another path.
+void BidirectionalTracer::merge(std::uint32_t i, std::size_t t, const LightPaths::Vertex& at) {
+  const RecordedPath& photon = from_lights_->paths[at.path];
+  const PathVertex& x = from_camera_.paths()[i].vertices[t - 1];
+  const PathVertex& y = photon.vertices[at.number];
+  if (t + at.number > most_vertices_) return;
+  const auto& arrived = std::get<SurfaceVertex>(y.at);
+  const SampledSpectrum f = merged_scattering(std::get<SurfaceVertex>(x.at),
+                                              arrived.frame.to_world(arrived.wo), arrived.hit.normal);
+  if (f.is_zero()) return;
+  set_joined(i, t, photon, at.number);
+  joined_.merged = &y;
+  joined_.passed = weights_.passed_between(x, photon.vertices[at.number - 1]);
+  add(i, at_[i], std::get<LightVertex>(joined_.z.back()->at).light,
+      x.packet.throughput * y.packet.throughput * f * weight());
+}
+
+const RecordedPath& BidirectionalTracer::own_light_path(std::uint32_t i) {
+  if (from_lights_ == nullptr) return from_light_.paths()[i];
+  const PixelPair& sample = samples_[i];
+  return from_lights_
+      ->paths[static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(scene_.camera.width) +
+              static_cast<std::size_t>(sample.x)];
+}
+
 // The first `t` vertices from the camera, and the first `s` from the light.
-void BidirectionalTracer::set_joined(std::uint32_t i, std::size_t t, std::size_t s) {
+void BidirectionalTracer::set_joined(std::uint32_t i, std::size_t t, const RecordedPath& photon,
+                                     std::size_t s) {
+  joined_.merged = nullptr;
   joined_.z.clear();
   for (std::size_t k = 0; k < t; ++k) joined_.z.push_back(&from_camera_.paths()[i].vertices[k]);
-  for (std::size_t k = s; k-- > 0;) joined_.z.push_back(&from_light_.paths()[i].vertices[k]);
+  for (std::size_t k = s; k-- > 0;) joined_.z.push_back(&photon.vertices[k]);
   joined_.t = t;
 }
 
@@ -156,6 +231,8 @@ float BidirectionalTracer::weight() {
   EndDensities ends = end_densities(plan_, *joined_.z[joined_.z.size() - 2], *joined_.z.back());
   ends.camera_takes_lights = meter_;
   ends.lens_connections = meter_ ? 1 : static_cast<float>(plan_.photons);
+  if (from_lights_ != nullptr)
+    ends.merging = disc_area(from_lights_->radius) * static_cast<float>(from_lights_->paths.size());
   return weights_.of(joined_, ends);
 }
 
@@ -179,7 +256,7 @@ void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_
 }
 
 void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution) {
-  const SampledWavelengths& wavelengths = from_light_.paths()[i].packet.wavelengths;
+  const SampledWavelengths& wavelengths = from_camera_.paths()[i].packet.wavelengths;
   std::fill(values_.begin(), values_.end(), 0.0);
   response_.add(at, wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_);
   (*deposit_)(first_ + i, at, values_);

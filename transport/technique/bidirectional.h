@@ -7,6 +7,7 @@
 #include "sampling/sampler.h"
 #include "transport/path/film_response.h"
 #include "transport/path/path_recorder.h"
+#include "transport/path/photon_map.h"
 #include "transport/path/strategies.h"
 #include "transport/plan/plan.h"
 
@@ -21,12 +22,30 @@ struct PixelPair {
   bool seen;  ///< Whether the pixel itself is asked for; if not, its light's path exposes others alone.
 };
 
+/// The paths from lights of a sample, all of one packet, to be joined to any path from its camera.
+struct LightPaths {
+  LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of);
+
+  std::vector<RecordedPath> paths;  ///< By the number of the pixel that each belongs to.
+  struct Vertex {
+    std::uint32_t path;
+    std::uint32_t number;
+  };
+  std::vector<Vertex> vertices;  ///< On surfaces that scatter: those of the map.
+  PhotonMap map;
+  float radius = 0;   ///< Within which they are merged [m].
+  PathPacket packet;  ///< That all set out with.
+};
+
 /// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]: a path from the camera and one from a
 /// light, of the same wavelengths and hero, are joined at all of their vertices, and what they carry is
-/// balanced over all strategies and lanes. Serves one thread.
+/// balanced over all strategies and lanes. With the paths from lights of a whole sample, a vertex of the
+/// camera's path is also merged with those of any of them close by, a strategy beside the others: vertex
+/// connection and merging [Georgiev2012] [Hachisuka2012]. Serves one thread.
 ///
 /// Owned: every path that ends on a light with area, and of those that end on another one all that have two
-/// neighbouring vertices, the light's own included, where light does not go in a single direction.
+/// neighbouring vertices, the light's own included, where light does not go in a single direction. By
+/// merging, which blurs, all that has one such vertex at a surface.
 class BidirectionalTracer {
  public:
   BidirectionalTracer(const Plan& plan, RayCaster& caster);
@@ -36,6 +55,10 @@ class BidirectionalTracer {
 
   /// Traces both paths of each of some samples, and deposits what they find by their numbers.
   void trace(std::span<const PixelPair> samples, const Deposit& deposit);
+
+  /// The same with paths from lights that have been traced, of which the samples' own are connected and all
+  /// are merged with; the samples' `light` is not asked.
+  void trace(std::span<const PixelPair> samples, const LightPaths& from_lights, const Deposit& deposit);
 
  private:
   // Samples whose paths take each step together.
@@ -47,7 +70,10 @@ class BidirectionalTracer {
   void connect_to_light(std::uint32_t i, std::size_t t);
   void connect(std::uint32_t i, std::size_t t, std::size_t s);
   void connect_to_lens(std::uint32_t i, std::size_t s);
-  void set_joined(std::uint32_t i, std::size_t t, std::size_t s);
+  void merge(std::uint32_t i, std::size_t t);
+  void merge(std::uint32_t i, std::size_t t, const LightPaths::Vertex& at);
+  [[nodiscard]] const RecordedPath& own_light_path(std::uint32_t i);
+  void set_joined(std::uint32_t i, std::size_t t, const RecordedPath& photon, std::size_t s);
   void add_joined(std::uint32_t i, const FilmPoint& at);
   [[nodiscard]] float weight();
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
@@ -62,14 +88,17 @@ class BidirectionalTracer {
   FilmResponse response_;
   PathRecorder<TransportMode::radiance> from_camera_;
   PathRecorder<TransportMode::power> from_light_;
+  const LightPaths* from_lights_ = nullptr;  // if they are given
   const Deposit* deposit_ = nullptr;
   ExposureByLight* by_light_ = nullptr;
+  std::span<const PixelPair> samples_;  // under way
   std::uint32_t first_ = 0;             // number of the first of the samples under way
   std::vector<FilmPoint> at_;           // where each exposes the film,
   std::vector<SampledSpectrum> found_;  // and with what
   StrategyWeights weights_;
   JoinedPath joined_;
-  std::vector<double> values_;  // of one deposit
+  std::vector<std::uint32_t> near_;  // vertices, at one place
+  std::vector<double> values_;       // of one deposit
 };
 
 }  // namespace abbe

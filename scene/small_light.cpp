@@ -1,0 +1,39 @@
+#include "scene/small_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace abbe {
+
+bool emits(const Light& light) {
+  return light.emission.max() > 0;
+}
+
+std::vector<SpecularCenter> specular_centers(const Scene& scene) {
+  std::vector<SpecularCenter> centers;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    if (lobes(scene.materials[scene.shapes[i].material]).delta)
+      centers.push_back({bounds(scene.shapes[i].shape).center(), i});
+  std::sort(centers.begin(), centers.end(),
+            [](const SpecularCenter& a, const SpecularCenter& b) { return a.at.x < b.at.x; });
+  return centers;
+}
+
+bool looks_smaller(const Scene& scene, const Light& light, std::span<const SpecularCenter> centers,
+                   double limit_sr) {
+  if (const auto* sun = std::get_if<SunLight>(&light.kind))
+    return 2 * std::numbers::pi * static_cast<double>(sun->cap) < limit_sr;
+  const auto* emitter = std::get_if<AreaLight>(&light.kind);
+  if (emitter == nullptr) return light.is_delta();
+  const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
+  const double cosine = 1 - limit_sr / (2 * std::numbers::pi);
+  const double reach = box.size().length() / 2 / std::sqrt((1 - cosine) * (1 + cosine));
+  auto near = std::lower_bound(centers.begin(), centers.end(), box.center().x - reach,
+                               [](const SpecularCenter& c, double x) { return c.at.x < x; });
+  for (; near != centers.end() && near->at.x <= box.center().x + reach; ++near)
+    if (near->shape != emitter->shape && (near->at - box.center()).length() <= reach) return false;
+  return true;
+}
+
+}  // namespace abbe

@@ -1,0 +1,137 @@
+#include "scene/unreached.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "scene/small_light.h"
+
+namespace abbe {
+namespace {
+
+// Path tracing finds a light of less than this solid angle [sr] by chance in less than one in 12,000
+// directions: hardly ever.
+constexpr double kTinyLight_sr = 0.001;
+
+// The lights of the scene that `select` holds for, by name; of very many, the first ones.
+template <typename Select>
+std::string names_of(const Scene& scene, Select select) {
+  constexpr std::size_t kMostNames = 8;
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    if (!select(i) || ++count > kMostNames) continue;
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.lights[i].name);
+  }
+  return count > kMostNames ? fmt::format("{} and {} more", names, count - kMostNames) : names;
+}
+
+// The classes that are found to be unreached, each with the lights whose light it is.
+class Classes {
+ public:
+  explicit Classes(const Scene& scene) : scene_(scene) {}
+
+  // Those of the lights that `select` holds for, if any.
+  template <typename Select>
+  void add(Select select, std::string_view expression, std::string_view words) {
+    const std::string lights = names_of(scene_, select);
+    if (!lights.empty()) told_.push_back(fmt::format("{}: {} ({})", expression, words, lights));
+  }
+  [[nodiscard]] std::vector<PathClass> told() && { return std::move(told_); }
+
+ private:
+  const Scene& scene_;
+  std::vector<PathClass> told_;
+};
+
+bool any(std::size_t /*light*/) {
+  return true;
+}
+
+bool has_specular_shapes(const Scene& scene) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeInstance& instance) {
+    return lobes(scene.materials[instance.material]).delta;
+  });
+}
+
+// Light tracing reaches every path whose vertex next to the eye scatters.
+void add_of_light_tracing(const Scene& scene, Classes& classes) {
+  const auto& lights = scene.lights;
+  if (traits(scene.camera).surface_normal)
+    return classes.add(any, "E (S|D)* L", "everything: photons are not connected to a meter");
+  classes.add([&](std::size_t i) { return lights[i].is_environment(); }, "E (S|D)* L",
+              "all light of an environment");
+  classes.add([&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }, "E L",
+              "lights seen directly");
+  if (has_specular_shapes(scene))
+    classes.add([&](std::size_t i) { return !lights[i].is_environment(); }, "E S (S|D)* L",
+                "everything seen in mirrors or through glass");
+}
+
+// Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
+// vertex next to the light scatters.
+void add_of_path_tracing(const Scene& scene, const Needs& needs, bool light_tracing_active,
+                         Classes& classes) {
+  const auto& lights = scene.lights;
+  const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
+  const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
+  classes.add(delta, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
+  if (!needs.caustics) return;
+  classes.add([&](std::size_t i) { return delta(i) && traced(i); }, "E S (S|D)* D (S|D)* S L",
+              "caustics of a point, spot or directional light, seen in mirrors or through glass");
+  classes.add([&](std::size_t i) { return delta(i) && !traced(i); }, "E (S|D)* D (S|D)* S L",
+              "caustics of a point, spot or directional light");
+  const std::vector<SpecularCenter> centers = specular_centers(scene);
+  const auto tiny = [&](std::size_t i) {
+    return !lights[i].is_delta() && !lights[i].is_environment() && emits(lights[i]) &&
+           looks_smaller(scene, lights[i], centers, kTinyLight_sr);
+  };
+  classes.add([&](std::size_t i) { return tiny(i) && traced(i); }, "E S (S|D)* D (S|D)* S L",
+              "caustics of a tiny light, seen in mirrors or through glass, that pilots have not shown");
+  classes.add([&](std::size_t i) { return tiny(i) && !traced(i); }, "E (S|D)* D (S|D)* S L",
+              "caustics of a tiny light that pilots have not shown");
+}
+
+}  // namespace
+
+std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool light_tracing_active) {
+  Classes classes(scene);
+  const auto delta = [&](std::size_t i) { return scene.lights[i].is_delta() && emits(scene.lights[i]); };
+  const bool specular = has_specular_shapes(scene);
+  switch (scene.render.integrator) {
+    case Integrator::light:
+      add_of_light_tracing(scene, classes);
+      break;
+    case Integrator::bdpt:
+      if (specular)
+        classes.add(
+            delta, "E S+ (D S+)* L",
+            "a point, spot or directional light where no two vertices in a row but the eye's scatter");
+      break;
+    case Integrator::photon_map:
+    case Integrator::ppm:
+    case Integrator::sppm:
+    case Integrator::vcm:
+      if (!specular) break;
+      classes.add(delta, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
+      if (needs.scattering)
+        classes.add(
+            delta, "E S* (D S+)+ L",
+            "a point, spot or directional light where only matter scatters, and no two events in a row");
+      break;
+    case Integrator::photon_brute:
+      if (!traits(scene.camera).opening)
+        classes.add(any, "E (S|D)* L", "everything: no photon comes in through a point by itself");
+      break;
+    case Integrator::adjoint_brute:
+      classes.add(delta, "E (S|D)* L", "all light of a point, spot or directional light");
+      break;
+    case Integrator::automatic:
+    case Integrator::path:
+      if (specular) add_of_path_tracing(scene, needs, light_tracing_active, classes);
+  }
+  return std::move(classes).told();
+}
+
+}  // namespace abbe

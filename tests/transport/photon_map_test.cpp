@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "sampling/sampler.h"
+#include "transport/path/photon_map.h"
+#include "transport/technique/photon_gathering.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V3f;
+
+std::vector<V3f> points(std::uint32_t count) {
+  std::vector<V3f> all;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto u = Sampler(3, Purpose::pilot, 0, 0, i).group(0);
+    all.emplace_back(u[0], u[1], u[2] * u[2]);
+  }
+  all.insert(all.end(), 40, V3f(0.5F, 0.5F, 0.5F));  // in one place
+  return all;
+}
+
+// The same as by asking every point.
+TEST(PhotonMap, FindsThoseWithinARadius) {
+  const std::vector<V3f> all = points(3000);
+  const PhotonMap map(all);
+  ASSERT_EQ(map.size(), all.size());
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t k = 0; k < 50; ++k) {
+    const auto u = Sampler(4, Purpose::pilot, 0, 0, k).group(0);
+    const V3f at = k == 0 ? V3f(0.5F, 0.5F, 0.5F) : V3f(u[0], u[1], u[2]);
+    for (const float radius : {0.01F, 0.1F, 5.0F}) {
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t i = 0; i < all.size(); ++i)
+        if ((all[i] - at).length2() < radius * radius) expected.push_back(i);
+      map.within(at, radius, found);
+      EXPECT_EQ(found, expected) << radius;
+    }
+  }
+}
+
+TEST(PhotonMap, FindsTheNearest) {
+  const std::vector<V3f> all = points(3000);
+  const PhotonMap map(all);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t k = 0; k < 50; ++k) {
+    const auto u = Sampler(5, Purpose::pilot, 0, 0, k).group(0);
+    const V3f at(u[0], u[1], u[2]);
+    std::vector<float> expected;
+    for (const V3f& point : all) expected.push_back((point - at).length2());
+    std::sort(expected.begin(), expected.end());
+    map.nearest(at, 33, found);
+    ASSERT_EQ(found.size(), 33U);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_FLOAT_EQ((all[found[i]] - at).length2(), expected[i]);
+  }
+  map.nearest({0, 0, 0}, 10000, found);
+  EXPECT_EQ(found.size(), all.size());
+}
+
+TEST(PhotonMap, OfNothingFindsNothing) {
+  const PhotonMap map({});
+  std::vector<std::uint32_t> found{1};
+  map.within({0, 0, 0}, 1, found);
+  EXPECT_TRUE(found.empty());
+  found = {1};
+  map.nearest({0, 0, 0}, 5, found);
+  EXPECT_TRUE(found.empty());
+}
+
+// By the product that defines them, and as a whole: r_n^2 falls as n^(a - 1).
+TEST(GatherRadius, ShrinksAsItsProduct) {
+  EXPECT_FLOAT_EQ(gather_radius(0.25F, 0), 0.25F);
+  double squared = 1;
+  for (int i = 1; i < 1000; ++i) {
+    squared *= (i + 2.0 / 3) / (i + 1.0);
+    EXPECT_NEAR(gather_radius(1, static_cast<std::uint64_t>(i)), std::sqrt(squared), 1e-6) << i;
+  }
+  EXPECT_NEAR(gather_radius(1, 8'000'000) / gather_radius(1, 1'000'000), std::pow(8, -1.0 / 6), 1e-5);
+}
+
+// Whatever merges paths tells so, and nothing else.
+TEST(Techniques, TellTheirBias) {
+  for (const Technique technique : {Technique::path, Technique::light, Technique::bdpt,
+                                    Technique::photon_brute, Technique::adjoint_brute})
+    EXPECT_EQ(bias_of(technique), "") << name_of(technique);
+  for (const Technique technique : {Technique::ppm, Technique::sppm, Technique::vcm})
+    EXPECT_NE(bias_of(technique).find("consistent"), std::string_view::npos) << name_of(technique);
+  EXPECT_EQ(bias_of(Technique::photon_map).find("consistent"), std::string_view::npos);
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "transport/path/vertex.h"
+
+namespace abbe {
+
+/// The area within which what has come to a surface counts as having come to one point of it [m^2].
+[[nodiscard]] inline float disc_area(float radius) {
+  return std::numbers::pi_v<float> * radius * radius;
+}
+
+/// What a surface makes of flux that has come to a place close by, over the area it counts for: f [1/sr]
+/// towards where the path of radiance came from, `from` being the unit direction to where the flux did, and
+/// `normal` the geometric one of that place. On a relief times its cosine over that of the shape, by which
+/// flux arrives. 0 where the place belongs to another side or face.
+[[nodiscard]] inline SampledSpectrum merged_scattering(const SurfaceVertex& vertex, const Imath::V3f& from,
+                                                       const Imath::V3f& normal) {
+  constexpr float kSameFace = 0.5F;  // the least cosine of two normals
+  const float arriving = std::abs(from.dot(vertex.hit.normal));
+  if (normal.dot(vertex.hit.normal) < kSameFace || !(arriving > 0)) return {};
+  const SurfaceVertex::Departure sent = vertex.towards(from, TransportMode::radiance);
+  return vertex.relief ? sent.f * (std::abs(sent.wi.z) / arriving) : sent.f;
+}
+
+}  // namespace abbe

@@ -1,0 +1,105 @@
+#include "transport/render/collect.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "transport/render/threads.h"
+#include "transport/technique/subpaths.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uint64_t kBatch = 64;  // paths that take each step together
+
+// Calls `batch(caster, first, last)` for all paths, on that many threads, with a caster and a `Tracer` of
+// each.
+template <typename Tracer, typename Batch>
+void trace_all(const Plan& plan, int threads, PassCounts& counts, const Batch& batch) {
+  std::atomic<std::uint64_t> next = 0;
+  std::mutex mutex;
+  run_on_threads(threads, [&] {
+    RayCaster caster(plan.scene);
+    Tracer tracer(plan, caster);
+    for (std::uint64_t first = kBatch * next++; first < plan.photons; first = kBatch * next++)
+      batch(tracer, first, std::min(first + kBatch, plan.photons));
+    const std::scoped_lock lock(mutex);
+    counts.rays += caster.rays();
+    counts.cut += caster.cut();
+  });
+  counts.paths += plan.photons;
+}
+
+// Records whole paths from lights.
+class LightRecorder {
+ public:
+  LightRecorder(const Plan& plan, RayCaster& caster)
+      : plan_(plan), caster_(caster), recorder_(plan.scene, caster) {}
+
+  std::vector<RecordedPath>& record(const std::vector<Sampler>& numbers, const PathPacket& packet) {
+    recorder_.paths().clear();
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+      RecordedPath& path = recorder_.paths().emplace_back(numbers[i], i);
+      path.packet = packet;
+      start_from_light(plan_, caster_, path);
+    }
+    recorder_.run();
+    return recorder_.paths();
+  }
+
+ private:
+  const Plan& plan_;
+  RayCaster& caster_;
+  PathRecorder<TransportMode::power> recorder_;
+};
+
+std::vector<Sampler> numbers_of(const LightNumbers& numbers, std::uint64_t first, std::uint64_t last) {
+  std::vector<Sampler> of;
+  for (std::uint64_t path = first; path < last; ++path) of.push_back(numbers(path));
+  return of;
+}
+
+}  // namespace
+
+std::size_t bytes_of_light_paths(const Scene& scene) {
+  constexpr std::size_t kUsualPlaces = 4;
+  constexpr std::size_t kInMap = sizeof(Imath::V3f) + 2 * sizeof(std::uint32_t);
+  const std::vector<Technique> techniques = chosen_techniques(scene);
+  const std::size_t paths = photons_of_sample(scene);
+  if (uses(techniques, Technique::vcm))
+    return paths *
+           (sizeof(RecordedPath) + kUsualPlaces * (sizeof(PathVertex) + sizeof(LightPaths::Vertex) + kInMap));
+  if (std::any_of(techniques.begin(), techniques.end(), gathers_photons))
+    return paths * kUsualPlaces * (sizeof(Photon) + kInMap);
+  return 0;
+}
+
+PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, const LightNumbers& numbers,
+                            int threads, PassCounts& counts) {
+  std::vector<std::vector<Photon>> batches((plan.photons + kBatch - 1) / kBatch);
+  trace_all<PhotonTracer>(plan, threads, counts,
+                          [&](PhotonTracer& tracer, std::uint64_t first, std::uint64_t last) {
+                            tracer.trace(numbers_of(numbers, first, last), packet, batches[first / kBatch]);
+                          });
+  std::vector<Photon> photons;  // in the order of their paths, whichever threads traced them
+  for (const std::vector<Photon>& batch : batches) photons.insert(photons.end(), batch.begin(), batch.end());
+  return {std::move(photons), plan.photons, packet};
+}
+
+LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float radius,
+                               const LightNumbers& numbers, int threads, PassCounts& counts) {
+  std::vector<std::vector<RecordedPath>> batches((plan.photons + kBatch - 1) / kBatch);
+  trace_all<LightRecorder>(
+      plan, threads, counts, [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
+        batches[first / kBatch] = std::move(recorder.record(numbers_of(numbers, first, last), packet));
+      });
+  std::vector<RecordedPath> paths;
+  paths.reserve(plan.photons);
+  for (std::vector<RecordedPath>& batch : batches)
+    std::move(batch.begin(), batch.end(), std::back_inserter(paths));
+  return {std::move(paths), radius, packet};
+}
+
+}  // namespace abbe

@@ -1,0 +1,139 @@
+#include "transport/technique/brute.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "transport/path/dimensions.h"
+#include "transport/path/free_path.h"
+#include "transport/technique/subpaths.h"
+
+namespace abbe {
+
+template <TransportMode mode>
+void BruteWalk<mode>::keep_hero(PathPacket& packet) {
+  const SampledSpectrum hero = SampledSpectrum::only(packet.hero, 1);
+  advance(packet, hero, hero);
+}
+
+// What matter has taken on the way here is taken by the same chance.
+template <TransportMode mode>
+std::optional<BsdfSample> BruteWalk<mode>::scatter(RecordedPath& path, const SurfaceVertex& vertex,
+                                                   const BsdfRandom& u) const {
+  std::optional<BsdfSample> event = vertex.scatter(u, path.packet.hero, mode);
+  if (!event) return event;
+  const int hero = path.packet.hero;
+  if (mode == TransportMode::radiance) path.eta_scale *= vertex.squared_eta(*event, hero);
+  const float kept = carried(path) * event->weight[hero];
+  if (kept >= 1 || !(kept > 0)) return event;
+  if (path.sampler.group(absorption_group(path.events))[0] >= kept) return std::nullopt;
+  event->weight *= 1 / kept;
+  return event;
+}
+
+template class BruteWalk<TransportMode::power>;
+template class BruteWalk<TransportMode::radiance>;
+
+BrutePhotonTracer::BrutePhotonTracer(const Plan& plan, RayCaster& caster, double share)
+    : plan_(plan),
+      scene_(plan.scene),
+      caster_(caster),
+      opening_(traits(plan.scene.camera).opening),
+      scale_(static_cast<float>(share * plan.scene.exposure_s)),
+      response_(film_response_of(plan.scene)),
+      walks_(plan.scene, caster),
+      values_(response_.planes()) {}
+
+// The estimate of a film value is the sum over photons of the power Phi that each set out with, over its
+// density, times what the camera makes of a flux that comes in: sum Phi W.
+void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& deposit) {
+  deposit_ = &deposit;
+  std::vector<RecordedPath>& paths = walks_.paths();
+  paths.clear();
+  for (std::uint32_t i = 0; i < photons.size(); ++i) {
+    RecordedPath& path = paths.emplace_back(photons[i], i);
+    path.packet = draw_packet(plan_.wavelengths, photons[i].group(kAimGroup)[2]);
+    keep_hero(path.packet);
+    start_from_light(plan_, caster_, path);
+    if (path.vertices.empty()) continue;
+    look_for_camera(path);
+    walks_.going().push_back(i);
+  }
+  walks_.run(*this);
+}
+
+// The camera stands in no photon's way, as in none of other techniques. What matter takes before it is
+// weighed.
+void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
+  if (!opening_) return;
+  const std::optional<double> distance = opening_->crossed_by(path.ray);
+  if (!distance) return;
+  const Imath::V3f point(Imath::V3d(path.ray.origin) + Imath::V3d(path.ray.direction) * *distance);
+  const auto seen =
+      density(scene_.camera, ray_at(point, -path.ray.direction, path.ray.time), path.lambda_nm());
+  if (!seen) return;
+  const auto through =
+      unblocked_transmission(scene_, caster_, way_between(path.ray.origin, point, path.ray.time), path.ray,
+                             path.around, path.lambda_nm(), static_cast<float>(*distance));
+  if (!through) return;
+  const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
+                     path.ray.time};
+  std::fill(values_.begin(), values_.end(), 0.0);
+  response_.add(at, path.packet.wavelengths,
+                path.packet.throughput * seen->importance * through->transmittance * scale_, values_);
+  (*deposit_)(path.path, at, values_);
+}
+
+AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
+    : plan_(plan),
+      scene_(plan.scene),
+      response_(film_response_of(plan.scene)),
+      walks_(plan.scene, caster),
+      values_(response_.planes()) {}
+
+// The estimate of a pixel's film value is what a path set out with, over its density, times the radiance of
+// the lights it meets.
+void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Deposit& deposit) {
+  std::vector<RecordedPath>& paths = walks_.paths();
+  paths.clear();
+  at_.resize(samples.size());
+  found_.assign(samples.size(), SampledSpectrum());
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    RecordedPath& path = paths.emplace_back(samples[i].sampler, i);
+    path.packet =
+        draw_packet(plan_.wavelengths_at(samples[i].x, samples[i].y), path.sampler.group(kFilmGroup)[2]);
+    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path);
+    keep_hero(path.packet);
+    path.carried_at_start = path.packet.carried();
+    walks_.going().push_back(i);
+  }
+  walks_.run(*this);
+  for (const RecordedPath& path : paths) {
+    std::fill(values_.begin(), values_.end(), 0.0);
+    response_.add(at_[path.path], path.packet.wavelengths,
+                  found_[path.path] * static_cast<float>(scene_.exposure_s), values_);
+    deposit(path.path, at_[path.path], values_);
+  }
+}
+
+void AdjointBruteTracer::add_met(const RecordedPath& path, std::uint32_t light) {
+  found_[path.path] +=
+      path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm());
+}
+
+void AdjointBruteTracer::escape(RecordedPath& path) {
+  path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
+  for (const std::uint32_t light : scene_.background()) {
+    const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
+    if (sun == nullptr || sun->shows(path.ray.direction)) add_met(path, light);
+  }
+}
+
+void AdjointBruteTracer::meet(RecordedPath& path, const SurfaceHit& hit) {
+  const std::int32_t index = scene_.shapes[hit.shape].light;
+  if (index < 0) return;
+  const auto light = static_cast<std::uint32_t>(index);
+  if (emits_towards(scene_.lights[light], hit.normal, -path.ray.direction)) add_met(path, light);
+}
+
+}  // namespace abbe

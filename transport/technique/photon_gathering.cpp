@@ -1,0 +1,186 @@
+#include "transport/technique/photon_gathering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "transport/path/connect.h"
+#include "transport/path/merge.h"
+#include "transport/path/mis_weight.h"
+#include "transport/technique/subpaths.h"
+
+namespace abbe {
+
+float gather_radius(float first_radius, std::uint64_t sample) {
+  constexpr double kAlpha = 2.0 / 3;
+  const auto i = static_cast<double>(sample + 1);
+  const double log_ratio = std::lgamma(i + kAlpha) - std::lgamma(1 + kAlpha) - std::lgamma(i + 1);
+  return static_cast<float>(first_radius * std::exp(log_ratio / 2));
+}
+
+PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
+    : plan_(plan),
+      scene_(plan.scene),
+      caster_(caster),
+      meter_(traits(plan.scene.camera).surface_normal.has_value()),
+      most_events_(most_events(plan.scene.render)),
+      response_(film_response_of(plan.scene)),
+      walks_(plan.scene, caster),
+      values_(response_.planes()) {}
+
+// The estimate of a film value is, over paths from the camera that come to x with the throughput T_x over
+// their density, and N paths from lights that left photons of the power T_y over theirs within r of x,
+//     T_x [sum_y f T_y / (pi r^2 N) + f G T L_e / p_light],
+// besides the light that events of a single direction meet: `mis_weight` balances the lanes, which are those
+// of all paths of a sample.
+void PhotonGatherer::trace(std::span<const PixelSample> samples, const PhotonCloud& cloud,
+                           const GatherKernel& kernel, const Deposit& deposit) {
+  constexpr std::uint32_t kTogether = 64;
+  cloud_ = &cloud;
+  kernel_ = kernel;
+  deposit_ = &deposit;
+  for (first_ = 0; first_ < samples.size(); first_ += kTogether)
+    trace_together(samples.subspan(first_, std::min<std::size_t>(kTogether, samples.size() - first_)));
+}
+
+void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
+  std::vector<GatherPath>& paths = walks_.paths();
+  paths.clear();
+  at_.resize(samples.size());
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    GatherPath& path = paths.emplace_back(samples[i].sampler, i);
+    path.packet = cloud_->packet;
+    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path);
+    if (path.vertices.empty()) continue;
+    if (meter_) connect_meter(path);
+    walks_.going().push_back(i);
+  }
+  walks_.run(*this);
+  for (const GatherPath& path : paths) deposit(path, at_[path.path], path.found);
+}
+
+// What a connection would have found is not counted again where a path meets it; from a meter both are
+// balanced.
+void PhotonGatherer::add_met(GatherPath& path, const LightVertex& light) {
+  if (path.connected != 0 || path.final_gather) return;
+  float weight = mis_weight(path.packet.lane_pdf, 0, 0);
+  if (meter_ && path.events == 0) weight *= 1 - share_of_connecting(path.vertices.front(), {.at = light});
+  path.found += path.packet.throughput *
+                emission_from(scene_.lights[light.light], path.ray.direction, path.lambda_nm()) * weight;
+}
+
+// By the balance heuristic over both ways in which a meter's path may come to a light.
+float PhotonGatherer::share_of_connecting(const PathVertex& meter, const PathVertex& light) const {
+  if (scene_.lights[std::get<LightVertex>(light.at).light].is_delta()) return 1;
+  const float connected = end_densities(plan_, meter, light).light_connection;
+  const Imath::V3f w = way_from(meter, light).direction;
+  const float met = direction_pdf(scene_, meter, Imath::V3f(0), w)[meter.packet.hero] *
+                    solid_angle_per_area(scene_, meter, light);
+  return connected > 0 ? connected / (connected + met) : 0;
+}
+
+void PhotonGatherer::escape(GatherPath& path) {
+  if (scene_.background().empty()) return;
+  path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
+  for (const std::uint32_t light : scene_.background()) {
+    const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
+    if (sun == nullptr || sun->shows(path.ray.direction))
+      add_met(path, {light, path.ray.direction, Imath::V3f(0), true});
+  }
+}
+
+void PhotonGatherer::meet(GatherPath& path, const SurfaceHit& hit) {
+  const std::int32_t index = scene_.shapes[hit.shape].light;
+  if (index < 0) return;
+  const auto light = static_cast<std::uint32_t>(index);
+  if (emits_towards(scene_.lights[light], hit.normal, -path.ray.direction))
+    add_met(path, {light, hit.point, hit.normal});
+}
+
+void PhotonGatherer::connect(GatherPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
+  PathVertex here{.at = vertex, .packet = path.packet};
+  here.inside = path.around.inside;
+  here.beyond = vertex.behind(scene_, path.around.inside);
+  here.time = path.ray.time;
+  connect_to_light(path, here, u);
+  gather(path, vertex);
+}
+
+void PhotonGatherer::connect_within(GatherPath& path, const PhaseFunction& phase,
+                                    const std::array<float, 4>& u) {
+  PathVertex here{.at = MediumVertex{path.ray.origin, path.ray.direction, phase}, .packet = path.packet};
+  here.inside = here.beyond = path.around.inside;
+  here.time = path.ray.time;
+  connect_to_light(path, here, u);
+}
+
+void PhotonGatherer::connect_to_light(GatherPath& path, const PathVertex& vertex,
+                                      const std::array<float, 4>& u) {
+  const std::optional<PathVertex> light = light_for(plan_, vertex, u);
+  if (!light) return;
+  const std::optional<Connection> joint = abbe::connect(scene_, caster_, vertex, *light);
+  if (!joint) return;
+  path.found += vertex.packet.throughput * light->packet.throughput * joint->contribution *
+                mis_weight(vertex.packet.lane_pdf, 0, 0);
+}
+
+// A light that a meter sees has an angle of its own.
+void PhotonGatherer::connect_meter(GatherPath& path) {
+  const PathVertex& meter = path.vertices.front();
+  const std::optional<PathVertex> light =
+      light_for(plan_, meter, path.sampler.group(scattering_group(kMeterEvent) + 1));
+  if (!light) return;
+  const std::optional<Connection> joint = abbe::connect(scene_, caster_, meter, *light);
+  if (!joint) return;
+  FilmPoint at = at_[path.path];
+  at.cos_film = way_from(meter, *light).direction.dot(*normal_of(scene_, meter));
+  deposit(path, at,
+          meter.packet.throughput * light->packet.throughput * joint->contribution *
+              (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light)));
+}
+
+void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at,
+                             const SampledSpectrum& contribution) {
+  std::fill(values_.begin(), values_.end(), 0.0);
+  response_.add(at, path.packet.wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_);
+  (*deposit_)(first_ + path.path, at, values_);
+}
+
+bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {
+  if (event.delta) return true;
+  const bool goes_on = kernel_.final_gather && !path.final_gather;
+  path.final_gather = true;
+  return goes_on;
+}
+
+void PhotonGatherer::gather(GatherPath& path, const SurfaceVertex& vertex) {
+  const PhotonMap& map = cloud_->map;
+  const Imath::V3f& x = vertex.hit.point;
+  float radius = kernel_.radius;
+  if (kernel_.nearest == 0) {
+    map.within(x, radius, near_);
+  } else {
+    // The farthest only says how large the disc is, in which the others then lie by chance alone.
+    map.nearest(x, kernel_.nearest + 1, near_);
+    if (near_.size() < 2) return;
+    radius = (cloud_->photons[near_.back()].point - x).length();
+    near_.pop_back();
+  }
+  const bool caustics_alone = kernel_.final_gather && !path.final_gather;
+  SampledSpectrum brought;
+  for (const std::uint32_t i : near_)
+    if (const Photon& photon = cloud_->photons[i]; photon.caustic || !caustics_alone)
+      brought += brought_by(photon, path, vertex);
+  const float all = disc_area(radius) * static_cast<float>(cloud_->paths);
+  if (all > 0) path.found += brought * (1 / all);
+}
+
+SampledSpectrum PhotonGatherer::brought_by(const Photon& photon, const GatherPath& path,
+                                           const SurfaceVertex& vertex) const {
+  if (path.events + 1 + photon.events > most_events_) return {};
+  const SampledSpectrum f = merged_scattering(vertex, photon.from, photon.normal);
+  if (f.is_zero()) return {};
+  return path.packet.throughput * photon.power * f * mis_weight(path.packet.lane_pdf * photon.lane_pdf, 0, 0);
+}
+
+}  // namespace abbe
