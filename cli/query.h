@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/inputs.h"
+#include "sensor/film/crop.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::cli {
@@ -70,15 +73,44 @@ struct DeltaEOptions {
   std::array<double, 3> lab2{};
   bool json = false;
 };
+/// CIEDE2000, CIE 1976 and 1994; CAM16-UCS and ITP of colours relative to a white D65, that of ITP at 203
+/// cd/m^2.
 int query_delta_e(const DeltaEOptions& options);
 
-/// `query camera`: raw values of a reflectance, or of the perfect diffuser when none is named.
+/// `query light`: of a lamp, or of pixels of a spectral image, perhaps through filters and from a surface.
+struct LightOptions {
+  std::string name;          ///< An illuminant, or a spectral EXR.
+  std::string filters = {};  ///< Of `data/filter` or files, with commas between them.
+  std::string reflectance = {};
+  std::optional<Crop> crop = {};    ///< Of an image: these pixels, all without it.
+  std::filesystem::path plot = {};  ///< SVG of the colour vector graphic; empty: none.
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
+/// Prints chromaticity, colour temperature (null where there is none, and then what needs one),
+/// efficacy, scotopic ratio, colour rendering and fidelity.
+int query_light(const LightOptions& options);
+
+/// `query metamerism`: of two reflectances that look alike in one light, in another.
+struct MetamerismOptions {
+  std::string first;
+  std::string second;
+  std::string reference = "D65";
+  std::string test = "A";
+  bool json = false;
+};
+int query_metamerism(const MetamerismOptions& options);
+
+/// `query camera`: raw values of a reflectance, or of the perfect diffuser when none is named; or how near
+/// the camera comes to an observer.
 struct CameraOptions {
   std::string name;
   std::string illuminant;
   std::string reflectance;
+  bool judge = false;  ///< Print the Vora value, what is left of x, y, z, and the sensitivity index instead.
   bool json = false;
 };
+/// Throws Error{usage} without an illuminant unless the camera is to be judged.
 int query_camera(const CameraOptions& options);
 
 /// `query --list [KIND]`: the names of every kind, or of one; of matter, where it holds and its source too.

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "calibration/characterisation.h"
 #include "calibration/chart/delta_e.h"
 #include "calibration/chart/patches.h"
+#include "calibration/judge/camera_space.h"
 #include "cli/answer.h"
 #include "cli/query.h"
 #include "io/table.h"
@@ -13,6 +15,7 @@
 #include "sensor/response/channel.h"
 #include "spectral/astm_e308.h"
 #include "spectral/library.h"
+#include "validation/statistics/image_difference.h"
 
 namespace abbe::cli {
 namespace {
@@ -97,6 +100,16 @@ std::string described(const Json& answer, std::size_t i) {
                      answer["high_nm"][i].get<double>(), answer["source"][i].get_ref<const std::string&>());
 }
 
+int judge_camera(const std::vector<Channel>& channels, bool json) {
+  const CameraSpace space = camera_space(channels);
+  Json answer;
+  answer["vora"] = space.vora;
+  answer["luther_residual"] = {{"x", space.luther[0]}, {"y", space.luther[1]}, {"z", space.luther[2]}};
+  answer["sensitivity_index"] = channels.size() == 3 ? Json(sensitivity_index(channels)) : Json();
+  print(answer, json);
+  return 0;
+}
+
 }  // namespace
 
 int query_color(const ColorOptions& options) {
@@ -119,13 +132,19 @@ int query_delta_e(const DeltaEOptions& options) {
   answer["dE00"] = delta_e_2000(options.lab1, options.lab2);
   answer["dE76"] = delta_e_76(options.lab1, options.lab2);
   answer["dE94"] = delta_e_94(options.lab1, options.lab2);
+  for (const auto& [key, formula] :
+       {std::pair{"dE_CAM16_UCS", DeltaE::cam16_ucs}, std::pair{"dE_ITP", DeltaE::itp}})
+    answer[key] = delta_e(formula, options.lab1, options.lab2);
   print(answer, options.json);
   return 0;
 }
 
 int query_camera(const CameraOptions& options) {
   Diagnostics diagnostics;
+  if (options.illuminant.empty() && !options.judge)
+    throw Error(ErrorCode::usage, "query camera", "needs --illuminant or --judge");
   const auto channels = load_camera(options.name, {}, diagnostics);
+  if (options.judge) return judge_camera(accepted(channels, diagnostics), options.json);
   const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
   const std::vector<double> raw = camera_raw(*channels, lit.illuminant, lit.reflectance);
   Json answer;

@@ -1,5 +1,8 @@
 #include "spectral/chart.h"
 
+#include <utility>
+
+#include "io/error.h"
 #include "spectral/library.h"
 
 namespace abbe {
@@ -36,6 +39,13 @@ std::optional<Chart> load_chart(const std::string& name, const SourcePosition& w
     chart.patches.push_back({column, curve->curve});
   }
   return chart;
+}
+
+Chart shipped_chart(const std::string& name) {
+  Diagnostics diagnostics;
+  std::optional<Chart> chart = load_chart(name, {}, diagnostics);
+  if (!chart) throw Error(diagnostics.code(), name, diagnostics.text());
+  return *std::move(chart);
 }
 
 }  // namespace abbe

@@ -32,5 +32,7 @@ struct Chart {
 /// Reports a table of colours.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
                                               Diagnostics& diagnostics);
+/// The same of a shipped table; what is wrong with it is thrown as Error.
+[[nodiscard]] Chart shipped_chart(const std::string& name);
 
 }  // namespace abbe

@@ -109,8 +109,8 @@ const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
     for (std::vector<Case> (*suite)() :
-         {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases, colour_cases, chart_cases,
-          rendered_chart_cases, camera_cases, sensor_cases})
+         {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases, colour_cases, judging_cases,
+          chart_cases, rendered_chart_cases, camera_cases, sensor_cases})
       for (Case& item : suite()) all.push_back(std::move(item));
     return all;
   }();

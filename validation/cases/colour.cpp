@@ -7,6 +7,7 @@
 #include "calibration/output/color_spaces.h"
 #include "io/reference_table.h"
 #include "spectral/astm_e308.h"
+#include "spectral/color_temperature.h"
 #include "spectral/sources.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
@@ -143,12 +144,11 @@ std::vector<Figure> daylight_series() {
 
 std::vector<Figure> luminous_efficacies() {
   const ReferenceTable table("illuminant_cct_ler");
-  const Curve& v = color_matching(Observer::cie1931).y;
   std::vector<Figure> figures;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const Curve light = shipped_illuminant(table.text(row, "illuminant"));
-    figures.push_back(exact_figure(table.text(row, "illuminant"), table.number(row, "LER_lm_per_W"),
-                                   kLuminousEfficacy * sum_product(light, v) / sum_product(light, Curve(1))));
+    const std::string& name = table.text(row, "illuminant");
+    figures.push_back(
+        exact_figure(name, table.number(row, "LER_lm_per_W"), luminous_efficacy(shipped_illuminant(name))));
   }
   return figures;
 }

@@ -15,6 +15,8 @@ namespace abbe {
 [[nodiscard]] std::vector<Case> radiometry_cases();
 [[nodiscard]] std::vector<Case> enclosure_cases();
 [[nodiscard]] std::vector<Case> colour_cases();
+/// Colour temperature, colour rendering and fidelity, appearance, differences for displays.
+[[nodiscard]] std::vector<Case> judging_cases();
 [[nodiscard]] std::vector<Case> chart_cases();
 [[nodiscard]] std::vector<Case> rendered_chart_cases();
 [[nodiscard]] std::vector<Case> camera_cases();

@@ -39,10 +39,6 @@ template <typename T>
   Diagnostics diagnostics;
   return shipped(load_curve(folder, name, {}, diagnostics), diagnostics).curve;
 }
-[[nodiscard]] inline Chart shipped_chart(const std::string& name) {
-  Diagnostics diagnostics;
-  return shipped(load_chart(name, {}, diagnostics), diagnostics);
-}
 [[nodiscard]] inline std::vector<Channel> shipped_camera(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_camera(name, {}, diagnostics), diagnostics);

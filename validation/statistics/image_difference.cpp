@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/delta_e.h"
+#include "calibration/judge/appearance.h"
+#include "calibration/judge/itp.h"
 #include "calibration/output/display.h"
 #include "spectral/colorimetry.h"
 #include "validation/statistics/film_colors.h"
@@ -97,6 +99,22 @@ void adapt(FilmColors& colors, const Chromaticity& white) {
   *colors.to_xyz = white_adaptation(white) * *colors.to_xyz;
 }
 
+// A colour relative to D65 as tristimulus values, those of the white having this Y.
+XYZ d65_xyz(const Lab& lab, double white) {
+  XYZ xyz = lab_to_xyz(lab, unit_xyz(kD65));
+  for (double& v : xyz) v *= white;
+  return xyz;
+}
+
+const Appearance& booth() {
+  static const Appearance appearance = [] {
+    ViewingConditions conditions{unit_xyz(kD65)};
+    for (double& v : conditions.white) v *= 100;
+    return Appearance(AppearanceModel::cam16, conditions);
+  }();
+  return appearance;
+}
+
 }  // namespace
 
 double percentile(std::vector<double> values, double quantile) {
@@ -116,6 +134,10 @@ double delta_e(DeltaE formula, const Lab& standard, const Lab& sample) {
       return delta_e_94(standard, sample);
     case DeltaE::cie76:
       return delta_e_76(standard, sample);
+    case DeltaE::cam16_ucs:
+      return distance_between(booth().uniform(d65_xyz(standard, 100)), booth().uniform(d65_xyz(sample, 100)));
+    case DeltaE::itp:
+      return delta_e_itp(itp(d65_xyz(standard, kReferenceWhite)), itp(d65_xyz(sample, kReferenceWhite)));
     case DeltaE::cie2000:
       break;
   }

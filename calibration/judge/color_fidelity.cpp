@@ -1,0 +1,115 @@
+#include <cmath>
+#include <numbers>
+
+#include "calibration/judge/appearance.h"
+#include "calibration/judge/color_rendering.h"
+#include "calibration/judge/reference_light.h"
+#include "spectral/chart.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kAdaptingLuminance = 100;
+constexpr double kBackground = 20;
+
+const Chart& evaluation_samples() {
+  static const Chart chart = shipped_chart("cie224_ces01-99_5nm");
+  return chart;
+}
+
+using Colors = std::vector<std::array<double, 3>>;
+
+// J', a', b' of the samples under a light.
+Colors seen_under(const Curve& light) {
+  const std::vector<XYZ> weights = tristimulus_weights(light, Observer::cie1964);
+  const auto sum = [&](const Curve& reflectance) {
+    XYZ xyz{};
+    int nm = SumRange{}.low_nm;
+    for (const XYZ& weight : weights) {
+      const double share = reflectance(nm++);
+      for (std::size_t k = 0; k < 3; ++k) xyz[k] += weight[k] * share;
+    }
+    return xyz;
+  };
+  const Appearance appearance(AppearanceModel::ciecam02,
+                              {sum(Curve(1)), kAdaptingLuminance, kBackground, true});
+  Colors colors;
+  for (const Patch& patch : evaluation_samples().patches)
+    colors.push_back(appearance.uniform(sum(patch.reflectance)));
+  return colors;
+}
+
+// What a difference means on the scale on which 100 is none.
+double fidelity_of(double difference) {
+  return 10 * std::log1p(std::exp((100 - 6.73 * difference) / 10));
+}
+
+std::size_t bin_of(const std::array<double, 3>& color) {
+  const double hue = std::atan2(color[2], color[1]) / kTurn;
+  return static_cast<std::size_t>((hue < 0 ? hue + 1 : hue) * ColorFidelity::kBins) % ColorFidelity::kBins;
+}
+
+// Twice the area of the polygon of the bins' means.
+double area(const std::array<HueBin, ColorFidelity::kBins>& bins, std::array<double, 2> HueBin::*of) {
+  double total = 0;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const auto& [a0, b0] = bins[i].*of;
+    const auto& [a1, b1] = bins[(i + 1) % bins.size()].*of;
+    total += a0 * b1 - a1 * b0;
+  }
+  return total;
+}
+
+std::array<HueBin, ColorFidelity::kBins> binned(const Colors& test, const Colors& reference) {
+  std::array<HueBin, ColorFidelity::kBins> bins{};
+  std::array<double, ColorFidelity::kBins> counts{};
+  std::array<double, ColorFidelity::kBins> differences{};
+  for (std::size_t i = 0; i < test.size(); ++i) {
+    const std::size_t k = bin_of(reference[i]);
+    counts[k] += 1;
+    differences[k] += distance_between(test[i], reference[i]);
+    for (std::size_t j = 0; j < 2; ++j) {
+      bins[k].test[j] += test[i][j + 1];
+      bins[k].reference[j] += reference[i][j + 1];
+    }
+  }
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    HueBin& bin = bins[k];
+    for (std::size_t j = 0; j < 2; ++j) {
+      bin.test[j] /= counts[k];
+      bin.reference[j] /= counts[k];
+    }
+    // The mean shift along the middle of the bin and across it, as shares of the chroma [TM30, sec. 4.6].
+    const double middle = (static_cast<double>(k) + 0.5) * kTurn / ColorFidelity::kBins;
+    const double chroma = std::hypot(bin.reference[0], bin.reference[1]);
+    const double da = (bin.test[0] - bin.reference[0]) / chroma;
+    const double db = (bin.test[1] - bin.reference[1]) / chroma;
+    bin.chroma_shift = da * std::cos(middle) + db * std::sin(middle);
+    bin.hue_shift = -da * std::sin(middle) + db * std::cos(middle);
+    bin.fidelity = fidelity_of(differences[k] / counts[k]);
+  }
+  return bins;
+}
+
+}  // namespace
+
+std::optional<ColorFidelity> color_fidelity(const Curve& light) {
+  const auto temperature = color_temperature(tristimulus(light, Curve(1), Observer::cie1931));
+  if (!temperature || temperature->kelvin > kHottestDaylight) return std::nullopt;
+  const Colors test = seen_under(light);
+  const Colors reference = seen_under(fidelity_reference(temperature->kelvin));
+  ColorFidelity result;
+  double total = 0;
+  for (std::size_t i = 0; i < test.size(); ++i) {
+    const double difference = distance_between(test[i], reference[i]);
+    result.samples.push_back(fidelity_of(difference));
+    total += difference;
+  }
+  result.fidelity = fidelity_of(total / static_cast<double>(test.size()));
+  result.bins = binned(test, reference);
+  result.gamut = 100 * area(result.bins, &HueBin::test) / area(result.bins, &HueBin::reference);
+  return result;
+}
+
+}  // namespace abbe

@@ -1,0 +1,64 @@
+#include "calibration/judge/color_rendering.h"
+
+#include <cmath>
+
+#include "calibration/judge/appearance.h"
+#include "calibration/judge/reference_light.h"
+#include "spectral/chart.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::size_t kGeneralSamples = 8;
+
+const Chart& test_colors() {
+  static const Chart chart = shipped_chart("cri_tcs01-14");
+  return chart;
+}
+
+// Terms of the adaptation, c = (4 - u - 10 v)/v and d = (1.708 v + 0.404 - 1.481 u)/v.
+struct VonKries {
+  double c;
+  double d;
+  explicit VonKries(const Uv1960& uv)
+      : c((4 - uv[0] - 10 * uv[1]) / uv[1]), d((1.708 * uv[1] + 0.404 - 1.481 * uv[0]) / uv[1]) {}
+};
+
+// u, v of a sample under the test light as they look under the reference.
+Uv1960 adapted(const Uv1960& uv, const VonKries& test, const VonKries& reference) {
+  const VonKries of(uv);
+  const double c = reference.c / test.c * of.c;
+  const double d = reference.d / test.d * of.d;
+  const double below = 16.518 + 1.481 * c - d;
+  return {(10.872 + 0.404 * c - 4 * d) / below, 5.520 / below};
+}
+
+// CIE 1964 U*, V*, W* beside the reference light.
+std::array<double, 3> uvw(double luminance, const Uv1960& uv, const Uv1960& reference) {
+  const double w = 25 * std::cbrt(luminance) - 17;
+  return {13 * w * (uv[0] - reference[0]), 13 * w * (uv[1] - reference[1]), w};
+}
+
+}  // namespace
+
+std::optional<ColorRendering> color_rendering(const Curve& light) {
+  const auto temperature = color_temperature(tristimulus(light, Curve(1), Observer::cie1931));
+  if (!temperature || temperature->kelvin > kHottestDaylight) return std::nullopt;
+  const Curve reference = rendering_reference(temperature->kelvin);
+  const auto white = [](const Curve& of) { return uv_1960(tristimulus(of, Curve(1), Observer::cie1931)); };
+  const Uv1960 test_white = white(light);
+  const Uv1960 reference_white = white(reference);
+  ColorRendering result;
+  for (std::size_t i = 0; i < result.special.size(); ++i) {
+    const Curve& sample = test_colors().patches.at(i).reflectance;
+    const XYZ test = tristimulus(light, sample, Observer::cie1931);
+    const XYZ ideal = tristimulus(reference, sample, Observer::cie1931);
+    const Uv1960 uv = adapted(uv_1960(test), VonKries(test_white), VonKries(reference_white));
+    result.special[i] = 100 - 4.6 * distance_between(uvw(test[1], uv, reference_white),
+                                                     uvw(ideal[1], uv_1960(ideal), reference_white));
+    if (i < kGeneralSamples) result.general += result.special[i] / kGeneralSamples;
+  }
+  return result;
+}
+
+}  // namespace abbe

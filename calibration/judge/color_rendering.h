@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "spectral/color_temperature.h"
+#include "spectral/colorimetry.h"
+#include "spectral/curve.h"
+
+namespace abbe {
+
+/// Colour rendering by CIE 13.3.
+struct ColorRendering {
+  double general = 0;                ///< Ra, the mean of R1 to R8.
+  std::array<double, 14> special{};  ///< R1 to R14.
+};
+
+/// How alike the test-colour samples TCS01-TCS14 look under a light and under a black body (below 5000 K) or
+/// daylight of the same colour temperature: R_i = 100 - 4.6 times the distance in U*V*W*, von Kries'
+/// adaptation in u, v between the two lights [CIE13, sec. 5]; 1 nm sums over 380-780 nm. Nothing for lights
+/// without a colour temperature up to 25 000 K.
+[[nodiscard]] std::optional<ColorRendering> color_rendering(const Curve& light);
+
+/// Where samples of one range of hue lie in the plane a', b', in the mean, and how they fare.
+struct HueBin {
+  std::array<double, 2> test{};
+  std::array<double, 2> reference{};
+  double fidelity = 0;      ///< R_f,h
+  double chroma_shift = 0;  ///< R_cs,h, as a share of the reference's chroma.
+  double hue_shift = 0;     ///< R_hs,h [rad].
+};
+
+/// Colour fidelity and gamut by CIE 224 and ANSI/IES TM-30.
+struct ColorFidelity {
+  static constexpr std::size_t kBins = 16;
+  double fidelity = 0;               ///< R_f
+  double gamut = 0;                  ///< R_g
+  std::vector<double> samples;       ///< R_f of each of the 99 samples.
+  std::array<HueBin, kBins> bins{};  ///< From the hue angle 0 on, 22.5 degrees each.
+};
+
+/// How the 99 colour evaluation samples look under a light beside a black body (below 4000 K), daylight
+/// (above 5000 K) or a mixture of both of the same colour temperature: in CAM02-UCS for the CIE 1964
+/// observer, L_A = 100, Y_b = 20, adapted completely; R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean
+/// difference [CIE224, sec. 4]. R_g is 100 times the ratio of the areas of the polygons of the bins' means,
+/// the bins being those of the hue under the reference [TM30, sec. 4]. Nothing as for `color_rendering`.
+[[nodiscard]] std::optional<ColorFidelity> color_fidelity(const Curve& light);
+
+}  // namespace abbe

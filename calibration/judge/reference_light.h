@@ -1,0 +1,30 @@
+#pragma once
+
+#include "spectral/colorimetry.h"
+#include "spectral/curve.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+
+/// The hottest light that a daylight exists for [K].
+inline constexpr double kHottestDaylight = 25000;
+
+/// The light that colour rendering is judged by, of a colour temperature up to `kHottestDaylight`: a black
+/// body below 5000 K, daylight from there on [CIE13, sec. 5.2].
+[[nodiscard]] inline Curve rendering_reference(double kelvin) {
+  return kelvin < 5000 ? planck(kelvin) : daylight(kelvin);
+}
+
+/// The same for colour fidelity: a black body up to 4000 K, daylight from 5000 K on, between them a mixture
+/// that goes over from one to the other at equal luminance [CIE224, sec. 4.3].
+[[nodiscard]] inline Curve fidelity_reference(double kelvin) {
+  if (kelvin <= 4000) return planck(kelvin);
+  if (kelvin >= 5000) return daylight(kelvin);
+  const auto part = [](const Curve& light, double share) {
+    return scaled(light, share / sum_product(light, color_matching(Observer::cie1964).y));
+  };
+  const double share = (kelvin - 4000) / 1000;
+  return sum(part(planck(kelvin), 1 - share), part(daylight(kelvin), share));
+}
+
+}  // namespace abbe

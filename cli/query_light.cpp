@@ -1,0 +1,140 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibration/judge/color_rendering.h"
+#include "calibration/judge/metamerism.h"
+#include "cli/answer.h"
+#include "cli/output_files.h"
+#include "cli/query.h"
+#include "io/atomic_file.h"
+#include "io/exr.h"
+#include "io/extension.h"
+#include "io/spectral_exr.h"
+#include "io/text.h"
+#include "spectral/color_temperature.h"
+#include "spectral/library.h"
+#include "validation/plot/color_vector.h"
+
+namespace abbe::cli {
+namespace {
+
+// The mean spectral radiance of some pixels of a spectral image, linear between the centres of its bands:
+// steps would be shifted by sums over whole nanometres.
+Curve light_of(const LightOptions& options) {
+  Inputs inputs(options.max_memory_bytes);
+  const SpectralImage image = spectral_image(read_exr(options.name, &inputs), options.name);
+  const Crop crop = options.crop.value_or(Crop{0, 0, image.width, image.height});
+  if (crop.x1 > image.width || crop.y1 > image.height)
+    throw Error(ErrorCode::usage, "--crop",
+                fmt::format("lies beyond the {} x {} pixels of the image", image.width, image.height));
+  const std::vector<double> edges = band_edges(image.bands);
+  std::vector<Knot> knots{{edges.front(), 0}};
+  for (std::size_t b = 0; b < image.bands.size(); ++b) {
+    double total = 0;
+    for (int y = crop.y0; y < crop.y1; ++y)
+      for (int x = crop.x0; x < crop.x1; ++x)
+        total += static_cast<double>(
+            image.bands[b].radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                    static_cast<std::size_t>(x)]);
+    const double pixels = static_cast<double>(crop.x1 - crop.x0) * (crop.y1 - crop.y0);
+    const double density = total / pixels / (edges[b + 1] - edges[b]);
+    if (b == 0) knots.push_back({edges[b], density});
+    knots.push_back({image.bands[b].center_nm, density});
+    if (b + 1 == image.bands.size()) knots.push_back({edges[b + 1], density});
+  }
+  knots.push_back({edges.back(), 0});
+  return Curve(std::move(knots));
+}
+
+Curve within(const char* folder, const std::string& name, Diagnostics& diagnostics) {
+  const auto curve = load_curve(folder, name, {}, diagnostics);
+  if (!curve) return Curve();
+  if (const auto fault = value_fault(curve->curve, Range::unit()))
+    diagnostics.error({}, fmt::format("\"{}\": {}", name, *fault), ErrorCode::input);
+  return curve->curve;
+}
+
+// The light that is asked about: a lamp's or a picture's, through filters, from a surface.
+Curve asked_light(const LightOptions& options) {
+  Diagnostics diagnostics;
+  Curve light;
+  if (options.name.ends_with(".exr")) {
+    light = light_of(options);
+  } else if (options.crop) {
+    throw Error(ErrorCode::usage, "--crop", "is for spectral images");
+  } else if (const auto lamp = load_illuminant(options.name, {}, diagnostics)) {
+    light = lamp->curve;
+  }
+  if (!options.filters.empty())
+    for (const std::string& filter : split(options.filters, ','))
+      light = product(light, within("filter", filter, diagnostics));
+  if (!options.reflectance.empty())
+    light = product(light, within("reflectance", options.reflectance, diagnostics));
+  check(diagnostics);
+  return light;
+}
+
+void add_fidelity(Json& answer, const ColorFidelity& fidelity) {
+  answer["Rf"] = fidelity.fidelity;
+  answer["Rg"] = fidelity.gamut;
+  for (const HueBin& bin : fidelity.bins) {
+    answer["Rf_h"].push_back(bin.fidelity);
+    answer["Rcs_h"].push_back(bin.chroma_shift);
+    answer["Rhs_h"].push_back(bin.hue_shift);
+  }
+}
+
+}  // namespace
+
+int query_light(const LightOptions& options) {
+  if (!options.plot.empty()) require_extension(options.plot, {".svg"});
+  require_distinct(options.plot.empty() ? std::vector<std::filesystem::path>{} : std::vector{options.plot},
+                   files_among({options.name, options.filters, options.reflectance}));
+  const Curve light = asked_light(options);
+  const XYZ xyz = tristimulus(light, Curve(1), Observer::cie1931);
+  if (!std::isfinite(xyz[0]))
+    throw Error(ErrorCode::input, options.name, "has no light that an observer sees, hence no colour");
+  const auto temperature = color_temperature(xyz);
+  const auto rendering = color_rendering(light);
+  const auto fidelity = color_fidelity(light);
+  Json answer;
+  answer["xy"] = chromaticity(xyz);
+  answer["uv_1960"] = uv_1960(xyz);
+  answer["CCT_K"] = temperature ? Json(temperature->kelvin) : Json();
+  answer["Duv"] = temperature ? Json(temperature->duv) : Json();
+  answer["LER_lm_per_W"] = luminous_efficacy(light);
+  answer["S_over_P"] = scotopic_photopic_ratio(light);
+  answer["Ra"] = rendering ? Json(rendering->general) : Json();
+  if (rendering) answer["R"] = rendering->special;
+  if (fidelity)
+    add_fidelity(answer, *fidelity);
+  else
+    for (const char* key : {"Rf", "Rg"}) answer[key] = Json();
+  if (!options.plot.empty()) {
+    if (!fidelity)
+      throw Error(ErrorCode::input, options.name,
+                  "has no colour temperature up to 25 000 K, hence no reference to be drawn beside");
+    write_atomically(options.plot, color_vector_graphic(*fidelity, options.name));
+  }
+  print(answer, options.json);
+  return 0;
+}
+
+int query_metamerism(const MetamerismOptions& options) {
+  Diagnostics diagnostics;
+  const Curve first = within("reflectance", options.first, diagnostics);
+  const Curve second = within("reflectance", options.second, diagnostics);
+  const auto reference = load_illuminant(options.reference, {}, diagnostics);
+  const auto test = load_illuminant(options.test, {}, diagnostics);
+  check(diagnostics);
+  const Metamerism result = metamerism(first, second, reference->curve, test->curve);
+  Json answer;
+  answer["reference_dE76"] = result.reference_76;
+  answer["dE76"] = result.index_76;
+  answer["dE00"] = result.index_2000;
+  print(answer, options.json);
+  return 0;
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,131 @@
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "cli/query.h"
+#include "io/exr.h"
+#include "io/spectral_exr.h"
+#include "spectral/library.h"
+#include "tests/cli/json_output.h"
+#include "tests/cli/program.h"
+
+namespace abbe::test {
+namespace {
+
+using namespace abbe::cli;
+
+TEST(QueryLight, JudgesALampAndDrawsIt) {
+  LightOptions options{"FL11"};
+  options.plot = scratch() / "fl11.svg";
+  const json found = json_output(query_light, options);
+  EXPECT_NEAR(found["CCT_K"].get<double>(), 4000.66, 0.01);
+  EXPECT_NEAR(found["Ra"].get<double>(), 82.86, 0.1);
+  EXPECT_NEAR(found["Rf"].get<double>(), 80.04, 0.17);
+  EXPECT_EQ(found["R"].size(), 14u);
+  for (const char* key : {"Rf_h", "Rcs_h", "Rhs_h"}) EXPECT_EQ(found[key].size(), 16u);
+  const std::string drawn = read_file(options.plot);
+  EXPECT_NE(drawn.find("<svg"), std::string::npos);
+  EXPECT_NE(drawn.find("Rf 80"), std::string::npos);
+  EXPECT_NE(drawn.find("Rg 101"), std::string::npos);
+}
+
+TEST(QueryLight, SeesThroughFiltersAndFromSurfaces) {
+  const json bare = json_output(query_light, LightOptions{"A"});
+  const json filtered = json_output(query_light, LightOptions{"A", "kodak_wratten_400-700:W78"});
+  EXPECT_GT(filtered["CCT_K"].get<double>(), bare["CCT_K"].get<double>() + 1000);  // a bluish filter
+  const json twice =
+      json_output(query_light, LightOptions{"A", "kodak_wratten_400-700:W78,kodak_wratten_400-700:W85"});
+  EXPECT_LT(twice["CCT_K"].get<double>(), filtered["CCT_K"].get<double>());
+  const json patch = json_output(
+      query_light, LightOptions{"D65", "", "colorchecker24_babelcolor_average:neutral 5 (.70 D)"});
+  EXPECT_NEAR(patch["CCT_K"].get<double>(), 6500, 200);
+}
+
+TEST(QueryLight, TellsNullOfWhatHasNoTemperature) {
+  const json found = json_output(query_light, LightOptions{"D65", "bessell_B"});
+  for (const char* key : {"CCT_K", "Duv", "Ra", "Rf", "Rg"}) EXPECT_TRUE(found[key].is_null()) << key;
+  EXPECT_FALSE(found.contains("R"));
+  LightOptions drawn{"D65", "bessell_B"};
+  drawn.plot = scratch() / "none.svg";
+  EXPECT_EQ(fault([&] { query_light(drawn); }, "no colour temperature"), ErrorCode::input);
+  EXPECT_FALSE(std::filesystem::exists(drawn.plot));
+}
+
+TEST(QueryLight, ReadsPixelsOfASpectralImage) {
+  // Left half lit by A, right half by FL2, in bands of 5 nm about the tabulated wavelengths.
+  Diagnostics diagnostics;
+  const Curve a = load_illuminant("A", {}, diagnostics)->curve;
+  const Curve fl2 = load_illuminant("FL2", {}, diagnostics)->curve;
+  SpectralImage image{2, 1, {}, {}, {}};
+  for (int nm = 380; nm <= 780; nm += 5)
+    image.bands.push_back(
+        {static_cast<double>(nm), {static_cast<float>(5 * a(nm)), static_cast<float>(5 * fl2(nm))}});
+  const std::filesystem::path file = scratch() / "half.exr";
+  write_exr(file, spectral_layout(image));
+  LightOptions left{file.string()};
+  left.crop = Crop{0, 0, 1, 1};
+  LightOptions right = left;
+  right.crop = Crop{1, 0, 2, 1};
+  EXPECT_NEAR(json_output(query_light, left)["CCT_K"].get<double>(), 2855.65, 0.1);
+  EXPECT_NEAR(json_output(query_light, right)["CCT_K"].get<double>(), 4225.05, 0.1);
+  EXPECT_NEAR(json_output(query_light, right)["Ra"].get<double>(), 64.23, 0.1);
+  right.crop = Crop{1, 0, 3, 1};
+  EXPECT_EQ(fault([&] { query_light(right); }, "beyond the 2 x 1 pixels"), ErrorCode::usage);
+}
+
+TEST(QueryLight, ObjectsInSentences) {
+  LightOptions cropped{"D65"};
+  cropped.crop = Crop{0, 0, 1, 1};
+  EXPECT_EQ(fault([&] { query_light(cropped); }, "for spectral images"), ErrorCode::usage);
+  EXPECT_EQ(fault([] { query_light(LightOptions{"D66"}); }, "unknown illuminant \"D66\""), ErrorCode::input);
+  EXPECT_EQ(fault(
+                [] {
+                  query_light(LightOptions{"D65", "no_filter"});
+                },
+                "unknown filter \"no_filter\""),
+            ErrorCode::input);
+  EXPECT_EQ(fault(
+                [] {
+                  query_light(LightOptions{"D65", "bessell_B,sdss2010_z"});
+                },
+                "no light that an observer sees"),
+            ErrorCode::input);
+}
+
+TEST(QueryMetamerism, ComparesTwoSurfaces) {
+  const json found = json_output(query_metamerism, MetamerismOptions{"colorchecker24_babelcolor_average:blue",
+                                                                     "colorchecker24_ohta1997:blue"});
+  EXPECT_GT(found["reference_dE76"].get<double>(), found["dE76"].get<double>());
+  EXPECT_GT(found["dE00"].get<double>(), 0.1);
+}
+
+TEST(QueryCamera, IsJudgedWithoutALight) {
+  CameraOptions options{"Nikon_D5100", "", ""};
+  EXPECT_EQ(fault([&] { query_camera(options); }, "--illuminant or --judge"), ErrorCode::usage);
+  options.judge = true;
+  const json found = json_output(query_camera, options);
+  EXPECT_NEAR(found["vora"].get<double>(), 0.931, 1e-3);
+  EXPECT_NEAR(found["sensitivity_index"].get<double>(), 90.78, 0.01);
+  EXPECT_EQ(found["luther_residual"].size(), 3u);
+}
+
+TEST(QueryDeltaE, KnowsFormulasOfAppearanceAndDisplays) {
+  // sRGB red and white beside D65, as `itp_srgb` of the reference tables has them.
+  const json found =
+      json_output(query_delta_e, DeltaEOptions{{53.2407933, 80.0924696, 67.2031964}, {100, 0, 0}});
+  EXPECT_NEAR(found["dE_ITP"].get<double>(), 232.6248, 0.01);
+  EXPECT_GT(found["dE_CAM16_UCS"].get<double>(), 30);
+  const json none = json_output(query_delta_e, DeltaEOptions{{50, 20, -30}, {50, 20, -30}});
+  EXPECT_EQ(none["dE_CAM16_UCS"].get<double>(), 0);
+  EXPECT_EQ(none["dE_ITP"].get<double>(), 0);
+}
+
+TEST(QueryLight, ColoursBeyondAllColoursAreRefused) {
+  const Outcome run = abbe("query delta-e 1e308,0,0 50,10,0");
+  EXPECT_EQ(run.code, 2) << run.out;
+  EXPECT_NE(run.err.find("allowed [-1e+06, 1e+06]"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace abbe::test
