@@ -171,11 +171,13 @@ struct ChannelBuilder {
   void operator()(const spec::StandardObserver& observer) const {
     refuse(place(said.response), "response", "observer", context);
     refuse(place(said.quantum_efficiency), "quantum_efficiency", "observer", context);
+    refuse(place(said.peak_quantum_efficiency), "peak_quantum_efficiency", "observer", context);
     sensor.channels = observer_channels(observer.value);
   }
   void operator()(const spec::Bins& bins) const {
     refuse(place(said.response), "response", "spectral", context);
     refuse(place(said.quantum_efficiency), "quantum_efficiency", "spectral", context);
+    refuse(place(said.peak_quantum_efficiency), "peak_quantum_efficiency", "spectral", context);
     refuse(place(said.filters), "filters", "spectral", context);
     refuse(place(said.lens_transmission), "lens_transmission", "spectral", context);
     refuse(place(said.mosaic), "mosaic", "spectral", context);
@@ -183,6 +185,16 @@ struct ChannelBuilder {
     if (sensor.spectral) sensor.channels = spectral_channels(*sensor.spectral);
   }
 };
+
+// Makes counters of electrons of channels whose efficiency is told by its peak.
+void scale_to_peak(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
+  const auto& peak = said.peak_quantum_efficiency;
+  if (!peak) return;
+  if (said.quantum_efficiency)
+    context.diagnostics.error(peak->where, "peak_quantum_efficiency goes without quantum_efficiency");
+  else if (!sensor.channels.empty() && !sensor.spectral && !is_observer(sensor.channels))
+    sensor.channels = with_peak_efficiency(std::move(sensor.channels), peak->value);
+}
 
 // Where a channel is said: by its own name, or with all others.
 const SourcePosition& place_of(const Channel& channel, const spec::Sensor& said) {
@@ -210,6 +222,7 @@ void require_response(const Channel& channel, const SourcePosition& where, LoadC
 void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
   const std::optional<Detector> detector = build_detector(said, context);
   std::visit(ChannelBuilder{said, detector, sensor, context}, said.counts);
+  scale_to_peak(said, sensor, context);
   for (Channel& channel : sensor.channels) {
     if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
     limit_angles(channel, 0);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "description/scene.h"
+#include "description/sensor_model.h"
 #include "io/schema/read.h"
 #include "io/standard_stream.h"
 #include "io/text.h"
@@ -93,6 +94,7 @@ std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
   description::LoadContext context{diagnostics, folder, inputs};
   if (!description::check_version(*root, diagnostics)) return std::nullopt;
+  description::include_sensor_model(*root, context);
   spec::Scene own;
   spec::Scene& said = asked != nullptr ? *asked : own;
   (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said,

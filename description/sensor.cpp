@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/image.h"
+#include "sensor/readout/speed.h"
 
 namespace abbe::spec {
 namespace {
@@ -18,6 +19,7 @@ constexpr Range kEffectiveIndex{1, 10};
 constexpr Range kPixels{1};
 constexpr Range kPitch{0, 1e6, true, false, "um"};
 constexpr Range kFill{0, 1, true, false};
+constexpr Range kPeak{0, 10, true, false};  // as of a quantum efficiency
 constexpr Range kStep = Range{0.01, kMaxWavelengthNm - kMinWavelengthNm}.in("nm");
 
 Kind filters() {
@@ -69,14 +71,17 @@ static Fields fields(Tag<Bins>) {
 Fields fields(Tag<Sensor>) {
   return describe(
       "sensor", "The pixels, and what they count.",
-      {field("resolution", &Sensor::resolution, vector<std::array<std::int64_t, 2>>(kPixels),
+      {field("model", &Sensor::model,
+             "A camera's sensor, by its name in data/sensor or as FILE.json, whose keys hold where there are "
+             "none here."),
+       field("resolution", &Sensor::resolution, vector<std::array<std::int64_t, 2>>(kPixels),
              "[width, height] in pixels, edges up to 65536 and 2^28 pixels in all; [1, 1] of a probe when "
              "absent."),
        defaulted("pixel_pitch_um", &Sensor::pixel_pitch_um, kPitch, "Distance between pixels."),
        defaulted("exposure_s", &Sensor::exposure_s, kExposure, "Exposure time."),
        defaulted("fill_factor", &Sensor::fill_factor, kFill, "Share of a pixel that takes light."),
-       one_of(
-           &Sensor::counts,
+       at_most_one(
+           &Sensor::counts, "a sensor counts by one of channels, camera, observer and spectral",
            under<Channels>("channels", channels(), "Response of each channel by name, or its filters."),
            under<MeasuredCamera>("camera", "A measured camera, by its name in data/camera or as FILE.csv."),
            under<StandardObserver>("observer", word<Observer>("observer", {"1931", "1964"}, true),
@@ -87,12 +92,17 @@ Fields fields(Tag<Sensor>) {
            "What the channels, or a camera's curves, multiply; quantum when `quantum_efficiency` is given."),
        field("quantum_efficiency", &Sensor::quantum_efficiency,
              "Electrons per photon, in [0, 10], multiplied into every channel."),
+       field("peak_quantum_efficiency", &Sensor::peak_quantum_efficiency, kPeak,
+             "Electrons per photon of the most sensitive channel where it is most sensitive: measured "
+             "responses "
+             "of any scale, as of `camera`, become quantum efficiencies, scaled together."),
        field("filters", &Sensor::filters, filters(), "Filters before every channel, one behind the other."),
        field("lens_transmission", &Sensor::lens_transmission,
              "Transmittance in [0, 1.05] before all filters."),
        field("mosaic", &Sensor::mosaic, mosaic(),
              "Channels of single pixels, rows of a pattern that repeats from the top left corner."),
-       field("readout", &Sensor::readout)});
+       field("readout", &Sensor::readout)},
+      {"model", "channels", "camera", "observer", "spectral"});
 }
 
 }  // namespace abbe::spec
@@ -152,16 +162,19 @@ std::optional<Mosaic> build_mosaic(const spec::Sensor& said, const std::vector<C
 }
 
 // The electronics behind channels, which must count electrons.
-std::optional<Readout> build_readout(const spec::Sensor& said, const std::vector<Channel>& channels,
+std::optional<Readout> build_readout(const spec::Sensor& said, const Sensor& sensor,
                                      const LoadContext& context) {
-  for (const Channel& channel : channels)
+  for (const Channel& channel : sensor.channels)
     if (channel.kind != ResponseKind::quantum)
       context.diagnostics.error(
           said.readout->where,
           fmt::format("a read-out needs channels that count electrons (got \"{}\", whose response is "
-                      "energy, allowed quantum)",
+                      "energy, allowed quantum; peak_quantum_efficiency makes it so)",
                       channel.name));
-  return abbe::build(said.readout->value, context.diagnostics);
+  if (sensor.channels.empty()) return std::nullopt;  // what is wrong with them is told
+  const double area_m2 = gathering_area(sensor.pixel_pitch, sensor.fill_factor);
+  return abbe::build(said.readout->value, daylight_sensitivity(sensor.channels, area_m2),
+                     context.diagnostics);
 }
 
 }  // namespace
@@ -173,8 +186,10 @@ Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
   sensor.exposure_s = said.exposure_s;
   sensor.fill_factor = said.fill_factor;
   build_channels(said, sensor, context);
+  if (said.model && std::holds_alternative<std::monostate>(said.counts))
+    context.diagnostics.error(said.where, "neither the model nor the scene says what its pixels count");
   if (said.mosaic && !sensor.spectral) sensor.mosaic = build_mosaic(said, sensor.channels, context);
-  if (said.readout) sensor.readout = build_readout(said, sensor.channels, context);
+  if (said.readout) sensor.readout = build_readout(said, sensor, context);
   return sensor;
 }
 

@@ -40,6 +40,7 @@ struct Bins {
 
 /// The film: its pixels, and what they count.
 struct Sensor {
+  std::optional<std::string> model;  ///< Which was put in here before the scene was read.
   std::optional<schema::Located<std::array<std::int64_t, 2>>> resolution;
   double pixel_pitch_um = 4.5;
   double exposure_s = 1;
@@ -47,6 +48,7 @@ struct Sensor {
   std::variant<std::monostate, Channels, MeasuredCamera, StandardObserver, Bins> counts;
   std::optional<schema::Located<ResponseKind>> response;
   std::optional<Curve> quantum_efficiency;
+  std::optional<schema::Located<double>> peak_quantum_efficiency;
   std::optional<schema::Located<Filters>> filters;
   std::optional<Curve> lens_transmission;
   std::optional<schema::Located<std::vector<schema::Located<std::vector<schema::Located<std::string>>>>>>

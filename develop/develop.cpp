@@ -3,16 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "calibration/output/white_clip.h"
 #include "io/text.h"
+#include "sensor/film/recorded_crop.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
+#include "sensor/readout/speed.h"
 
 namespace abbe {
 namespace {
 
-Image like(const Image& film) {
-  return {film.width, film.height, {}, film.metadata};
+// What the film tells, of the sensor as it is read out.
+std::map<std::string, std::string> told_of(const ExposedFilm& exposed) {
+  const FilmSensor& sensor = exposed.sensor;
+  std::map<std::string, std::string> told = exposed.film.metadata;
+  if (!sensor.description.empty()) told["sensor"] = sensor.description;
+  if (sensor.readout && sensor.electrons_per_lx_s)
+    told[kIsoSpeedKey] =
+        fmt::format("{}", static_cast<float>(saturation_speed(*sensor.readout, *sensor.electrons_per_lx_s)));
+  return told;
+}
+
+Image like(const ExposedFilm& exposed) {
+  return {exposed.film.width, exposed.film.height, {}, told_of(exposed)};
 }
 
 // Exposure [per m^2] that gives so many electrons, those of the dark included.
@@ -20,7 +35,8 @@ double exposure_of(const FilmSensor& sensor, double electrons, double seconds) {
   return (electrons - sensor.readout->dark_e_per_s * seconds) / sensor.gathering_area_m2;
 }
 
-void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t seed, DevelopedFilm& developed) {
+void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t seed, std::uint32_t frame,
+                DevelopedFilm& developed) {
   const FilmSensor& sensor = exposed.sensor;
   const Readout& readout = *sensor.readout;
   const std::string& name = sensor.planes[plane];
@@ -28,8 +44,10 @@ void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t see
   for (const float value : exposed.film.find(name)->values)
     electrons.values.push_back(static_cast<float>(value * sensor.gathering_area_m2));
   const double seconds = sensor.exposure_s[plane];
-  const RawFrame raw =
-      read_out(readout, electrons.values, {seconds, seed, static_cast<std::uint32_t>(plane)});
+  const auto planes = static_cast<std::uint32_t>(sensor.planes.size());
+  const RawFrame raw = read_out(readout, electrons.values,
+                                {seconds, seed, frame * planes + static_cast<std::uint32_t>(plane),
+                                 static_cast<std::size_t>(exposed.film.width)});
   ImageChannel calibrated{name, {}};
   for (const std::uint16_t dn : raw.dn)
     calibrated.values.push_back(static_cast<float>(exposure_of(sensor, electrons_of(readout, dn), seconds)));
@@ -39,24 +57,45 @@ void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t see
   developed.calibrated.channels.push_back(std::move(calibrated));
 }
 
-double mean(const std::vector<float>& values) {
+// What the numbers of a raw file stand for, so that nothing that reads it has to guess.
+void tell_codes(const Readout& readout, std::map<std::string, std::string>& told) {
+  told[kCodesKey] =
+      fmt::format("digital numbers 0 to {}, linear, not scaled to 16 bits", readout.highest_code());
+  if (readout.response_curve)
+    told[kCodesKey] = fmt::format("digital numbers 0 to {}, by a response curve", readout.highest_code());
+  told[kBlackLevelKey] = fmt::format("{}", readout.offset_dn);
+  told[kWhiteLevelKey] = fmt::format("{}", white_level(readout));
+  told[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
+}
+
+// The pixels of a film that have been rendered: all, or those of its crop.
+Crop lit_part(const Image& film) {
+  return recorded_crop(film).value_or(Crop{0, 0, film.width, film.height});
+}
+
+double mean(const Image& film, const Crop& crop, const std::vector<float>& values) {
   double sum = 0;
-  for (const float value : values) sum += static_cast<double>(value);
-  return sum / static_cast<double>(values.size());
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x)
+      sum += static_cast<double>(values[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
+                                        static_cast<std::size_t>(x)]);
+  return sum / (static_cast<double>(crop.x1 - crop.x0) * (crop.y1 - crop.y0));
 }
 
 }  // namespace
 
-DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed) {
+DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint32_t frame) {
   const Image& film = exposed.film;
-  DevelopedFilm developed{like(film), like(film), like(film), like(film), like(film)};
+  const Image empty = like(exposed);
+  DevelopedFilm developed{empty, empty, empty, empty, empty};
   for (std::size_t plane = 0; plane < exposed.sensor.planes.size(); ++plane) {
     const std::string& name = exposed.sensor.planes[plane];
     developed.exposure.channels.push_back(*film.find(name));
     if (const ImageChannel* variance = film.find(variance_of(name)))
       developed.variance.channels.push_back(*variance);
-    if (exposed.sensor.readout) read_plane(exposed, plane, seed, developed);
+    if (exposed.sensor.readout) read_plane(exposed, plane, seed, frame, developed);
   }
+  if (exposed.sensor.readout) tell_codes(*exposed.sensor.readout, developed.codes.metadata);
   if (!exposed.sensor.readout) developed.calibrated = developed.exposure;
   return developed;
 }
@@ -71,7 +110,7 @@ Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
                                : calibrated;
   if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return planes;
   const Readout& readout = *sensor.readout;
-  const double full_e = std::min(readout.full_well_e, electrons_of(readout, readout.highest_code()));
+  const double full_e = saturation_electrons(readout);
   std::vector<double> saturation;
   for (std::size_t k = 0; k < 3; ++k)
     saturation.push_back(
@@ -83,15 +122,19 @@ Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
 std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const DevelopedFilm& developed) {
   const double unit = sensor.readout ? sensor.gathering_area_m2 : 1;
   const Image& counted = sensor.readout ? developed.electrons : developed.exposure;
+  const Crop crop = lit_part(developed.exposure);
+  const auto over_film = [&](const std::vector<float>& values) {
+    return mean(developed.exposure, crop, values);
+  };
   std::vector<PlaneFigures> all;
   for (std::size_t plane = 0; plane < sensor.planes.size(); ++plane) {
     PlaneFigures& figures = all.emplace_back();
-    figures.mean = mean(counted.channels[plane].values);
+    figures.mean = over_film(counted.channels[plane].values);
     if (const ImageChannel* variance = developed.variance.find(variance_of(sensor.planes[plane])))
-      figures.render_error = std::sqrt(mean(variance->values)) * unit;
+      figures.render_error = std::sqrt(over_film(variance->values)) * unit;
     if (!sensor.readout) continue;
     figures.noise = temporal_noise(*sensor.readout, figures.mean, sensor.exposure_s[plane]);
-    figures.saturated_share = mean(developed.codes.find("Saturated." + sensor.planes[plane])->values);
+    figures.saturated_share = over_film(developed.codes.find("Saturated." + sensor.planes[plane])->values);
   }
   return all;
 }

@@ -8,6 +8,13 @@
 
 namespace abbe {
 
+/// Attributes of raw files: what their numbers are, the code of a pixel without electrons, the least code of
+/// a saturated one, and electrons per digital number.
+inline constexpr const char* kCodesKey = "codes";
+inline constexpr const char* kBlackLevelKey = "black_level_dn";
+inline constexpr const char* kWhiteLevelKey = "white_level_dn";
+inline constexpr const char* kGainKey = "gain_e_per_dn";
+
 /// The planes of a film, one image for each step from light to numbers.
 struct DevelopedFilm {
   Image exposure;
@@ -17,9 +24,9 @@ struct DevelopedFilm {
   Image calibrated;  ///< What the codes say of the exposure; the exposure itself without a read-out.
 };
 
-/// Reads the film out once, its noise a function of `seed`, plane and pixel. Throws Error{input} for a pixel
-/// that expects more electrons than can be counted.
-[[nodiscard]] DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed);
+/// Reads the film out once, its noise a function of `seed`, `frame`, plane and pixel. Throws Error{input} for
+/// a pixel that expects more electrons than can be counted.
+[[nodiscard]] DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint32_t frame = 0);
 
 /// The seed of the render that made the film; 0 for one that does not tell.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);
@@ -27,8 +34,8 @@ struct DevelopedFilm {
 /// What a display is given: every channel in every pixel, and what saturated as white.
 [[nodiscard]] Image display_planes(const FilmSensor& sensor, const Image& calibrated);
 
-/// A plane's mean over the pixels, and errors as the roots of their mean squares: in electrons with a
-/// read-out, else in film values.
+/// A plane's mean over the pixels that have been rendered, and errors as the roots of their mean squares: in
+/// electrons with a read-out, else in film values.
 struct PlaneFigures {
   double mean = 0;
   std::optional<double> render_error;  ///< Nothing for planes without variance.

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "develop/radiance.h"
+#include "develop/raw_picture.h"
 #include "io/error.h"
 #include "io/exr.h"
+#include "io/extension.h"
 #include "io/picture.h"
 #include "sensor/film/variance_name.h"
 
@@ -17,18 +19,6 @@ namespace {
 
 constexpr const char* kExposurePart = "exposure";
 constexpr const char* kVariancePart = "variance";
-
-void require_finite(const Image& film, const std::filesystem::path& path) {
-  for (const ImageChannel& channel : film.channels)
-    for (std::size_t i = 0; i < channel.values.size(); ++i)
-      if (const float value = channel.values[i];
-          !std::isfinite(value) || (value < 0 && channel.name.starts_with(variance_of(""))))
-        throw Error(ErrorCode::input, path.string(),
-                    fmt::format("channel \"{}\" holds no {} at pixel {},{} (got {})", channel.name,
-                                std::isfinite(value) ? "variance" : "number",
-                                i % static_cast<std::size_t>(film.width),
-                                i / static_cast<std::size_t>(film.width), value));
-}
 
 Image joined(std::vector<ExrPart> parts, const std::filesystem::path& path) {
   if (parts.size() == 1) return std::move(parts.front().image);
@@ -48,6 +38,18 @@ Image joined(std::vector<ExrPart> parts, const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+void require_finite(const Image& film, const std::filesystem::path& path) {
+  for (const ImageChannel& channel : film.channels)
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      if (const float value = channel.values[i];
+          !std::isfinite(value) || (value < 0 && channel.name.starts_with(variance_of(""))))
+        throw Error(ErrorCode::input, path.string(),
+                    fmt::format("channel \"{}\" holds no {} at pixel {},{} (got {})", channel.name,
+                                std::isfinite(value) ? "variance" : "number",
+                                i % static_cast<std::size_t>(film.width),
+                                i / static_cast<std::size_t>(film.width), value));
+}
 
 Image read_film(const std::filesystem::path& path, Inputs* inputs) {
   Image film = joined(read_exr_parts(path, inputs), path);
@@ -75,10 +77,20 @@ void write_display(const std::filesystem::path& path, const Image& planes, const
   write_picture(path, (*sensor.display)(planes, white ? std::optional(1 / *white) : std::nullopt).image);
 }
 
-void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed) {
+void require_developed_extension(const std::filesystem::path& path) {
+  require_extension(path, {".exr", ".tif", ".tiff", ".png", ".dng", ".fits", ".fit"});
+}
+
+bool is_raw_file(const std::filesystem::path& path) {
+  return path.extension() != ".exr";
+}
+
+void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed, const FilmSensor& sensor) {
+  if (path.extension() == ".dng") return write_dng(path, raw_picture(developed, sensor));
+  if (path.extension() == ".fits" || path.extension() == ".fit")
+    return write_fits(path, raw_picture(developed, sensor));
   Image raw{developed.codes.width, developed.codes.height, {}, developed.codes.metadata};
-  for (const ImageChannel& channel : developed.codes.channels)
-    if (!channel.name.starts_with("Saturated.")) raw.channels.push_back(channel);
+  for (const std::string& plane : sensor.planes) raw.channels.push_back(*developed.codes.find(plane));
   write_raw_picture(path, raw);
 }
 

@@ -1,5 +1,6 @@
 #include "develop/film_sensor.h"
 
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@
 
 namespace abbe {
 namespace {
+
+constexpr const char* kGainPointer = "/readout/gain_e_per_dn";
 
 // Metadata of one film, with words for what is missing or wrong.
 struct Metadata {
@@ -47,7 +50,7 @@ struct Metadata {
 void read_planes(const Metadata& data, FilmSensor& sensor) {
   sensor.planes = split(data.text("sensor_channels"), ',');
   sensor.channels = sensor.planes;
-  const double exposure_s = data.number("exposure_s");
+  const double exposure_s = sensor.shared_exposure_s = data.number("exposure_s");
   for (const std::string& plane : sensor.planes)
     sensor.exposure_s.push_back(data.find_number("exposure_s." + plane).value_or(exposure_s));
   if (!data.find("mosaic")) return;
@@ -56,26 +59,53 @@ void read_planes(const Metadata& data, FilmSensor& sensor) {
   if (!sensor.mosaic || sensor.planes.size() != 1) data.refuse("mosaic");
 }
 
-std::optional<Readout> read_readout_of(const Metadata& data, const FilmSensor& sensor,
+// A gain takes the place of a speed, and a speed that of a gain.
+void replace_conversion(JsonValue& sensor, const std::string& pointer) {
+  const std::string_view old = pointer == kIsoPointer    ? "gain_e_per_dn"
+                               : pointer == kGainPointer ? "iso"
+                                                         : "";
+  JsonValue* readout = old.empty() ? nullptr : sensor.find("readout");
+  if (readout != nullptr)
+    if (auto* members = std::get_if<JsonValue::Object>(&readout->value))
+      std::erase_if(*members, [old](const JsonValue::Member& member) { return member.first == old; });
+}
+
+void require_one_conversion(std::span<const Override> overrides) {
+  const auto sets = [&](std::string_view pointer) {
+    return std::any_of(overrides.begin(), overrides.end(),
+                       [&](const Override& o) { return o.pointer == pointer; });
+  };
+  if (sets(kIsoPointer) && sets(kGainPointer))
+    throw Error(ErrorCode::usage, kIsoPointer,
+                fmt::format("makes the gain, which {} says too: one of them", kGainPointer));
+}
+
+std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
                                        std::span<const Override> overrides, Diagnostics& diagnostics) {
   const auto source =
       std::make_shared<const SourceText>(SourceText{data.path.string() + ": sensor", data.text("sensor")});
   std::optional<JsonValue> json = parse_json(source, diagnostics);
   if (!json) return std::nullopt;
+  require_one_conversion(overrides);
   for (const Override& o : overrides) {
     if (o.pointer != "/readout" && !o.pointer.starts_with("/readout/"))
       throw Error(ErrorCode::usage, "--set",
                   fmt::format("the film was rendered with it (got {}, allowed /readout and below, {})",
                               o.pointer, kWhitePointer));
+    replace_conversion(*json, o.pointer);
     set_json(*json, o.pointer, o.value, diagnostics);
   }
+  sensor.description = overrides.empty() ? data.text("sensor") : to_text(*json);
+  for (const char* key : {"model", "camera"})
+    if (const JsonValue* name = json->find(key); name != nullptr && sensor.camera.empty())
+      if (const auto* text = std::get_if<std::string>(&name->value)) sensor.camera = *text;
   const JsonValue* readout = json->find("readout");
   if (readout == nullptr || diagnostics.has_errors()) return std::nullopt;
   for (const std::string& channel : sensor.channels)
     if (!data.text("channel." + channel).starts_with("quantum"))
       throw Error(ErrorCode::input, data.path.string(),
                   fmt::format("channel \"{}\" counts no electrons to read out", channel));
-  return read_readout(*readout, diagnostics);
+  return read_readout(*readout, data.find_number("electrons_per_lx_s"), diagnostics);
 }
 
 std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor,
@@ -108,6 +138,7 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   sensor.readout = read_readout_of(data, sensor, overrides, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
+  sensor.f_number = data.find_number("aperture");
   sensor.display = read_display(data, sensor, view, white);
   sensor.display_exposure = data.find_number("display_exposure");
   return sensor;

@@ -4,28 +4,38 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "calibration/output/display.h"
 #include "io/diagnostics.h"
 #include "io/image.h"
 #include "io/json.h"
+#include "io/raw_picture.h"
 #include "sensor/readout/readout.h"
 #include "sensor/response/mosaic.h"
 
 namespace abbe {
 
+/// Where a film's description has the ISO speed.
+inline constexpr const char* kIsoPointer = "/readout/iso";
+
 /// What a film's file tells of the sensor behind it: all that it takes to go on without its scene.
 struct FilmSensor {
   std::vector<std::string> planes;
-  std::vector<double> exposure_s;  ///< Of each plane.
+  double shared_exposure_s = 1;    ///< The sensor's,
+  std::vector<double> exposure_s;  ///< and that of each plane.
   std::optional<Mosaic> mosaic;
   std::vector<std::string> channels;  ///< The planes, or the channels of the mosaic.
   double gathering_area_m2 = 0;       ///< Film values times this are what a pixel counts.
   std::optional<Readout> readout;
   std::optional<double> electrons_per_lx_s;  ///< Of a pixel of the most sensitive channel, in daylight.
+  std::optional<double> f_number;
+  std::string description;  ///< What a scene would say of it, overrides included; empty where none is known.
+  std::string camera;       ///< Name of its model, else of the measured camera; empty where it has none.
   std::optional<DisplayTransform> display;
   std::optional<double> display_exposure;  ///< Film value shown as white.
+  std::vector<RawLight> lights;            ///< Of a calibration, for raw converters; else none.
 };
 
 /// A film and the sensor it was exposed on.
@@ -43,6 +53,22 @@ struct ExposedFilm {
                                                     const ViewOptions& view,
                                                     std::optional<Chromaticity> white,
                                                     Diagnostics& diagnostics);
+
+/// Exposes the film anew for `seconds`, without rendering: light, and with the square its variance, grow with
+/// the time. Channels with an exposure of their own keep its ratio to the sensor's. Throws Error{usage} for a
+/// film that tells no exposure, such as what the eye sees of a spectral one.
+void expose_for(ExposedFilm& exposed, double seconds);
+
+/// What a camera sees without a scene: nothing, in no time, for its read-out alone; nothing in the film's own
+/// time; or light that lets every pixel expect the same share of saturation.
+struct BiasFrame {};
+struct DarkFrame {};
+struct FlatFrame {
+  double share = 0.5;
+};
+using CalibrationFrame = std::variant<BiasFrame, DarkFrame, FlatFrame>;
+/// Puts that in the place of the film, without variance. Throws Error{usage} for a sensor without a read-out.
+void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame);
 
 /// Throws Error{usage} unless displays can show what the sensor sees.
 void require_display(const FilmSensor& sensor);

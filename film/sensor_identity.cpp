@@ -14,13 +14,10 @@
 #include "sensor/film/recorded_white.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
-#include "spectral/library.h"
 #include "transport/render/white.h"
 
 namespace abbe {
 namespace {
-
-constexpr const char* kDaylight = "D55";
 
 // Standard attributes of EXR files are single precision.
 std::string single(double x) {
@@ -42,15 +39,10 @@ std::optional<double> standard_exposure(const Scene& scene) {
 }
 
 void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
-  if (std::any_of(scene.channels.begin(), scene.channels.end(),
-                  [](const Channel& c) { return c.kind != ResponseKind::quantum; }))
-    return;
-  Diagnostics diagnostics;
-  const auto daylight = load_curve("illuminant", kDaylight, {}, diagnostics);
-  if (!daylight) throw Error(diagnostics.code(), "", diagnostics.text());
-  const double sensitivity = sensitivity_e_per_lx_s(scene.channels, area_m2, daylight->curve);
-  identity["electrons_per_lx_s"] = fmt::format("{}", sensitivity);
-  if (scene.readout) identity["isoSpeed"] = single(saturation_speed(*scene.readout, sensitivity));
+  const auto sensitivity = daylight_sensitivity(scene.channels, area_m2);
+  if (!sensitivity) return;
+  identity["electrons_per_lx_s"] = fmt::format("{}", *sensitivity);
+  if (scene.readout) identity[kIsoSpeedKey] = single(saturation_speed(*scene.readout, *sensitivity));
 }
 
 // Nothing for a sensor that no display can show.

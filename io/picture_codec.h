@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "io/raw_picture.h"
+
 namespace abbe {
 
 /// What a picture file says of itself beside its pixels.
@@ -20,9 +22,10 @@ struct PictureHeader {
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;
 
-/// What the module of pictures offers: OpenImageIO, which brings some 250 shared libraries and with them a
-/// fifth of a second at every start, is loaded with it when a picture is first met. The module holds no state
-/// of the program's rooms: all it needs is in the arguments, and it reports failures as `Error`.
+/// What the module of pictures offers: OpenImageIO, libtiff and cfitsio, of which the first brings some 250
+/// shared libraries and with them a fifth of a second at every start, is loaded with it when a picture is
+/// first met. The module holds no state of the program's rooms: all it needs is in the arguments, and it
+/// reports failures as `Error`.
 struct PictureCodec {
   /// The bytes of a file of the format that the extension of `path` names, checked to read back. Throws
   /// Error{output}.
@@ -31,6 +34,13 @@ struct PictureCodec {
   /// Reads the file into the place that `room` gives for its header: width * height * channels floats, pixel
   /// by pixel, scaled to [0, 1] for integer files. `room` may throw. Throws Error{input}.
   void (*read)(const std::string& path, const std::function<float*(const PictureHeader&)>& room);
+
+  /// The bytes of a DNG (libtiff) and of a FITS file (cfitsio), checked to read back. Throw Error{output}.
+  std::string (*encode_dng)(const std::string& path, const RawPicture& raw);
+  std::string (*encode_fits)(const std::string& path, const RawPicture& raw);
+  /// Read one. Throw Error{input} and Error{resource}.
+  RawPicture (*read_dng)(const std::string& path);
+  RawPicture (*read_fits)(const std::string& path);
 };
 
 /// The name under which the module exports a function that returns a `const PictureCodec*`.

@@ -4,6 +4,7 @@
 
 #include "io/error.h"
 #include "io/picture_codec.h"
+#include "io/picture_module.h"
 
 namespace abbe {
 namespace {
@@ -54,7 +55,8 @@ void read(const std::string& path, const std::function<float*(const PictureHeade
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
     throw Error(ErrorCode::input, path, "not a flat image");
   float* pixels = room(header_of(spec));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels))
+  // Of strips that a TIFF lacks the library tells as an error, and makes something up.
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels) || input->has_error())
     throw Error(ErrorCode::input, path, "truncated or corrupt");
 }
 
@@ -62,6 +64,11 @@ void read(const std::string& path, const std::function<float*(const PictureHeade
 }  // namespace abbe
 
 extern "C" __attribute__((visibility("default"))) const abbe::PictureCodec* abbe_picture_codec() {
-  static constexpr abbe::PictureCodec kCodec{abbe::encode, abbe::read};
+  static constexpr abbe::PictureCodec kCodec{abbe::encode,
+                                             abbe::read,
+                                             abbe::picture_module::encode_dng,
+                                             abbe::picture_module::encode_fits,
+                                             abbe::picture_module::read_dng,
+                                             abbe::picture_module::read_fits};
   return &kCodec;
 }

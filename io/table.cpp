@@ -260,6 +260,14 @@ const Names& names_in(std::string_view folder) {
   return folders.emplace(folder, index_folder(data_directory() / folder)).first->second;
 }
 
+/// "stem:column" of another folder than the one that is looked through.
+std::optional<TableColumn> column_elsewhere(const std::string& name) {
+  if (name.find(':') == std::string::npos) return std::nullopt;
+  for (const char* folder : {"camera", "filter", "illuminant", "observer", "reflectance"})
+    if (const auto found = names_in(folder).find(name); found != names_in(folder).end()) return found->second;
+  return std::nullopt;
+}
+
 /// `path.csv` or `path.csv:column` of a user.
 std::optional<TableColumn> user_column(const std::string& name, const SourcePosition& where,
                                        Diagnostics& diagnostics) {
@@ -326,6 +334,7 @@ std::optional<TableColumn> find_table(std::string_view folder, const std::string
   const Names& names = names_in(folder);
   const auto found = names.find(name);
   if (found != names.end()) return found->second;
+  if (const auto elsewhere = column_elsewhere(name)) return elsewhere;
   diagnostics.error(where, unknown_name(folder, name, table_names(folder)));
   return std::nullopt;
 }

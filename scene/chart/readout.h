@@ -6,6 +6,7 @@
 
 #include "io/image.h"
 #include "scene/scene.h"
+#include "sensor/film/patch.h"
 
 namespace abbe {
 
@@ -17,6 +18,13 @@ struct PatchReading {
   std::vector<double> mean;  ///< Channel by channel, in the order asked for.
   const Curve* reflectance;  ///< Of the patch, owned by the scene.
 };
+
+/// Where the camera of the scene sees the middle of every patch of a chart, named CHART/PATCH. Throws
+/// Error{input} for a patch that it does not see.
+[[nodiscard]] std::vector<PatchOutline> chart_outlines(const Scene& scene, const ChartInstance& chart);
+
+/// Throws Error{input} unless an image has as many pixels as the scene's camera.
+void require_film_of(const Scene& scene, const ChartInstance& chart, const Image& film);
 
 /// Reads every patch of a chart from a film of the scene, whether anything hides it or not. Throws
 /// Error{input} when the film's size is not the scene's, when it lacks a channel, and when the middle of a

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace abbe {
 
@@ -14,6 +15,12 @@ struct FlatPair {
   std::span<const std::uint16_t> second;
 };
 
+/// A lit pair of the photon-transfer curve.
+struct TransferPoint {
+  double signal_dn;     ///< Mean above that of darkness.
+  double variance_dn2;  ///< From one exposure to the next, above that of darkness.
+};
+
 /// What measurements say of a sensor with a linear response, in the terms of `Readout`.
 struct PhotonTransfer {
   double gain_e_per_dn;
@@ -21,15 +28,20 @@ struct PhotonTransfer {
   double dark_e_per_s;
   double prnu_percent;
   double dsnu_e;
-  std::optional<double> full_well_e;  ///< Nothing where no pair fills it before the codes end.
+  std::optional<double> full_well_e;       ///< Nothing where no pair fills it before the codes end.
+  std::vector<TransferPoint> points = {};  ///< The lit pairs in their order.
+  double gain_standard_error = 0;          ///< [e/DN]
+  std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing where rounding hides the noise.
 };
 
 /// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, grows
 /// with the mean by 1/K DN per DN, the 1/12 DN^2 of rounding and the read noise being what darkness leaves;
 /// fixed patterns are the rest of the variance over pixels. `dark` holds pairs of two or more exposure times,
 /// `lit` pairs from weak light to light beyond saturation: K is fitted up to 70 % of saturation, PRNU taken
-/// nearest to 50 %, the full well from the brightest pair. `bits`: of the codes. Throws Error{usage} for
-/// pairs that do not determine this.
+/// nearest to 50 %, the full well from the brightest pair. Standard errors are of the pairs' temporal
+/// variances, each known by its pixels' fourth moment, carried through the fits; pixels count as independent,
+/// which those of a row with noise of its own are not. `bits`: of the codes. Throws Error{input} for pairs
+/// that do not determine this.
 [[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark, std::span<const FlatPair> lit,
                                              int bits);
 

@@ -7,7 +7,7 @@
 namespace abbe {
 
 /// What the random numbers of a read-out are for; those of different purposes are independent.
-enum class ReadoutPurpose : std::uint64_t { fixed_pattern = 1, noise = 2 };
+enum class ReadoutPurpose : std::uint64_t { fixed_pattern = 1, noise = 2, row_noise = 3 };
 
 /// A generator for the distributions of Boost or the standard library: SplitMix64 [Steele2014], which walks
 /// through the 64-bit numbers in steps of the golden ratio and mixes each.

@@ -7,6 +7,7 @@
 
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/poisson_distribution.hpp>
+#include <boost/random/uniform_01.hpp>
 
 #include "io/error.h"
 #include "sensor/readout/random.h"
@@ -15,6 +16,7 @@ namespace abbe {
 namespace {
 
 using Normal = boost::random::normal_distribution<double>;
+using Uniform = boost::random::uniform_01<double>;
 
 // Beyond this a Poisson distribution is too narrow for 64-bit integers to matter, and no well is so deep.
 constexpr double kMostElectrons = 1e15;
@@ -26,14 +28,62 @@ double poisson(double mean, SplitMix64& random) {
 
 // What is odd about a pixel in every exposure.
 struct FixedPattern {
-  double sensitivity;
-  double offset_e;
+  double sensitivity = 1;
+  double offset_e = 0;
+  double hot_e_per_s = 0;
 };
 FixedPattern fixed_pattern(const Readout& readout, std::size_t pixel) {
-  if (readout.prnu_percent == 0 && readout.dsnu_e == 0) return {1, 0};
+  if (readout.prnu_percent == 0 && readout.dsnu_e == 0 && readout.hot_pixels_percent == 0) return {};
   SplitMix64 random(ReadoutPurpose::fixed_pattern, readout.serial, pixel);
   const double sensitivity = 1 + readout.prnu_percent / 100 * Normal()(random);
-  return {std::max(0.0, sensitivity), readout.dsnu_e * Normal()(random)};
+  FixedPattern pattern{std::max(0.0, sensitivity), readout.dsnu_e * Normal()(random)};
+  if (readout.hot_pixels_percent > 0 && 100 * Uniform()(random) < readout.hot_pixels_percent)
+    pattern.hot_e_per_s = -readout.hot_pixel_e_per_s * std::log1p(-Uniform()(random));
+  return pattern;
+}
+
+// A pixel between the counting of its electrons and their conversion.
+struct ExposedPixel {
+  double freed_e;
+  double held_e;
+  double offset_e;
+  SplitMix64 random;  // what is left for the read noise
+};
+
+ExposedPixel expose_pixel(const Readout& readout, float expected_e, std::size_t pixel, double seconds,
+                          std::uint64_t key) {
+  const double light_e = std::max(0.0, static_cast<double>(expected_e));
+  if (!(light_e <= kMostElectrons) || std::isnan(expected_e))
+    throw Error(ErrorCode::input, "film",
+                "pixel " + std::to_string(pixel) + " expects " + std::to_string(expected_e) +
+                    " electrons (allowed up to 1e15)");
+  const FixedPattern pattern = fixed_pattern(readout, pixel);
+  SplitMix64 random(ReadoutPurpose::noise, key, pixel);
+  const double dark_e = (readout.dark_e_per_s + pattern.hot_e_per_s) * seconds;
+  const double freed_e = poisson(light_e * pattern.sensitivity + dark_e, random);
+  return {freed_e, std::min(freed_e, readout.full_well_e), pattern.offset_e, random};
+}
+
+// Lets half of what each pixel of a column cannot hold flow along it, `step` pixels further at a time.
+void overflow(std::vector<ExposedPixel>& pixels, std::size_t first, std::ptrdiff_t step, std::size_t rows,
+              double full_well_e) {
+  double flowing_e = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    ExposedPixel& pixel = pixels[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) +
+                                                          static_cast<std::ptrdiff_t>(row) * step)];
+    const double taken_e = std::min(flowing_e, full_well_e - pixel.held_e);
+    pixel.held_e += taken_e;
+    flowing_e += std::max(0.0, pixel.freed_e - full_well_e) / 2 - taken_e;
+  }
+}
+
+void bloom(std::vector<ExposedPixel>& pixels, std::size_t width, double full_well_e) {
+  const std::size_t rows = pixels.size() / width;
+  const auto step = static_cast<std::ptrdiff_t>(width);
+  for (std::size_t column = 0; column < width; ++column) {
+    overflow(pixels, column, step, rows, full_well_e);
+    overflow(pixels, (rows - 1) * width + column, -step, rows, full_well_e);
+  }
 }
 
 // Code of a signal in units of codes, before it is rounded.
@@ -73,26 +123,29 @@ double gathering_area(double pixel_pitch_m, double fill_factor) {
 }
 
 RawFrame read_out(const Readout& readout, std::span<const float> expected_e, const Exposure& exposure) {
-  RawFrame frame;
-  frame.dn.reserve(expected_e.size());
-  frame.saturated.reserve(expected_e.size());
   const SplitMix64 frames(ReadoutPurpose::noise, exposure.seed, exposure.frame);
   const std::uint64_t key = SplitMix64(frames)();
-  for (std::size_t pixel = 0; pixel < expected_e.size(); ++pixel) {
-    const double light_e = std::max(0.0, static_cast<double>(expected_e[pixel]));
-    if (!(light_e <= kMostElectrons) || std::isnan(expected_e[pixel]))
-      throw Error(ErrorCode::input, "film",
-                  "pixel " + std::to_string(pixel) + " expects " + std::to_string(expected_e[pixel]) +
-                      " electrons (allowed up to 1e15)");
-    const FixedPattern pattern = fixed_pattern(readout, pixel);
-    SplitMix64 random(ReadoutPurpose::noise, key, pixel);
-    const double freed_e =
-        poisson(light_e * pattern.sensitivity + readout.dark_e_per_s * exposure.seconds, random);
-    const double held_e = std::min(freed_e, readout.full_well_e);
-    const double signal_e = held_e + pattern.offset_e + readout.read_noise_e * Normal()(random);
+  const std::size_t width = exposure.width > 0 ? exposure.width : std::max<std::size_t>(1, expected_e.size());
+  std::vector<ExposedPixel> pixels;
+  pixels.reserve(expected_e.size());
+  for (const float e : expected_e)
+    pixels.push_back(expose_pixel(readout, e, pixels.size(), exposure.seconds, key));
+  if (readout.blooming && !pixels.empty()) bloom(pixels, width, readout.full_well_e);
+
+  RawFrame frame;
+  frame.dn.reserve(pixels.size());
+  frame.saturated.reserve(pixels.size());
+  double row_e = 0;
+  for (ExposedPixel& pixel : pixels) {
+    if (readout.row_noise_e > 0 && frame.dn.size() % width == 0) {
+      SplitMix64 random(ReadoutPurpose::row_noise, key, frame.dn.size() / width);
+      row_e = readout.row_noise_e * Normal()(random);
+    }
+    const double signal_e =
+        pixel.held_e + pixel.offset_e + row_e + readout.read_noise_e * Normal()(pixel.random);
     const double code = std::floor(curved(readout, signal_e / readout.gain_e_per_dn) + 0.5);
     frame.dn.push_back(static_cast<std::uint16_t>(std::clamp(code, 0.0, readout.highest_code())));
-    frame.saturated.push_back(freed_e >= readout.full_well_e || code >= readout.highest_code());
+    frame.saturated.push_back(pixel.held_e >= readout.full_well_e || code >= readout.highest_code());
   }
   return frame;
 }
@@ -104,11 +157,20 @@ double electrons_of(const Readout& readout, double dn) {
          (readout.response_curve ? codes * readout.response_curve->inverse(signal / codes) : signal);
 }
 
+double white_level(const Readout& readout) {
+  const double full = std::floor(curved(readout, readout.full_well_e / readout.gain_e_per_dn) + 0.5);
+  return std::min(full, readout.highest_code());
+}
+
 TemporalNoise temporal_noise(const Readout& readout, double mean_e, double exposure_s) {
-  TemporalNoise noise{std::sqrt(std::max(0.0, mean_e)), std::sqrt(readout.dark_e_per_s * exposure_s),
-                      readout.read_noise_e, readout.gain_e_per_dn / std::sqrt(12.0), 0};
-  noise.total_e =
-      std::hypot(std::hypot(noise.photon_e, noise.dark_e), std::hypot(noise.read_e, noise.quantisation_e));
+  TemporalNoise noise{std::sqrt(std::max(0.0, mean_e)),
+                      std::sqrt(readout.dark_e_per_s * exposure_s),
+                      readout.read_noise_e,
+                      readout.row_noise_e,
+                      readout.gain_e_per_dn / std::sqrt(12.0),
+                      0};
+  noise.total_e = std::hypot(std::hypot(noise.photon_e, noise.dark_e), std::hypot(noise.read_e, noise.row_e),
+                             noise.quantisation_e);
   return noise;
 }
 

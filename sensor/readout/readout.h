@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -32,17 +33,24 @@ struct Readout {
   double gain_e_per_dn = 1;  ///< K, electrons per digital number.
   int bits = 16;             ///< Of the converter, 1 to 16: codes are 0 to 2^bits - 1.
   double offset_dn = 0;      ///< Code of a pixel without electrons.
-  double full_well_e = std::numeric_limits<double>::infinity();  ///< Electrons a pixel can hold.
-  double read_noise_e = 0;                                       ///< Standard deviation.
-  double dark_e_per_s = 0;                                       ///< Mean dark current.
-  double prnu_percent = 0;   ///< Standard deviation of the pixels' sensitivity, relative to its mean.
-  double dsnu_e = 0;         ///< Standard deviation of the pixels' offsets.
-  std::uint64_t serial = 0;  ///< Which specimen of the sensor: each has its own fixed patterns.
+  double full_well_e = std::numeric_limits<double>::infinity();    ///< Electrons a pixel can hold.
+  double saturation_dn = std::numeric_limits<double>::infinity();  ///< Where codes end, if below 2^bits - 1.
+  double read_noise_e = 0;                                         ///< Standard deviation.
+  double row_noise_e = 0;         ///< Standard deviation of what all pixels of a row share in one exposure.
+  double dark_e_per_s = 0;        ///< Mean dark current.
+  double prnu_percent = 0;        ///< Standard deviation of the pixels' sensitivity, relative to its mean.
+  double dsnu_e = 0;              ///< Standard deviation of the pixels' offsets.
+  double hot_pixels_percent = 0;  ///< Share of pixels that have a dark current of their own besides,
+  double hot_pixel_e_per_s = 0;   ///< exponentially distributed over them with this mean.
+  bool blooming = false;          ///< Whether what a full well cannot hold flows along its column.
+  std::uint64_t serial = 0;       ///< Which specimen of the sensor: each has its own fixed patterns.
   /// The curve from signal to code, both as shares of the codes above the offset; linear when absent. Goes
   /// from (0, 0) to (1, 1).
   std::optional<MonotoneCurve> response_curve = {};
 
-  [[nodiscard]] double highest_code() const { return static_cast<double>((1U << bits) - 1); }
+  [[nodiscard]] double highest_code() const {
+    return std::min(static_cast<double>((1U << bits) - 1), saturation_dn);
+  }
 };
 
 /// The area that gathers light [m^2]: electrons per pixel are film values [electrons/m^2] times this.
@@ -54,6 +62,7 @@ struct Exposure {
   double seconds = 1;
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
+  std::size_t width = 0;  ///< Pixels in a row, along which there is row noise; 0 where all are one row.
 };
 
 /// What the converter gives, pixel by pixel.
@@ -64,22 +73,30 @@ struct RawFrame {
 
 /// Reads out pixels that expect these electrons from light (negative ones count as none):
 ///
-///     electrons = min(Poisson(e (1 + PRNU) + dark t), full well)
-///     DN = floor(curve((electrons + DSNU + N(0, read noise)) / K) + offset + 1/2), cut to the codes
+///     electrons = min(Poisson(e (1 + PRNU) + (dark + hot) t), full well)
+///     DN = floor(curve((electrons + DSNU + row + N(0, read noise)) / K) + offset + 1/2), cut to the codes
 ///
-/// with fixed Gaussian patterns PRNU and DSNU [EMVA1288]. A pure function of readout, exposure and each
-/// pixel's own number and electrons. Throws Error{input} for electrons that are no number or above 1e15.
+/// with fixed Gaussian patterns PRNU and DSNU [EMVA1288], `hot` in the hot pixels only and `row` one Gaussian
+/// number for each row. With blooming, half of what a well cannot hold flows down its column and half up,
+/// into the first wells that have room, and off the end. A pure function of readout, exposure and each
+/// pixel's own number and electrons, with blooming those of its column. Throws Error{input} for electrons
+/// that are no number or above 1e15.
 [[nodiscard]] RawFrame read_out(const Readout& readout, std::span<const float> expected_e,
                                 const Exposure& exposure);
 
 /// Electrons that a code stands for, by offset, curve and gain alone: what calibration makes of raw data.
 [[nodiscard]] double electrons_of(const Readout& readout, double dn);
 
+/// The least code that a pixel at saturation has, noise and fixed patterns left out: the highest, or that of
+/// a full well.
+[[nodiscard]] double white_level(const Readout& readout);
+
 /// Standard deviations of what makes two exposures of one pixel differ [electrons].
 struct TemporalNoise {
   double photon_e;
   double dark_e;
   double read_e;
+  double row_e;
   double quantisation_e;  ///< K/sqrt(12)
   double total_e;
 };

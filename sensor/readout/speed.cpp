@@ -4,8 +4,15 @@
 
 #include "io/error.h"
 #include "spectral/colorimetry.h"
+#include "spectral/library.h"
 
 namespace abbe {
+namespace {
+
+constexpr const char* kDaylight = "D55";
+constexpr double kSaturationConstant = 78;  // lx s
+
+}  // namespace
 
 double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gathering_area_m2,
                               const Curve& illuminant) {
@@ -18,10 +25,25 @@ double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gatherin
   return most / photometric(illuminant) * gathering_area_m2;
 }
 
+std::optional<double> daylight_sensitivity(std::span<const Channel> channels, double gathering_area_m2) {
+  const auto counts = [](const Channel& channel) { return channel.kind == ResponseKind::quantum; };
+  if (!std::all_of(channels.begin(), channels.end(), counts)) return std::nullopt;
+  Diagnostics diagnostics;
+  const auto daylight = load_curve("illuminant", kDaylight, {}, diagnostics);
+  if (!daylight) throw Error(diagnostics.code(), "", diagnostics.text());
+  return sensitivity_e_per_lx_s(channels, gathering_area_m2, daylight->curve);
+}
+
+double saturation_electrons(const Readout& readout) {
+  return std::min(readout.full_well_e, electrons_of(readout, readout.highest_code()));
+}
+
 double saturation_speed(const Readout& readout, double sensitivity_e_per_lx_s) {
-  constexpr double kSaturationConstant = 78;  // lx s
-  const double saturation_e = std::min(readout.full_well_e, electrons_of(readout, readout.highest_code()));
-  return kSaturationConstant * sensitivity_e_per_lx_s / saturation_e;
+  return kSaturationConstant * sensitivity_e_per_lx_s / saturation_electrons(readout);
+}
+
+double gain_of_speed(const Readout& readout, double speed, double sensitivity_e_per_lx_s) {
+  return kSaturationConstant * sensitivity_e_per_lx_s / speed / (readout.highest_code() - readout.offset_dn);
 }
 
 }  // namespace abbe

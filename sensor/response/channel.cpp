@@ -1,7 +1,9 @@
 #include "sensor/response/channel.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "io/error.h"
 #include "io/table.h"
 #include "sensor/response/camera_json.h"
 #include "spectral/library.h"
@@ -44,6 +46,22 @@ Channel exposed(Channel channel, double ratio) {
   channel.weight = scaled(channel.weight, ratio);
   if (channel.angular) channel.angular->filters.fixed = scaled(channel.angular->filters.fixed, ratio);
   return channel;
+}
+
+std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak) {
+  // A weight is straight between its knots, so that weight/lambda is greatest at one of them.
+  double highest = 0;
+  for (const Channel& channel : channels)
+    for (const Knot& knot : channel.weight.knots())
+      highest = std::max(highest, knot.value / (channel.exposure_ratio * knot.wavelength_nm));
+  if (!(highest > 0)) throw Error(ErrorCode::input, "camera", "responds to no wavelength");
+  const double factor = peak / (photon_energy(1) * highest);  // since weight = QE lambda/(hc)
+  for (Channel& channel : channels) {
+    channel.kind = ResponseKind::quantum;
+    channel.weight = scaled(channel.weight, factor);
+    if (channel.angular) channel.angular->filters.fixed = scaled(channel.angular->filters.fixed, factor);
+  }
+  return channels;
 }
 
 void limit_angles(Channel& channel, double least_cosine) {

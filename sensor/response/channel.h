@@ -61,6 +61,10 @@ struct Channel {
 [[nodiscard]] Channel behind(Channel channel, const FilterStack& filters);
 /// The channel with an exposure of its own, `ratio` times the sensor's.
 [[nodiscard]] Channel exposed(Channel channel, double ratio);
+/// The channels as counters of electrons, scaled by one factor so that the greatest quantum efficiency among
+/// them and over all wavelengths is `peak`. Responses to energy S become efficiencies proportional to
+/// S(lambda)/lambda, those to photons keep their shape. Throws Error{input} when none responds anywhere.
+[[nodiscard]] std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak);
 /// Tells the channel that the cosines of the angles of incidence are at least this.
 void limit_angles(Channel& channel, double least_cosine);
 

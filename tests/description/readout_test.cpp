@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "description.h"
+#include "sensor/readout/speed.h"
 
 namespace abbe {
 namespace {
@@ -52,15 +53,16 @@ TEST_F(ReadoutDescription, WhatIsNotSaidIsIdeal) {
 TEST_F(ReadoutDescription, ItNeedsChannelsThatCountElectrons) {
   const Loaded loaded = load(sensor(R"({"gain_e_per_dn": 2, "bits": 12})", "energy"));
   EXPECT_FALSE(loaded.scene);
-  EXPECT_NE(loaded.text().find("/sensor/readout: error: a read-out needs channels that count electrons (got "
-                               "\"all\", whose response is energy, allowed quantum)"),
+  EXPECT_NE(loaded.text().find(
+                "/sensor/readout: error: a read-out needs channels that count electrons (got "
+                "\"all\", whose response is energy, allowed quantum; peak_quantum_efficiency makes it so)"),
             std::string::npos)
       << loaded.text();
 }
 
 TEST_F(ReadoutDescription, FaultsAreNamed) {
   for (const auto& [readout, message] :
-       {std::pair{R"({"bits": 12})", "/sensor/readout: error: missing key \"gain_e_per_dn\""},
+       {std::pair{R"({"bits": 12})", "/sensor/readout: error: missing key \"gain_e_per_dn\" or \"iso\""},
         std::pair{R"({"gain_e_per_dn": 1})", "missing key \"bits\""},
         std::pair{R"({"gain_e_per_dn": 0, "bits": 12})",
                   "expected a number (got 0, allowed (0, 1000000000])"},
@@ -83,10 +85,26 @@ TEST_F(ReadoutDescription, FaultsAreNamed) {
                   "response_curve: error: expected an array of points [in, out] (got a number)"},
         std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "response_curve": [[0, 0], [1, 1, 1]]})",
                   "wrong number of elements"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "saturation_dn": 300})", "no code of 8 bits (got 300"},
+        std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "offset_dn": 9, "saturation_dn": 9})",
+                  "offset_dn: error: expected a number (got 9, allowed [0, 9))"},
+        std::pair{R"({"gain_e_per_dn": 1, "iso": 100, "bits": 8})", "a gain or a speed that stands for one"},
+        std::pair{R"({"iso": 1, "bits": 8, "full_well_e": 10})",
+                  "iso: error: the well of 10 electrons is full"},
         std::pair{R"(3)", "/sensor/readout: error: expected an object"}}) {
     const Loaded loaded = load(sensor(readout));
     EXPECT_FALSE(loaded.scene) << readout;
     EXPECT_NE(loaded.text().find(message), std::string::npos) << readout << '\n' << loaded.text();
+  }
+}
+
+TEST_F(ReadoutDescription, ASpeedStandsForTheGainThatHasIt) {
+  for (const double iso : {100.0, 400.0, 6400.0}) {
+    const Loaded loaded = load(sensor(fmt::format(R"({{"iso": {}, "bits": 14, "offset_dn": 600}})", iso)));
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    const auto sensitivity = daylight_sensitivity(
+        loaded->channels, gathering_area(loaded->camera.pixel_pitch, loaded->fill_factor));
+    EXPECT_NEAR(saturation_speed(*loaded->readout, sensitivity.value()), iso, 1e-9 * iso);
   }
 }
 

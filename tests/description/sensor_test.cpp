@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "description.h"
+#include "io/data_directory.h"
 #include "io/reference_table.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
@@ -12,7 +13,10 @@ namespace {
 
 using testing::Fault;
 using testing::Loaded;
+namespace fs = std::filesystem;
+using testing::painted;
 using testing::sensed;
+using testing::write;
 using SensorTest = testing::DescriptionTest;
 
 Channel only_channel(const Loaded& loaded) {
@@ -210,6 +214,96 @@ TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
       {"no names", mosaic("[[1]]"), ErrorCode::scene, "expected a string (got 1"},
   };
   expect_refused(faults);
+}
+
+TEST_F(SensorTest, APeakMakesQuantumEfficienciesOfAMeasuredCamera) {
+  const Loaded camera = load(sensed(
+      R"("resolution": [1, 1], "camera": "Nikon_D5100", "peak_quantum_efficiency": 0.5, "lens_transmission": 0.9)"));
+  ASSERT_TRUE(camera.scene) << camera.text();
+  Diagnostics diagnostics;
+  double greatest = 0;
+  for (const Channel& channel : camera->channels) {
+    EXPECT_EQ(channel.kind, ResponseKind::quantum);
+    for (int nm = 380; nm <= 780; ++nm)
+      greatest = std::max(greatest, channel.weight(nm) * photon_energy(nm) / 0.9);
+  }
+  EXPECT_NEAR(greatest, 0.5, 1e-6);
+  const auto red = load_curve("camera", "Nikon_D5100:R", {}, diagnostics)->curve;
+  const auto blue = load_curve("camera", "Nikon_D5100:B", {}, diagnostics)->curve;
+  // An efficiency S/lambda for photons counts what the response S counts of energy.
+  EXPECT_NEAR(camera->channels[0].weight(600) / camera->channels[2].weight(460), red(600) / blue(460), 1e-9);
+
+  const Loaded own = load(sensed(
+      R"("resolution": [1, 1], "channels": {"R": "Nikon_D5100:R", "G": "Nikon_D5100:G", "B": "Nikon_D5100:B"},
+         "peak_quantum_efficiency": 0.5, "lens_transmission": 0.9)"));
+  ASSERT_TRUE(own.scene) << own.text();
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(own->channels[k].weight(520), camera->channels[k].weight(520))
+        << "one camera, said in two ways";
+}
+
+TEST_F(SensorTest, AColumnOfAnyFolderIsACurve) {
+  const Curve red = curve(R"("Nikon_D5100:R")");
+  EXPECT_NEAR(red(600),
+              load_curve("camera", "Nikon_D5100:R", {}, *std::make_unique<Diagnostics>())->curve(600), 1e-12);
+  EXPECT_NE(load(painted(R"("Nikon_D5100:Q")")).text().find("unknown reflectance \"Nikon_D5100:Q\""),
+            std::string::npos);
+}
+
+TEST_F(SensorTest, EveryShippedModelIsASensor) {
+  std::size_t models = 0;
+  for (const auto& entry : fs::directory_iterator(data_directory() / "sensor")) {
+    const Loaded loaded =
+        load(sensed(fmt::format(R"("model": "{}", "resolution": [4, 2])", entry.path().stem().string())));
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded->camera.width, 4) << "keys of the scene replace those of the file";
+    ASSERT_TRUE(loaded->readout) << entry.path();
+    EXPECT_LT(loaded->readout->full_well_e, 1e6);
+    ++models;
+  }
+  EXPECT_EQ(models, 6U);
+}
+
+TEST_F(SensorTest, TheSceneReplacesWhatAModelSays) {
+  write(folder_ / "mine.json", R"({"title": "t", "source": "s", "status": "example", "sensor": {
+        "resolution": [4, 3], "exposure_s": 2, "camera": "Nikon_D5100", "peak_quantum_efficiency": 0.5,
+        "mosaic": [["R", "G"], ["G", "B"]], "readout": {"gain_e_per_dn": 2, "bits": 12, "dsnu_e": 3}}})");
+  const Loaded plain = load(sensed(R"("model": "mine.json")"));
+  ASSERT_TRUE(plain.scene) << plain.text();
+  EXPECT_EQ(plain->camera.height, 3);
+  EXPECT_TRUE(plain->mosaic);
+  const Loaded other = load(sensed(
+      R"("model": "mine.json", "response": "quantum", "channels": {"L": 0.5}, "readout": {"iso": 100, "bits": 14})"));
+  ASSERT_TRUE(other.scene) << other.text();
+  EXPECT_EQ(other->channels.size(), 1U) << "not the camera's, nor its mosaic";
+  EXPECT_FALSE(other->mosaic);
+  EXPECT_EQ(other->exposure_s, 2);
+  EXPECT_EQ(other->readout->bits, 14);
+  EXPECT_EQ(other->readout->dsnu_e, 3);
+  EXPECT_NE(other->readout->gain_e_per_dn, 2);
+  EXPECT_NE(plain->sha256, other->sha256);
+}
+
+TEST_F(SensorTest, FaultsOfModelsAreNamed) {
+  write(folder_ / "bare.json",
+        R"({"sensor": {"resolution": [4, 3], "observer": "1931"}, "title": "t", "status": "s"})");
+  write(
+      folder_ / "wrong.json",
+      R"({"sensor": {"resolution": [4, 3], "observer": "1931", "pich": 2}, "title": "t", "status": "s", "source": ""})");
+  expect_refused(
+      {{"unknown", sensed(R"("resolution": [1, 1], "model": "dslr_apsc_bayer", "observer": "1931")"),
+        ErrorCode::scene, "unknown sensor \"dslr_apsc_bayer\"; known: ccd"},
+       {"no file", sensed(R"("resolution": [1, 1], "model": "none.json", "observer": "1931")"),
+        ErrorCode::input, "none.json"},
+       {"no source", sensed(R"("resolution": [1, 1], "model": "bare.json", "observer": "1931")"),
+        ErrorCode::input, "missing key \"source\""},
+       {"a key of the file", sensed(R"("model": "wrong.json")"), ErrorCode::scene,
+        "wrong.json:1:55: /sensor/pich: error: unknown key"},
+       {"two efficiencies", sensed(R"("resolution": [1, 1], "channels": {"a": 1}, "quantum_efficiency": 1,
+                             "peak_quantum_efficiency": 0.5)"),
+        ErrorCode::scene, "goes without quantum_efficiency"},
+       {"an observer", sensed(R"("resolution": [1, 1], "observer": "1931", "peak_quantum_efficiency": 1)"),
+        ErrorCode::scene, "peak_quantum_efficiency goes with channels"}});
 }
 
 }  // namespace

@@ -74,7 +74,14 @@ TEST(Picture, BrokenFilesAreInputErrors) {
   write_picture(folder / "a.png", noise);
   put(folder / "cut.png", bytes_of(folder / "a.png").substr(0, 200));
   put(folder / "text.png", "no image");
-  for (const char* name : {"cut.png", "text.png", "none.png", ""}) {
+  // Of a strip that a TIFF lacks the library tells, and says that it has read it.
+  Image raw{32, 128, {{"raw", {}}}, {}};
+  for (std::size_t i = 0; i < raw.pixels(); ++i)
+    raw.channels[0].values.push_back(static_cast<float>(i * i % 16381));
+  write_raw_picture(folder / "a.tif", raw);
+  const std::string strips = bytes_of(folder / "a.tif");
+  put(folder / "cut.tif", strips.substr(0, strips.size() / 2));
+  for (const char* name : {"cut.png", "cut.tif", "text.png", "none.png", ""}) {
     try {
       const Image image = read_picture(folder / name);
       ADD_FAILURE() << name;

@@ -152,6 +152,75 @@ TEST(Readout, TheResponseCurveBendsSharesOfTheCodesAboveTheOffset) {
   EXPECT_DOUBLE_EQ(electrons_of(readout, 75), 60e6);
 }
 
+TEST(Readout, CodesEndWhereTheySaturate) {
+  Readout readout;
+  readout.bits = 12;
+  readout.gain_e_per_dn = 1e4;
+  readout.saturation_dn = 3000;
+  const RawFrame frame = read_out(readout, std::array{2.5e7F, 3.5e7F}, {});
+  EXPECT_NEAR(frame.dn[0], 2500, 3);
+  EXPECT_EQ(frame.dn[1], 3000);
+  EXPECT_EQ(frame.saturated, (std::vector<std::uint8_t>{0, 1}));
+}
+
+TEST(Readout, RowsShareTheirNoise) {
+  Readout readout;
+  readout.offset_dn = 1000;
+  readout.row_noise_e = 20;
+  const std::size_t width = 50;
+  const std::size_t rows = 2000;
+  const std::vector<std::uint16_t> dn = read_out(readout, flat(width * rows, 0), {1, 3, 0, width}).dn;
+  double squares = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    squares += std::pow(dn[row * width] - 1000.0, 2);
+    for (std::size_t x = 1; x < width; ++x) ASSERT_EQ(dn[row * width + x], dn[row * width]);
+  }
+  EXPECT_NEAR(std::sqrt(squares / rows), 20, 5 * 20 / std::sqrt(2.0 * rows));
+  EXPECT_NE(dn, read_out(readout, flat(width * rows, 0), {1, 3, 1, width}).dn) << "anew in each exposure";
+  readout.read_noise_e = 5;
+  EXPECT_DOUBLE_EQ(temporal_noise(readout, 0, 0).total_e, std::sqrt(425 + 1.0 / 12));
+}
+
+TEST(Readout, HotPixelsHaveADarkCurrentOfTheirOwn) {
+  Readout readout;
+  readout.hot_pixels_percent = 2;
+  readout.hot_pixel_e_per_s = 1000;
+  const std::size_t n = 200000;
+  const std::vector<std::uint16_t> brief = read_out(readout, flat(n, 0), {1, 1}).dn;
+  const std::vector<std::uint16_t> longer = read_out(readout, flat(n, 0), {4, 2}).dn;
+  double hot = 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    hot += longer[i] > 0 ? 1 : 0;
+    sum += longer[i];
+    if (brief[i] <= 100) continue;
+    ASSERT_NEAR(longer[i], 4.0 * brief[i], 12 * std::sqrt(longer[i])) << "the same pixels";
+  }
+  EXPECT_NEAR(hot / static_cast<double>(n), 0.02, 0.002);
+  EXPECT_NEAR(sum / hot / 4000, 1, 0.08);  // five deviations of the mean of 4000 exponential numbers
+}
+
+TEST(Readout, WhatAWellCannotHoldFlowsAlongItsColumn) {
+  Readout readout;
+  readout.full_well_e = 1e7;
+  readout.gain_e_per_dn = 1e6;
+  readout.bits = 8;
+  readout.blooming = true;
+  std::vector<float> electrons(3 * 9, 0.0F);
+  electrons[1 + 3 * 4] = 50e6F;  // 40 million too many in the middle of the middle column
+  const RawFrame frame = read_out(readout, electrons, {1, 0, 0, 3});
+  const auto column = [&](std::size_t x) {
+    std::vector<int> codes;
+    for (std::size_t y = 0; y < 9; ++y) codes.push_back(frame.dn[3 * y + x]);
+    return codes;
+  };
+  EXPECT_EQ(column(1), (std::vector<int>{0, 0, 10, 10, 10, 10, 10, 0, 0}));
+  EXPECT_EQ(column(0), std::vector<int>(9, 0));
+  EXPECT_EQ(std::count(frame.saturated.begin(), frame.saturated.end(), 1), 5);
+  readout.blooming = false;
+  EXPECT_EQ(read_out(readout, electrons, {1, 0, 0, 3}).dn[1 + 3 * 3], 0);
+}
+
 TEST(Readout, ACurveThatDoesNotIncreaseIsABug) {
   EXPECT_THROW(MonotoneCurve({{0, 0}, {0.5, 0.5}, {0.5, 0.7}}), Error);
   EXPECT_THROW(MonotoneCurve({{0, 0}, {0.5, 0.5}, {0.7, 0.5}}), Error);

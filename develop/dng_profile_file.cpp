@@ -1,0 +1,80 @@
+#include "develop/dng_profile_file.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "io/json.h"
+#include "io/json_values.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+constexpr int kLastOfExif = 24;
+
+const JsonValue* member(const JsonValue& value, const char* key, Diagnostics& diagnostics) {
+  const JsonValue* const found = value.find(key);
+  if (found == nullptr) diagnostics.error(value.where, fmt::format("missing key \"{}\"", key));
+  return found;
+}
+
+std::array<double, 9> read_matrix(const JsonValue& light, const char* key, Diagnostics& diagnostics) {
+  std::array<double, 9> matrix{};
+  const JsonValue* const value = member(light, key, diagnostics);
+  const JsonValue::Array* const rows =
+      value != nullptr ? read_array(*value, "rows", 3, diagnostics) : nullptr;
+  if (rows == nullptr) return matrix;
+  if (rows->size() != 3)
+    diagnostics.error(value->where, fmt::format("expected 3 rows (got {})", rows->size()));
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const auto row = read_numbers((*rows)[i], 3, Range::any(), diagnostics))
+      std::copy(row->begin(), row->end(), matrix.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  return matrix;
+}
+
+RawLight read_light(const JsonValue& light, Diagnostics& diagnostics) {
+  RawLight read{0};
+  if (const JsonValue* const code = member(light, "CalibrationIlluminant", diagnostics))
+    if (const auto number = read_number(*code, {0, 255}, diagnostics)) {
+      read.illuminant = static_cast<int>(*number);
+      if (read.illuminant < 1 || read.illuminant > kLastOfExif)
+        diagnostics.error(
+            code->where, fmt::format("the light has no number in Exif, so that raw converters do not know it "
+                                     "(got {}, allowed A, B, C, D50, D55, D65 and D75)",
+                                     read.illuminant));
+    }
+  read.color = read_matrix(light, "ColorMatrix", diagnostics);
+  read.forward = read_matrix(light, "ForwardMatrix", diagnostics);
+  return read;
+}
+
+std::vector<RawLight> read_lights(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
+  std::vector<RawLight> lights;
+  const std::optional<JsonValue> root = parse_json(source, diagnostics);
+  const JsonValue* const list = root ? member(*root, "lights", diagnostics) : nullptr;
+  const JsonValue::Array* const all = list != nullptr ? read_array(*list, "lights", 2, diagnostics) : nullptr;
+  if (all == nullptr) return lights;
+  if (all->size() != 2)
+    diagnostics.error(list->where, fmt::format("expected 2 lights (got {})", all->size()));
+  for (const JsonValue& light : *all) lights.push_back(read_light(light, diagnostics));
+  return lights;
+}
+
+}  // namespace
+
+std::optional<std::vector<RawLight>> read_dng_profile(const std::filesystem::path& path,
+                                                      Diagnostics& diagnostics) {
+  const auto source = read_text(path, diagnostics);
+  if (!source) return std::nullopt;
+  Diagnostics faults;  // of an input, not of a scene
+  std::vector<RawLight> lights = read_lights(source, faults);
+  for (const Diagnostic& fault : faults.all())
+    diagnostics.error(fault.where, fault.message, ErrorCode::input);
+  if (faults.has_errors()) return std::nullopt;
+  return lights;
+}
+
+}  // namespace abbe

@@ -1,0 +1,78 @@
+// Films exposed anew, and frames of no scene.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "develop/film_sensor.h"
+#include "io/error.h"
+#include "sensor/film/variance_name.h"
+#include "sensor/readout/speed.h"
+
+namespace abbe {
+namespace {
+
+void scale_plane(Image& film, const std::string& name, double factor) {
+  for (ImageChannel& channel : film.channels)
+    if (channel.name == name)
+      for (float& value : channel.values) value = static_cast<float>(static_cast<double>(value) * factor);
+}
+
+// What the film tells of its exposure, in full and as the standard attribute in single precision.
+void tell_exposure(ExposedFilm& exposed, double factor) {
+  std::map<std::string, std::string>& told = exposed.film.metadata;
+  const FilmSensor& sensor = exposed.sensor;
+  const auto scale = [&](const std::string& key, double value) {
+    if (told.contains(key)) told[key] = fmt::format("{}", value);
+  };
+  scale("exposure_s", sensor.shared_exposure_s);
+  for (std::size_t plane = 0; plane < sensor.planes.size(); ++plane)
+    scale("exposure_s." + sensor.planes[plane], sensor.exposure_s[plane]);
+  if (const auto seconds = told.find("expTime"); seconds != told.end())
+    seconds->second = fmt::format("{}", static_cast<float>(std::stof(seconds->second) * factor));
+}
+
+void set_exposure(ExposedFilm& exposed, double factor) {
+  exposed.sensor.shared_exposure_s *= factor;
+  for (double& seconds : exposed.sensor.exposure_s) seconds *= factor;
+  tell_exposure(exposed, factor);
+}
+
+void fill_plane(Image& film, const std::string& name, double value) {
+  for (ImageChannel& channel : film.channels)
+    if (channel.name == name)
+      std::fill(channel.values.begin(), channel.values.end(), static_cast<float>(value));
+}
+
+}  // namespace
+
+void expose_for(ExposedFilm& exposed, double seconds) {
+  const FilmSensor& sensor = exposed.sensor;
+  if (sensor.exposure_s.empty())
+    throw Error(ErrorCode::usage, "--exposure-s", "the film tells of no exposure: radiances have none");
+  const double factor = seconds / sensor.shared_exposure_s;
+  for (const std::string& plane : sensor.planes) {
+    scale_plane(exposed.film, plane, factor);
+    scale_plane(exposed.film, variance_of(plane), factor * factor);
+  }
+  set_exposure(exposed, factor);
+}
+
+void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame) {
+  const FilmSensor& sensor = exposed.sensor;
+  if (!sensor.readout)
+    throw Error(ErrorCode::usage, "--frame",
+                "the film has no read-out to make frames with (allowed: --set '/readout={...}')");
+  const auto* flat = std::get_if<FlatFrame>(&frame);
+  const double light =
+      flat ? flat->share * saturation_electrons(*sensor.readout) / sensor.gathering_area_m2 : 0;
+  for (const std::string& plane : sensor.planes) {
+    fill_plane(exposed.film, plane, light);
+    fill_plane(exposed.film, variance_of(plane), 0);
+  }
+  exposed.film.metadata["frame"] = flat ? fmt::format("flat, {} of saturation", flat->share)
+                                   : std::holds_alternative<DarkFrame>(frame) ? "dark"
+                                                                              : "bias";
+  if (std::holds_alternative<BiasFrame>(frame)) set_exposure(exposed, 0);
+}
+
+}  // namespace abbe

@@ -1,0 +1,214 @@
+#include "develop/linear_image.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/measured_patches.h"
+#include "calibration/chart/raw_scale.h"
+#include "develop/develop.h"
+#include "develop/film_file.h"
+#include "io/error.h"
+#include "io/picture.h"
+#include "io/raw_picture.h"
+#include "io/spectral_exr.h"
+#include "io/text.h"
+#include "sensor/film/recorded_crop.h"
+
+namespace abbe {
+namespace {
+
+std::optional<std::string> told(const Image& image, const std::string& key) {
+  const auto found = image.metadata.find(key);
+  return found == image.metadata.end() ? std::nullopt : std::optional(found->second);
+}
+
+// The mosaic that a film or a raw file of ours tells.
+void read_mosaic(LinearImage& read) {
+  const auto pattern = told(read.image, "mosaic");
+  const auto names = told(read.image, "mosaic_channels");
+  if (!pattern || !names || read.image.channels.size() != 1) return;
+  std::vector<std::string> channels = split(*names, ',');
+  read.mosaic = parse_mosaic(*pattern, channels);
+  if (read.mosaic) read.channels = std::move(channels);
+}
+
+// Files keep channels by the alphabet; the sensor has an order of its own.
+void put_in_order(Image& image) {
+  const std::vector<std::string> order = split(told(image, "sensor_channels").value_or("R,G,B"), ',');
+  std::stable_sort(image.channels.begin(), image.channels.end(), [&](const auto& a, const auto& b) {
+    return std::find(order.begin(), order.end(), a.name) < std::find(order.begin(), order.end(), b.name);
+  });
+}
+
+LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
+  LinearImage read{read_film(path, inputs), {}, {}, {}, "film values"};
+  const bool spectral = is_spectral(read.image);
+  const std::size_t all = read.image.memory_bytes();
+  if (spectral) read.unit = "radiance of the band [W/(m^2 sr)]";
+  std::erase_if(read.image.channels, [&](const ImageChannel& channel) {
+    return spectral ? !channel.name.starts_with("S0.") : channel.name.find('.') != std::string::npos;
+  });
+  if (!spectral) put_in_order(read.image);
+  if (inputs != nullptr) inputs->give_back_memory(all - read.image.memory_bytes());
+  for (const ImageChannel& channel : read.image.channels) read.channels.push_back(channel.name);
+  read_mosaic(read);
+  return read;
+}
+
+// A TIFF, so a DNG, has lines "key: value" where others have attributes.
+void tell_lines(Image& image) {
+  const auto lines = told(image, "ImageDescription");
+  if (!lines) return;
+  for (const std::string& line : split(*lines, '\n'))
+    if (const std::size_t colon = line.find(": "); colon != std::string::npos)
+      image.metadata.emplace(line.substr(0, colon), line.substr(colon + 2));
+}
+
+LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
+  const RawPicture raw = read_raw_picture(path);
+  if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
+  LinearImage read;
+  read.image.width = static_cast<int>(raw.width);
+  read.image.height = static_cast<int>(raw.height);
+  read.image.metadata = raw.metadata;
+  tell_lines(read.image);
+  read.channels = raw.channels;
+  read.unit = kNumbersAboveBlack;
+  read.saturation = raw.white_level_dn - raw.black_level_dn;
+  const std::size_t planes = raw.planes.size();
+  for (std::size_t k = 0; k < planes; ++k) {
+    ImageChannel& plane = read.image.channels.emplace_back(ImageChannel{raw.planes[k], {}});
+    for (std::size_t i = k; i < raw.codes.size(); i += planes)
+      plane.values.push_back(static_cast<float>(raw.codes[i] - raw.black_level_dn));
+  }
+  if (raw.mosaic_width > 0)
+    read.mosaic = Mosaic{static_cast<int>(raw.mosaic_width),
+                         static_cast<int>(raw.mosaic.size()) / static_cast<int>(raw.mosaic_width),
+                         {raw.mosaic.begin(), raw.mosaic.end()}};
+  return read;
+}
+
+// Damage that a file's checks do not show may show in numbers that the sensor cannot give.
+void require_codes(const Image& image, const std::filesystem::path& path) {
+  const std::optional<RawScale> scale = raw_scale(image);
+  if (!scale) return;
+  for (const ImageChannel& channel : image.channels)
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      if (const double code = code_of(channel.values[i]); code > scale->highest())
+        throw Error(
+            ErrorCode::input, path.string(),
+            fmt::format("damaged, or of another sensor than it says: channel \"{}\" holds the code {} "
+                        "at pixel {},{} (allowed 0 to {})",
+                        channel.name, code, i % static_cast<std::size_t>(image.width),
+                        i / static_cast<std::size_t>(image.width), scale->highest()));
+}
+
+// Pictures call their channels R, G and B whatever they hold.
+void name_planes(Image& image) {
+  const std::vector<std::string> names = split(told(image, "sensor_channels").value_or(""), ',');
+  for (std::size_t k = 0; k < image.channels.size() && names.size() == image.channels.size(); ++k)
+    image.channels[k].name = names[k];
+}
+
+LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
+  LinearImage read{read_picture(path, inputs), {}, {}, 1.0, "code values in [0, 1], as the file has them"};
+  std::erase_if(read.image.channels, [](const ImageChannel& channel) { return channel.name == "A"; });
+  require_finite(read.image, path);
+  tell_lines(read.image);
+  const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
+  const auto white = parse_number(told(read.image, kWhiteLevelKey).value_or(""));
+  if (black && white) name_planes(read.image);
+  for (const ImageChannel& channel : read.image.channels) read.channels.push_back(channel.name);
+  if (!black || !white) return read;
+  require_codes(read.image, path);
+  read.unit = kNumbersAboveBlack;
+  read.saturation = *white - *black;
+  for (ImageChannel& channel : read.image.channels)
+    for (float& value : channel.values) value = static_cast<float>(code_of(value) - *black);
+  read_mosaic(read);
+  return read;
+}
+
+// The mean of each channel's pixels.
+std::vector<double> channel_means(const LinearImage& image) {
+  const std::vector<double>::size_type count = image.channels.size();
+  std::vector<double> sums(count, 0);
+  std::vector<double> pixels(count, 0);
+  for (std::size_t k = 0; k < image.image.channels.size(); ++k)
+    for (std::size_t i = 0; i < image.image.pixels(); ++i) {
+      const int x = static_cast<int>(i % static_cast<std::size_t>(image.image.width));
+      const int y = static_cast<int>(i / static_cast<std::size_t>(image.image.width));
+      const std::size_t channel = image.mosaic ? static_cast<std::size_t>(image.mosaic->at(x, y)) : k;
+      sums[channel] += static_cast<double>(image.image.channels[k].values[i]);
+      pixels[channel] += 1;
+    }
+  for (std::size_t k = 0; k < count; ++k) sums[k] /= pixels[k];
+  return sums;
+}
+
+std::string described(const LinearImage& image) {
+  if (!image.mosaic) return fmt::format("{}", fmt::join(image.channels, ", "));
+  return fmt::format("the mosaic {}", to_text(*image.mosaic, image.channels));
+}
+
+// What is clipped is even whatever the light; hot pixels are clipped in any flat.
+void require_unsaturated(const LinearImage& flat, const std::filesystem::path& path) {
+  constexpr double kMostPercent = 1;
+  if (!flat.saturation) return;
+  double saturated = 0;
+  for (const ImageChannel& channel : flat.image.channels)
+    saturated +=
+        static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), [&](float value) {
+          return static_cast<double>(value) >= *flat.saturation;
+        }));
+  const double percent =
+      100 * saturated / static_cast<double>(flat.image.pixels() * flat.image.channels.size());
+  if (percent > kMostPercent)
+    throw Error(
+        ErrorCode::input, path.string(),
+        fmt::format("the flat is saturated (got {:.3g} % of its pixels, allowed {} %): expose it less",
+                    percent, kMostPercent));
+}
+
+}  // namespace
+
+MeasuredPlanes LinearImage::planes() const {
+  MeasuredPlanes planes{{}, channels, mosaic, saturation, recorded_crop(image)};
+  for (const ImageChannel& channel : image.channels) planes.planes.push_back(&channel);
+  return planes;
+}
+
+LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs) {
+  if (path.extension() == ".exr") return of_film(path, inputs);
+  if (is_raw_picture(path)) return of_raw(path, inputs);
+  return of_picture(path, inputs);
+}
+
+void flat_field(LinearImage& image, const LinearImage& flat, const std::filesystem::path& path) {
+  if (flat.image.width != image.image.width || flat.image.height != image.image.height)
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("the flat has other pixels (got {} x {}, allowed {} x {})", flat.image.width,
+                            flat.image.height, image.image.width, image.image.height));
+  if (flat.channels != image.channels || flat.mosaic != image.mosaic)
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("the flat has other channels or another mosaic (got {}, allowed {})",
+                            described(flat), described(image)));
+  require_unsaturated(flat, path);
+  const std::vector<double> means = channel_means(flat);
+  for (std::size_t k = 0; k < image.image.channels.size(); ++k)
+    for (std::size_t i = 0; i < image.image.pixels(); ++i) {
+      const int x = static_cast<int>(i % static_cast<std::size_t>(image.image.width));
+      const int y = static_cast<int>(i / static_cast<std::size_t>(image.image.width));
+      const auto value = static_cast<double>(flat.image.channels[k].values[i]);
+      if (!(value > 0))
+        throw Error(ErrorCode::input, path.string(),
+                    fmt::format("the flat has no light at pixel {},{} (got {})", x, y, value));
+      const std::size_t channel = image.mosaic ? static_cast<std::size_t>(image.mosaic->at(x, y)) : k;
+      float& own = image.image.channels[k].values[i];
+      own = static_cast<float>(static_cast<double>(own) * means[channel] / value);
+    }
+}
+
+}  // namespace abbe

@@ -1,0 +1,75 @@
+#include "develop/raw_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sensor/readout/speed.h"
+
+namespace abbe {
+namespace {
+
+std::vector<std::uint16_t> interleaved(const Image& codes, const std::vector<std::string>& planes) {
+  std::vector<const ImageChannel*> found;
+  for (const std::string& plane : planes) found.push_back(codes.find(plane));
+  std::vector<std::uint16_t> values;
+  values.reserve(codes.pixels() * planes.size());
+  for (std::size_t i = 0; i < codes.pixels(); ++i)
+    for (const ImageChannel* plane : found) values.push_back(static_cast<std::uint16_t>(plane->values[i]));
+  return values;
+}
+
+// For each code the one that a sensor without the curve would have given.
+std::vector<std::uint16_t> linear_codes(const Readout& readout) {
+  std::vector<std::uint16_t> table;
+  if (!readout.response_curve) return table;
+  for (double dn = 0; dn <= readout.highest_code(); ++dn) {
+    const double linear = readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
+    table.push_back(static_cast<std::uint16_t>(std::clamp(std::round(linear), 0.0, readout.highest_code())));
+  }
+  return table;
+}
+
+// Raw values are film values times each channel's exposure, all of which the display's matrix has seen.
+std::optional<std::array<double, 9>> from_xyz(const FilmSensor& sensor) {
+  if (!sensor.display || sensor.channels.size() != 3) return std::nullopt;
+  const Matrix3 inverse = sensor.display->to_xyz_d65().inverse(true);
+  std::array<double, 9> rows{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) rows[static_cast<std::size_t>(3 * i + j)] = inverse[i][j];
+  return rows;
+}
+
+}  // namespace
+
+RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor) {
+  const Readout& readout = *sensor.readout;
+  RawPicture raw;
+  raw.width = developed.codes.width;
+  raw.height = developed.codes.height;
+  raw.planes = sensor.planes;
+  raw.codes = interleaved(developed.codes, sensor.planes);
+  raw.channels = sensor.channels;
+  if (sensor.mosaic) {
+    raw.mosaic_width = sensor.mosaic->width;
+    raw.mosaic.assign(sensor.mosaic->channel.begin(), sensor.mosaic->channel.end());
+  }
+  raw.black_level_dn = readout.offset_dn;
+  raw.linear_codes = linear_codes(readout);
+  // Converters put the black and the white level behind the table.
+  raw.white_level_dn = raw.linear_codes.empty()
+                           ? white_level(readout)
+                           : raw.linear_codes[static_cast<std::size_t>(white_level(readout))];
+  raw.gain_e_per_dn = readout.gain_e_per_dn;
+  raw.read_noise_e = readout.read_noise_e;
+  if (std::isfinite(readout.full_well_e)) raw.full_well_e = readout.full_well_e;
+  raw.exposure_s = sensor.shared_exposure_s;
+  raw.f_number = sensor.f_number;
+  if (sensor.electrons_per_lx_s) raw.iso_speed = saturation_speed(readout, *sensor.electrons_per_lx_s);
+  raw.from_xyz_d65 = from_xyz(sensor);
+  raw.lights = sensor.lights;
+  raw.camera = sensor.camera;
+  raw.metadata = developed.codes.metadata;
+  return raw;
+}
+
+}  // namespace abbe

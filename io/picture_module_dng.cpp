@@ -1,0 +1,344 @@
+// Raw files for the developers of photographs: DNG through libtiff, which knows its tags.
+#include <tiffio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <cstring>
+#include <memory>
+#include <span>
+
+#include "io/error.h"
+#include "io/image.h"
+#include "io/picture_module.h"
+
+namespace abbe::picture_module {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kVersion{1, 4, 0, 0};
+constexpr std::array<std::uint8_t, 4> kOldestReader{1, 1, 0, 0};
+constexpr std::uint16_t kD65 = 21;  // among the light sources of Exif
+
+// A file in memory, as libtiff asks for one.
+struct MemoryFile {
+  std::string bytes;
+  std::size_t at = 0;
+};
+
+MemoryFile& file_of(thandle_t handle) {
+  return *static_cast<MemoryFile*>(handle);
+}
+tmsize_t read_some(thandle_t handle, void* to, tmsize_t size) {
+  MemoryFile& file = file_of(handle);
+  const std::size_t left = file.bytes.size() - std::min(file.at, file.bytes.size());
+  const std::size_t count = std::min(static_cast<std::size_t>(size), left);
+  std::memcpy(to, file.bytes.data() + file.at, count);
+  file.at += count;
+  return static_cast<tmsize_t>(count);
+}
+tmsize_t write_some(thandle_t handle, void* from, tmsize_t size) {
+  MemoryFile& file = file_of(handle);
+  const auto count = static_cast<std::size_t>(size);
+  file.bytes.resize(std::max(file.bytes.size(), file.at + count));
+  std::memcpy(file.bytes.data() + file.at, from, count);
+  file.at += count;
+  return size;
+}
+toff_t seek(thandle_t handle, toff_t offset, int whence) {
+  MemoryFile& file = file_of(handle);
+  const std::size_t from = whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.bytes.size() : 0;
+  file.at = from + static_cast<std::size_t>(offset);
+  return file.at;
+}
+int close(thandle_t) {
+  return 0;
+}
+toff_t size_of(thandle_t handle) {
+  return file_of(handle).bytes.size();
+}
+
+// Tags of DNG 1.2 that libtiff does not know, and would warn of.
+constexpr std::uint32_t kForward1 = 50964;
+constexpr std::uint32_t kForward2 = 50965;
+TIFFExtendProc others = nullptr;
+void know_forward_matrices(TIFF* tiff) {
+  static std::array<char, 14> name{"ForwardMatrix"};
+  static const std::array<TIFFFieldInfo, 2> kForward{
+      {{kForward1, -1, -1, TIFF_SRATIONAL, FIELD_CUSTOM, 1, 1, name.data()},
+       {kForward2, -1, -1, TIFF_SRATIONAL, FIELD_CUSTOM, 1, 1, name.data()}}};
+  TIFFMergeFieldInfo(tiff, kForward.data(), kForward.size());
+  if (others != nullptr) others(tiff);
+}
+void teach_tags() {
+  static const bool once = (others = TIFFSetTagExtender(know_forward_matrices), true);
+  static_cast<void>(once);
+}
+
+using Tiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
+using Options = std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)>;
+
+// The program says itself what a file lacks: libtiff's own lines would stand beside it on stderr.
+int keep_quiet(TIFF*, void*, const char*, const char*, std::va_list) {
+  return 1;
+}
+Options quiet() {
+  Options options(TIFFOpenOptionsAlloc(), TIFFOpenOptionsFree);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_quiet, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), keep_quiet, nullptr);
+  return options;
+}
+
+Tiff open(const std::string& path, MemoryFile& file, const char* mode) {
+  teach_tags();
+  file.at = 0;
+  Tiff tiff(TIFFClientOpenExt(path.c_str(), mode, &file, read_some, write_some, seek, close, size_of, nullptr,
+                              nullptr, quiet().get()),
+            TIFFClose);
+  if (!tiff) throw Error(ErrorCode::output, path, "libtiff makes no file of it");
+  return tiff;
+}
+
+/// Sets tags, and remembers whether one of them failed.
+struct Tags {
+  TIFF* tiff;
+  bool sound = true;
+
+  template <typename... Values>
+  void set(std::uint32_t tag, Values... values) {
+    sound = TIFFSetField(tiff, tag, values...) == 1 && sound;
+  }
+  // An array with its length before it.
+  template <typename T>
+  void set_all(std::uint32_t tag, const std::vector<T>& values) {
+    set(tag, static_cast<int>(values.size()), values.data());
+  }
+};
+
+// Exposure time, f-number and speed, in the folder where programs look for them.
+std::uint64_t write_exif(TIFF* tiff, const RawPicture& raw, bool& sound) {
+  std::uint64_t offset = 0;
+  if (TIFFCreateEXIFDirectory(tiff) != 0) return offset;
+  Tags exif{tiff};
+  if (raw.exposure_s) exif.set(EXIFTAG_EXPOSURETIME, *raw.exposure_s);
+  if (raw.f_number) exif.set(EXIFTAG_FNUMBER, *raw.f_number);
+  if (raw.iso_speed)
+    exif.set_all(EXIFTAG_ISOSPEEDRATINGS,
+                 std::vector{static_cast<std::uint16_t>(std::clamp(*raw.iso_speed + 0.5, 1.0, 65535.0))});
+  sound = sound && exif.sound && TIFFWriteCustomDirectory(tiff, &offset) == 1;
+  return offset;
+}
+
+// The colours of a pattern by their numbers in DNG: red, green and blue are 0, 1 and 2.
+std::vector<std::uint8_t> pattern_of(const RawPicture& raw) {
+  std::vector<std::uint8_t> colors;
+  for (const std::string& channel : raw.channels) {
+    const std::size_t known = std::string("RGB").find(channel);
+    colors.push_back(
+        static_cast<std::uint8_t>(channel.size() == 1 && known != std::string::npos ? known : colors.size()));
+  }
+  std::vector<std::uint8_t> pattern;
+  for (const std::uint8_t channel : raw.mosaic) pattern.push_back(colors[channel]);
+  return pattern;
+}
+
+void set_layout(Tags& tags, const RawPicture& raw) {
+  const std::size_t samples = raw.planes.size();
+  tags.set(TIFFTAG_SUBFILETYPE, 0);
+  tags.set(TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(raw.width));
+  tags.set(TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(raw.height));
+  tags.set(TIFFTAG_BITSPERSAMPLE, 16);
+  tags.set(TIFFTAG_SAMPLESPERPIXEL, static_cast<int>(samples));
+  tags.set(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  tags.set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  tags.set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  tags.set(TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(raw.height));
+  tags.set(TIFFTAG_PHOTOMETRIC, raw.mosaic_width > 0 ? PHOTOMETRIC_CFA : 34892);  // LinearRaw
+  if (raw.mosaic_width > 0) {
+    const auto width = static_cast<std::uint16_t>(raw.mosaic_width);
+    const auto height = static_cast<std::uint16_t>(raw.mosaic.size() / width);
+    const std::array<std::uint16_t, 2> repeats{height, width};
+    tags.set(TIFFTAG_CFAREPEATPATTERNDIM, repeats.data());
+    tags.set_all(TIFFTAG_CFAPATTERN, pattern_of(raw));
+  }
+}
+
+void set_levels(Tags& tags, const RawPicture& raw) {
+  const std::size_t samples = raw.planes.size();
+  tags.set_all(TIFFTAG_BLACKLEVEL, std::vector<float>(samples, static_cast<float>(raw.black_level_dn)));
+  tags.set_all(TIFFTAG_WHITELEVEL,
+               std::vector<std::uint32_t>(samples, static_cast<std::uint32_t>(raw.white_level_dn)));
+  if (!raw.linear_codes.empty()) tags.set_all(TIFFTAG_LINEARIZATIONTABLE, raw.linear_codes);
+}
+
+std::vector<float> floats(const std::array<double, 9>& matrix, double divisor = 1) {
+  std::vector<float> values;
+  for (const double element : matrix) values.push_back(static_cast<float>(element / divisor));
+  return values;
+}
+
+void set_lights(Tags& tags, const std::array<const RawLight*, 2>& lights) {
+  tags.set(TIFFTAG_CALIBRATIONILLUMINANT1, lights[0]->illuminant);
+  tags.set(TIFFTAG_CALIBRATIONILLUMINANT2, lights[1]->illuminant);
+  tags.set_all(TIFFTAG_COLORMATRIX1, floats(lights[0]->color));
+  tags.set_all(TIFFTAG_COLORMATRIX2, floats(lights[1]->color));
+  tags.set_all(kForward1, floats(lights[0]->forward));
+  tags.set_all(kForward2, floats(lights[1]->forward));
+}
+
+// The matrix from XYZ to the camera and the camera's values of its white, D65 after adaptation.
+void set_colors(Tags& tags, const RawPicture& raw) {
+  if (raw.lights.size() == 2) set_lights(tags, {raw.lights.data(), &raw.lights[1]});
+  if (!raw.from_xyz_d65) return;
+  constexpr std::array<double, 3> kWhite{0.95047, 1, 1.08883};
+  std::vector<float> neutral;
+  for (std::size_t row = 0; row < 3; ++row) {
+    double value = 0;
+    for (std::size_t k = 0; k < 3; ++k) value += (*raw.from_xyz_d65)[3 * row + k] * kWhite[k];
+    neutral.push_back(static_cast<float>(value));
+  }
+  const float most = *std::max_element(neutral.begin(), neutral.end());
+  if (!(most > 0) || *std::min_element(neutral.begin(), neutral.end()) <= 0) return;
+  for (float& value : neutral) value /= most;
+  tags.set_all(TIFFTAG_ASSHOTNEUTRAL, neutral);
+  if (!raw.lights.empty()) return;
+  tags.set(TIFFTAG_CALIBRATIONILLUMINANT1, kD65);
+  tags.set_all(TIFFTAG_COLORMATRIX1, floats(*raw.from_xyz_d65, static_cast<double>(most)));
+}
+
+void set_names(Tags& tags, const RawPicture& raw) {
+  std::string lines;
+  for (const auto& [key, value] : raw.metadata) lines += key + ": " + value + "\n";
+  const std::string model = raw.camera.empty() ? "Abbe sensor" : raw.camera;
+  tags.set(TIFFTAG_IMAGEDESCRIPTION, lines.c_str());
+  tags.set(TIFFTAG_MAKE, "Abbe");
+  tags.set(TIFFTAG_MODEL, model.c_str());
+  tags.set(TIFFTAG_SOFTWARE, "Abbe");
+  tags.set(TIFFTAG_DNGVERSION, kVersion.data());
+  tags.set(TIFFTAG_DNGBACKWARDVERSION, kOldestReader.data());
+  tags.set(TIFFTAG_UNIQUECAMERAMODEL, model.c_str());
+}
+
+bool reads_back(const std::string& path, MemoryFile& file, const RawPicture& raw) {
+  const Tiff tiff = open(path, file, "rmc");  // c: the strip as it is
+  std::vector<std::uint16_t> codes(raw.codes.size());
+  const auto size = static_cast<tmsize_t>(codes.size() * sizeof(std::uint16_t));
+  return TIFFReadEncodedStrip(tiff.get(), 0, codes.data(), size) == size && codes == raw.codes;
+}
+
+// The planes of a DNG and the channels of its pattern, which are red, green and blue.
+void read_layout(TIFF* tiff, RawPicture& raw) {
+  std::uint16_t* repeats = nullptr;
+  std::uint16_t count = 0;
+  std::uint8_t* pattern = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_CFAREPEATPATTERNDIM, &repeats) == 1 &&
+      TIFFGetField(tiff, TIFFTAG_CFAPATTERN, &count, &pattern) == 1 && count == repeats[0] * repeats[1] &&
+      *std::max_element(pattern, pattern + count) < 3) {
+    raw.mosaic_width = repeats[1];
+    raw.mosaic.assign(pattern, pattern + count);
+    raw.channels = {"R", "G", "B"};
+    raw.planes = {"raw"};
+    return;
+  }
+  raw.planes = raw.planes.size() == 3 ? std::vector<std::string>{"R", "G", "B"} : raw.planes;
+  raw.channels = raw.planes;
+}
+
+void read_levels(TIFF* tiff, RawPicture& raw) {
+  std::uint16_t count = 0;
+  float* black = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_BLACKLEVEL, &count, &black) == 1 && count > 0) raw.black_level_dn = *black;
+  std::uint32_t* white = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_WHITELEVEL, &count, &white) == 1 && count > 0) raw.white_level_dn = *white;
+  std::uint16_t* table = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_LINEARIZATIONTABLE, &count, &table) == 1 && count > 0) {
+    raw.is_linearised = true;
+    for (std::uint16_t& code : raw.codes) code = table[std::min<std::size_t>(code, count - 1U)];
+  }
+}
+
+// The lines "key: value" of the description, as `set_names` writes them.
+void read_lines(TIFF* tiff, RawPicture& raw) {
+  char* lines = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &lines) == 1) raw.metadata["ImageDescription"] = lines;
+}
+
+// The exposure time, of which the folder of Exif tells; the last to be read, since it leaves the image.
+void read_exposure(TIFF* tiff, RawPicture& raw) {
+  toff_t folder = 0;
+  float seconds = 0;
+  if (TIFFGetField(tiff, TIFFTAG_EXIFIFD, &folder) == 1 && TIFFReadEXIFDirectory(tiff, folder) == 1 &&
+      TIFFGetField(tiff, EXIFTAG_EXPOSURETIME, &seconds) == 1 && seconds > 0)
+    raw.exposure_s = static_cast<double>(seconds);
+}
+
+// Strip by strip, or nothing where libtiff cannot undo the compression.
+bool read_codes(TIFF* tiff, RawPicture& raw) {
+  const std::uint32_t strips = TIFFNumberOfStrips(tiff);
+  std::size_t at = 0;
+  for (std::uint32_t strip = 0; strip < strips; ++strip) {
+    const std::size_t left = (raw.codes.size() - at) * sizeof(std::uint16_t);
+    const tmsize_t got =
+        TIFFReadEncodedStrip(tiff, strip, raw.codes.data() + at, static_cast<tmsize_t>(left));
+    if (got <= 0) return false;
+    at += static_cast<std::size_t>(got) / sizeof(std::uint16_t);
+  }
+  return at == raw.codes.size();
+}
+
+}  // namespace
+
+RawPicture read_dng(const std::string& path) {
+  teach_tags();
+  const Tiff tiff(TIFFOpenExt(path.c_str(), "r", quiet().get()), TIFFClose);
+  if (!tiff) throw Error(ErrorCode::input, path, "no DNG, or a damaged one");
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint16_t bits = 0;
+  std::uint16_t samples = 1;
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
+  TIFFGetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, &samples);
+  require_image_size(path, width, height, samples);
+  if (bits != 16 || TIFFIsTiled(tiff.get()) != 0)
+    throw Error(ErrorCode::input, path,
+                "its first image has no strips of 16-bit numbers (got " + std::to_string(bits) +
+                    " bits); a raw converter can make an uncompressed DNG of it");
+  RawPicture raw;
+  raw.width = width;
+  raw.height = height;
+  for (int k = 0; k < samples; ++k) raw.planes.push_back(samples == 1 ? "raw" : std::to_string(k));
+  raw.codes.resize(static_cast<std::size_t>(width) * height * samples);
+  if (!read_codes(tiff.get(), raw)) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  read_layout(tiff.get(), raw);
+  read_levels(tiff.get(), raw);
+  read_lines(tiff.get(), raw);
+  read_exposure(tiff.get(), raw);
+  return raw;
+}
+
+std::string encode_dng(const std::string& path, const RawPicture& raw) {
+  MemoryFile file;
+  bool sound = true;
+  {
+    const Tiff tiff = open(path, file, "wlm");
+    const std::uint64_t exif = write_exif(tiff.get(), raw, sound);
+    TIFFFreeDirectory(tiff.get());  // which making another does not do
+    TIFFCreateDirectory(tiff.get());
+    Tags tags{tiff.get()};
+    set_layout(tags, raw);
+    set_levels(tags, raw);
+    set_colors(tags, raw);
+    set_names(tags, raw);
+    if (exif != 0) tags.set(TIFFTAG_EXIFIFD, exif);
+    std::vector<std::uint16_t> codes = raw.codes;  // which libtiff may swap
+    const auto size = static_cast<tmsize_t>(codes.size() * sizeof(std::uint16_t));
+    sound = sound && tags.sound && TIFFWriteEncodedStrip(tiff.get(), 0, codes.data(), size) == size &&
+            TIFFWriteDirectory(tiff.get()) == 1;
+  }
+  if (!sound || !reads_back(path, file, raw))
+    throw Error(ErrorCode::output, path, "the encoded DNG does not read back");
+  return std::move(file.bytes);
+}
+
+}  // namespace abbe::picture_module

@@ -1,0 +1,231 @@
+// Raw files for astronomers: FITS through cfitsio.
+#include <fitsio.h>
+
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <regex>
+#include <string_view>
+#include <utility>
+
+#include "io/error.h"
+#include "io/image.h"
+#include "io/picture_module.h"
+
+namespace abbe::picture_module {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int status) {
+  std::array<char, FLEN_STATUS> text{};
+  fits_get_errstatus(status, text.data());
+  throw Error(ErrorCode::output, path, std::string("cfitsio: ") + text.data());
+}
+
+// A file in memory, which cfitsio lets grow.
+struct MemoryFile {
+  void* bytes = nullptr;
+  std::size_t size = 0;
+  fitsfile* fits = nullptr;
+
+  MemoryFile() = default;
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() {
+    int status = 0;
+    if (fits != nullptr) fits_close_file(fits, &status);
+    std::free(bytes);
+  }
+};
+
+/// Writes keywords; `status` keeps the first failure, as the library has it.
+struct Header {
+  fitsfile* fits;
+  int& status;
+
+  void number(const char* key, double value, const char* comment) {
+    fits_update_key(fits, TDOUBLE, key, &value, comment, &status);
+  }
+  void text(const char* key, const std::string& value, const char* comment) {
+    fits_update_key_longstr(fits, key, value.c_str(), comment, &status);
+  }
+};
+
+// "RGGB": the channels of a pattern of two by two, as capturing programs write it.
+std::string bayer_pattern(const RawPicture& raw) {
+  std::string letters;
+  for (const std::uint8_t channel : raw.mosaic) letters += raw.channels[channel];
+  return letters;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ",") + name;
+  return all;
+}
+
+void write_header(Header header, const RawPicture& raw) {
+  fits_write_key_longwarn(header.fits, &header.status);
+  header.text("CREATOR", "Abbe", "program that made this file");
+  if (!raw.camera.empty()) header.text("INSTRUME", raw.camera, "camera");
+  header.text("ROWORDER", "TOP-DOWN", "the first row is the top of the picture");
+  header.text("PLANES", joined(raw.planes), "planes along the third axis");
+  if (raw.exposure_s) header.number("EXPTIME", *raw.exposure_s, "[s] exposure time");
+  header.number("GAIN", raw.gain_e_per_dn, "[electron/adu] conversion gain");
+  header.number("EGAIN", raw.gain_e_per_dn, "[electron/adu] the same, as others call it");
+  header.number("RDNOISE", raw.read_noise_e, "[electron] read noise");
+  header.number("PEDESTAL", raw.black_level_dn,
+                "[adu] code without electrons: electrons = (x - PEDESTAL) GAIN");
+  header.number("SATURATE", raw.white_level_dn, "[adu] least code of a saturated pixel");
+  if (raw.full_well_e > 0) header.number("FULLWELL", raw.full_well_e, "[electron] full well");
+  if (raw.f_number) header.number("FNUMBER", *raw.f_number, "f-number");
+  if (raw.iso_speed) header.number("ISOSPEED", *raw.iso_speed, "saturation-based ISO speed");
+  if (raw.mosaic_width > 0)
+    header.text("BAYERPAT", bayer_pattern(raw), "channels of the pattern, row by row");
+  for (const auto& [key, value] : raw.metadata)
+    fits_write_history(header.fits, (key + ": " + value).c_str(), &header.status);
+}
+
+// cfitsio has planes one after the other.
+std::vector<std::uint16_t> plane_by_plane(const RawPicture& raw) {
+  const std::size_t planes = raw.planes.size();
+  std::vector<std::uint16_t> codes;
+  codes.reserve(raw.codes.size());
+  for (std::size_t plane = 0; plane < planes; ++plane)
+    for (std::size_t i = plane; i < raw.codes.size(); i += planes) codes.push_back(raw.codes[i]);
+  return codes;
+}
+
+bool reads_back(std::string& bytes, const std::vector<std::uint16_t>& codes) {
+  int status = 0;
+  MemoryFile file;  // which owns none of the bytes
+  void* data = bytes.data();
+  std::size_t size = bytes.size();
+  fits_open_memfile(&file.fits, "memory", READONLY, &data, &size, 0, nullptr, &status);
+  std::vector<std::uint16_t> read(codes.size());
+  fits_read_img(file.fits, TUSHORT, 1, static_cast<LONGLONG>(read.size()), nullptr, read.data(), nullptr,
+                &status);
+  return status == 0 && read == codes;
+}
+
+double number_of(fitsfile* fits, const char* key, double otherwise) {
+  double value = otherwise;
+  int status = 0;
+  return fits_read_key(fits, TDOUBLE, key, &value, nullptr, &status) == 0 ? value : otherwise;
+}
+
+std::string text_of(fitsfile* fits, const char* key) {
+  std::array<char, FLEN_VALUE> value{};
+  int status = 0;
+  return fits_read_key(fits, TSTRING, key, value.data(), nullptr, &status) == 0 ? value.data() : "";
+}
+
+// A pattern of two by two, as "RGGB"; other words are no pattern that is known.
+void read_pattern(const std::string& pattern, RawPicture& raw) {
+  constexpr std::string_view kLetters = "RGB";
+  if (pattern.size() != 4 || raw.planes.size() != 1 ||
+      pattern.find_first_not_of(kLetters) != std::string::npos)
+    return;
+  raw.mosaic_width = 2;
+  raw.channels = {"R", "G", "B"};
+  for (const char letter : pattern) raw.mosaic.push_back(static_cast<std::uint8_t>(kLetters.find(letter)));
+}
+
+std::vector<std::string> plane_names(const std::string& told, std::size_t count) {
+  std::vector<std::string> names(1);
+  for (const char c : told)
+    if (c == ',')
+      names.emplace_back();
+    else
+      names.back() += c;
+  if (names.size() == count && !names.front().empty()) return names;
+  names.clear();
+  for (std::size_t k = 0; k < count; ++k) names.push_back(count == 1 ? "raw" : std::to_string(k));
+  return names;
+}
+
+// The lines "key: value" that `write_header` leaves as history, of which the library cuts long ones.
+void read_history(fitsfile* fits, RawPicture& raw) {
+  constexpr std::size_t kName = 8;
+  constexpr std::size_t kCut = 72;
+  const std::regex key("([A-Za-z][A-Za-z0-9_.]*): (.*)");
+  int status = 0;
+  int count = 0;
+  fits_get_hdrspace(fits, &count, nullptr, &status);
+  std::string* last = nullptr;
+  std::size_t cards = 0;
+  for (int i = 1; i <= count; ++i) {
+    std::array<char, FLEN_CARD> card{};
+    if (fits_read_record(fits, i, card.data(), &status) != 0) return;
+    const std::string line(card.data());
+    if (!line.starts_with("HISTORY ")) continue;
+    std::smatch found;
+    const std::string text = line.substr(kName);
+    if (std::regex_match(text, found, key)) {
+      last = &(raw.metadata[found[1]] = found[2]);
+      cards = static_cast<std::size_t>(found.position(2));
+    } else if (last != nullptr) {
+      last->resize((cards + last->size() + kCut - 1) / kCut * kCut - cards, ' ');
+      *last += text;
+    }
+  }
+}
+
+}  // namespace
+
+RawPicture read_fits(const std::string& path) {
+  int status = 0;
+  MemoryFile file;
+  fits_open_image(&file.fits, path.c_str(), READONLY, &status);
+  int type = 0;
+  int axes = 0;
+  std::array<long, 3> size{1, 1, 1};
+  fits_get_img_equivtype(file.fits, &type, &status);
+  fits_get_img_dim(file.fits, &axes, &status);
+  fits_get_img_size(file.fits, 3, size.data(), &status);
+  if (status != 0) throw Error(ErrorCode::input, path, "no FITS image, or a damaged one");
+  if (axes < 2 || axes > 3 || (type != USHORT_IMG && type != SHORT_IMG && type != BYTE_IMG))
+    throw Error(ErrorCode::input, path, "no image of whole 16-bit numbers with two or three axes");
+  RawPicture raw;
+  raw.width = size[0];
+  raw.height = size[1];
+  const auto planes = static_cast<std::size_t>(size[2]);
+  require_image_size(path, raw.width, raw.height, planes);
+  raw.planes = raw.channels = plane_names(text_of(file.fits, "PLANES"), planes);
+  const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
+  std::vector<std::uint16_t> codes(pixels * planes);
+  fits_read_img(file.fits, TUSHORT, 1, static_cast<LONGLONG>(codes.size()), nullptr, codes.data(), nullptr,
+                &status);
+  if (status != 0) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t plane = 0; plane < planes; ++plane) raw.codes.push_back(codes[plane * pixels + i]);
+  read_pattern(text_of(file.fits, "BAYERPAT"), raw);
+  raw.black_level_dn = number_of(file.fits, "PEDESTAL", 0);
+  raw.white_level_dn = number_of(file.fits, "SATURATE", 65535);
+  raw.gain_e_per_dn = number_of(file.fits, "GAIN", 1);
+  if (const double seconds = number_of(file.fits, "EXPTIME", 0); seconds > 0) raw.exposure_s = seconds;
+  read_history(file.fits, raw);
+  return raw;
+}
+
+std::string encode_fits(const std::string& path, const RawPicture& raw) {
+  constexpr std::size_t kBlock = 2880;
+  int status = 0;
+  MemoryFile file;
+  file.bytes = std::malloc(kBlock);
+  file.size = kBlock;
+  fits_create_memfile(&file.fits, &file.bytes, &file.size, kBlock, std::realloc, &status);
+  std::array<long, 3> axes{raw.width, raw.height, static_cast<long>(raw.planes.size())};
+  fits_create_img(file.fits, USHORT_IMG, raw.planes.size() > 1 ? 3 : 2, axes.data(), &status);
+  write_header({file.fits, status}, raw);
+  std::vector<std::uint16_t> codes = plane_by_plane(raw);
+  fits_write_img(file.fits, TUSHORT, 1, static_cast<LONGLONG>(codes.size()), codes.data(), &status);
+  fits_flush_file(file.fits, &status);
+  LONGLONG end = 0;
+  fits_get_hduaddrll(file.fits, nullptr, nullptr, &end, &status);
+  if (status != 0) fail(path, status);
+  std::string bytes(static_cast<const char*>(file.bytes), static_cast<std::size_t>(end));
+  if (!reads_back(bytes, codes)) throw Error(ErrorCode::output, path, "the encoded FITS does not read back");
+  return bytes;
+}
+
+}  // namespace abbe::picture_module

@@ -1,0 +1,35 @@
+#include "io/raw_picture.h"
+
+#include "io/atomic_file.h"
+#include "io/error.h"
+#include "io/picture_codec.h"
+
+namespace abbe {
+
+void write_dng(const std::filesystem::path& path, const RawPicture& raw) {
+  const bool mosaic = raw.mosaic_width > 0;
+  if (raw.channels.size() != 3 && (mosaic || raw.planes.size() != 1))
+    throw Error(ErrorCode::output, path.string(),
+                "a DNG has one plane, three, or a mosaic of three channels (got " +
+                    std::to_string(raw.channels.size()) +
+                    " channels, allowed any number in a .tif or .fits)");
+  write_atomically(path, picture_codec().encode_dng(path.string(), raw));
+}
+
+void write_fits(const std::filesystem::path& path, const RawPicture& raw) {
+  write_atomically(path, picture_codec().encode_fits(path.string(), raw));
+}
+
+bool is_raw_picture(const std::filesystem::path& path) {
+  return path.extension() == ".dng" || path.extension() == ".fits" || path.extension() == ".fit";
+}
+
+RawPicture read_raw_picture(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(ErrorCode::input, path.string(), "no such regular file");
+  return path.extension() == ".dng" ? picture_codec().read_dng(path.string())
+                                    : picture_codec().read_fits(path.string());
+}
+
+}  // namespace abbe

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace abbe {
+
+/// What calibration says of a camera under one light [DNG, ch. 6]; matrices row by row.
+struct RawLight {
+  int illuminant;                   ///< CalibrationIlluminant: the light's number in Exif.
+  std::array<double, 9> color{};    ///< ColorMatrix: XYZ, not adapted, to linear camera values.
+  std::array<double, 9> forward{};  ///< ForwardMatrix: balanced camera values to XYZ relative to D50.
+};
+
+/// The codes of a sensor as a raw file holds them, and what programs that develop raw files ask of it.
+struct RawPicture {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  std::vector<std::string> planes;  ///< Names of what a pixel has: one of a mosaic or a grey sensor, or more.
+  std::vector<std::uint16_t> codes;       ///< Pixel by pixel from the top left, in each plane by plane.
+  std::vector<std::string> channels;      ///< The planes, or the channels of the mosaic.
+  std::int64_t mosaic_width = 0;          ///< 0 without a mosaic.
+  std::vector<std::uint8_t> mosaic = {};  ///< Numbers among the channels, rows of the pattern from the top.
+  double black_level_dn = 0;
+  double white_level_dn = 65535;                 ///< The least code of a saturated pixel.
+  std::vector<std::uint16_t> linear_codes = {};  ///< What each code stands for; empty where they are linear.
+  bool is_linearised = false;  ///< Whether such a table of the file has made the codes that were read.
+  double gain_e_per_dn = 1;
+  double read_noise_e = 0;
+  double full_well_e = 0;            ///< 0 where there is no limit.
+  std::optional<double> exposure_s;  ///< Nothing where a file that was read does not tell.
+  std::optional<double> f_number;
+  std::optional<double> iso_speed;
+  /// XYZ relative to D65 to the linear codes of three channels above black, row by row; its scale is free.
+  std::optional<std::array<double, 9>> from_xyz_d65;
+  std::vector<RawLight> lights = {};  ///< Two calibrated ones, or none: then that matrix serves in D65.
+  std::string camera;                 ///< Its name.
+  std::map<std::string, std::string> metadata;  ///< All that the film tells.
+};
+
+/// Writes a DNG 1.4 [DNG]: a mosaic of three channels, one plane, or three. Throws Error{output}, also for
+/// any other sensor.
+void write_dng(const std::filesystem::path& path, const RawPicture& raw);
+
+/// Writes a FITS image [FITS4] of unsigned 16-bit numbers, planes as its third axis, the first row first
+/// (`ROWORDER`). Throws Error{output}.
+void write_fits(const std::filesystem::path& path, const RawPicture& raw);
+
+/// Reads a DNG whose codes are stored as 16-bit numbers, uncompressed or as TIFF compresses, or a FITS image
+/// of whole numbers: codes, mosaic, black and white level, exposure, gain and, of a file that Abbe wrote,
+/// what the film told, as far as the file tells them; of a DNG with a linearisation table what that makes of
+/// the codes. Channels of a mosaic are R, G and B. Throws Error{input}, or Error{resource} for one beyond the
+/// limits of `io/image.h`.
+[[nodiscard]] RawPicture read_raw_picture(const std::filesystem::path& path);
+
+/// Whether a file is one for `read_raw_picture`, by its extension: .dng, .fits or .fit.
+[[nodiscard]] bool is_raw_picture(const std::filesystem::path& path);
+
+}  // namespace abbe

@@ -1,0 +1,102 @@
+#include "sensor/film/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+// Whether a point is on the inner side of every edge.
+bool contains(const PatchOutline& outline, Imath::V2d point) {
+  int left = 0;
+  for (std::size_t i = 0; i < outline.corners.size(); ++i) {
+    const Imath::V2d edge = outline.corners[(i + 1) % outline.corners.size()] - outline.corners[i];
+    left += edge.cross(point - outline.corners[i]) >= 0 ? 1 : 0;
+  }
+  return left == 0 || left == static_cast<int>(outline.corners.size());
+}
+
+bool holds_pixel(const PatchOutline& outline, int x, int y) {
+  const Imath::V2d corner(x, y);
+  return contains(outline, corner) && contains(outline, corner + Imath::V2d(1, 0)) &&
+         contains(outline, corner + Imath::V2d(0, 1)) && contains(outline, corner + Imath::V2d(1, 1));
+}
+
+struct Pixel {
+  int x, y;
+};
+
+std::vector<Pixel> pixels_in(const PatchOutline& outline, const Crop& held, const char* held_by) {
+  const auto by_x = [](const Imath::V2d& a, const Imath::V2d& b) { return a.x < b.x; };
+  const auto by_y = [](const Imath::V2d& a, const Imath::V2d& b) { return a.y < b.y; };
+  const auto [left, right] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_x);
+  const auto [top, bottom] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_y);
+  if (!(left->x >= held.x0 && top->y >= held.y0 && right->x <= held.x1 && bottom->y <= held.y1))
+    throw Error(
+        ErrorCode::input, outline.name,
+        fmt::format("its middle is beyond {} (got x in [{:.5g}, {:.5g}], y in [{:.5g}, {:.5g}], allowed "
+                    "[{}, {}] and [{}, {}])",
+                    held_by, left->x, right->x, top->y, bottom->y, held.x0, held.x1, held.y0, held.y1));
+  std::vector<Pixel> pixels;
+  for (int y = static_cast<int>(top->y); y < static_cast<int>(std::ceil(bottom->y)); ++y)
+    for (int x = static_cast<int>(left->x); x < static_cast<int>(std::ceil(right->x)); ++x)
+      if (holds_pixel(outline, x, y)) pixels.push_back({x, y});
+  return pixels;
+}
+
+// Of the pixels that a channel has.
+PatchChannel measure(const Image& image, const ImageChannel& plane, const std::vector<Pixel>& pixels,
+                     const std::optional<double>& saturation) {
+  PatchChannel found{pixels.size(), 0, 0, std::numeric_limits<double>::infinity(),
+                     -std::numeric_limits<double>::infinity()};
+  const auto value = [&](const Pixel& pixel) {
+    return static_cast<double>(
+        plane.values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(image.width) +
+                     static_cast<std::size_t>(pixel.x)]);
+  };
+  for (const Pixel& pixel : pixels) {
+    found.mean += value(pixel);
+    found.lowest = std::min(found.lowest, value(pixel));
+    found.highest = std::max(found.highest, value(pixel));
+    found.saturated += saturation && value(pixel) >= *saturation ? 1 : 0;
+  }
+  const auto count = static_cast<double>(pixels.size());
+  found.mean /= count;
+  double squares = 0;
+  for (const Pixel& pixel : pixels) squares += (value(pixel) - found.mean) * (value(pixel) - found.mean);
+  found.deviation = std::sqrt(squares / std::max(1.0, count - 1));
+  return found;
+}
+
+}  // namespace
+
+std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
+                                         std::span<const PatchOutline> outlines) {
+  const Crop held = planes.rendered.value_or(Crop{0, 0, image.width, image.height});
+  const char* held_by = planes.rendered ? "the pixels that were rendered" : "the film";
+  std::vector<PatchValues> patches;
+  for (const PatchOutline& outline : outlines) {
+    const std::vector<Pixel> pixels = pixels_in(outline, held, held_by);
+    PatchValues patch{outline.name, {}};
+    for (std::size_t k = 0; k < planes.channels.size(); ++k) {
+      std::vector<Pixel> own;
+      std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(own), [&](const Pixel& pixel) {
+        return !planes.mosaic || planes.mosaic->at(pixel.x, pixel.y) == static_cast<int>(k);
+      });
+      if (own.empty())
+        throw Error(ErrorCode::input, outline.name,
+                    fmt::format("its middle holds no whole pixel{}: the film is too coarse",
+                                planes.mosaic ? " of channel " + planes.channels[k] : ""));
+      patch.channels.push_back(measure(image, *planes.planes[planes.mosaic ? 0 : k], own, planes.saturation));
+    }
+    patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
+}  // namespace abbe

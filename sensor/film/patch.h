@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Imath/ImathVec.h>
+
+#include "io/image.h"
+#include "sensor/film/crop.h"
+#include "sensor/response/mosaic.h"
+
+namespace abbe {
+
+/// Where a patch of a chart lies in an image: the corners of a convex quadrilateral [pixels from the top left
+/// corner], in the order of going around it.
+struct PatchOutline {
+  std::string name;
+  std::array<Imath::V2d, 4> corners;
+};
+
+/// What an image holds of a patch in one channel.
+struct PatchChannel {
+  std::size_t pixels = 0;
+  double mean = 0;
+  double deviation = 0;  ///< Standard deviation of the pixels.
+  double lowest = 0;
+  double highest = 0;
+  std::size_t saturated = 0;  ///< Pixels at or above saturation.
+};
+struct PatchValues {
+  std::string name;
+  std::vector<PatchChannel> channels;
+};
+
+/// The planes of an image that are measured; with a mosaic the only one, of whose pixels each channel has its
+/// own.
+struct MeasuredPlanes {
+  std::vector<const ImageChannel*> planes;
+  std::vector<std::string> channels;
+  std::optional<Mosaic> mosaic;
+  std::optional<double> saturation;   ///< Values from which a pixel counts as saturated.
+  std::optional<Crop> rendered = {};  ///< The pixels that hold anything, if not all do.
+};
+
+/// Measures the pixels that lie wholly within each outline. Throws Error{input} naming a patch that reaches
+/// beyond the image or what of it was rendered, or in which a channel has no whole pixel.
+[[nodiscard]] std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
+                                                       std::span<const PatchOutline> outlines);
+
+}  // namespace abbe

@@ -1,0 +1,140 @@
+#include "develop/linear_image.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "calibration/chart/chart_corners.h"
+#include "io/error.h"
+#include "io/picture.h"
+
+namespace abbe {
+namespace {
+
+LinearImage image_of(int width, int height, double (*value)(int, int), std::optional<Mosaic> mosaic = {}) {
+  LinearImage image{{width, height, {{"raw", {}}}, {}}, {"raw"}, std::move(mosaic), {}, ""};
+  if (image.mosaic) image.channels = {"R", "G"};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.image.channels[0].values.push_back(static_cast<float>(value(x, y)));
+  return image;
+}
+double falloff(int x, int y) {
+  return 1 - 0.002 * ((x - 30) * (x - 30) + (y - 20) * (y - 20)) / 10;
+}
+const Mosaic kStripes{2, 1, {0, 1}};
+constexpr std::array<Imath::V2d, 4> kSquare{Imath::V2d(0, 0), {60, 0}, {60, 40}, {0, 40}};
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(LinearImage, AFlatTakesVignettingAway) {
+  LinearImage image = image_of(
+      60, 40, [](int x, int y) { return (x % 2 == 0 ? 300 : 100) * falloff(x, y); }, kStripes);
+  const LinearImage flat = image_of(
+      60, 40, [](int x, int y) { return (x % 2 == 0 ? 7 : 20) * falloff(x, y); }, kStripes);
+  flat_field(image, flat, "flat");
+  const std::vector<std::string> names{"a", "b", "c", "d", "e", "f"};
+  const auto outlines = outlines_between(kSquare, names, 3);
+  const std::vector<PatchValues> patches = measure_patches(image.image, image.planes(), outlines);
+  ASSERT_EQ(patches.size(), 6U);
+  for (const PatchValues& patch : patches) {
+    EXPECT_NEAR(patch.channels[0].mean / patch.channels[1].mean, 3, 1e-3)
+        << "each channel keeps its own mean";
+    EXPECT_NEAR(patch.channels[0].mean, patches[0].channels[0].mean, 1e-3);
+    EXPECT_LT(patch.channels[0].deviation, 1e-3);
+    EXPECT_EQ(patch.channels[0].pixels, 6U * 12);  // of 12 by 12 in the middle 0.6 of 20 by 20
+  }
+  EXPECT_EQ(refusal([&] { flat_field(image, image_of(60, 39, falloff, kStripes), "f.exr"); }),
+            "f.exr: the flat has other pixels (got 60 x 39, allowed 60 x 40)");
+  EXPECT_EQ(refusal([&] { flat_field(image, image_of(60, 40, falloff), "f.exr"); }),
+            "f.exr: the flat has other channels or another mosaic (got raw, allowed the mosaic R,G)");
+  EXPECT_EQ(refusal([&] {
+              flat_field(image,
+                         image_of(
+                             60, 40, [](int, int) { return 0.0; }, kStripes),
+                         "f.exr");
+            }),
+            "f.exr: the flat has no light at pixel 0,0 (got 0)");
+}
+
+TEST(LinearImage, PatchesCountTheirOwnPixelsAndWhatIsSaturated) {
+  LinearImage image = image_of(60, 40, [](int x, int) { return x < 10 ? 100.0 : 50.0 + x % 2; });
+  image.saturation = 100;
+  const std::vector<std::string> names{"a", "b"};
+  const std::vector<PatchValues> patches =
+      measure_patches(image.image, image.planes(), outlines_between(kSquare, names, 2));
+  EXPECT_EQ(patches[0].channels[0].pixels, 18U * 24);
+  EXPECT_EQ(patches[0].channels[0].saturated, 4U * 24);
+  EXPECT_EQ(patches[0].channels[0].highest, 100);
+  EXPECT_DOUBLE_EQ(patches[1].channels[0].mean, 50.5);
+  EXPECT_NEAR(patches[1].channels[0].deviation, 0.5 * std::sqrt(432.0 / 431), 1e-9);
+  EXPECT_EQ(patches[1].channels[0].saturated, 0U);
+}
+
+TEST(ChartCorners, PerspectiveIsSeen) {
+  const std::vector<std::string> names{"a", "b", "c", "d"};
+  // A square on a floor, down in the picture where it is near; its middle is where its diagonals cross.
+  const std::array<Imath::V2d, 4> floor{Imath::V2d(-50, 0), {50, 0}, {100, 100}, {-100, 100}};
+  const auto outlines = outlines_between(floor, std::vector<std::string>{"all"}, 1);
+  const Imath::V2d a = outlines[0].corners[2] - outlines[0].corners[0];
+  const Imath::V2d b = outlines[0].corners[3] - outlines[0].corners[1];
+  const double t = (outlines[0].corners[1] - outlines[0].corners[0]).cross(b) / a.cross(b);
+  EXPECT_NEAR((outlines[0].corners[0] + a * t).x, 0, 1e-12);
+  EXPECT_NEAR((outlines[0].corners[0] + a * t).y, 100.0 / 3, 1e-9);
+  EXPECT_NE(refusal([&] {
+              (void)outlines_between({Imath::V2d(0, 0), {10, 10}, {10, 0}, {0, 10}}, names, 2);
+            }).find("--corners: expected the corners of a convex quadrilateral"),
+            std::string::npos);
+}
+
+TEST(LinearImage, ASaturatedFlatIsRefused) {
+  LinearImage image = image_of(60, 40, falloff);
+  LinearImage flat = image_of(60, 40, [](int x, int y) { return x == 5 && y < 24 ? 1 : 0.5; });
+  flat.saturation = 1;
+  flat_field(image, flat, "f.exr");  // hot pixels
+  flat.image.channels[0].values.back() = 1;
+  EXPECT_EQ(refusal([&] { flat_field(image, flat, "f.exr"); }),
+            "f.exr: the flat is saturated (got 1.04 % of its pixels, allowed 1 %): expose it less");
+}
+
+TEST(LinearImage, APixelThatIsNoNumberIsRefused) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("abbe_nan_" + std::to_string(::getpid()) + ".pfm");
+  std::ofstream(path, std::ios::binary) << "Pf\n2 1\n-1.0\n" << std::string("\0\0\0\0\0\0\xc0\x7f", 8);
+  EXPECT_EQ(refusal([&] { (void)read_linear_image(path); }),
+            path.string() + ": channel \"Y\" holds no number at pixel 1,0 (got nan)");
+  std::filesystem::remove(path);
+}
+
+// What a damaged strip unpacks to may be anything; the sensor's codes may not.
+TEST(LinearImage, ACodeThatTheSensorCannotGiveIsRefused) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("abbe_codes_" + std::to_string(::getpid()) + ".tif");
+  Image raw{2,
+            2,
+            {{"raw", {0, 100, 4095, 3000}}},
+            {{"sensor_channels", "raw"},
+             {"black_level_dn", "64"},
+             {"white_level_dn", "4095"},
+             {"sensor", R"({"readout": {"bits": 12}})"}}};
+  write_raw_picture(path, raw);
+  EXPECT_EQ(read_linear_image(path).image.channels[0].values[2], 4095 - 64);
+  raw.channels[0].values[3] = 4096;
+  write_raw_picture(path, raw);
+  EXPECT_EQ(refusal([&] { (void)read_linear_image(path); }),
+            path.string() +
+                ": damaged, or of another sensor than it says: channel \"raw\" holds the code 4096 at "
+                "pixel 1,1 (allowed 0 to 4095)");
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace abbe
