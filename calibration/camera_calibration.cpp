@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/fit/noise_weights.h"
 #include "io/error.h"
 
 namespace abbe {
@@ -60,17 +61,31 @@ void require_setup(const CalibrationSetup& setup) {
 }  // namespace
 
 CameraCalibration calibrate_measured(const MeasuredCamera& camera, const CharacterisationOptions& options) {
-  const PatchColors& colors = camera.colors;
-  require_enough_patches(options.fit.model, colors.raw.size());
+  const bool is_trained = !camera.training.raw.empty();
+  PatchColors colors = is_trained ? camera.training : camera.colors;
+  if (!is_trained && !camera.deviations.empty()) colors.weights = noise_weights(colors, camera.deviations);
+  CorrectionOptions how = options.fit;
   const std::optional<Matrix3> to_d65 = adaptation(colors.white, unit_xyz(kD65), options.adaptation);
   if (!to_d65)
     throw Error(ErrorCode::input, camera.light, "the light has no white that a display could show");
   CameraCalibration result;
-  result.patches = colors.names;
-  result.correction = fit_correction(colors, options.fit);
-  result.unseen = cross_validate(colors, options.fit, options.folds > 0 ? options.folds : colors.raw.size());
+  if (options.choose) {
+    result.candidates = cross_validate_models(colors, how, options.folds);
+    how.model = result.candidates.front().model;
+  }
+  require_enough_patches(how.model, colors.raw.size());
+  result.colors = camera.colors;
+  result.patches = camera.colors.names;
+  result.correction = fit_correction(colors, how);
+  if (is_trained) {
+    result.training_patches = colors.raw.size();
+    result.correction.start = patch_errors(camera.colors, white_preserving_least_squares(colors, how.model));
+    result.unseen = result.correction.errors = patch_errors(camera.colors, result.correction.correction);
+  } else {
+    result.unseen = cross_validate(colors, how, options.folds > 0 ? options.folds : colors.raw.size());
+  }
   result.unseen_mean = bootstrap_mean(result.unseen.delta_e, options.bootstrap);
-  result.columns = bootstrap_columns(colors, options.fit, options.bootstrap);
+  result.columns = bootstrap_columns(colors, how, options.bootstrap);
   result.profile.light = camera.light;
   result.profile.description = fmt::format("{} under {}", camera.name, camera.light);
   for (std::size_t k = 0; k < camera.responses.size(); ++k)
@@ -84,21 +99,28 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
 
 CameraCalibration calibrate_camera(const CalibrationSetup& setup, const CharacterisationOptions& options) {
   require_setup(setup);
-  require_enough_patches(options.fit.model, setup.chart.patches.size());
-  const PlantedResponse planted(setup.planted_response);
+  const bool is_linear = setup.planted_response.empty();
+  const PlantedResponse planted(is_linear ? "linear" : setup.planted_response);
   const std::vector<std::vector<double>> values = photographed_values(setup);
   MeasuredCamera camera{
       setup.camera, setup.illuminant, integrate(setup.chart, setup.channels, setup.light), {}, {}};
-  const std::vector<double> times_s = exposure_times();
+  if (!setup.training.patches.empty())
+    camera.training = integrate(setup.training, setup.channels, setup.light);
+  const std::vector<double> times_s = is_linear ? std::vector{1.0} : exposure_times();
   for (std::size_t k = 0; k < 3; ++k) {
-    ResponseFit fit = recover_response(expose(values[k], times_s, planted, {setup.bits, 0, 0}));
-    const ExposureSeries photograph = expose(values[k], std::array{1.0}, planted, {setup.bits, 0, 0});
-    const double white = linearise(fit.linear, photograph.codes.back()[0]);
-    for (std::size_t i = 0; i < camera.colors.raw.size(); ++i)
-      camera.colors.raw[i][k] = linearise(fit.linear, photograph.codes[i][0]) / white;
+    std::vector<double> linear;
+    for (const std::vector<double>& code :
+         expose(values[k], std::array{1.0}, planted, {setup.bits, 0, 0}).codes)
+      linear.push_back(code[0]);
+    if (!is_linear) {
+      ResponseFit fit = recover_response(expose(values[k], times_s, planted, {setup.bits, 0, 0}));
+      for (double& v : linear) v = linearise(fit.linear, v);
+      const double error = response_error(fit, planted);
+      camera.responses.push_back({setup.channels[k].name, std::move(fit), error});
+    }
+    const double white = linear.back();
+    for (std::size_t i = 0; i < camera.colors.raw.size(); ++i) camera.colors.raw[i][k] = linear[i] / white;
     camera.gains[k] = 1 / white;
-    const double error = response_error(fit, planted);
-    camera.responses.push_back({setup.channels[k].name, std::move(fit), error});
   }
   CameraCalibration result = calibrate_measured(camera, options);
   result.times_s = times_s;

@@ -22,9 +22,8 @@ struct IndexSetting {
 
 const IndexSetting& index_setting() {
   static const IndexSetting setting = [] {
-    constexpr const char* kChart = "colorchecker24_iso17321-1";
     Diagnostics diagnostics;
-    IndexSetting made{shipped(load_chart(kChart, {}, diagnostics), kChart, diagnostics),
+    IndexSetting made{shipped_chart("colorchecker24_iso17321-1"),
                       shipped(load_illuminant("D55", {}, diagnostics), "D55", diagnostics).curve};
     made.chart.patches.resize(kChromaticPatches);
     return made;

@@ -94,6 +94,16 @@ double parse_share(const std::string& option, const std::string& text) {
   return share;
 }
 
+CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text) {
+  if (text == "bias") return BiasFrame{};
+  if (text == "dark") return DarkFrame{};
+  constexpr std::string_view kFlat = "flat:";
+  if (text + ":" == kFlat) return FlatFrame{};
+  if (!text.starts_with(kFlat))
+    throw Error(ErrorCode::usage, option, "got \"" + text + "\", allowed bias, dark or flat, as flat:0.5");
+  return FlatFrame{parse_numbers(option, text.substr(kFlat.size()), 1e-9, 10).at(0)};
+}
+
 Crop parse_crop(const std::string& option, const std::string& text) {
   const std::optional<Crop> crop = abbe::parse_crop(text);
   if (!crop) refuse(option, "\"" + text + "\"", "whole pixels x0,y0,x1,y1 with x0 < x1 and y0 < y1");

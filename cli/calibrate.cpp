@@ -1,12 +1,18 @@
 #include "cli/calibrate.h"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "calibration/chart/measured_patches.h"
 #include "calibration/chart/photographed_series.h"
+#include "calibration/fit/balance.h"
 #include "calibration/output/ocio.h"
+#include "calibration/output/sensitivities.h"
+#include "cli/calibrate_page.h"
 #include "cli/calibrate_report.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
@@ -31,7 +37,15 @@ std::vector<fs::path> output_files(const CalibrateOptions& options) {
     for (const char* end : {".spi1d", ".cube", ".clf", "_to_aces.clf"})
       files.push_back(folder / camera_file(profile, end));
   }
+  for (const char* name : {"dng.json", "sensitivities.json", "report.html"}) files.push_back(folder / name);
   return files;
+}
+
+void require_named_once(const std::string& illuminants) {
+  std::set<std::string> seen;
+  for (const std::string& illuminant : split(illuminants, ','))
+    if (!seen.insert(illuminant).second)
+      throw Error(ErrorCode::usage, "--illuminant", fmt::format("{} is named twice", illuminant));
 }
 
 // "400-500": the two wavelengths of an ideal filter.
@@ -62,31 +76,52 @@ std::optional<std::vector<Channel>> camera_channels(const std::string& camera, D
   return load_camera(camera, {}, diagnostics);
 }
 
+// All patches of several tables of reflectances.
+Chart load_training(const CalibrateOptions& options, Diagnostics& diagnostics) {
+  Chart all{options.training, {}};
+  if (options.training.empty()) return all;
+  for (const std::string& name : split(options.training, ',')) {
+    if (name == options.chart)
+      throw Error(
+          ErrorCode::usage, "--training",
+          fmt::format("got {}, the chart itself, which is shown by a fit that has not seen it", name));
+    auto chart = load_chart(name, {}, diagnostics);
+    if (chart) std::move(chart->patches.begin(), chart->patches.end(), std::back_inserter(all.patches));
+  }
+  return all;
+}
+
 CalibrationCase simulate(const CalibrateOptions& options, const std::string& illuminant) {
   Diagnostics diagnostics;
   const auto channels = camera_channels(options.camera, diagnostics);
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   const auto chart = load_chart(options.chart, {}, diagnostics);
   const auto test = options.test.empty() ? Chart{} : load_chart(options.test, {}, diagnostics);
+  const Chart training = load_training(options, diagnostics);
   check(diagnostics);
   CalibrationCase made{options.camera, options.chart, options.planted_response, options.bits, {}, {}};
-  made.result = calibrate_camera(
-      {options.camera, illuminant, options.planted_response, options.bits, *channels, light->curve, *chart},
-      options.how);
+  made.result = calibrate_camera({options.camera, illuminant, options.planted_response, options.bits,
+                                  *channels, light->curve, *chart, training},
+                                 options.how);
   if (!options.test.empty())
     made.test = patch_errors(integrate(*test, *channels, light->curve), made.result.correction.correction);
   return made;
 }
 
-std::vector<ChannelResponse> recover(const CalibrateOptions& options) {
+struct RecoveredResponses {
+  std::vector<ChannelResponse> channels;
+  std::optional<double> full_scale_dn;  // of which they are, where the series tells
+};
+
+RecoveredResponses recover(const CalibrateOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   const auto photographs = accepted(read_series(options.series, diagnostics, &inputs), diagnostics);
   require_distinct(output_files(options), inputs.files());
-  std::vector<ChannelResponse> responses;
+  RecoveredResponses recovered{{}, photographs.full_scale_dn};
   for (std::size_t k = 0; k < photographs.channels.size(); ++k)
-    responses.push_back({photographs.channels[k], recover_response(photographs.series[k]), {}});
-  return responses;
+    recovered.channels.push_back({photographs.channels[k], recover_response(photographs.series[k]), {}});
+  return recovered;
 }
 
 // Code values to linear ones.
@@ -103,20 +138,27 @@ CalibrationCase measure(const CalibrateOptions& options, const std::string& illu
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   const auto chart = light ? load_chart_targets(options.chart, light->curve, {}, diagnostics) : std::nullopt;
   auto patches = load_measured_patches(options.measured, diagnostics);
+  const Chart training = load_training(options, diagnostics);
+  std::optional<std::vector<Channel>> channels;
+  if (!training.patches.empty()) channels = camera_channels(options.camera, diagnostics);
   check(diagnostics);
   MeasuredCamera camera{options.measured.stem().string(), illuminant, {}, {}, {}};
   if (!options.series.empty()) {
-    camera.responses = recover(options);
+    RecoveredResponses recovered = recover(options);
+    camera.responses = std::move(recovered.channels);
+    scale_to_codes(*patches, recovered.full_scale_dn, options.measured);
     linearise_all(*patches, camera.responses);
   }
   const BalancedPatches balanced = balance(*chart, *patches);
   camera.colors = balanced.colors;
   camera.gains = balanced.gains;
+  camera.deviations = balanced.deviations;
+  if (channels) camera.training = integrate(training, *channels, light->curve);
   return {camera.name, options.chart, "", 0, calibrate_measured(camera, options.how), {}};
 }
 
 int calibrate_response(const CalibrateOptions& options) {
-  const std::vector<ChannelResponse> responses = recover(options);
+  const std::vector<ChannelResponse> responses = recover(options).channels;
   Json report{{"series", options.series.string()}, {"responses", Json::array()}};
   for (const ChannelResponse& r : responses) report["responses"].push_back(json_of(r));
   if (!options.output.empty()) {
@@ -148,7 +190,21 @@ void write_all(const CalibrateOptions& options, const std::vector<CalibrationCas
   std::vector<CameraProfile> profiles;
   for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
   const WrittenConfig written = write_ocio_config(options.output, profiles);
-  if (options.how.fit.model != CorrectionModel::linear) report["bake_dE00_max"] = written.bake_error;
+  if (std::any_of(profiles.begin(), profiles.end(), [](const CameraProfile& profile) {
+        return profile.correction.model != CorrectionModel::linear;
+      }))
+    report["bake_dE00_max"] = written.bake_error;
+  if (const Json dng = dng_json(cases); !dng.is_null()) {
+    write_atomically(options.output / "dng.json", text(dng, true));
+    report["dng"] = dng;
+  }
+  std::vector<Channel> channels;
+  if (!options.camera.empty()) {
+    Diagnostics diagnostics;
+    channels = accepted(camera_channels(options.camera, diagnostics), diagnostics);
+    write_atomically(options.output / "sensitivities.json", sensitivities_json(options.camera, channels));
+  }
+  write_atomically(options.output / "report.html", page_of(cases, channels));
   write_atomically(options.output / "report.json", text(report, true));
 }
 
@@ -156,12 +212,19 @@ void write_all(const CalibrateOptions& options, const std::vector<CalibrationCas
 
 int calibrate(const CalibrateOptions& options) {
   const bool is_real = !options.measured.empty() || !options.series.empty();
-  if (int{options.all_cameras} + int{!options.camera.empty()} + int{is_real} != 1)
+  // The training set of a photographed chart is seen through the camera's curves.
+  const bool has_curves = !options.measured.empty() && !options.training.empty();
+  if (has_curves && options.camera.empty())
+    throw Error(ErrorCode::usage, "--training", "needs --camera: the curves that it is seen through");
+  if (int{options.all_cameras} + int{!options.camera.empty() && !has_curves} + int{is_real} != 1)
     throw Error(ErrorCode::usage, "calibrate",
-                "needs one of --camera, --all-cameras, or --measured, --series or both");
-  if (options.camera.empty() && options.illuminants.find(',') != std::string::npos)
+                "needs one of --camera, --all-cameras, or --measured, --series or both; --camera with "
+                "--measured only "
+                "for --training");
+  if ((is_real || options.all_cameras) && options.illuminants.find(',') != std::string::npos)
     throw Error(ErrorCode::usage, "--illuminant",
                 fmt::format("got {}, allowed one light, or several with --camera", options.illuminants));
+  require_named_once(options.illuminants);
   std::vector<fs::path> inputs =
       files_among({options.camera, options.chart, options.test, options.measured.string()});
   for (const std::string& illuminant : split(options.illuminants, ','))

@@ -18,8 +18,9 @@ struct CalibrateOptions {
   std::filesystem::path series;     ///< Photographs of a real camera with their exposure times.
   std::string illuminants = "D65";  ///< One name, or for `camera` several with commas between them.
   std::string chart = "colorchecker24_babelcolor_average";
-  std::string test;                            ///< Another chart that the fitted correction is tried on.
-  std::string planted_response = "gamma:2.2";  ///< "linear", "gamma:G" or "s-curve".
+  std::string test;      ///< Another chart that the fitted correction is tried on.
+  std::string training;  ///< Reflectances that the correction is fitted to instead, with commas between.
+  std::string planted_response;  ///< "linear", "gamma:G" or "s-curve"; empty: linear, and known to be.
   int bits = 12;
   CharacterisationOptions how;
   std::filesystem::path
@@ -28,9 +29,9 @@ struct CalibrateOptions {
   bool json = false;
 };
 
-/// Calibrates a camera on a colour chart, prints CIEDE2000 per patch, and writes the configuration; or prints
-/// how well every shipped camera can be calibrated; or recovers the response of a real one. Returns the exit
-/// code.
+/// Calibrates a camera on a colour chart, prints CIEDE2000 per patch, and writes the configuration; with
+/// several lights, also the matrices of DNG. Or prints how well every shipped camera can be calibrated; or
+/// recovers the response of a real one. Returns the exit code.
 int calibrate(const CalibrateOptions& options);
 
 }  // namespace abbe::cli

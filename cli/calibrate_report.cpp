@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "calibration/output/dng_profile.h"
+
 namespace abbe::cli {
 namespace {
 
@@ -18,9 +20,16 @@ Json json_of(const Matrix3& m) {
   return rows;
 }
 
+const char* name_of(CorrectionModel model) {
+  return model == CorrectionModel::linear              ? "matrix"
+         : model == CorrectionModel::root_polynomial_2 ? "root-polynomial-2"
+                                                       : "root-polynomial-3";
+}
+
 Json correction_json(const CameraCalibration& c) {
   const CorrectionFit& fit = c.correction;
   Json correction;
+  correction["model"] = name_of(fit.correction.model);
   correction["columns"] = fit.correction.columns;
   for (const auto& column : c.columns)
     correction["columns_95"].push_back({json_of(column[0]), json_of(column[1]), json_of(column[2])});
@@ -32,6 +41,14 @@ Json correction_json(const CameraCalibration& c) {
   correction["least_squares_dE00_mean"] = fit.start.mean;
   correction["least_squares_dE00_max"] = fit.start.max;
   return correction;
+}
+
+// The colours as they look when the light's white is another.
+PatchColors adapted(PatchColors colors, const XYZ& white) {
+  const Matrix3 to_white = adaptation(colors.white, white).value();
+  for (XYZ& xyz : colors.xyz) xyz = multiply(to_white, xyz);
+  colors.white = white;
+  return colors;
 }
 
 std::string row(const std::string& name, double fit, double start, double unseen) {
@@ -120,12 +137,18 @@ Json json_of(const CalibrationCase& one) {
   answer["chart"] = one.chart;
   if (!one.response.empty()) {
     answer["planted_response"] = one.response;
-    answer["bits"] = one.bits;
     answer["times_s"] = c.times_s;
   }
+  if (one.bits > 0) answer["bits"] = one.bits;
   answer["responses"] = Json::array();
   for (const ChannelResponse& r : c.responses) answer["responses"].push_back(json_of(r));
   answer["gains"] = c.profile.gains;
+  answer["white_values"] = white_values(c.profile);
+  if (!c.candidates.empty())
+    for (const ModelCandidate& candidate : c.candidates)
+      answer["candidates"].push_back(
+          {{"correction", name_of(candidate.model)}, {"unseen_dE00_mean", candidate.unseen_mean}});
+  if (c.training_patches > 0) answer["training_patches"] = c.training_patches;
   answer["correction"] = correction_json(c);
   answer["adaptation"] = json_of(c.profile.adaptation);
   if (c.profile.correction.model == CorrectionModel::linear)
@@ -151,7 +174,7 @@ Json json_of(const CalibrationCase& one) {
 std::string table_of(const CalibrationCase& one) {
   const CameraCalibration& c = one.result;
   std::string text = fmt::format("{} under {}, chart {}", one.camera, c.profile.light, one.chart);
-  text += one.response.empty() ? "\n" : fmt::format(", {} bits\n", one.bits);
+  text += one.bits == 0 ? "\n" : fmt::format(", {} bits\n", one.bits);
   if (!c.responses.empty()) text += "\n" + table_of(c.responses);
   const CorrectionFit& fit = c.correction;
   text += fmt::format("\n{:<28}{:>10}{:>16}{:>12}\n", "patch", "dE2000", "least squares", "left out");
@@ -160,9 +183,41 @@ std::string table_of(const CalibrationCase& one) {
   text += row("mean", fit.errors.mean, fit.start.mean, c.unseen.mean);
   text += row("max", fit.errors.max, fit.start.max, c.unseen.max);
   text += fmt::format("mean left out, 95 %: {:.4f} to {:.4f}\n", c.unseen_mean.low, c.unseen_mean.high);
+  if (c.training_patches > 0) text += fmt::format("fitted to {} other reflectances\n", c.training_patches);
+  for (const ModelCandidate& candidate : c.candidates)
+    text += fmt::format("{}: mean left out {:.4f}{}\n", name_of(candidate.model), candidate.unseen_mean,
+                        candidate.model == fit.correction.model ? ", chosen" : "");
   if (one.test)
     text += fmt::format("on the test chart: mean {:.4f}, max {:.4f}\n", one.test->mean, one.test->max);
   return text;
+}
+
+Json dng_json(const std::vector<CalibrationCase>& cases) {
+  std::vector<DngLight> lights;
+  for (const CalibrationCase& one : cases)
+    if (const auto light = dng_light(one.result.profile, one.result.colors.white)) lights.push_back(*light);
+  if (lights.size() < 2 || lights.size() < cases.size()) return {};
+  const auto [warm, cool] = std::minmax_element(
+      lights.begin(), lights.end(), [](const DngLight& a, const DngLight& b) { return a.kelvin < b.kelvin; });
+  Json answer;
+  for (const DngLight* light : {&*warm, &*cool})
+    answer["lights"].push_back({{"light", light->light},
+                                {"CalibrationIlluminant", light->code},
+                                {"CCT_K", light->kelvin},
+                                {"ColorMatrix", json_of(light->color)},
+                                {"ForwardMatrix", json_of(light->forward)}});
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const DngLight& light = lights[i];
+    if (&light == &*warm || &light == &*cool) continue;
+    const CameraCalibration& own = cases[i].result;
+    const PatchColors seen = adapted(own.colors, dng_white());
+    const ColorCorrection between = linear_correction(forward_between(*warm, *cool, light.kelvin));
+    answer["between"].push_back({{"light", light.light},
+                                 {"CCT_K", light.kelvin},
+                                 {"dE00_mean", patch_errors(seen, between).mean},
+                                 {"own_dE00_mean", own.correction.errors.mean}});
+  }
+  return answer;
 }
 
 Json json_of(const std::vector<CameraQuality>& all) {

@@ -27,6 +27,9 @@ struct CalibrationCase {
 [[nodiscard]] std::string csv_of(const std::vector<ChannelResponse>& responses, const std::string& source);
 
 [[nodiscard]] Json json_of(const CalibrationCase& one);
+/// The matrices of DNG for the coolest and warmest of several lights, with how well what lies between them
+/// suits the others; null for one light, and for corrections that are no matrices.
+[[nodiscard]] Json dng_json(const std::vector<CalibrationCase>& cases);
 /// A calibration as tables for reading: responses, then CIEDE2000 of every patch.
 [[nodiscard]] std::string table_of(const CalibrationCase& one);
 

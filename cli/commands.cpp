@@ -14,7 +14,7 @@
 #include "cli/command_options.h"
 #include "cli/compare.h"
 #include "cli/convert.h"
-#include "cli/develop.h"
+#include "cli/film_commands.h"
 #include "cli/info.h"
 #include "cli/material_commands.h"
 #include "cli/merge.h"
@@ -151,38 +151,23 @@ void add_convert(CLI::App& app, Command& command) {
 
 // How `calibrate` fits and judges colours.
 void add_characterisation(CLI::App& options, CharacterisationOptions& how) {
-  add_parsed(options, "--correction", how.fit.model,
-             one_of<CorrectionModel>({"matrix", "root-polynomial-2", "root-polynomial-3"}),
-             "From camera values to colour (default matrix)", "matrix|root-polynomial-2|root-polynomial-3");
+  const std::vector<std::string> models{"matrix", "root-polynomial-2", "root-polynomial-3", "auto"};
+  options
+      .add_option_function<std::string>(
+          "--correction",
+          [&how, models](const std::string& text) {
+            const std::size_t which = parse_choice("--correction", text, models);
+            how.choose = which + 1 == models.size();
+            if (!how.choose) how.fit.model = static_cast<CorrectionModel>(which);
+          },
+          "From camera values to colour, auto taking what shows unseen patches best (default matrix)")
+      ->type_name(fmt::format("{}", fmt::join(models, "|")));
   add_parsed(options, "--objective", how.fit.objective, one_of<Objective>({"dE2000", "dE76", "XYZ"}),
              "What the fit makes small (default dE2000)", "dE2000|dE76|XYZ");
   add_parsed(options, "--adaptation", how.adaptation, one_of<Adaptation>({"bradford", "cat02", "cat16"}),
              "From the light's white to D65 (default bradford)", "bradford|cat02|cat16");
   add_parsed(options, "--folds", how.folds, integer_in<std::size_t>(2, 100000),
              "Of the cross-validation (default: one patch left out at a time)", "N");
-}
-
-void add_develop(CLI::App& app, Command& command) {
-  const Sub<DevelopOptions> sub(app, "develop", "Read a film out and show it, without rendering", command,
-                                develop);
-  CLI::App& options = *sub.app;
-  options.add_option("film", sub->film, "Film, as rendered or developed into parts, or spectral image")
-      ->required()
-      ->type_name("FILE.exr");
-  options
-      .add_option("-o,--output", sub->outputs,
-                  "Codes of the sensor, or all planes from exposure to preview (.exr); may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("FILE.tif|FILE.png|FILE.exr");
-  options.add_option("--display", sub->display, "Write a picture for sRGB displays")->type_name("FILE.png");
-  options.add_option("--scene", sub->scene, "Scene whose camera and sensor look at a spectral image")
-      ->type_name("SCENE");
-  add_overrides(options, sub.options,
-                "Replace a value of the read-out, as /readout/bits=12, or /output/white; may be repeated");
-  add_parsed(options, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
-             "Seed of the noise (default: the render's)", "N");
-  add_max_memory(options, sub.options);
-  add_json(options, sub->json);
 }
 
 void add_compare(CLI::App& app, Command& command) {
@@ -192,8 +177,8 @@ void add_compare(CLI::App& app, Command& command) {
       ->type_name("FILE.exr");
   sub.app->add_option("--chart", sub->chart, "Also compare patch by patch: the scene with the chart")
       ->type_name("SCENE");
-  add_parsed(*sub.app, "--delta-e", sub->formula, one_of<DeltaE>({"2000", "94", "76"}),
-             "Formula of colour difference (default 2000)", "2000|94|76");
+  add_parsed(*sub.app, "--delta-e", sub->formula, one_of<DeltaE>({"2000", "94", "76", "cam16", "itp"}),
+             "Formula of colour difference (default 2000)", "2000|94|76|cam16|itp");
   sub.app
       ->add_option("--white", sub->white,
                    "What both images show as white, as output/white of a scene (default: what they tell)")
@@ -236,11 +221,18 @@ void add_calibrate(CLI::App& app, Command& command) {
   CLI::Option* test =
       options.add_option("--test", calibration->test, "Another chart to try the correction on")
           ->type_name("TABLE");
-  CLI::Option* response = options
-                              .add_option("--response", calibration->planted_response,
-                                          "linear, gamma:G or s-curve, to be recovered")
-                              ->capture_default_str()
-                              ->type_name("CURVE");
+  CLI::Option* training =
+      options
+          .add_option(
+              "--training", calibration->training,
+              "Reflectances to fit the correction to instead of the chart, seen through the camera's curves")
+          ->type_name("TABLE[,TABLE...]");
+  training->excludes(all);
+  CLI::Option* response =
+      options
+          .add_option("--response", calibration->planted_response,
+                      "Response to be recovered: linear, gamma:G or s-curve (default: linear, known)")
+          ->type_name("CURVE");
   CLI::Option* bits = add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
                                  "Of the code values, 0 for no rounding (default 12)", "N");
   // Only a simulated camera can look at another chart or be given a response.
@@ -347,8 +339,11 @@ void add_commands(CLI::App& app, Command& command) {
   add_query(app, command);
   add_lab(app, command);
   add_develop(app, command);
+  add_measure(app, command);
   add_compare(app, command);
   add_calibrate(app, command);
+  add_transfer(app, command);
+  add_mtf(app, command);
   add_validate(app, command);
   add_bench(app, command);
   add_help(app, command);

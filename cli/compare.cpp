@@ -21,7 +21,19 @@ namespace abbe::cli {
 namespace {
 
 const char* key_of(DeltaE formula) {
-  return formula == DeltaE::cie94 ? "dE94" : formula == DeltaE::cie76 ? "dE76" : "dE00";
+  switch (formula) {
+    case DeltaE::cie94:
+      return "dE94";
+    case DeltaE::cie76:
+      return "dE76";
+    case DeltaE::cam16_ucs:
+      return "dE_CAM16_UCS";
+    case DeltaE::itp:
+      return "dE_ITP";
+    case DeltaE::cie2000:
+      break;
+  }
+  return "dE00";
 }
 
 void add_color(Json& answer, const std::string& key, const std::optional<ColorDifference>& color) {

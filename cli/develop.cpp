@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <functional>
+
+#include <fmt/format.h>
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "develop/develop.h"
+#include "develop/dng_profile_file.h"
 #include "develop/film_file.h"
 #include "develop/radiance.h"
 #include "film/spectral.h"
@@ -23,25 +27,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_exr(const fs::path& path) {
-  return path.extension() == ".exr";
+// The file of an exposure among several, counted from 1: "dark_0003.tif".
+fs::path numbered(const fs::path& path, std::uint32_t frame, const DevelopOptions& options) {
+  if (path.empty() || options.frames == 1) return path;
+  return path.parent_path() /
+         fmt::format("{}_{:04}{}", path.stem().string(), frame + 1, path.extension().string());
 }
 
 std::vector<fs::path> check_outputs(const DevelopOptions& options) {
-  std::vector<fs::path> files = options.outputs;
-  for (const fs::path& output : options.outputs) require_extension(output, {".exr", ".tif", ".tiff", ".png"});
-  if (!options.display.empty()) {
-    require_picture_extension(options.display);
-    files.push_back(options.display);
+  for (const fs::path& output : options.outputs) require_developed_extension(output);
+  if (!options.display.empty()) require_picture_extension(options.display);
+  std::vector<fs::path> files;
+  for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
+    for (const fs::path& output : options.outputs) files.push_back(numbered(output, frame, options));
+    if (!options.display.empty()) files.push_back(numbered(options.display, frame, options));
   }
-  for (const fs::path& file : files) require_writable(file);
   require_distinct(files, std::array{options.film, options.scene});
   return files;
 }
 
 // What the picture is shown by; a user's configuration matters to nothing else.
 ViewOptions view_of(const DevelopOptions& options) {
-  return options.display.empty() ? ViewOptions{} : ViewOptions{users_configuration(), {}, {}};
+  if (options.display.empty()) return {};
+  ViewOptions view = options.view;
+  if (view.config.empty()) view.config = users_configuration();
+  return view;
 }
 
 // The white asked for, the last of them, and what is left to ask for.
@@ -56,6 +66,7 @@ Asked asked(const DevelopOptions& options) {
       all.white = o.value;
     else
       all.others.push_back(o);
+  if (options.iso) all.others.push_back({kIsoPointer, fmt::format("{}", *options.iso)});
   return all;
 }
 
@@ -83,8 +94,12 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
     FilmSensor sensor = sensor_of(film, options.scene, others, options);
     return {std::move(film), std::move(sensor)};
   }
-  if (!options.outputs.empty())
-    throw Error(ErrorCode::usage, "-o", "a spectral film needs a sensor that looks at it: --scene");
+  const char* unmet = !options.outputs.empty() ? "-o"
+                      : options.iso            ? "--iso"
+                      : !others.empty()        ? "--set"
+                                               : "";
+  if (*unmet != 0)
+    throw Error(ErrorCode::usage, unmet, "a spectral film needs a sensor that looks at it: --scene");
   return observed_film(image, view_of(options),
                        white ? std::optional(asked_white(*white, told)) : recorded_white(told));
 }
@@ -113,6 +128,7 @@ Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
     answer["photon_noise_e"].push_back(plane.noise.photon_e);
     answer["dark_noise_e"].push_back(plane.noise.dark_e);
     answer["read_noise_e"].push_back(plane.noise.read_e);
+    answer["row_noise_e"].push_back(plane.noise.row_e);
     answer["quantisation_noise_e"].push_back(plane.noise.quantisation_e);
     answer["sensor_noise_e"].push_back(plane.noise.total_e);
     answer["render_error_e"].push_back(plane.render_error.value());
@@ -123,37 +139,84 @@ Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
   return answer;
 }
 
+// Changes what was exposed as the options ask.
+void expose_anew(ExposedFilm& exposed, const DevelopOptions& options) {
+  if (options.exposure_s) expose_for(exposed, *options.exposure_s);
+  if (options.frame) expose_to(exposed, *options.frame);
+  if (options.display_exposure) exposed.sensor.display_exposure = options.display_exposure;
+}
+
+void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
+  if (options.profile.empty()) return;
+  const auto is_dng = [](const fs::path& path) { return path.extension() == ".dng"; };
+  if (std::none_of(options.outputs.begin(), options.outputs.end(), is_dng))
+    throw Error(ErrorCode::usage, "--profile", "only a .dng takes it (allowed with -o FILE.dng)");
+  if (sensor.channels.size() != 3)
+    throw Error(ErrorCode::usage, "--profile",
+                fmt::format("its matrices are for three channels (got {})", sensor.channels.size()));
+  Diagnostics diagnostics;
+  inputs.add_file(options.profile);
+  sensor.lights = accepted(read_dng_profile(options.profile, diagnostics), diagnostics);
+}
+
+// Develops one exposure into all its files, each whatever becomes of the others.
+DevelopedFilm develop_frame(const ExposedFilm& exposed, const DevelopOptions& options, std::uint32_t frame) {
+  const FilmSensor& sensor = exposed.sensor;
+  const std::uint64_t seed = options.seed.value_or(render_seed(exposed.film));
+  DevelopedFilm developed = abbe::develop(exposed, seed, frame);
+  const Image planes = display_planes(sensor, developed.calibrated);
+  const std::optional<double> scale =
+      sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
+  std::vector<std::function<void()>> writers;
+  for (const fs::path& output : options.outputs)
+    writers.emplace_back([&, path = numbered(output, frame, options)] {
+      if (is_raw_file(path))
+        write_raw(path, developed, sensor);
+      else
+        write_parts(path, developed, planes, sensor, scale);
+    });
+  if (!options.display.empty())
+    writers.emplace_back([&] { write_display(numbered(options.display, frame, options), planes, sensor); });
+  write_all(writers);
+  return developed;
+}
+
+// The figures of the first exposure; of all, the files are written, and the first failure is thrown in the
+// end.
+std::vector<PlaneFigures> develop_frames(const ExposedFilm& exposed, const DevelopOptions& options) {
+  std::vector<PlaneFigures> figures;
+  std::vector<std::function<void()>> writers;
+  for (std::uint32_t frame = 0; frame < options.frames; ++frame)
+    writers.emplace_back([&, frame] {
+      const DevelopedFilm developed = develop_frame(exposed, options, frame);
+      if (frame == 0) figures = plane_figures(exposed.sensor, developed);
+    });
+  write_all(writers);
+  return figures;
+}
+
 }  // namespace
 
 int develop(const DevelopOptions& options) {
   const std::vector<fs::path> outputs = check_outputs(options);
   std::deque<FileLock> locks;
-  for (const fs::path& file : outputs) locks.emplace_back(file);
+  for (const fs::path& file : writable_among(outputs)) locks.emplace_back(file);
   Inputs inputs(options.max_memory_bytes);
-  const ExposedFilm exposed = load(options, inputs);
+  ExposedFilm exposed = load(options, inputs);
+  take_profile(exposed.sensor, options, inputs);
   require_distinct(outputs, inputs.files());
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.display) require_distinct(outputs, sensor.display->files());
-  const bool wants_raw = std::any_of(options.outputs.begin(), options.outputs.end(),
-                                     [](const fs::path& path) { return !is_exr(path); });
+  const bool wants_raw = std::any_of(options.outputs.begin(), options.outputs.end(), is_raw_file);
   if (wants_raw && !sensor.readout)
     throw Error(ErrorCode::usage, "-o",
                 "the film has no read-out to make codes with (allowed: --set '/readout={...}', or a .exr)");
   if (!options.display.empty()) require_display(sensor);
+  expose_anew(exposed, options);
 
   // At most three planes beside each of the film and of its variance.
   inputs.take_memory("developing", 3 * exposed.film.memory_bytes());
-  const DevelopedFilm developed = abbe::develop(exposed, options.seed.value_or(render_seed(exposed.film)));
-  const Image planes = display_planes(sensor, developed.calibrated);
-  const std::optional<double> scale =
-      sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
-  for (const fs::path& output : options.outputs)
-    if (is_exr(output))
-      write_parts(output, developed, planes, sensor, scale);
-    else
-      write_raw(output, developed);
-  if (!options.display.empty()) write_display(options.display, planes, sensor);
-  print(report(sensor, plane_figures(sensor, developed)), options.json);
+  print(report(sensor, develop_frames(exposed, options)), options.json);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "description/load.h"
+#include "develop/film_sensor.h"
 #include "io/inputs.h"
 
 namespace abbe::cli {
@@ -17,7 +18,14 @@ struct DevelopOptions {
   std::filesystem::path display;               ///< Empty when no picture is wanted.
   std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
   std::vector<Override> overrides;             ///< Of the read-out and the white.
-  std::optional<std::uint64_t> seed;           ///< Of the noise; that of the render when absent.
+  std::optional<double> exposure_s;            ///< Of the sensor; that of the film when absent.
+  std::optional<double> iso;                   ///< Speed of the sensor, in place of its gain.
+  std::optional<CalibrationFrame> frame;       ///< What the camera sees instead of the scene.
+  std::uint32_t frames = 1;                ///< Exposures of one film, numbered in the files' names if more.
+  std::optional<double> display_exposure;  ///< Film value shown as white.
+  ViewOptions view;                        ///< Of the display.
+  std::filesystem::path profile;           ///< Matrices of a calibration for a DNG; else empty.
+  std::optional<std::uint64_t> seed;       ///< Of the noise; that of the render when absent.
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };

@@ -4,11 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments.h"
+#include "cli/bench_measurements.h"
 #include "cli/lab.h"
 #include "cli/query.h"
 
 namespace abbe::cli {
 namespace {
+
+// Far beyond all colours, and near enough for formulas to stay numbers.
+Lab parse_lab(const std::string& option, const std::string& text) {
+  constexpr double kMost = 1e6;
+  (void)parse_numbers(option, text, -kMost, kMost);
+  return parse_triple(option, text);
+}
 
 void add_at(CLI::App& app, std::vector<double>& at_nm) {
   add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air", "NM[,NM...]")
@@ -82,21 +91,63 @@ void add_color_queries(CLI::App& query, Command& command) {
   add_json(*color.app, color->json);
 
   const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
-  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_triple, "First colour", "L,a,b")->required();
-  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_triple, "Second colour", "L,a,b")->required();
+  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_lab, "First colour", "L,a,b")->required();
+  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_lab, "Second colour", "L,a,b")->required();
   add_json(*delta_e.app, delta_e->json);
 
   const Sub<CameraOptions> camera(query, "camera", "Raw values of a camera, green of the perfect diffuser 1",
                                   command, query_camera);
   camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("CAMERA");
-  camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
-      ->required()
-      ->type_name("ILLUMINANT");
+  CLI::Option* illuminant =
+      camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
+          ->type_name("ILLUMINANT");
   camera.app
       ->add_option("--reflectance", camera->reflectance,
                    "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->needs(illuminant)
       ->type_name("REFLECTANCE");
+  camera.app
+      ->add_flag("--judge", camera->judge,
+                 "Instead, how near the camera comes to an observer: Vora value, Luther's condition, "
+                 "sensitivity metamerism index")
+      ->excludes(illuminant);
   add_json(*camera.app, camera->json);
+}
+
+void add_light_queries(CLI::App& query, Command& command) {
+  const Sub<LightOptions> light(query, "light",
+                                "Colour temperature, colour rendering (Ra, TM-30) and efficacy of a light",
+                                command, query_light);
+  light.app
+      ->add_option("name", light->name,
+                   "Illuminant, blackbody:K or daylight:K, FILE.csv:COLUMN, or a spectral FILE.exr")
+      ->required()
+      ->type_name("ILLUMINANT");
+  light.app->add_option("--filter", light->filters, "Filters that it goes through")
+      ->type_name("FILTER[,FILTER...]");
+  light.app->add_option("--reflectance", light->reflectance, "Surface that it comes from")
+      ->type_name("REFLECTANCE");
+  add_parsed(*light.app, "--crop", light->crop, parse_crop, "Of a spectral image: these pixels alone",
+             "X0,Y0,X1,Y1");
+  light.app->add_option("--plot", light->plot, "Write the colour vector graphic of TM-30")
+      ->type_name("FILE.svg");
+  add_max_memory(*light.app, light.options);
+  add_json(*light.app, light->json);
+
+  const Sub<MetamerismOptions> metamers(query, "metamerism",
+                                        "How two surfaces that look alike in one light differ in another",
+                                        command, query_metamerism);
+  for (auto* name : {&metamers->first, &metamers->second})
+    metamers.app->add_option(name == &metamers->first ? "first" : "second", *name, "NAME or FILE.csv:COLUMN")
+        ->required()
+        ->type_name("REFLECTANCE");
+  metamers.app->add_option("--reference", metamers->reference, "Light in which they look alike")
+      ->capture_default_str()
+      ->type_name("ILLUMINANT");
+  metamers.app->add_option("--test", metamers->test, "The other light")
+      ->capture_default_str()
+      ->type_name("ILLUMINANT");
+  add_json(*metamers.app, metamers->json);
 }
 
 }  // namespace
@@ -111,11 +162,43 @@ void add_query(CLI::App& app, Command& command) {
   query->add_flag("--json", options->json, "Print the list as one JSON object")->needs(list);
   add_material_queries(*query, command);
   add_color_queries(*query, command);
+  add_light_queries(*query, command);
   query->callback([query, list, options, &command] {
     if (!query->get_subcommands().empty()) return;
     if (list->count() == 0) throw CLI::RequiredError("query: a question or --list");
     command = [options] { return query_list(*options); };
   });
+}
+
+void add_transfer(CLI::App& app, Command& command) {
+  const Sub<TransferOptions> sub(app, "transfer",
+                                 "Gain, noise and range of a sensor from pairs of flat and dark raw files",
+                                 command, transfer);
+  sub.app
+      ->add_option("--dark", sub->dark,
+                   "Dark frames, two of each exposure one after the other, of two exposure times or more")
+      ->required()
+      ->type_name("FILE...");
+  sub.app
+      ->add_option("--lit", sub->lit, "Evenly lit frames, two of each, from weak light to beyond saturation")
+      ->required()
+      ->type_name("FILE...");
+  sub.app->add_option("--plot", sub->plot, "Write the photon-transfer curves")->type_name("FILE.svg");
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
+}
+
+void add_mtf(CLI::App& app, Command& command) {
+  const Sub<MtfOptions> sub(app, "mtf", "Modulation transfer function of a slanted edge in a linear image",
+                            command, mtf);
+  sub.app->add_option("image", sub->image, "Film or linear picture")->required()->type_name("FILE");
+  add_parsed(*sub.app, "--crop", sub->crop, parse_crop, "Pixels around the edge (default: all)",
+             "X0,Y0,X1,Y1");
+  sub.app->add_option("--channel", sub->channel, "Channel (default: G, else Y, else the first)")
+      ->type_name("NAME");
+  sub.app->add_option("--plot", sub->plot, "Write the curve")->type_name("FILE.svg");
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
 }
 
 void add_lab(CLI::App& app, Command& command) {

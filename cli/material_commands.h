@@ -9,4 +9,8 @@ void add_query(CLI::App& app, Command& command);
 /// `abbe lab`.
 void add_lab(CLI::App& app, Command& command);
 
+/// `abbe transfer` and `abbe mtf`.
+void add_transfer(CLI::App& app, Command& command);
+void add_mtf(CLI::App& app, Command& command);
+
 }  // namespace abbe::cli

@@ -64,6 +64,19 @@ void require_distinct(std::span<const fs::path> outputs, std::span<const fs::pat
     for (const fs::path& table : data_tables()) guard(table);
 }
 
+std::vector<fs::path> writable_among(std::span<const fs::path> outputs) {
+  std::vector<fs::path> writable;
+  std::optional<Error> failure;
+  for (const fs::path& output : outputs) try {
+      require_writable(output);
+      writable.push_back(output);
+    } catch (const Error& error) {
+      if (!failure) failure = error;
+    }
+  if (failure && writable.empty()) throw *failure;
+  return writable;
+}
+
 void write_all(std::span<const std::function<void()>> writers) {
   std::optional<Error> failure;
   for (const auto& write : writers) try {

@@ -21,6 +21,11 @@ void require_picture_extension(const std::filesystem::path& path);
 void require_distinct(std::span<const std::filesystem::path> outputs,
                       std::span<const std::filesystem::path> inputs);
 
+/// The outputs that can be written; the others fail when their turn comes, which is no reason to lose these.
+/// Throws the first failure, Error{output}, where there are outputs and none can be written.
+[[nodiscard]] std::vector<std::filesystem::path> writable_among(
+    std::span<const std::filesystem::path> outputs);
+
 /// Calls them all, since one that fails is no reason to lose the others; throws the first failure in the end.
 void write_all(std::span<const std::function<void()>> writers);
 

@@ -54,11 +54,12 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
 void add_calibrate(py::module_& module) {
   module.def(
       "calibrate", calibrate, py::arg("camera"), py::arg("illuminant") = "D65", py::kw_only(),
-      py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "gamma:2.2",
-      py::arg("bits") = 12,
+      py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "", py::arg("bits") = 12,
       "Calibrates a measured camera on a chart under an illuminant, as `abbe calibrate` does: the chart is "
-      "photographed through a planted response (\"linear\", \"gamma:G\" or \"s-curve\") at so many bits, the "
-      "response is recovered without knowing it, and the white-preserving matrix with the least mean "
+      "photographed at so many bits by a linear camera, or through a planted response (\"linear\", "
+      "\"gamma:G\" "
+      "or \"s-curve\") that is recovered without knowing it, and the white-preserving matrix with the least "
+      "mean "
       "CIEDE2000 "
       "is fitted.\n\nReturns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches "
       "that "

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -108,9 +110,12 @@ py::dict color(const py::object& illuminant, const py::object& reflectance, cons
 }
 
 py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::string& formula) {
-  const DeltaE how = formula == "2000" ? DeltaE::cie2000 : formula == "94" ? DeltaE::cie94 : DeltaE::cie76;
-  if (formula != "2000" && formula != "94" && formula != "76")
-    throw Error(ErrorCode::usage, "formula", fmt::format("got \"{}\", allowed 2000, 94, 76", formula));
+  constexpr std::array<const char*, 5> kFormulas{"2000", "94", "76", "cam16", "itp"};
+  const auto* const found = std::find(kFormulas.begin(), kFormulas.end(), formula);
+  if (found == kFormulas.end())
+    throw Error(ErrorCode::usage, "formula",
+                fmt::format("got \"{}\", allowed {}", formula, fmt::join(kFormulas, ", ")));
+  const auto how = static_cast<DeltaE>(found - kFormulas.begin());
   const auto [standard, sample] = broadcast(lab1, lab2);
   const py::ssize_t axes = standard.ndim();
   if (axes == 0 || standard.shape(axes - 1) != 3)
@@ -171,7 +176,8 @@ void add_curves(py::module_& module) {
   module.def("delta_e", lab_difference, py::arg("lab1"), py::arg("lab2"), py::arg("formula") = "2000",
              "Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of "
              "2000, 94 or "
-             "76; the first is the standard. Of numbers that are not finite it is NaN.");
+             "76, by cam16 (CAM16-UCS) or itp (BT.2124), both beside D65; the first is the standard. Of "
+             "numbers that are not finite it is NaN.");
 }
 
 }  // namespace abbe::python

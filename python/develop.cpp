@@ -102,12 +102,12 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
 }
 
 void write(const Developed& developed, const fs::path& path) {
-  require_extension(path, {".exr", ".tif", ".tiff", ".png"});
+  require_developed_extension(path);
   if (path.extension() == ".exr")
     return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
   if (!developed.sensor.readout)
     throw Error(ErrorCode::usage, path.string(), "the film has no read-out to make codes with");
-  write_raw(path, developed.planes);
+  write_raw(path, developed.planes, developed.sensor);
 }
 
 py::list figures(const Developed& developed) {
@@ -123,6 +123,7 @@ py::list figures(const Developed& developed) {
       told["photon_noise_e"] = plane.noise.photon_e;
       told["dark_noise_e"] = plane.noise.dark_e;
       told["read_noise_e"] = plane.noise.read_e;
+      told["row_noise_e"] = plane.noise.row_e;
       told["quantisation_noise_e"] = plane.noise.quantisation_e;
       told["sensor_noise_e"] = plane.noise.total_e;
       told["saturated_share"] = plane.saturated_share;

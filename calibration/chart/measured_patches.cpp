@@ -14,9 +14,6 @@
 namespace abbe {
 namespace {
 
-constexpr const char* kDiffuser = "perfect diffuser";
-constexpr double kNeutralChroma = 5;
-
 // Cells of the named columns of every row; nothing when one is missing or no number.
 std::optional<std::vector<std::array<double, 3>>> triples(const Table& table,
                                                           const std::array<const char*, 3>& columns,
@@ -56,6 +53,40 @@ bool each_once(const std::vector<std::string>& names, const Table& table, Diagno
   return seen.size() == names.size();
 }
 
+// Of the means over so many pixels; none where the table does not tell of noise.
+std::optional<std::vector<Raw>> deviations_of(const Table& table, Diagnostics& diagnostics) {
+  if (!table.column("R_deviation")) return std::vector<Raw>{};
+  auto deviations = triples(table, {"R_deviation", "G_deviation", "B_deviation"}, diagnostics);
+  const auto pixels = triples(table, {"R_pixels", "G_pixels", "B_pixels"}, diagnostics);
+  if (!deviations || !pixels) return std::nullopt;
+  for (std::size_t i = 0; i < deviations->size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      double& deviation = (*deviations)[i][k];
+      if (!(deviation >= 0 && (*pixels)[i][k] >= 1))
+        diagnostics.error(table.position(i), "expected deviations of 0 or more, of 1 pixel or more",
+                          ErrorCode::input);
+      deviation /= std::sqrt((*pixels)[i][k]);
+    }
+  return diagnostics.has_errors() ? std::nullopt : deviations;
+}
+
+// Patches with saturated pixels, each of which is warned of.
+std::set<std::string> saturated_in(const Table& table, const std::vector<std::string>& names,
+                                   Diagnostics& diagnostics) {
+  std::set<std::string> saturated;
+  if (!table.column("R_saturated")) return saturated;
+  const auto shares = triples(table, {"R_saturated", "G_saturated", "B_saturated"}, diagnostics);
+  for (std::size_t i = 0; shares && i < shares->size(); ++i)
+    if (std::any_of((*shares)[i].begin(), (*shares)[i].end(), [](double share) { return share > 0; })) {
+      saturated.insert(names[i]);
+      diagnostics.warning(table.position(i),
+                          fmt::format("patch \"{}\" has saturated pixels, so that its values are too low: it "
+                                      "is left out; expose less",
+                                      names[i]));
+    }
+  return saturated;
+}
+
 XYZ from_xyy(const std::array<double, 3>& c) {
   return {c[0] / c[1] * c[2], c[2], (1 - c[0] - c[1]) / c[1] * c[2]};
 }
@@ -82,11 +113,6 @@ std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagn
   return colors;
 }
 
-bool is_neutral(const XYZ& xyz, const XYZ& white) {
-  const Lab lab = xyz_to_lab(xyz, white);
-  return std::hypot(lab[1], lab[2]) < kNeutralChroma;
-}
-
 }  // namespace
 
 std::optional<ChartTargets> load_chart_targets(const std::string& name, const Curve& illuminant,
@@ -111,45 +137,33 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   auto names = patch_names(*table, diagnostics);
   auto values = triples(*table, {"R", "G", "B"}, diagnostics);
   if (!names || !values || !each_once(*names, *table, diagnostics)) return std::nullopt;
-  return MeasuredPatches{*std::move(names), *std::move(values)};
+  auto deviations = deviations_of(*table, diagnostics);
+  auto saturated = saturated_in(*table, *names, diagnostics);
+  if (!deviations) return std::nullopt;
+  const auto unit = table->keys.find("unit");
+  return MeasuredPatches{*std::move(names), *std::move(values), *std::move(deviations),
+                         unit == table->keys.end() ? "" : unit->second, std::move(saturated)};
 }
 
-BalancedPatches balance(const ChartTargets& chart, const MeasuredPatches& measured) {
-  const auto find = [&](const std::string& name) -> const Raw* {
-    const auto found = std::find(measured.names.begin(), measured.names.end(), name);
-    return found == measured.names.end()
-               ? nullptr
-               : &measured.values[static_cast<std::size_t>(found - measured.names.begin())];
-  };
-  BalancedPatches balanced{{chart.names, {}, chart.xyz, chart.white}, {}};
-  std::vector<std::string> missing;
-  Raw neutral{};
-  double weight = 0;
-  for (std::size_t i = 0; i < chart.names.size(); ++i) {
-    const Raw* const raw = find(chart.names[i]);
-    if (raw == nullptr) {
-      missing.push_back(chart.names[i]);
-      continue;
+void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_scale_dn,
+                    const std::filesystem::path& file) {
+  const bool is_raw = patches.unit == kNumbersAboveBlack;
+  if (is_raw && !full_scale_dn)
+    throw Error(
+        ErrorCode::input, file.string(),
+        fmt::format("its values are {}, of which the series tells no full scale: values from 0 to 1 at "
+                    "full scale are needed",
+                    kNumbersAboveBlack));
+  for (std::size_t i = 0; i < patches.values.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (is_raw) patches.values[i][k] /= *full_scale_dn;
+      if (is_raw && !patches.deviations.empty()) patches.deviations[i][k] /= *full_scale_dn;
+      if (patches.values[i][k] > 1)
+        throw Error(ErrorCode::input, file.string(),
+                    fmt::format("patch \"{}\" has a value of {} (allowed 0 to 1 at full scale, of which the "
+                                "response is)",
+                                patches.names[i], patches.values[i][k]));
     }
-    balanced.colors.raw.push_back(*raw);
-    if (!is_neutral(chart.xyz[i], chart.white)) continue;
-    const double y = chart.xyz[i][1];
-    for (std::size_t k = 0; k < 3; ++k) neutral[k] += (*raw)[k] * y;
-    weight += y * y;
-  }
-  if (!missing.empty())
-    throw Error(ErrorCode::input, "measured patches", fmt::format("missing: {}", fmt::join(missing, ", ")));
-  const Raw* const diffuser = find(kDiffuser);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double white = diffuser != nullptr ? (*diffuser)[k] : neutral[k] / weight;
-    if (!(std::isfinite(white) && white > 0))
-      throw Error(
-          ErrorCode::input, "measured patches",
-          fmt::format("nothing to balance white on: neither a row \"{}\" nor neutral patches", kDiffuser));
-    balanced.gains[k] = 1 / white;
-    for (Raw& raw : balanced.colors.raw) raw[k] /= white;
-  }
-  return balanced;
 }
 
 }  // namespace abbe

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,24 +25,28 @@ struct ChartTargets {
                                                              const SourcePosition& where,
                                                              Diagnostics& diagnostics);
 
-/// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`.
+/// The unit of what `abbe measure` reads out of raw files.
+inline constexpr const char* kNumbersAboveBlack = "digital numbers above black";
+
+/// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
+/// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells
+/// their noise too. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a warning names the
+/// patch as left out.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;
+  std::vector<Raw> deviations = {};  ///< Standard deviations of the values; empty: unknown.
+  std::string unit = {};             ///< As the table has it.
+  std::set<std::string> saturated =
+      {};  ///< Names of patches with saturated pixels, whose values are too low.
 };
 [[nodiscard]] std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
                                                                    Diagnostics& diagnostics);
 
-/// Linear measured values beside the colours of their chart, white balanced.
-struct BalancedPatches {
-  PatchColors colors;
-  std::array<double, 3> gains;  ///< What balanced them.
-};
-
-/// Balances on the patch named "perfect diffuser" if there is one, else on the value of the perfect diffuser
-/// that fits the chart's neutral patches (chroma below 5) best, in proportion to their luminance. Every patch
-/// of the chart must have been measured. Throws Error{input} naming those that are missing, and when there is
-/// nothing to balance on.
-[[nodiscard]] BalancedPatches balance(const ChartTargets& chart, const MeasuredPatches& measured);
+/// Makes values those of the codes that a recovered response is of, 0 to 1: numbers above black are divided
+/// by `full_scale_dn`, which a series of raw files tells. Throws Error{input} naming `file` where it tells
+/// none, and for a patch with a value beyond 1.
+void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_scale_dn,
+                    const std::filesystem::path& file);
 
 }  // namespace abbe

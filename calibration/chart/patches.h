@@ -33,6 +33,8 @@ struct PatchColors {
   std::vector<Raw> raw;  ///< White balanced: the perfect diffuser is (1, 1, 1).
   std::vector<XYZ> xyz;  ///< Y = 1 for the perfect diffuser.
   XYZ white;             ///< The perfect diffuser.
+  /// What each patch counts in a fit, > 0; empty: all alike.
+  std::vector<double> weights = {};
 };
 
 /// Integrates a chart. Throws Error{usage} unless there are three channels, Error{input} when one of them

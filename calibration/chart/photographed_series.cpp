@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
-#include "io/picture.h"
+#include "calibration/chart/raw_scale.h"
 #include "io/schema/read.h"
 #include "io/text.h"
+#include "sensor/film/patch.h"
 
 namespace abbe {
 namespace {
@@ -23,7 +25,7 @@ struct Region {
 
 struct Photograph {
   std::string file;  // relative to the listing until that has been read
-  double exposure_s = 0;
+  std::optional<double> exposure_s;
   SourcePosition where;
 };
 
@@ -33,7 +35,14 @@ struct Listing {
   std::vector<Photograph> photographs;
   std::vector<schema::Located<Edges>> edges;
   std::vector<Region> regions;  // of these edges
-  double full_scale = 1;
+  std::optional<double> full_scale;
+  std::optional<int> bits;
+};
+
+// What values are divided into codes by: the file's own scale, unless the listing says another.
+struct Scale {
+  double black = 0;
+  double full = 1;
   int bits = 0;
 };
 
@@ -41,7 +50,8 @@ schema::Fields fields(schema::Tag<Photograph>) {
   using namespace schema;
   return describe("photograph", "One photograph of a series.",
                   {field("file", &Photograph::file, "A picture, relative to the listing."),
-                   field("exposure_s", &Photograph::exposure_s, Range::positive(), "Its exposure time.")});
+                   field("exposure_s", &Photograph::exposure_s, Range::positive(),
+                         "Its exposure time; that of the file when absent.")});
 }
 
 schema::Fields fields(schema::Tag<Listing>) {
@@ -52,9 +62,10 @@ schema::Fields fields(schema::Tag<Listing>) {
        defaulted("regions", &Listing::edges,
                  list<Located<Edges>>(vector<Edges>({0, kMaxImageEdge}), "regions", 0),
                  "Patches, each as its pixels [x0, y0, x1, y1], the last ones excluded."),
-       defaulted("full_scale", &Listing::full_scale, Range::positive(),
-                 "The value at which the camera clips."),
-       defaulted("bits", &Listing::bits, {0, 16}, "Bits that codes were rounded to, 0 if unknown.")});
+       field("full_scale", &Listing::full_scale, Range::positive(),
+             "The value at which the camera clips; what the file tells, or 1, when absent."),
+       field("bits", &Listing::bits, {0, 16},
+             "Bits that codes were rounded to, 0 if unknown; what the file tells when absent.")});
 }
 
 std::vector<Region> build_regions(const Listing& listing, Diagnostics& diagnostics) {
@@ -91,7 +102,7 @@ std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnosti
 }
 
 // The channels that are responses, neither alpha nor variances: R, G, B, then others in the file's order.
-std::vector<const ImageChannel*> responses(const Image& image) {
+std::vector<const ImageChannel*> planes_of(const Image& image) {
   std::vector<const ImageChannel*> found;
   for (const char* name : {"R", "G", "B"})
     if (const ImageChannel* channel = image.find(name)) found.push_back(channel);
@@ -102,13 +113,38 @@ std::vector<const ImageChannel*> responses(const Image& image) {
   return found;
 }
 
-std::vector<Region> grid(int width, int height) {
+// The mosaic of a photograph of one plane; nothing for others.
+std::optional<Mosaic> mosaic_of(const Image& image, const std::optional<RawScale>& told) {
+  return told && planes_of(image).size() == 1 ? told->mosaic : std::nullopt;
+}
+
+std::vector<std::string> channels_of(const Image& image, const std::optional<RawScale>& told) {
+  if (mosaic_of(image, told)) return told->channels;
+  std::vector<std::string> names;
+  for (const ImageChannel* plane : planes_of(image)) names.push_back(plane->name);
+  return names;
+}
+
+Scale scale_of(const Listing& listing, const std::optional<RawScale>& told) {
+  constexpr double kSixteenBits = 65535;
+  Scale scale;
+  if (told && !listing.full_scale)
+    scale = {told->offset_dn / kSixteenBits, told->highest() / kSixteenBits, told->bits};
+  if (listing.full_scale) scale.full = *listing.full_scale;
+  if (listing.bits) scale.bits = *listing.bits;
+  return scale;
+}
+
+// One pixel each, or one pattern of a mosaic.
+std::vector<Region> grid(int width, int height, const Mosaic& cell) {
   std::vector<Region> pixels;
   for (int row = 0; row < std::min(kGridRows, height); ++row)
     for (int column = 0; column < std::min(kGridColumns, width); ++column) {
       const int x = (2 * column + 1) * width / (2 * std::min(kGridColumns, width));
       const int y = (2 * row + 1) * height / (2 * std::min(kGridRows, height));
-      pixels.push_back({x, y, x + 1, y + 1});
+      const int left = std::min(x - x % cell.width, width - cell.width);
+      const int top = std::min(y - y % cell.height, height - cell.height);
+      pixels.push_back({left, top, left + cell.width, top + cell.height});
     }
   return pixels;
 }
@@ -118,29 +154,18 @@ struct Code {
   double deviation = 0;
 };
 
-// The mean over a region and its standard error; an end of the scale where a pixel has reached it.
-Code code_of(const ImageChannel& channel, int width, const Region& r, const Listing& listing) {
-  double sum = 0;
-  double squares = 0;
-  double lowest = 1;
-  double highest = 0;
-  for (int y = r.y0; y < r.y1; ++y)
-    for (int x = r.x0; x < r.x1; ++x) {
-      const double code =
-          static_cast<double>(channel.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                             static_cast<std::size_t>(x)]) /
-          listing.full_scale;
-      sum += code;
-      squares += code * code;
-      lowest = std::min(lowest, code);
-      highest = std::max(highest, code);
-    }
-  if (lowest <= 0) return {0, 0};
-  if (highest >= 1) return {1, 0};
-  const double count = static_cast<double>(r.x1 - r.x0) * static_cast<double>(r.y1 - r.y0);
-  const double mean = sum / count;
-  const double variance = std::max(0.0, squares / count - mean * mean) / std::max(1.0, count - 1);
-  return {mean, std::hypot(std::sqrt(variance), CodeNoise{listing.bits, 0, 0}.deviation(0))};
+// The mean of a patch and its standard error; an end of the scale where a pixel has reached it.
+Code code_of(const PatchChannel& patch, const Scale& scale) {
+  const double range = scale.full - scale.black;
+  if (patch.lowest <= scale.black) return {0, 0};
+  if (patch.highest >= scale.full) return {1, 0};
+  const double error = patch.deviation / range / std::sqrt(static_cast<double>(patch.pixels));
+  return {(patch.mean - scale.black) / range, std::hypot(error, CodeNoise{scale.bits, 0, 0}.deviation(0))};
+}
+
+PatchOutline outline_of(const Region& r) {
+  return {"region",
+          {Imath::V2d(r.x0, r.y0), Imath::V2d(r.x1, r.y0), Imath::V2d(r.x1, r.y1), Imath::V2d(r.x0, r.y1)}};
 }
 
 bool is_finite(const ImageChannel& channel) {
@@ -152,8 +177,8 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
   if (image.width != first.width || image.height != first.height)
     return fmt::format("has {} x {} pixels, the first {} x {}", image.width, image.height, first.width,
                        first.height);
-  const auto channels = responses(image);
-  const auto expected = responses(first);
+  const auto channels = planes_of(image);
+  const auto expected = planes_of(first);
   if (!std::equal(channels.begin(), channels.end(), expected.begin(), expected.end(),
                   [](const ImageChannel* a, const ImageChannel* b) { return a->name == b->name; }))
     return "has other channels than the first";
@@ -166,12 +191,16 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
   return "";
 }
 
-void add(const Image& image, const std::vector<Region>& regions, const Listing& listing,
-         PhotographedSeries& all) {
-  const auto channels = responses(image);
-  for (std::size_t k = 0; k < channels.size(); ++k)
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-      const Code code = code_of(*channels[k], image.width, regions[i], listing);
+void add(const Image& image, const std::optional<RawScale>& told, const std::vector<Region>& regions,
+         const Listing& listing, PhotographedSeries& all) {
+  const Scale scale = scale_of(listing, told);
+  MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), {}};
+  std::vector<PatchOutline> outlines;
+  std::transform(regions.begin(), regions.end(), std::back_inserter(outlines), outline_of);
+  const std::vector<PatchValues> patches = measure_patches(image, planes, outlines);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    for (std::size_t k = 0; k < patches[i].channels.size(); ++k) {
+      const Code code = code_of(patches[i].channels[k], scale);
       all.series[k].codes[i].push_back(code.value);
       all.series[k].deviations[i].push_back(code.deviation);
     }
@@ -202,24 +231,35 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   std::optional<Image> first;
   std::vector<Region> regions = listing.regions;
   for (const Photograph& photograph : listing.photographs) {
-    Image image = read_image(photograph.file, inputs);
+    auto [image, told] = read_raw_image(photograph.file, inputs);
     const std::string wrong = objection(image, first ? *first : image, listing);
     if (!wrong.empty()) {
       diagnostics.error(photograph.where, photograph.file + " " + wrong, ErrorCode::input);
       return std::nullopt;
     }
+    const std::optional<double> exposure_s = photograph.exposure_s ? photograph.exposure_s
+                                             : told                ? told->exposure_s
+                                                                   : std::nullopt;
+    if (!exposure_s) {
+      diagnostics.error(photograph.where,
+                        photograph.file + " tells no exposure time: \"exposure_s\" is needed here",
+                        ErrorCode::input);
+      return std::nullopt;
+    }
     if (!first) {
-      if (regions.empty()) regions = grid(image.width, image.height);
+      if (regions.empty())
+        regions = grid(image.width, image.height, told ? told->mosaic.value_or(Mosaic{}) : Mosaic{});
       const std::vector<std::vector<double>> none(regions.size());
-      for (const ImageChannel* channel : responses(image)) {
-        all.channels.push_back(channel->name);
+      for (const std::string& channel : channels_of(image, told)) {
+        all.channels.push_back(channel);
         all.series.push_back({{}, none, none});
       }
+      if (told && !listing.full_scale) all.full_scale_dn = told->highest() - told->offset_dn;
       first = image;
     }
-    add(image, regions, listing, all);
+    add(image, told, regions, listing, all);
     if (inputs) inputs->give_back_memory(image.memory_bytes());
-    for (ExposureSeries& series : all.series) series.times_s.push_back(photograph.exposure_s);
+    for (ExposureSeries& series : all.series) series.times_s.push_back(*exposure_s);
   }
   if (listing.regions.empty())
     for (ExposureSeries& series : all.series) series.deviations.clear();

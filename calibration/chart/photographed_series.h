@@ -15,6 +15,8 @@ namespace abbe {
 struct PhotographedSeries {
   std::vector<std::string> channels;
   std::vector<ExposureSeries> series;  ///< One a channel.
+  /// The digital numbers above black that code 1 stands for, where raw files tell.
+  std::optional<double> full_scale_dn = {};
 };
 
 /// Reads photographs of one still scene (any picture format, EXR too) listed in a JSON file:
@@ -26,8 +28,10 @@ struct PhotographedSeries {
 /// its code values, with the mean's standard error from their spread and from rounding to `bits`; a region
 /// with a black or clipped pixel counts as black or clipped. Without regions, single pixels of a regular grid
 /// are the patches, and nothing is known of their noise. Codes are divided by `full_scale`, the value at
-/// which the camera clips (default 1, an integer file's largest). Reports photographs of unequal size or
-/// channels, regions beyond them, and values that are not finite. `inputs` learns of every file.
+/// which the camera clips. What the listing does not say, raw files that Abbe wrote tell themselves: exposure
+/// time, full scale, the code of darkness, bits and mosaic, of which each channel is a series; for others
+/// `exposure_s` is needed, and full scale is 1, an integer file's largest. Reports photographs of unequal
+/// size or channels, regions beyond them, and values that are not finite. `inputs` learns of every file.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
                                                             Diagnostics& diagnostics,
                                                             Inputs* inputs = nullptr);

@@ -80,9 +80,11 @@ Attempt solve_with(const PatchColors& colors, const Parameters& start, const Cor
     auto residual =
         std::make_unique<Residual>(Residual{correction_terms(how.model, colors.raw[i]), colors.white,
                                             xyz_to_lab(colors.xyz[i], colors.white), how.objective});
+    ceres::LossFunction* loss = new ceres::SoftLOneLoss(kLossScale);
+    if (!colors.weights.empty()) loss = new ceres::ScaledLoss(loss, colors.weights[i], ceres::TAKE_OWNERSHIP);
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<Residual, 3, 3 * (kTerms - 1)>(residual.release()),
-        new ceres::SoftLOneLoss(kLossScale), attempt.parameters.data());
+        new ceres::AutoDiffCostFunction<Residual, 3, 3 * (kTerms - 1)>(residual.release()), loss,
+        attempt.parameters.data());
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -117,11 +119,20 @@ bool usable(const Attempt& attempt) {
                      [](double p) { return std::isfinite(p); });
 }
 
+// What the objective is, with the patches counting by their weights.
+double objective_of(const PatchErrors& errors, const PatchColors& colors, Objective objective) {
+  const bool is_76 = objective == Objective::delta_e_76;
+  if (colors.weights.empty()) return is_76 ? errors.mean_76 : errors.mean;
+  const std::vector<double>& values = is_76 ? errors.delta_e_76 : errors.delta_e;
+  return std::inner_product(values.begin(), values.end(), colors.weights.begin(), 0.0);
+}
+
 void require_three_dimensions(const Eigen::MatrixXd& a, Eigen::Index rank) {
   if (rank == a.cols() && a.allFinite()) return;
   throw Error(ErrorCode::input, "colour correction",
-              fmt::format("{} patches do not determine the correction (rank {}, needed {})", a.rows(), rank,
-                          a.cols()));
+              fmt::format("these {} patches do not determine the correction: they show {} independent "
+                          "colours (needed {})",
+                          a.rows(), rank, a.cols()));
 }
 
 // Least squares solution of a x = b, column by column.
@@ -156,6 +167,10 @@ ColorCorrection white_preserving_least_squares(const PatchColors& colors, Correc
     for (Eigen::Index t = 0; t < free_terms; ++t) a(i, t) = terms[static_cast<std::size_t>(t)] - terms.back();
     for (Eigen::Index j = 0; j < 3; ++j)
       b(i, j) = xyz[static_cast<std::size_t>(j)] - colors.white[static_cast<std::size_t>(j)] * terms.back();
+    if (colors.weights.empty()) continue;
+    const double weight = std::sqrt(colors.weights[static_cast<std::size_t>(i)]);
+    a.row(i) *= weight;
+    b.row(i) *= weight;
   }
   const Eigen::MatrixXd columns = solve_least_squares(a, b).transpose();
   return correction_of(model, {columns.data(), columns.data() + columns.size()}, colors.white);
@@ -168,7 +183,8 @@ PatchErrors patch_errors(const PatchColors& colors, const ColorCorrection& corre
     const Lab truth = xyz_to_lab(colors.xyz[i], colors.white);
     errors.delta_e.push_back(delta_e_2000(truth, lab));
     errors.max = std::max(errors.max, errors.delta_e.back());
-    errors.mean_76 += delta_e_76(truth, lab);
+    errors.delta_e_76.push_back(delta_e_76(truth, lab));
+    errors.mean_76 += errors.delta_e_76.back();
   }
   const double count = std::max(1.0, static_cast<double>(errors.delta_e.size()));
   errors.mean = std::accumulate(errors.delta_e.begin(), errors.delta_e.end(), 0.0) / count;
@@ -176,9 +192,13 @@ PatchErrors patch_errors(const PatchColors& colors, const ColorCorrection& corre
   return errors;
 }
 
+bool are_enough_patches(CorrectionModel model, std::size_t patches) {
+  return model == CorrectionModel::linear || patches >= kPatchesPerTerm * term_count(model);
+}
+
 void require_enough_patches(CorrectionModel model, std::size_t patches) {
+  if (are_enough_patches(model, patches)) return;
   const std::size_t needed = kPatchesPerTerm * term_count(model);
-  if (model == CorrectionModel::linear || patches >= needed) return;
   throw Error(ErrorCode::usage, "--correction",
               fmt::format("{} terms on {} patches would follow the patches and not the camera: patches left "
                           "out of the fit are shown worse than by a matrix (allowed from {} patches on)",
@@ -193,7 +213,9 @@ CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions&
     return fit;
   }
   const Parameters least_squares = parameters_of(fit.correction);
-  const auto mean = options.objective == Objective::delta_e_76 ? &PatchErrors::mean_76 : &PatchErrors::mean;
+  const auto objective = [&](const PatchErrors& errors) {
+    return objective_of(errors, colors, options.objective);
+  };
   std::mt19937_64 random(options.seed);
   std::normal_distribution<double> jitter(0, options.jitter);
   for (int k = 0; k < options.starts; ++k) {
@@ -206,15 +228,18 @@ CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions&
     ++fit.usable;
     ColorCorrection candidate = correction_of(options.model, attempt.parameters, colors.white);
     PatchErrors errors = patch_errors(colors, candidate);
-    if (!(errors.*mean < fit.errors.*mean)) continue;
+    if (!(objective(errors) < objective(fit.errors))) continue;
     fit.correction = std::move(candidate);
     fit.errors = std::move(errors);
     fit.final_cost = attempt.summary.final_cost;
   }
   if (fit.usable == 0)
-    throw Error(ErrorCode::input, "colour correction",
-                fmt::format("the fit to {} patches does not converge from {} starts of {} iterations",
-                            colors.raw.size(), options.starts, options.max_iterations));
+    throw Error(
+        ErrorCode::input, "colour correction",
+        fmt::format("no correction can be found for these {} patches: their values do not go with their "
+                    "colours (tried {} starts; are chart, light and the order of the patches those "
+                    "of the photograph?)",
+                    colors.raw.size(), options.starts));
   return fit;
 }
 

@@ -32,7 +32,8 @@ struct PatchErrors {
   std::vector<double> delta_e;  ///< CIEDE2000.
   double mean = 0;
   double max = 0;
-  double mean_76 = 0;  ///< Mean distance in L*a*b*.
+  std::vector<double> delta_e_76;  ///< Distances in L*a*b*.
+  double mean_76 = 0;              ///< Their mean.
 };
 [[nodiscard]] PatchErrors patch_errors(const PatchColors& colors, const ColorCorrection& correction);
 
@@ -59,6 +60,9 @@ struct CorrectionOptions {
   int max_iterations = 2000;
 };
 
+/// Whether there are four patches for each term of a root polynomial, or any for a matrix.
+[[nodiscard]] bool are_enough_patches(CorrectionModel model, std::size_t patches);
+
 /// Throws Error{usage} with the reason when `patches` are too few for a root polynomial: fewer than four for
 /// each term, with which the terms follow the patches instead of the camera.
 void require_enough_patches(CorrectionModel model, std::size_t patches);
@@ -66,8 +70,8 @@ void require_enough_patches(CorrectionModel model, std::size_t patches);
 /// The white-preserving correction that minimises the objective over the patches, the last term's column
 /// following from the white. For a mean colour difference the loss of a patch is 2 a^2 (sqrt(1 + dE^2/a^2) -
 /// 1) with a = 0.05, an absolute error that is smooth at zero; for XYZ the least-squares start is the answer.
-/// The result is never worse in the objective than its start. Throws Error{input} when no start reaches the
-/// tolerance: a cost that changes by less than 1e-10 of itself.
+/// Patches count by their weights. The result is never worse in the objective than its start. Throws
+/// Error{input} when no start reaches the tolerance: a cost that changes by less than 1e-10 of itself.
 [[nodiscard]] CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions& options = {});
 
 }  // namespace abbe

@@ -18,11 +18,13 @@ constexpr int kStarts = 2;
 
 // The patches of these numbers, in their order and as often.
 PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>& numbers) {
-  PatchColors some{{}, {}, {}, colors.white};
+  PatchColors some;
+  some.white = colors.white;
   for (const std::size_t i : numbers) {
     some.names.push_back(colors.names[i]);
     some.raw.push_back(colors.raw[i]);
     some.xyz.push_back(colors.xyz[i]);
+    if (!colors.weights.empty()) some.weights.push_back(colors.weights[i]);
   }
   return some;
 }
@@ -43,7 +45,38 @@ Interval percentiles(std::vector<double> values) {
   return {at(kTail), at(1 - kTail)};
 }
 
+// Leaving out one patch at a time of a chart; of a large set, groups of them.
+std::size_t folds_for_choice(std::size_t patches) {
+  constexpr std::size_t kMostFolds = 24;
+  return std::min(patches, kMostFolds);
+}
+
 }  // namespace
+
+std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors, const CorrectionOptions& options,
+                                                  std::size_t folds) {
+  std::vector<ModelCandidate> candidates;
+  for (const CorrectionModel model :
+       {CorrectionModel::linear, CorrectionModel::root_polynomial_2, CorrectionModel::root_polynomial_3}) {
+    if (!are_enough_patches(model, colors.raw.size())) continue;
+    CorrectionOptions how = options;
+    how.model = model;
+    const std::size_t groups = folds > 0 ? folds : folds_for_choice(colors.raw.size());
+    candidates.push_back({model, cross_validate(colors, how, groups).mean});
+  }
+  // A simpler model is as good as one that is better by less than anybody sees.
+  constexpr double kInvisible = 0.01;
+  const auto less = [](const ModelCandidate& x, const ModelCandidate& y) {
+    return x.unseen_mean < y.unseen_mean;
+  };
+  const double enough =
+      std::min_element(candidates.begin(), candidates.end(), less)->unseen_mean + kInvisible;
+  const auto chosen = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const ModelCandidate& c) { return c.unseen_mean <= enough; });
+  std::rotate(candidates.begin(), chosen, chosen + 1);
+  std::sort(candidates.begin() + 1, candidates.end(), less);
+  return candidates;
+}
 
 PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& options, std::size_t folds) {
   const std::size_t count = colors.raw.size();
@@ -54,13 +87,17 @@ PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& o
   how.starts = std::min(how.starts, kStarts);
   PatchErrors unseen;
   unseen.delta_e.resize(count);
+  unseen.delta_e_76.resize(count);
   for (std::size_t fold = 0; fold < folds; ++fold) {
     std::vector<std::size_t> rest;
     std::vector<std::size_t> left_out;
     for (std::size_t i = 0; i < count; ++i) (i % folds == fold ? left_out : rest).push_back(i);
     const ColorCorrection correction = fit_correction(selection(colors, rest), how).correction;
     const PatchErrors errors = patch_errors(selection(colors, left_out), correction);
-    for (std::size_t j = 0; j < left_out.size(); ++j) unseen.delta_e[left_out[j]] = errors.delta_e[j];
+    for (std::size_t j = 0; j < left_out.size(); ++j) {
+      unseen.delta_e[left_out[j]] = errors.delta_e[j];
+      unseen.delta_e_76[left_out[j]] = errors.delta_e_76[j];
+    }
     const double share = static_cast<double>(errors.delta_e.size()) / static_cast<double>(count);
     unseen.mean += errors.mean * share;
     unseen.mean_76 += errors.mean_76 * share;

@@ -22,6 +22,19 @@ struct Interval {
 [[nodiscard]] PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& options,
                                          std::size_t folds);
 
+/// A model and how it shows patches that its fit has not seen.
+struct ModelCandidate {
+  CorrectionModel model;
+  double unseen_mean;  ///< Mean CIEDE2000 by `cross_validate`.
+};
+
+/// The models that there are enough patches for, the best first (of those within 0.01 of it the one with
+/// fewest terms), then by error: by `cross_validate` with `folds` groups, or with as many as patches, at most
+/// 24, for 0.
+[[nodiscard]] std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors,
+                                                                const CorrectionOptions& options,
+                                                                std::size_t folds);
+
 /// How a bootstrap draws [Efron1993].
 struct BootstrapOptions {
   int replicates = 200;

@@ -11,6 +11,7 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include "calibration/fit/response_model.h"
 #include "calibration/fit/response_samples.h"
@@ -108,9 +109,20 @@ std::unique_ptr<ceres::Problem> all_terms(const Weighted& data, double roughness
   return problem;
 }
 
+/// Keeps Ceres from printing what an error is about to say.
+struct QuietLibrary {
+  int before = std::exchange(FLAGS_minloglevel, google::GLOG_FATAL);
+
+  QuietLibrary() = default;
+  QuietLibrary(const QuietLibrary&) = delete;
+  QuietLibrary& operator=(const QuietLibrary&) = delete;
+  ~QuietLibrary() { FLAGS_minloglevel = before; }
+};
+
 ceres::Solver::Summary converge(const Weighted& data, double roughness, int max_iterations,
                                 Unknowns& unknowns) {
   const auto problem = all_terms(data, roughness, unknowns);
+  const QuietLibrary quiet;
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = max_iterations;
@@ -123,7 +135,10 @@ ceres::Solver::Summary converge(const Weighted& data, double roughness, int max_
   ceres::Solve(options, problem.get(), &summary);
   require(summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE &&
               std::isfinite(summary.final_cost),
-          "the solver did not converge: " + summary.BriefReport());
+          fmt::format(
+              "no curve goes through these codes (gave up after {} steps): do the exposure times belong to "
+              "the photographs, and did nothing move between them?",
+              summary.iterations.size()));
   return summary;
 }
 
@@ -272,13 +287,15 @@ double choose_roughness(const Weighted& data, Unknowns& unknowns) {
 std::vector<double> log_deviations(const Weighted& data, double roughness, Unknowns& unknowns,
                                    std::size_t size) {
   const auto problem = all_terms(data, roughness, unknowns);
+  const QuietLibrary quiet;
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
   options.min_reciprocal_condition_number = 1e-20;  // where no sample lies smoothness alone says something
   ceres::Covariance covariance(options);
   const double* theta = unknowns.theta.data();
   const std::vector<std::pair<const double*, const double*>> blocks{{theta, theta}};
-  require(covariance.Compute(blocks, problem.get()), "the covariance of the curve cannot be computed");
+  require(covariance.Compute(blocks, problem.get()),
+          "the codes leave the curve open: more exposures, or patches of other brightness, are needed");
   constexpr auto kSize = static_cast<int>(kCoefficients);
   Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> c;
   covariance.GetCovarianceBlock(theta, theta, c.data());
@@ -348,9 +365,11 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   fit.final_cost = summary.final_cost;
   fit.median_code = median(code_errors(data.samples, unknowns));
   fit.samples = data.samples.size();
-  require(std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
-              std::isfinite(fit.linear.back()),
-          "the recovered curve does not rise strictly");
+  require(
+      std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
+          std::isfinite(fit.linear.back()),
+      "the curve that goes through these codes does not rise everywhere: do the exposure times belong to the "
+      "photographs?");
   return fit;
 }
 

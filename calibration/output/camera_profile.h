@@ -21,6 +21,12 @@ struct CameraProfile {
   Matrix3 adaptation;                    ///< From there to XYZ relative to a D65 white.
 };
 
+/// Linear camera values of the perfect diffuser, which become XYZ of the white with Y = 1: the scale in which
+/// values are to be given.
+[[nodiscard]] inline Raw white_values(const CameraProfile& profile) {
+  return {1 / profile.gains[0], 1 / profile.gains[1], 1 / profile.gains[2]};
+}
+
 /// Linear camera values to XYZ relative to a D65 white.
 [[nodiscard]] inline XYZ to_xyz_d65(const CameraProfile& profile, const Raw& linear) {
   return multiply(profile.adaptation, profile.correction(multiply(diagonal(profile.gains), linear)));

@@ -1,8 +1,6 @@
 #include "calibration/output/color_spaces.h"
 
 namespace abbe {
-namespace {
-
 Matrix3 cone_responses(Adaptation method) {
   switch (method) {
     case Adaptation::bradford:
@@ -14,8 +12,6 @@ Matrix3 cone_responses(Adaptation method) {
   }
   return {0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296};
 }
-
-}  // namespace
 
 XYZ unit_xyz(const Chromaticity& xy) {
   return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};

@@ -31,6 +31,8 @@ inline constexpr RgbSpace kAcesCg{
     {0.713, 0.293}, {0.165, 0.83}, {0.128, 0.044}, kAcesWhite};                          ///< AP1 [S2014-004]
 inline constexpr RgbSpace kP3D65{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, kD65};  ///< [RP431-2]
 
+inline constexpr RgbSpace kRec2020{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, kD65};  ///< [BT2020]
+
 /// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
 [[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
@@ -40,6 +42,9 @@ enum class Adaptation {
   cat02,     ///< The cones of CIECAM02 [CIE159].
   cat16,     ///< The cones of CAM16 [Li2017].
 };
+
+/// XYZ to the responses of those cones.
+[[nodiscard]] Matrix3 cone_responses(Adaptation method);
 
 /// Chromatic adaptation of XYZ from one white to another, complete. Nothing for a white without a positive
 /// response of every cone, such as a spectral line.

@@ -40,6 +40,15 @@ bool has_cube(const CameraProfile& profile) {
   return profile.correction.model != CorrectionModel::linear;
 }
 
+// With the scale of what goes in, so that nobody needs to guess.
+std::string described(const CameraProfile& profile) {
+  const Raw white = white_values(profile);
+  return fmt::format(
+      "{}. Input: {}; the perfect diffuser, which becomes Y = 1, has {}R {:.6g}, G {:.6g}, B {:.6g}.",
+      profile.description, has_curve(profile) ? "code values, 1 at full scale" : "linear camera values",
+      has_curve(profile) ? "after the curve " : "", white[0], white[1], white[2]);
+}
+
 OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3& m) {
   std::array<double, 16> values{};
   for (int i = 0; i < 3; ++i)
@@ -97,7 +106,7 @@ void add_camera_space(OCIO::Config& config, const CameraProfile& profile) {
     group->appendTransform(matrix_transform(matrix_to_xyz_d65(profile)));
   }
   const OCIO::ColorSpaceRcPtr space =
-      color_space(camera_space(profile).c_str(), profile.description.c_str(), OCIO::REFERENCE_SPACE_SCENE);
+      color_space(camera_space(profile).c_str(), described(profile).c_str(), OCIO::REFERENCE_SPACE_SCENE);
   space->setTransform(group, OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(space);
 }
@@ -193,7 +202,7 @@ std::string clf_text(const OCIO::ConstConfigRcPtr& config, const CameraProfile& 
       config->getProcessor(camera_space(profile).c_str(), to)->createGroupTransform();
   OCIO::FormatMetadata& metadata = group->getFormatMetadata();
   metadata.setID(fmt::format("abbe-{}-to-{}", camera_file(profile, ""), to).c_str());
-  metadata.addChildElement("Description", profile.description.c_str());
+  metadata.addChildElement("Description", described(profile).c_str());
   metadata.addChildElement("InputDescriptor",
                            has_curve(profile) ? "camera code values" : "linear camera values");
   metadata.addChildElement("OutputDescriptor", to);

@@ -171,8 +171,8 @@ class Scene:
         """The seed of the random numbers unless `render` is told otherwise."""
 
 
-def calibrate(camera: str, illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = 'gamma:2.2', bits: int = 12) -> dict:
-    """Calibrates a measured camera on a chart under an illuminant, as `abbe calibrate` does: the chart is photographed through a planted response ("linear", "gamma:G" or "s-curve") at so many bits, the response is recovered without knowing it, and the white-preserving matrix with the least mean CIEDE2000 is fitted.
+def calibrate(camera: str, illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: int = 12) -> dict:
+    """Calibrates a measured camera on a chart under an illuminant, as `abbe calibrate` does: the chart is photographed at so many bits by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it, and the white-preserving matrix with the least mean CIEDE2000 is fitted.
 
     Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the largest error of each recovered response as a share of full scale, and the matrix from linear camera values to XYZ relative to D65. Raises InputError for an unknown name."""
 
@@ -196,7 +196,7 @@ def curve(kind: str, name: str, wavelengths_nm: ArrayLike) -> typing.Any:
 
 
 def delta_e(lab1: ArrayLike, lab2: ArrayLike, formula: str = '2000') -> typing.Any:
-    """Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of 2000, 94 or 76; the first is the standard. Of numbers that are not finite it is NaN."""
+    """Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of 2000, 94 or 76, by cam16 (CAM16-UCS) or itp (BT.2124), both beside D65; the first is the standard. Of numbers that are not finite it is NaN."""
 
 
 def develop(film: Film, *, readout: typing.Any = None, white: typing.Any = None, seed: typing.Optional[int] = None, scene: Scene | None = None) -> Developed:

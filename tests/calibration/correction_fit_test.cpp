@@ -167,12 +167,13 @@ TEST(CorrectionFit, SaysWhenItFails) {
   once.max_iterations = 1;
   test::expect_error(
       [&] { static_cast<void>(fit_correction(colors, once)); }, ErrorCode::input,
-      "colour correction: the fit to 24 patches does not converge from 16 starts of 1 iterations");
+      "colour correction: no correction can be found for these 24 patches: their values do not go with");
   for (Raw& raw : colors.raw) raw[1] = raw[0];
   test::expect_error([&] { static_cast<void>(least_squares_matrix(colors)); }, ErrorCode::input,
-                     "24 patches do not determine the correction (rank 2, needed 3)");
+                     "these 24 patches do not determine the correction: they show 2 independent colours "
+                     "(needed 3)");
   test::expect_error([&] { static_cast<void>(fit_correction(colors)); }, ErrorCode::input,
-                     "(rank 1, needed 2)");
+                     "they show 1 independent colours (needed 2)");
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ std::vector<Rgb> codes() {
 
 class OcioFolder : public testing::Test {
  protected:
+  static std::filesystem::path written_folder_of(const CameraProfile& linear) {
+    const std::filesystem::path folder = folder_.parent_path() / "linear";
+    (void)write_ocio_config(folder, std::array{linear});
+    return folder / "config.ocio";
+  }
   static void SetUpTestSuite() {
     folder_ = std::filesystem::path(testing::TempDir()) / ("abbe_ocio_test_" + std::to_string(::getpid())) /
               "nested";
@@ -94,6 +99,26 @@ TEST_F(OcioFolder, CameraAgreesWithDoublePrecisionAndBack) {
     // Near black a power's inverse is too steep for single precision.
     if (std::min({code[0], code[1], code[2]}) > 0.02) expect_near(run(back, run(forward, code)), code, 1e-4);
   }
+}
+
+TEST_F(OcioFolder, TellsTheScaleOfItsInput) {
+  // Linear values of the diffuser are where a profile of a matrix that keeps white has its white.
+  CameraProfile linear =
+      profile("D50", linear_correction(Matrix3(0.6, 0.26422, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 0.97521)));
+  linear.linearisation = {};
+  const auto config = OCIO::Config::CreateFromFile(written_folder_of(linear).c_str());
+  const Raw white = white_values(linear);
+  expect_near(run(config->getProcessor("Camera D50", "Linear XYZ-D65"), white), to_xyz_d65(linear, white),
+              1e-6);
+  EXPECT_NEAR(run(config->getProcessor("Camera D50", "Linear XYZ-D65"), white)[1], 1, 1e-5);
+  const std::string told = config->getColorSpace("Camera D50")->getDescription();
+  EXPECT_NE(
+      told.find("Input: linear camera values; the perfect diffuser, which becomes Y = 1, has R 0.909091, G "
+                "1.11111, B 0.833333"),
+      std::string::npos)
+      << told;
+  const std::string curved = config_->getColorSpace("Camera D65")->getDescription();
+  EXPECT_NE(curved.find("code values, 1 at full scale"), std::string::npos) << curved;
 }
 
 TEST_F(OcioFolder, ClfHoldsTheSameTransform) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 
 #include "io/exr.h"
@@ -127,6 +128,44 @@ TEST_F(Photographs, AClippedPixelClipsItsRegion) {
   EXPECT_EQ(all->series[0].codes[1][0], 1);
 }
 
+// What `develop` writes of its own read-out.
+std::map<std::string, std::string> told_by_develop(double exposure_s) {
+  return {{"exposure_s", fmt::format("{}", exposure_s)},
+          {"mosaic", "R,G/G,B"},
+          {"mosaic_channels", "R,G,B"},
+          {"sensor", R"({"resolution":[8,8],"readout":{"gain_e_per_dn":2,"bits":12,"offset_dn":100}})"}};
+}
+
+TEST_F(Photographs, RawFilesTellTheirOwnScale) {
+  for (const char* extension : {".tif", ".png"}) {
+    std::string exposures;
+    for (const int stop : {0, 1}) {
+      // R 200, G 400, B 800 DN above black in the first, twice that in the second.
+      Image raw{8, 8, {{"raw", {}}}, told_by_develop(0.01 * (stop + 1))};
+      for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+          raw.channels[0].values.push_back(static_cast<float>(
+              100 + (stop + 1) * (y % 2 == 0 ? (x % 2 == 0 ? 200 : 400) : (x % 2 == 0 ? 400 : 800))));
+      const std::string name = fmt::format("raw{}{}", stop, extension);
+      write_raw_picture(folder_ / name, raw);
+      exposures += fmt::format("{{\"file\": \"{}\"}},", name);
+    }
+    std::ofstream(folder_ / "raw.json")
+        << "{\"exposures\": [" << exposures << "], \"regions\": [[1, 1, 7, 6]]}";
+    const auto all = read(folder_ / "raw.json");
+    ASSERT_TRUE(all) << diagnostics_.text();
+    ASSERT_EQ(all->channels, (std::vector<std::string>{"R", "G", "B"})) << extension;
+    const double full = 4095 - 100;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const std::size_t stop : {0U, 1U}) {
+        EXPECT_NEAR(all->series[k].codes[0][stop], static_cast<double>((stop + 1) * (200U << k)) / full, 1e-7)
+            << extension << k;
+        EXPECT_NEAR(all->series[k].times_s[stop], 0.01 * static_cast<double>(stop + 1), 1e-12);
+      }
+    EXPECT_NEAR(all->series[0].deviations[0][0], 1 / 4095.0 / std::sqrt(12), 1e-9) << "rounding alone";
+  }
+}
+
 TEST_F(Photographs, SaysWhatIsWrong) {
   write_exr(folder_ / "a.exr", {4, 1, {{"Y", {0, 0, 0, 0}}}, {}});
   write_exr(folder_ / "b.exr", {2, 1, {{"Y", {0, 0}}}, {}});
@@ -136,7 +175,7 @@ TEST_F(Photographs, SaysWhatIsWrong) {
   expect_complaint(R"({"exposures": []})",
                    "/exposures: error: expected an array of exposures (got 0 of them, allowed [1, inf))");
   expect_complaint(R"({"exposures": [{"file": "a.exr"}]})",
-                   "/exposures/0: error: missing key \"exposure_s\"");
+                   "a.exr tells no exposure time: \"exposure_s\" is needed here");
   expect_complaint(R"({"exposures": [{"file": "a.exr", "exposure_s": 0}]})",
                    "/exposures/0/exposure_s: error: expected a number (got 0, allowed (0, inf))");
   expect_complaint(

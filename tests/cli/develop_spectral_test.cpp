@@ -164,6 +164,10 @@ TEST(DevelopSpectral, WhatDoesNotFitIsRefused) {
     EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
     EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
   };
+  const std::string picture = " --display " + file("no.png");
+  says(spectral + picture + " --iso 400", 2,
+       "--iso: a spectral film needs a sensor that looks at it: --scene");
+  says(spectral + picture + " --set /readout/bits=8", 2, "--set: a spectral film needs a sensor");
   says(spectral + " -o " + file("no.tif"), 2, "a spectral film needs a sensor that looks at it: --scene");
   says(spectral + " --scene " + scene("same.json", kBins), 2, "its sensor is spectral itself");
   says(spectral + " --scene " + scene("far.json", kCamera, "0.03"), 4, "was seen in another field of view");

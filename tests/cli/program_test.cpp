@@ -42,7 +42,8 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
        {std::pair{"",
                   "\n  units\n      Unit of length.\n      \"m\", \"cm\", \"mm\", \"um\" or \"in\", default "
                   "\"m\"\n"},
-        {"sensor/readout", "\n  bits\n      Bits of the codes.\n      integer in [1, 16], required\n"},
+        {"sensor/spectral",
+         "\n  from_nm\n      Where the first bin begins.\n      number in [300, 1100] nm, required\n"},
         {"camera/pinhole", "\n  one of\n    focal_length\n"},
         {"camera/pinhole/fov_deg",
          "\ncamera/pinhole/fov_deg\n  Field of view along the shorter image axis.\n"},
@@ -305,6 +306,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["owned"], nlohmann::json::parse(R"({"path": "E (S|D)* L"})"));
   EXPECT_TRUE(found["shares"].is_null());
   EXPECT_TRUE(found["unreached"].is_array());
+  EXPECT_TRUE(found["bias"].is_null());
   EXPECT_GE(found["wavelength_range_nm"][0], 300);
   EXPECT_LE(found["wavelength_range_nm"][1], 1100);
   EXPECT_GT(found["memory_bytes"], 24 * 16 * 3 * 16);

@@ -20,7 +20,7 @@ class Develops(Test):
         for name in ("c16.png", "c.exr"):
             raw.write(self.scratch / ("own_" + name))
             self.assertEqual((self.scratch / name).read_bytes(), (self.scratch / ("own_" + name)).read_bytes(), name)
-        with self.assertRaisesRegex(abbe.UsageError, 'got extension ".jpg", allowed .exr, .tif, .tiff, .png$'):
+        with self.assertRaisesRegex(abbe.UsageError, 'got extension ".jpg", allowed .exr, .tif, .tiff, .png, .dng, .fits, .fit$'):
             raw.write(self.scratch / "c.jpg")
         raw.write(self.scratch / "c.tiff")
         self.assertEqual(raw._repr_png_(), (self.scratch / "c.png").read_bytes())

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/image.h"
+#include "io/inputs.h"
+#include "sensor/response/mosaic.h"
+
+namespace abbe {
+
+/// What a raw file that Abbe wrote tells of its codes.
+struct RawScale {
+  int bits = 16;
+  double offset_dn = 0;                 ///< The code of darkness.
+  std::optional<double> saturation_dn;  ///< The code at which the camera clips, if below the highest.
+  std::optional<double> exposure_s;
+  std::optional<double> gain_e_per_dn;
+  std::optional<double> electrons_per_lx_s;  ///< Of the most sensitive channel.
+  std::vector<std::string> channels;         ///< Of the mosaic, in its order.
+  std::optional<Mosaic> mosaic;
+
+  /// The highest code that occurs.
+  [[nodiscard]] double highest() const {
+    if (saturation_dn) return *saturation_dn;
+    return static_cast<double>((1U << static_cast<unsigned>(bits)) - 1);
+  }
+};
+
+/// Reads that of an image's attributes; nothing for a file that tells of no read-out.
+[[nodiscard]] std::optional<RawScale> raw_scale(const Image& image);
+
+/// An image whose 16-bit codes are shares of 65535, and what is told of them.
+struct RawImage {
+  Image image;
+  std::optional<RawScale> scale;
+};
+
+/// Reads a DNG or FITS by `read_raw_picture`, its codes as they are and not as a raw converter shows them,
+/// and any other image by `read_image`. What a DNG or FITS of another program tells of its levels, pattern
+/// and exposure counts too. Throws Error{input} and Error{resource}.
+[[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
+/// The 16-bit code that a value of an image from `read_image` stands for.
+[[nodiscard]] double code_of(float value);
+
+/// The codes of each channel of a raw file, those of a mosaic apart: whole numbers as `double`s, pixel by
+/// pixel. `image` is as `read_raw_image` gives it, in which 65535 is 1.
+struct ChannelCodes {
+  std::string channel;
+  std::vector<double> dn;
+};
+[[nodiscard]] std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale);
+
+}  // namespace abbe

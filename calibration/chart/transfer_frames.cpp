@@ -1,0 +1,140 @@
+#include "calibration/chart/transfer_frames.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/raw_scale.h"
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kOfTheCodes = 0.99;
+constexpr double kSameGain = 1e-6;  // relative, of texts of few digits
+constexpr double kSameLight = 0.1;  // relative, more than lamps flicker
+constexpr double kStandardErrors = 5;
+
+// A frame's codes, a list for each channel.
+struct Frame {
+  double exposure_s;
+  RawScale scale;
+  std::vector<std::string> channels;
+  std::vector<std::vector<std::uint16_t>> codes;
+};
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw Error(ErrorCode::input, file.string(), what);
+}
+
+Frame read_frame(const std::filesystem::path& file, Inputs& inputs) {
+  inputs.add_file(file);
+  const auto [image, scale] = read_raw_image(file, &inputs);
+  if (!scale || !scale->exposure_s)
+    refuse(file, "tells neither bits nor exposure time: a raw file of `abbe develop` is needed");
+  Frame frame{*scale->exposure_s, *scale, {}, {}};
+  for (const ChannelCodes& channel : raw_codes(image, *scale)) {
+    frame.channels.push_back(channel.channel);
+    frame.codes.emplace_back(channel.dn.begin(), channel.dn.end());
+  }
+  inputs.give_back_memory(image.memory_bytes());
+  return frame;
+}
+
+// Whether a frame is of the first one's sensor and settings.
+void require_alike(const Frame& frame, const Frame& first, const std::filesystem::path& file) {
+  if (frame.channels != first.channels || frame.codes.front().size() != first.codes.front().size())
+    refuse(file, "has other pixels or channels than the first frame");
+  if (frame.scale.bits != first.scale.bits)
+    refuse(file, fmt::format("has {} bits, the first frame {}", frame.scale.bits, first.scale.bits));
+  const auto& gain = frame.scale.gain_e_per_dn;
+  const auto& expected = first.scale.gain_e_per_dn;
+  if (gain && expected && std::abs(*gain - *expected) > kSameGain * *expected)
+    refuse(file, fmt::format("was read out at {} e/DN, the first frame at {}: a gain is measured by itself",
+                             *gain, *expected));
+}
+
+struct Moments {
+  double mean;
+  double mean_variance;  // of the mean, pixels being independent
+};
+Moments moments(const std::vector<std::uint16_t>& codes) {
+  const auto n = static_cast<double>(codes.size());
+  const double mean = std::accumulate(codes.begin(), codes.end(), 0.0) / n;
+  double squares = 0;
+  for (const std::uint16_t code : codes) squares += (code - mean) * (code - mean);
+  return {mean, squares / n / n};
+}
+
+// Whether the second of two frames saw the light of the first, and is another frame.
+void require_pair(const Frame& first, const Frame& second, const std::filesystem::path& file) {
+  if (second.exposure_s != first.exposure_s)
+    refuse(file,
+           fmt::format("is exposed for {} s and the frame before it for {}: two of each are needed, one "
+                       "after the other",
+                       second.exposure_s, first.exposure_s));
+  bool is_copy = first.codes == second.codes;
+  for (std::size_t c = 0; c < first.codes.size(); ++c) {
+    const Moments a = moments(first.codes[c]);
+    const Moments b = moments(second.codes[c]);
+    // Frames of one code only, all dark or all full, may be alike.
+    is_copy = is_copy && a.mean_variance > 0;
+    const double apart = std::abs(a.mean - b.mean);
+    const double signal = std::max(a.mean, b.mean) - first.scale.offset_dn;
+    if (apart > kSameLight * signal && apart > kStandardErrors * std::sqrt(a.mean_variance + b.mean_variance))
+      refuse(file,
+             fmt::format("has a mean of {:.5g} DN in {} and the frame before it {:.5g}: the two of a pair "
+                         "see the same light",
+                         b.mean, first.channels[c], a.mean));
+  }
+  if (is_copy) refuse(file, "has the very codes of the frame before it: two exposures are needed");
+}
+
+std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, Inputs& inputs) {
+  std::vector<Frame> frames;
+  for (const std::filesystem::path& file : files) {
+    frames.push_back(read_frame(file, inputs));
+    require_alike(frames.back(), frames.front(), file);
+    if (frames.size() % 2 == 0) require_pair(frames[frames.size() - 2], frames.back(), file);
+  }
+  if (files.size() % 2 == 1) refuse(files.back(), "is alone: two frames of each exposure are needed");
+  return frames;
+}
+
+std::vector<FlatPair> pairs_of(const std::vector<Frame>& frames, std::size_t channel) {
+  std::vector<FlatPair> pairs;
+  for (std::size_t i = 0; i + 1 < frames.size(); i += 2)
+    pairs.push_back({frames[i].exposure_s, frames[i].codes[channel], frames[i + 1].codes[channel]});
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
+                                              std::span<const std::filesystem::path> lit, Inputs& inputs) {
+  const std::vector<Frame> dark_frames = read_frames(dark, inputs);
+  const std::vector<Frame> lit_frames = read_frames(lit, inputs);
+  if (dark_frames.empty() || lit_frames.empty())
+    throw Error(ErrorCode::usage, "photon transfer", "needs dark and lit frames, two of each exposure");
+  const Frame& first = lit_frames.front();
+  require_alike(first, dark_frames.front(), lit.front());
+  std::vector<ChannelTransfer> all;
+  for (std::size_t c = 0; c < first.channels.size(); ++c) {
+    PhotonTransfer found =
+        photon_transfer(pairs_of(dark_frames, c), pairs_of(lit_frames, c), first.scale.bits);
+    // What fills the codes tells nothing of the well.
+    const double range_e = (first.scale.highest() - first.scale.offset_dn) * found.gain_e_per_dn;
+    if (found.full_well_e && *found.full_well_e > kOfTheCodes * range_e) found.full_well_e.reset();
+    const double most_e = found.full_well_e.value_or(range_e);
+    // e^2 = 100 (e + s^2)
+    const double snr10 = 50 + std::sqrt(2500 + 100 * found.read_noise_e * found.read_noise_e);
+    const auto sensitivity = first.scale.electrons_per_lx_s;
+    all.push_back({first.channels[c], found, 20 * std::log10(most_e / found.read_noise_e), snr10,
+                   sensitivity ? std::optional(snr10 / *sensitivity) : std::nullopt});
+  }
+  return all;
+}
+
+}  // namespace abbe

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/inputs.h"
+#include "sensor/readout/photon_transfer.h"
+
+namespace abbe {
+
+/// What flat and dark frames say of one channel of a sensor.
+struct ChannelTransfer {
+  std::string channel;
+  PhotonTransfer transfer;
+  /// Full well, or what the highest code stands for, over read noise [dB]: 20 log10 of it [EMVA1288].
+  double dynamic_range_db;
+  /// Electrons at which the signal is ten times its noise: e/sqrt(e + read noise^2) = 10.
+  double snr10_e;
+  std::optional<double>
+      snr10_lx_s;  ///< The same as an exposure of the most sensitive channel, where it is told.
+};
+
+/// The photon transfer of raw files that Abbe wrote, of any kind: two frames of each exposure, one after the
+/// other, dark ones of two exposure times or more. Exposure times, bits and mosaic are read of the files.
+/// Throws Error{input} naming a file that tells of no read-out or differs from the first in size, bits,
+/// mosaic or gain, and one without a second of its exposure that saw the same light and is another frame;
+/// otherwise as `photon_transfer`.
+[[nodiscard]] std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
+                                                            std::span<const std::filesystem::path> lit,
+                                                            Inputs& inputs);
+
+}  // namespace abbe

@@ -1,0 +1,48 @@
+#include "calibration/fit/noise_weights.h"
+
+#include <numeric>
+
+#include "calibration/chart/delta_e.h"
+#include "calibration/fit/correction_fit.h"
+
+namespace abbe {
+namespace {
+
+// Of the colour differences, by the weights that are there.
+double weighted_mean(const std::vector<double>& values, const std::vector<double>& weights) {
+  if (weights.empty())
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) /
+         std::accumulate(weights.begin(), weights.end(), 0.0);
+}
+
+std::vector<double> weights_under(const PatchColors& colors, std::span<const Raw> deviations) {
+  const ColorCorrection correction = white_preserving_least_squares(colors);
+  const double typical = weighted_mean(patch_errors(colors, correction).delta_e, colors.weights);
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) {
+    const auto lab = [&](const Raw& raw) { return xyz_to_lab(correction(raw), colors.white); };
+    const Lab here = lab(colors.raw[i]);
+    double variance = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Raw moved = colors.raw[i];
+      moved[k] += deviations[i][k];
+      const double shift = delta_e_2000(here, lab(moved));
+      variance += shift * shift;
+    }
+    weights.push_back(typical > 0 ? typical * typical / (typical * typical + variance) : 1);
+  }
+  return weights;
+}
+
+}  // namespace
+
+std::vector<double> noise_weights(const PatchColors& colors, std::span<const Raw> deviations) {
+  // The first matrix may have followed the noise: it is fitted anew by what has been found.
+  constexpr int kPasses = 3;
+  PatchColors weighed = colors;
+  for (int pass = 0; pass < kPasses; ++pass) weighed.weights = weights_under(weighed, deviations);
+  return weighed.weights;
+}
+
+}  // namespace abbe

@@ -1,0 +1,116 @@
+#include "cli/calibrate_page.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "calibration/judge/camera_space.h"
+#include "validation/picture/display_color.h"
+#include "validation/plot/line_plot.h"
+#include "validation/plot/svg.h"
+
+namespace abbe::cli {
+namespace {
+
+constexpr double kHistogramStep = 0.25;
+constexpr const char* kStyle =
+    "body { font: 15px/1.5 system-ui, \"DejaVu Sans\", sans-serif; color: #1c2430; max-width: 1080px; "
+    "margin: 0 auto; "
+    "padding: 24px; }\nh2 { border-bottom: 2px solid; margin-top: 40px; }\n"
+    ".patches { display: grid; grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); gap: 10px; }\n"
+    ".patch { font-size: 12px; }\n.swatch { display: flex; height: 54px; }\n.swatch div { flex: 1; }\n"
+    "table { border-collapse: collapse; }\ntd, th { padding: 2px 14px 2px 0; text-align: right; }\n"
+    "td:first-child, th:first-child { text-align: left; }\n.soft { color: #5b6675; }\n";
+
+// A picture of its own within the page.
+std::string inline_svg(const std::string& document) {
+  return document.substr(document.find("<svg"));
+}
+
+std::string line_color(const std::string& channel, std::size_t i) {
+  constexpr std::array kOthers{"#333333", "#8e44ad", "#b7791f"};
+  return channel == "R"   ? "#c0392b"
+         : channel == "G" ? "#2e8b57"
+         : channel == "B" ? "#2a5db0"
+                          : kOthers.at(i % 3);
+}
+
+std::string curves(const std::vector<Channel>& channels) {
+  double greatest = 0;
+  for (const Channel& channel : channels) greatest = std::max(greatest, channel.weight.max());
+  LinePlot plot{"Energy responses", "wavelength [nm]", "share of the greatest", {}};
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    PlotSeries series{channels[i].name, {}, line_color(channels[i].name, i)};
+    for (int nm = SumRange{}.low_nm; nm <= SumRange{}.high_nm; nm += 2)
+      series.points.emplace_back(nm, channels[i].weight(nm) / greatest);
+    plot.series.push_back(std::move(series));
+  }
+  return inline_svg(svg(plot));
+}
+
+std::string judged(const std::vector<Channel>& channels) {
+  const CameraSpace space = camera_space(channels);
+  return fmt::format(
+      "<p>Vora value {:.3f}; left of x, y, z by the best combination of the channels: {:.0f}, {:.0f}, "
+      "{:.0f} %; sensitivity index {:.1f}.</p>\n",
+      space.vora, 100 * space.luther[0], 100 * space.luther[1], 100 * space.luther[2],
+      sensitivity_index(channels));
+}
+
+std::string css(const XYZ& xyz) {
+  const DisplayColor code = display_code(linear_rgb_of_xyz(xyz));
+  return fmt::format("rgb({:.1f}% {:.1f}% {:.1f}%)", 100 * code[0], 100 * code[1], 100 * code[2]);
+}
+
+// What the patch is, what the balanced camera values look like, and what the correction makes of them.
+std::string patch(const CameraCalibration& c, std::size_t i) {
+  const auto to_d65 = [&](const XYZ& xyz) { return multiply(c.profile.adaptation, xyz); };
+  const Raw& raw = c.colors.raw[i];
+  const DisplayColor plain = display_code({raw[0], raw[1], raw[2]});
+  return fmt::format(
+      "<div class=\"patch\"><div class=\"swatch\"><div style=\"background: {}\"></div><div "
+      "style=\"background: rgb({:.1f}% {:.1f}% {:.1f}%)\"></div><div style=\"background: "
+      "{}\"></div></div>{}<br><span class=\"soft\">{:.2f}, left out {:.2f}</span></div>\n",
+      css(to_d65(c.colors.xyz[i])), 100 * plain[0], 100 * plain[1], 100 * plain[2],
+      css(to_d65(c.correction.correction(raw))), escaped(c.patches[i]), c.correction.errors.delta_e[i],
+      c.unseen.delta_e[i]);
+}
+
+std::string figures(const CameraCalibration& c) {
+  const auto row = [](const char* name, const PatchErrors& errors) {
+    return fmt::format("<tr><td>{}</td><td>{:.3f}</td><td>{:.3f}</td></tr>\n", name, errors.mean, errors.max);
+  };
+  return "<table><tr><th>CIEDE2000</th><th>mean</th><th>max</th></tr>\n" +
+         row("least squares", c.correction.start) + row("fitted", c.correction.errors) +
+         row("left out of the fit", c.unseen) + "</table>\n";
+}
+
+std::string section(const CalibrationCase& one) {
+  const CameraCalibration& c = one.result;
+  std::string html = fmt::format(
+      "<h2>{} under {}</h2>\n<p>Chart {}. Each patch: as it is, as the balanced camera "
+      "sees it, corrected; its CIEDE2000 under the fit, and under one that has not seen "
+      "it.</p>\n<div class=\"patches\">\n",
+      escaped(one.camera), escaped(c.profile.light), escaped(one.chart));
+  for (std::size_t i = 0; i < c.patches.size(); ++i) html += patch(c, i);
+  html += "</div>\n" + figures(c);
+  return html + inline_svg(histogram_svg(c.unseen.delta_e, kHistogramStep, "Patches left out of the fit",
+                                         "CIEDE2000"));
+}
+
+}  // namespace
+
+std::string page_of(const std::vector<CalibrationCase>& cases, const std::vector<Channel>& channels) {
+  const std::string camera = cases.empty() ? "" : escaped(cases.front().camera);
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\"><title>{0}</title>\n<style>\n{1}</style></head>\n"
+      "<body>\n<h1>{0}</h1>\n",
+      camera, kStyle);
+  if (channels.size() == 3) html += curves(channels) + judged(channels);
+  for (const CalibrationCase& one : cases) html += section(one);
+  return html + "</body></html>\n";
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/command_options.h"
+
+namespace abbe::cli {
+
+/// `abbe develop`.
+void add_develop(CLI::App& app, Command& command);
+/// `abbe measure`.
+void add_measure(CLI::App& app, Command& command);
+
+}  // namespace abbe::cli

@@ -1,0 +1,208 @@
+#include "cli/measure.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/chart_corners.h"
+#include "calibration/chart/measured_patches.h"
+#include "cli/answer.h"
+#include "cli/output_files.h"
+#include "description/load.h"
+#include "develop/linear_image.h"
+#include "io/atomic_file.h"
+#include "io/error.h"
+#include "io/extension.h"
+#include "io/file_lock.h"
+#include "scene/chart/readout.h"
+
+namespace abbe::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A chart to be found in images, and the scene that says where, if one does.
+struct ChartToMeasure {
+  std::optional<Scene> scene;
+  std::vector<PatchOutline> outlines;
+  std::vector<std::string> names;  ///< As the chart's table has them.
+};
+
+ChartToMeasure chart_of_scene(const fs::path& path, Inputs& inputs) {
+  Diagnostics diagnostics;
+  ChartToMeasure chart{accepted(load_scene(path, {}, diagnostics, &inputs), diagnostics), {}, {}};
+  if (chart.scene->charts.empty()) throw Error(ErrorCode::input, path.string(), "the scene has no chart");
+  const ChartInstance& instance = chart.scene->charts.front();
+  chart.outlines = chart_outlines(*chart.scene, instance);
+  for (const PatchOutline& outline : chart.outlines)
+    chart.names.push_back(outline.name.substr(instance.name.size() + 1));
+  return chart;
+}
+
+ChartToMeasure find_chart(const MeasureOptions& options, Inputs& inputs) {
+  std::error_code ignored;
+  if (!options.corners && !fs::is_regular_file(options.chart, ignored))
+    throw Error(ErrorCode::usage, "--chart",
+                fmt::format("no such scene; a table of patches needs --corners (got {})", options.chart));
+  if (!options.corners) return chart_of_scene(options.chart, inputs);
+  for (const fs::path& file : files_among({options.chart})) inputs.add_file(file);
+  Diagnostics diagnostics;
+  ChartToMeasure chart;
+  chart.names = accepted(load_chart_targets(options.chart, Curve(1.0), {}, diagnostics), diagnostics).names;
+  chart.outlines = outlines_between(*options.corners, chart.names, options.columns);
+  return chart;
+}
+
+/// One image's patches.
+struct Measurement {
+  fs::path file;
+  std::vector<std::string> channels;
+  std::string unit;
+  std::vector<PatchValues> patches;
+};
+
+// An image's name stands before what is wrong with it.
+Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
+                          const std::optional<LinearImage>& flat, const MeasureOptions& options,
+                          Inputs& inputs) {
+  LinearImage read = read_linear_image(file, &inputs);
+  Measurement measured{file, read.channels, read.unit, {}};
+  try {
+    if (chart.scene) require_film_of(*chart.scene, chart.scene->charts.front(), read.image);
+    measured.patches = measure_patches(read.image, read.planes(), chart.outlines);
+    if (flat) {
+      flat_field(read, *flat, options.flat);
+      const std::vector<PatchValues> evened = measure_patches(read.image, read.planes(), chart.outlines);
+      for (std::size_t i = 0; i < evened.size(); ++i)
+        for (std::size_t k = 0; k < evened[i].channels.size(); ++k) {
+          PatchChannel channel = evened[i].channels[k];
+          channel.saturated = measured.patches[i].channels[k].saturated;  // as the pixels were
+          measured.patches[i].channels[k] = channel;
+        }
+    }
+  } catch (const Error& error) {
+    throw Error(error.code, file.string(), error.what());
+  }
+  for (std::size_t i = 0; i < chart.names.size(); ++i) measured.patches[i].name = chart.names[i];
+  inputs.give_back_memory(read.image.memory_bytes());
+  return measured;
+}
+
+void warn_of_saturation(const Measurement& measured) {
+  std::vector<std::string> names;
+  for (const PatchValues& patch : measured.patches)
+    if (std::any_of(patch.channels.begin(), patch.channels.end(),
+                    [](const PatchChannel& channel) { return channel.saturated > 0; }))
+      names.push_back(patch.name);
+  if (!names.empty())
+    say(fmt::format("warning: {}: saturated pixels, whose values are too low, in {}", measured.file.string(),
+                    fmt::join(names, ", ")));
+}
+
+Json json_of(const Measurement& measured) {
+  Json patches = Json::array();
+  for (const PatchValues& patch : measured.patches) {
+    Json told{{"patch", patch.name}};
+    for (const PatchChannel& channel : patch.channels) {
+      told["pixels"].push_back(channel.pixels);
+      told["mean"].push_back(channel.mean);
+      told["deviation"].push_back(channel.deviation);
+      told["saturated"].push_back(channel.saturated);
+    }
+    patches.push_back(std::move(told));
+  }
+  return {{"image", measured.file.string()},
+          {"unit", measured.unit},
+          {"channels", measured.channels},
+          {"patches", std::move(patches)}};
+}
+
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + '"';
+}
+
+// Bands have a comma in their names.
+std::string cell(const std::string& text) {
+  return text.find_first_of(",\"") == std::string::npos ? text : quoted(text);
+}
+
+// As `calibrate --measured` takes it; of several images a line each, told by the first column.
+std::string csv_of(const std::vector<Measurement>& all) {
+  const bool several = all.size() > 1;
+  std::string text = fmt::format("# unit: {}\n{}patch", all.front().unit, several ? "image," : "");
+  for (const char* of : {"", "_deviation", "_pixels", "_saturated"})
+    for (const std::string& channel : all.front().channels) text += "," + cell(channel + of);
+  text += '\n';
+  for (const Measurement& measured : all)
+    for (const PatchValues& patch : measured.patches) {
+      text += several ? quoted(measured.file.string()) + "," : "";
+      text += quoted(patch.name);
+      for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.mean);
+      for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.deviation);
+      for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.pixels);
+      for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.saturated);
+      text += '\n';
+    }
+  return text;
+}
+
+void print_table(const Measurement& measured) {
+  fmt::print("{} ({})\n{:<24}", measured.file.string(), measured.unit, "patch");
+  for (const std::string& channel : measured.channels)
+    fmt::print(" {:>12} {:>12} {:>7}", channel, "deviation", "pixels");
+  fmt::print("\n");
+  for (const PatchValues& patch : measured.patches) {
+    fmt::print("{:<24}", patch.name);
+    for (const PatchChannel& channel : patch.channels)
+      fmt::print(" {:>12.6g} {:>12.4g} {:>7}", channel.mean, channel.deviation, channel.pixels);
+    fmt::print("\n");
+  }
+}
+
+void require_one_table(const std::vector<Measurement>& all) {
+  for (const Measurement& measured : all)
+    if (measured.channels != all.front().channels || measured.unit != all.front().unit)
+      throw Error(
+          ErrorCode::usage, "-o",
+          fmt::format("one table holds images of the same channels and unit (got {} of {} and {} of {})",
+                      fmt::join(all.front().channels, ", "), all.front().file.string(),
+                      fmt::join(measured.channels, ", "), measured.file.string()));
+}
+
+}  // namespace
+
+int measure(const MeasureOptions& options) {
+  Inputs inputs(options.max_memory_bytes);
+  for (const fs::path& image : options.images) inputs.add_file(image);
+  if (!options.flat.empty()) inputs.add_file(options.flat);
+  std::optional<FileLock> lock;
+  if (!options.output.empty()) {
+    require_extension(options.output, {".csv"});
+    require_writable(options.output);
+    lock.emplace(options.output);
+  }
+  const ChartToMeasure chart = find_chart(options, inputs);
+  require_distinct(std::array{options.output}, inputs.files());
+  std::optional<LinearImage> flat;
+  if (!options.flat.empty()) flat = read_linear_image(options.flat, &inputs);
+  std::vector<Measurement> all;
+  for (const fs::path& image : options.images) {
+    all.push_back(measure_image(image, chart, flat, options, inputs));
+    warn_of_saturation(all.back());
+  }
+  if (!options.output.empty()) {
+    require_one_table(all);
+    write_atomically(options.output, csv_of(all));
+  }
+  Json list = Json::array();
+  for (const Measurement& measured : all) list.push_back(json_of(measured));
+  if (options.json)
+    print(one_or_all(std::move(list)), true);
+  else
+    for (const Measurement& measured : all) print_table(measured);
+  return 0;
+}
+
+}  // namespace abbe::cli

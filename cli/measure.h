@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Imath/ImathVec.h>
+
+#include "io/inputs.h"
+
+namespace abbe::cli {
+
+/// What `abbe measure` was asked for.
+struct MeasureOptions {
+  std::vector<std::filesystem::path> images;
+  std::string chart;                                 ///< A scene with a chart; with corners a table of one.
+  std::optional<std::array<Imath::V2d, 4>> corners;  ///< Of the chart in the images [pixels].
+  std::size_t columns = 6;                           ///< Patches in a row of a chart with corners.
+  std::filesystem::path flat;                        ///< A picture of an even surface, or empty.
+  std::filesystem::path output;                      ///< A table, or empty.
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
+
+/// Measures the patches of a chart in images of any kind; prints and writes what each has. Returns the exit
+/// code.
+int measure(const MeasureOptions& options);
+
+}  // namespace abbe::cli

@@ -1,0 +1,80 @@
+#include "calibration/output/dng_profile.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "calibration/camera_calibration.h"
+#include "calibration/output/sensitivities.h"
+#include "tests/calibration/calibration_fixture.h"
+
+namespace abbe {
+namespace {
+
+CameraCalibration calibration(const std::string& light, const std::string& response = "") {
+  CharacterisationOptions options;
+  options.bootstrap.replicates = 2;
+  return calibrate_camera(
+      {"Nikon_D5100", light, response, 0, test::camera(), test::illuminant(light), test::chart()}, options);
+}
+
+void expect_near(const std::array<double, 3>& a, const std::array<double, 3>& b, double margin) {
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], margin);
+}
+
+TEST(DngProfile, TakesWhiteToWhiteBothWays) {
+  const CameraCalibration made = calibration("A");
+  const auto light = dng_light(made.profile, made.colors.white);
+  ASSERT_TRUE(light);
+  EXPECT_EQ(light->code, 17);
+  EXPECT_NEAR(light->kelvin, 2855.65, 0.01);
+  expect_near(multiply(light->forward, {1, 1, 1}), dng_white(), 1e-12);
+  // The colour matrix takes the light's white to the camera's, of which the greatest value is 1.
+  const Raw camera_white = white_values(made.profile);
+  const double greatest = std::max({camera_white[0], camera_white[1], camera_white[2]});
+  const auto found = multiply(light->color, made.colors.white);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], camera_white[k] / greatest, 1e-12);
+}
+
+TEST(DngProfile, MixesByReciprocalTemperature) {
+  const CameraCalibration a = calibration("A");
+  const CameraCalibration d65 = calibration("D65");
+  const DngLight warm = dng_light(a.profile, a.colors.white).value();
+  const DngLight cool = dng_light(d65.profile, d65.colors.white).value();
+  const auto entry = [](const Matrix3& m) { return m[0][0]; };
+  EXPECT_EQ(entry(forward_between(warm, cool, 2000)), entry(warm.forward));
+  EXPECT_EQ(entry(forward_between(warm, cool, 10000)), entry(cool.forward));
+  const double middle = 2 / (1 / warm.kelvin + 1 / cool.kelvin);
+  EXPECT_NEAR(entry(forward_between(warm, cool, middle)), (entry(warm.forward) + entry(cool.forward)) / 2,
+              1e-12);
+}
+
+TEST(DngProfile, IsNoneForRootPolynomials) {
+  CameraCalibration made = calibration("D65");
+  made.profile.correction = test::kRootPolynomial;
+  EXPECT_FALSE(dng_light(made.profile, made.colors.white));
+}
+
+TEST(Sensitivities, AreReadBackAsTheCamera) {
+  const std::vector<Channel> camera = test::camera();
+  const auto file = std::filesystem::path(testing::TempDir()) /
+                    ("abbe_sensitivities_" + std::to_string(::getpid()) + ".json");
+  std::ofstream(file) << sensitivities_json("a \"camera\"", camera);
+  Diagnostics diagnostics;
+  const auto read = load_camera(file.string(), {}, diagnostics);
+  ASSERT_TRUE(read) << diagnostics.text();
+  std::filesystem::remove(file);
+  ASSERT_EQ(read->size(), 3U);
+  const double scale = (*read)[1].weight(530) / camera[1].weight(530);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ((*read)[k].name, camera[k].name);
+    EXPECT_EQ((*read)[k].kind, ResponseKind::energy);
+    for (int nm = 400; nm <= 700; nm += 5)
+      EXPECT_NEAR((*read)[k].weight(nm), scale * camera[k].weight(nm), 1e-8) << nm;
+  }
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,122 @@
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "calibration/chart/photographed_series.h"
+#include "calibration/chart/raw_scale.h"
+#include "io/picture.h"
+#include "io/raw_picture.h"
+
+// DNG and FITS serve wherever a raw TIFF does, with the same numbers.
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+class RawFiles : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // A grey wedge under a mosaic, exposed for so long; what the film tells fills several cards of FITS.
+  static RawPicture wedge(double exposure_s, bool with_metadata = true) {
+    RawPicture raw;
+    raw.width = kWidth;
+    raw.height = kHeight;
+    raw.planes = {"raw"};
+    raw.channels = {"R", "G", "B"};
+    raw.mosaic_width = 2;
+    raw.mosaic = {0, 1, 1, 2};
+    raw.black_level_dn = 50;
+    raw.white_level_dn = 4000;
+    raw.exposure_s = exposure_s;
+    for (int i = 0; i < kWidth * kHeight; ++i)
+      raw.codes.push_back(static_cast<std::uint16_t>(50 + exposure_s * (1 + i % kWidth) * 40));
+    if (with_metadata)
+      raw.metadata = {
+          {"exposure_s", fmt::format("{}", exposure_s)},
+          {"mosaic", "R,G/G,B"},
+          {"mosaic_channels", "R,G,B"},
+          {"sensor",
+           fmt::format(R"({{"name":"{}","readout":{{"bits":12,"offset_dn":50,"saturation_dn":4000}}}})",
+                       std::string(97, 'x') + " ends beyond a card")}};
+    return raw;
+  }
+
+  fs::path write(const std::string& name, const RawPicture& raw) const {
+    const fs::path path = folder_ / name;
+    if (path.extension() == ".dng") write_dng(path, raw);
+    if (path.extension() == ".fits") write_fits(path, raw);
+    if (path.extension() == ".tif") {
+      Image image{kWidth, kHeight, {{"raw", {raw.codes.begin(), raw.codes.end()}}}, raw.metadata};
+      write_raw_picture(path, image);
+    }
+    return path;
+  }
+
+  PhotographedSeries series(const std::string& end) const {
+    std::string listing;
+    for (const double t : {0.25, 0.5, 1.0}) {
+      const std::string name = fmt::format("{}{}", t, end);
+      (void)write(name, wedge(t));
+      listing += fmt::format(R"({}{{"file": "{}"}})", listing.empty() ? "" : ", ", name);
+    }
+    std::ofstream(folder_ / "series.json") << R"({"exposures": [)" << listing << "]}";
+    Diagnostics diagnostics;
+    const auto read = read_series(folder_ / "series.json", diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors()) << end;
+    return read.value_or(PhotographedSeries{});
+  }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_raw_files_" + std::to_string(::getpid()));
+};
+
+TEST_F(RawFiles, ASeriesOfAnyKindHasTheNumbersOfTiff) {
+  const PhotographedSeries tiff = series(".tif");
+  ASSERT_EQ(tiff.channels, (std::vector<std::string>{"R", "G", "B"}));
+  for (const char* end : {".dng", ".fits"}) {
+    const PhotographedSeries other = series(end);
+    ASSERT_EQ(other.channels, tiff.channels) << end;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(other.series[k].codes, tiff.series[k].codes) << end;
+      EXPECT_EQ(other.series[k].times_s, tiff.series[k].times_s) << end;
+    }
+  }
+}
+
+TEST_F(RawFiles, TellWhatTheFilmToldOnAnyNumberOfCards) {
+  for (const char* name : {"wedge.dng", "wedge.fits", "wedge.tif"}) {
+    const RawImage read = read_raw_image(write(name, wedge(0.5)));
+    ASSERT_TRUE(read.scale) << name;
+    EXPECT_EQ(read.scale->bits, 12) << name;
+    EXPECT_EQ(read.scale->exposure_s, 0.5) << name;
+    EXPECT_EQ(read.scale->highest(), 4000) << name;
+  }
+}
+
+TEST_F(RawFiles, OfOtherProgramsTellLevelsPatternAndExposure) {
+  for (const char* name : {"plain.dng", "plain.fits"}) {
+    const RawImage read = read_raw_image(write(name, wedge(0.5, false)));
+    ASSERT_TRUE(read.scale) << name;
+    EXPECT_EQ(read.scale->bits, 12) << name;
+    EXPECT_EQ(read.scale->offset_dn, 50) << name;
+    EXPECT_EQ(read.scale->highest(), 4000) << name;
+    EXPECT_EQ(read.scale->exposure_s, 0.5) << name;
+    ASSERT_TRUE(read.scale->mosaic) << name;
+    EXPECT_EQ(read.scale->channels, (std::vector<std::string>{"R", "G", "B"})) << name;
+    RawPicture untold = wedge(0.5, false);
+    untold.exposure_s.reset();
+    untold.f_number = 4;
+    EXPECT_FALSE(read_raw_image(write(name, untold)).scale->exposure_s) << name;
+  }
+}
+
+}  // namespace
+}  // namespace abbe

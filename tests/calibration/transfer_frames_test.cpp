@@ -1,0 +1,99 @@
+#include "calibration/chart/transfer_frames.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "io/picture.h"
+#include "sensor/readout/readout.h"
+#include "tests/calibration/calibration_fixture.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TransferFrames : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // A frame of a sensor of 512 x 512 pixels under R and G in columns, of which G sees twice as much.
+  fs::path frame(const std::string& name, double electrons, double exposure_s, int bits = 12) const {
+    Readout readout;
+    readout.gain_e_per_dn = 2;
+    readout.bits = bits;
+    readout.read_noise_e = 6;
+    readout.offset_dn = 50;
+    std::vector<float> expected(kEdge * kEdge);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      expected[i] = static_cast<float>(i % 2 == 0 ? electrons : 2 * electrons);
+    const RawFrame raw = read_out(readout, expected, {exposure_s, std::hash<std::string>()(name), 0});
+    Image image{kEdge, kEdge, {{"raw", {raw.dn.begin(), raw.dn.end()}}}, {}};
+    image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
+                      {"mosaic", "R,G"},
+                      {"mosaic_channels", "R,G"},
+                      {"electrons_per_lx_s", "1000"},
+                      {"sensor", fmt::format(R"({{"readout":{{"bits":{},"offset_dn":50}}}})", bits)}};
+    write_raw_picture(folder_ / name, image);
+    return folder_ / name;
+  }
+
+  std::vector<fs::path> pair(double electrons, double exposure_s) const {
+    const std::string name = fmt::format("{}_{}", electrons, exposure_s);
+    return {frame(name + "_a.tif", electrons, exposure_s), frame(name + "_b.tif", electrons, exposure_s)};
+  }
+
+  static constexpr int kEdge = 512;
+  fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_transfer_" + std::to_string(::getpid()));
+};
+
+TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
+  std::vector<fs::path> dark;
+  std::vector<fs::path> lit;
+  for (const double t : {0.01, 1.0})
+    for (const fs::path& file : pair(0, t)) dark.push_back(file);
+  for (const double e : {100.0, 500.0, 1500.0, 3000.0})
+    for (const fs::path& file : pair(e, e / 1e5)) lit.push_back(file);
+  Inputs inputs;
+  const std::vector<ChannelTransfer> found = measure_transfer(dark, lit, inputs);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].channel, "G");
+  for (const ChannelTransfer& one : found) {
+    EXPECT_NEAR(one.transfer.gain_e_per_dn, 2, 0.02);
+    EXPECT_NEAR(one.transfer.read_noise_e, 6, 0.05);
+    EXPECT_EQ(one.transfer.points.size(), 4U);
+    const double noise = one.transfer.read_noise_e;
+    EXPECT_NEAR(one.snr10_e / std::sqrt(one.snr10_e + noise * noise), 10, 1e-12);
+    EXPECT_NEAR(one.snr10_lx_s.value(), one.snr10_e / 1000, 1e-12);
+    EXPECT_NEAR(one.dynamic_range_db, 20 * std::log10((4095 - 50) * 2 / 6.0), 0.2);
+  }
+}
+
+TEST_F(TransferFrames, ObjectsInSentences) {
+  const std::vector<fs::path> dark = pair(0, 0.01);
+  const std::vector<fs::path> lit = pair(500, 0.01);
+  const auto refused = [&](const std::vector<fs::path>& d, const std::vector<fs::path>& l, ErrorCode code,
+                           const std::string& text) {
+    test::expect_error(
+        [&] {
+          Inputs inputs;
+          (void)measure_transfer(d, l, inputs);
+        },
+        code, text);
+  };
+  refused(dark, {lit[0]}, ErrorCode::input, "is alone: two frames of each exposure are needed");
+  refused(dark, {lit[0], lit[1], lit[0], frame("other.tif", 500, 0.02)}, ErrorCode::input,
+          "is exposed for 0.02 s and the frame before it for 0.01");
+  refused(dark, {lit[0], frame("deep.tif", 500, 0.01, 14)}, ErrorCode::input,
+          "has 14 bits, the first frame 12");
+  refused(dark, lit, ErrorCode::input, "dark pairs of one exposure time only");
+  Image plain{kEdge, kEdge, {{"Y", std::vector<float>(kEdge * kEdge, 7)}}, {}};
+  write_raw_picture(folder_ / "plain.tif", plain);
+  refused({folder_ / "plain.tif"}, lit, ErrorCode::input, "tells neither bits nor exposure time");
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,124 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/exr.h"
+#include "io/picture.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// Sensors and lenses measured from images of which all is known.
+
+namespace abbe::test {
+namespace {
+
+constexpr int kEdge = 64;
+
+// A frame of which every other pixel lies above the mean by so many codes, every other below.
+std::string frame(const std::string& name, double mean, double apart, double exposure_s, int edge = kEdge) {
+  Image image{edge, edge, {{"Y", {}}}, {}};
+  for (int i = 0; i < edge * edge; ++i)
+    image.channels[0].values.push_back(static_cast<float>(i % 2 == 0 ? mean + apart : mean - apart));
+  image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
+                    {"sensor", R"({"readout":{"bits":12,"offset_dn":50}})"}};
+  write_raw_picture(file(name), image);
+  return file(name);
+}
+
+// Two frames whose differences are +-2 `apart`: their temporal variance is 2 apart^2 n/(n - 1), exactly.
+std::string pair(const std::string& name, double mean, double apart, double exposure_s) {
+  return frame(name + "_a.tif", mean, apart, exposure_s) + " " +
+         frame(name + "_b.tif", mean, -apart, exposure_s) + " ";
+}
+
+std::string dark_pairs() {
+  return "--dark " + pair("short", 50, 1, 0.01) + pair("long", 53, 1, 1.01);
+}
+
+TEST(Transfer, FindsWhatTheFramesWereMadeOf) {
+  // Variances of 18 and 50 above the 2 of darkness at 160 and 480 codes: ten electrons a code.
+  const Outcome run =
+      abbe("transfer " + dark_pairs() + "--lit " + pair("weak", 210, 3, 0.01) + pair("half", 530, 5, 0.01) +
+           pair("most", 1010, 7, 0.01) + pair("over", 4095, 0, 0.01) + "--json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json found = run.json();
+  constexpr double kPixels = kEdge * kEdge;
+  constexpr double kOfAll = kPixels / (kPixels - 1);
+  const double gain = 10 / kOfAll;
+  EXPECT_NEAR(found["gain_e_per_dn"][0], gain, 1e-9);
+  EXPECT_NEAR(found["read_noise_e"][0], gain * std::sqrt(2 * kOfAll - 1.0 / 12), 1e-9);
+  EXPECT_NEAR(found["dark_e_per_s"][0], 3 * gain, 1e-9);
+  EXPECT_EQ(found["gain_standard_error"][0], 0) << "two values alone have a variance without error";
+  EXPECT_EQ(found["read_noise_standard_error"][0], 0);
+  EXPECT_EQ(found["prnu_percent"][0], 0);
+  EXPECT_TRUE(found["full_well_e"][0].is_null()) << "the codes end first";
+}
+
+void expect_fault(const std::string& arguments, int code, const std::string& message) {
+  const Outcome run = abbe(arguments);
+  EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
+  EXPECT_NE(run.err.find(message), std::string::npos) << arguments << '\n' << run.err;
+}
+
+TEST(Transfer, FaultsAreNamed) {
+  const std::string lit = pair("lit", 530, 5, 0.01);
+  expect_fault("transfer " + dark_pairs() + "--lit " + frame("lit_a.tif", 530, 5, 0.01) + " " +
+                   frame("small.tif", 530, -5, 0.01, kEdge / 2),
+               4, "small.tif: has other pixels or channels than the first frame");
+  expect_fault("transfer " + dark_pairs() + "--lit " + pair("dim", 50, 1, 0.01), 4,
+               "no lit pair between darkness and saturation");
+  expect_fault("transfer --dark " + pair("short", 50, 1, 0.01) + "--lit " + lit, 4,
+               "dark pairs of one exposure time only");
+  expect_fault("transfer " + dark_pairs(), 2, "--lit");
+  expect_fault("transfer " + dark_pairs() + "--lit " + file("absent.tif"), 4, "absent.tif");
+}
+
+// An edge slanted by 5 degrees and blurred by a Gaussian; its values are those at the pixels' middles, so
+// that the Gaussian alone shows. Beside it a plane without an edge.
+std::string blurred_edge(double deviation) {
+  const double angle = 5 * std::numbers::pi / 180;
+  Image image{kEdge, 2 * kEdge, {{"G", {}}, {"flat", {}}}, {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double distance = (x + 0.5 - kEdge / 2.0) * std::cos(angle) - (y + 0.5 - kEdge) * std::sin(angle);
+      image.channels[0].values.push_back(
+          static_cast<float>(0.1 + 0.4 * std::erfc(-distance / deviation / std::sqrt(2.0))));
+      image.channels[1].values.push_back(0.5F);
+    }
+  write_exr(file("edge.exr"), image);
+  return file("edge.exr");
+}
+
+TEST(Mtf, IsThatOfTheBlur) {
+  constexpr double kDeviation = 0.7;
+  const Outcome run = abbe("mtf " + blurred_edge(kDeviation) + " --plot " + file("mtf.svg") + " --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json found = run.json();
+  EXPECT_NEAR(std::abs(found["angle_deg"].get<double>()), 5, 0.02);
+  EXPECT_EQ(found["edge"], "vertical");
+  const double half = std::sqrt(std::log(2.0) / 2) / std::numbers::pi / kDeviation;
+  EXPECT_NEAR(found["mtf50"], half, 0.003);
+  for (std::size_t i = 0; i < found["mtf"].size(); ++i) {
+    const double frequency = found["frequency"][i];
+    if (frequency > 0.5) break;
+    const double blur = std::numbers::pi * frequency * kDeviation;
+    EXPECT_NEAR(found["mtf"][i], std::exp(-2 * blur * blur), 0.01) << frequency;
+  }
+  EXPECT_NE(read_file(file("mtf.svg")).find("<svg"), std::string::npos);
+  const nlohmann::json part = abbe("mtf " + file("edge.exr") + " --crop 8,16,56,112 --json").json();
+  EXPECT_NEAR(part["mtf50"], half, 0.005);
+}
+
+TEST(Mtf, FaultsAreNamed) {
+  const std::string edge = blurred_edge(0.7);
+  expect_fault("mtf " + edge + " --channel flat", 4, "there is no edge in these pixels");
+  expect_fault("mtf " + edge + " --channel R", 2, "--channel: got \"R\", allowed G, flat");
+  expect_fault("mtf " + edge + " --crop 0,0,65,20", 2, "--crop: lies beyond the 64 x 128 pixels");
+  expect_fault("mtf " + edge + " --crop 0,0,8,8", 4, "16");
+  expect_fault("mtf " + file("absent.exr"), 4, "absent.exr");
+}
+
+}  // namespace
+}  // namespace abbe::test

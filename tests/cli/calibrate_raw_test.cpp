@@ -1,0 +1,144 @@
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "calibration/chart/chart_corners.h"
+#include "calibration/chart/measured_patches.h"
+#include "cli/calibrate.h"
+#include "io/picture.h"
+#include "spectral/library.h"
+#include "tests/cli/json_output.h"
+#include "tests/cli/program.h"
+
+// Calibrations from raw files and from what `abbe measure` reads out of them.
+
+namespace abbe::test {
+namespace {
+
+using namespace abbe::cli;
+
+constexpr double kBlack = 64;
+constexpr double kFull = 4095 - kBlack;
+
+// Exposures of a wedge by a linear camera of 12 bits that tells its levels.
+std::filesystem::path write_series() {
+  constexpr int kWidth = 96;
+  constexpr int kHeight = 64;
+  std::string listing;
+  for (const double seconds : {0.25, 0.5, 1.0, 2.0}) {
+    Image image{kWidth, kHeight, {}, {}};
+    for (const char* name : {"R", "G", "B"}) {
+      ImageChannel& plane = image.channels.emplace_back(ImageChannel{name, {}});
+      for (int i = 0; i < kWidth * kHeight; ++i) {
+        const double dn = kBlack + seconds * (i % kWidth + 1) / kWidth * 0.6 * kFull;
+        plane.values.push_back(static_cast<float>(std::min(4095.0, std::floor(dn + 0.5))));
+      }
+    }
+    image.metadata = {{"exposure_s", fmt::format("{}", seconds)},
+                      {"sensor", fmt::format(R"({{"readout":{{"bits":12,"offset_dn":{}}}}})", kBlack)}};
+    const std::string name = fmt::format("exposed_{}.tif", seconds);
+    write_raw_picture(scratch() / name, image);
+    listing += fmt::format(R"({}{{"file": "{}"}})", listing.empty() ? "" : ", ", name);
+  }
+  const auto path = scratch() / "series.json";
+  std::ofstream(path) << R"({"exposures": [)" << listing << "]}";
+  return path;
+}
+
+// The chart as a camera sees it in D65, the perfect diffuser being given; one patch with clipped green.
+CalibrateOptions measured(const std::string& unit, double white, const std::string& clipped = "") {
+  CalibrateOptions options;
+  options.how.bootstrap.replicates = 2;
+  options.measured = scratch() / "raw_patches.csv";
+  Diagnostics diagnostics;
+  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
+  const auto chart = load_chart(options.chart, {}, diagnostics);
+  const Curve lamp = load_illuminant("D65", {}, diagnostics)->curve;
+  std::ofstream rows(options.measured);
+  rows << "# unit: " << unit << "\npatch,R,G,B,R_saturated,G_saturated,B_saturated\n";
+  for (const Patch& patch : chart->patches) {
+    const bool is_clipped = clipped == "all" || patch.name == clipped;
+    std::vector<double> raw = camera_raw(*channels, lamp, patch.reflectance);
+    if (is_clipped) raw[1] *= 0.6;
+    rows << fmt::format("{},{},{},{},0,{},0\n", patch.name, white * raw[0], white * raw[1], white * raw[2],
+                        is_clipped ? 50 : 0);
+  }
+  return options;
+}
+
+TEST(CalibrateRaw, NumbersAboveBlackAreSharesOfWhatTheSeriesTells) {
+  CalibrateOptions options = measured(kNumbersAboveBlack, 0.8 * kFull);
+  const double plain = json_output(calibrate, options)["dE00_mean"];
+  options.series = write_series();
+  const json both = json_output(calibrate, options);
+  EXPECT_NEAR(both["dE00_mean"].get<double>(), plain, 0.05) << "the response is a straight line";
+}
+
+TEST(CalibrateRaw, SaturatedPatchesAreLeftOutOfBalanceAndFit) {
+  const double plain = json_output(calibrate, measured(kNumbersAboveBlack, 3000))["dE00_mean"];
+  const CalibrateOptions clipped = measured(kNumbersAboveBlack, 3000, "white 9.5 (.05 D)");
+  testing::internal::CaptureStderr();
+  const json answer = json_output(calibrate, clipped);
+  const std::string warnings = testing::internal::GetCapturedStderr();
+  EXPECT_NE(warnings.find("patch \"white 9.5 (.05 D)\" has saturated pixels"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("it is left out"), std::string::npos) << warnings;
+  ASSERT_EQ(answer["patches"].size(), 23U);
+  EXPECT_NEAR(answer["dE00_mean"].get<double>(), plain, 0.15);
+  const CalibrateOptions all = measured(kNumbersAboveBlack, 3000, "all");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(fault([&] { calibrate(all); }, "24 of 24 have saturated pixels: expose less"), ErrorCode::input);
+  (void)testing::internal::GetCapturedStderr();
+}
+
+TEST(CalibrateRaw, ScalesThatDoNotFitAreNamed) {
+  MeasuredPatches raw{{"grey"}, {{300, 300, 300}}, {}, kNumbersAboveBlack};
+  EXPECT_EQ(fault([&] { scale_to_codes(raw, {}, "m.csv"); }, "m.csv: its values are digital numbers above"),
+            ErrorCode::input);
+  MeasuredPatches other{{"grey"}, {{0.3, 0.3, 300}}};
+  EXPECT_EQ(
+      fault([&] { scale_to_codes(other, 4000, "m.csv"); }, "patch \"grey\" has a value of 300 (allowed"),
+      ErrorCode::input);
+}
+
+TEST(CalibrateRaw, LightsAreNamedOnce) {
+  CalibrateOptions options;
+  options.camera = "Nikon_D5100";
+  options.illuminants = "D65,D65";
+  options.output = scratch() / "twice";
+  EXPECT_EQ(fault([&] { calibrate(options); }, "--illuminant: D65 is named twice"), ErrorCode::usage);
+}
+
+TEST(CalibrateRaw, OneExposureTwiceIsASentenceAndNoReportOfTheSolver) {
+  CalibrateOptions options;
+  write_series();
+  options.series = scratch() / "same.json";
+  std::ofstream(options.series) << R"({"exposures": [{"file": "exposed_1.tif"}, {"file": "exposed_1.tif"}]})";
+  testing::internal::CaptureStderr();
+  EXPECT_THROW(calibrate(options), Error);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(CalibrateRaw, ChartsLieAsTheyArePrinted) {
+  const std::vector<std::string> names(24, "patch");
+  const std::array<Imath::V2d, 4> corners{{{0, 0}, {60, 0}, {60, 40}, {0, 40}}};
+  const std::array<Imath::V2d, 4> mirrored{{{60, 0}, {0, 0}, {0, 40}, {60, 40}}};
+  EXPECT_EQ(outlines_between(corners, names, 6).size(), 24U);
+  EXPECT_EQ(
+      fault([&] { (void)outlines_between(mirrored, names, 6); }, "--corners: these show the chart mirrored"),
+      ErrorCode::usage);
+  EXPECT_EQ(
+      fault([&] { (void)outlines_between(corners, names, 7); }, "--columns: got 7, which does not divide"),
+      ErrorCode::usage);
+}
+
+TEST(CalibrateRaw, PlotsAreSvg) {
+  for (const char* command : {"query light D65", "transfer --dark x.tif --lit y.tif", "mtf x.exr"}) {
+    const Outcome run = abbe(std::string(command) + " --plot " + (scratch() / "plot.txt").string());
+    EXPECT_EQ(run.code, 2) << command;
+    EXPECT_NE(run.err.find("allowed .svg"), std::string::npos) << run.err;
+  }
+}
+
+}  // namespace
+}  // namespace abbe::test

@@ -1,0 +1,125 @@
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "calibration/chart/patches.h"
+#include "cli/calibrate.h"
+#include "spectral/library.h"
+#include "tests/cli/json_output.h"
+#include "tests/cli/program.h"
+
+namespace abbe::test {
+namespace {
+
+using namespace abbe::cli;
+
+CalibrateOptions nikon() {
+  CalibrateOptions options;
+  options.camera = "Nikon_D5100";
+  options.how.bootstrap.replicates = 2;
+  return options;
+}
+
+TEST(Calibrate, TakesValuesForLinearUnlessAskedToRecoverThem) {
+  const json plain = json_output(calibrate, nikon());
+  EXPECT_TRUE(plain["responses"].empty());
+  EXPECT_FALSE(plain.contains("planted_response"));
+  EXPECT_EQ(plain["bits"], 12);
+  EXPECT_EQ(plain["correction"]["model"], "matrix");
+  EXPECT_EQ(plain["white_values"].size(), 3U);
+  CalibrateOptions asked = nikon();
+  asked.planted_response = "gamma:2.2";
+  EXPECT_EQ(json_output(calibrate, asked)["responses"].size(), 3U);
+}
+
+TEST(Calibrate, WritesTheMatricesOfDngAndTheCurvesOfRawtoaces) {
+  CalibrateOptions options = nikon();
+  options.illuminants = "A,FL11,D65";
+  options.output = scratch() / "nikon";
+  json_output(calibrate, options);
+  const json dng = json::parse(read_file(options.output / "dng.json"));
+  ASSERT_EQ(dng["lights"].size(), 2U);
+  EXPECT_EQ(dng["lights"][0]["CalibrationIlluminant"], 17);
+  EXPECT_EQ(dng["lights"][1]["CalibrationIlluminant"], 21);
+  ASSERT_EQ(dng["between"].size(), 1U);
+  EXPECT_EQ(dng["between"][0]["light"], "FL11");
+  EXPECT_GT(dng["between"][0]["dE00_mean"], dng["between"][0]["own_dE00_mean"]);
+  EXPECT_LT(dng["between"][0]["dE00_mean"], 2);
+  const std::string page = read_file(options.output / "report.html");
+  for (const char* text :
+       {"Nikon_D5100 under FL11", "Vora value 0.931", "dark skin", "Patches left out of the fit"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("<?xml"), std::string::npos);
+  // The curves written are a camera like any other.
+  CalibrateOptions again = nikon();
+  again.camera = (options.output / "sensitivities.json").string();
+  const double first = json_output(calibrate, nikon())["dE00_mean"];
+  EXPECT_NEAR(json_output(calibrate, again)["dE00_mean"].get<double>(), first, 0.01);
+}
+
+// A table of the chart as the camera sees it, the white being given, as `abbe measure` writes it.
+std::string measured_table(const std::string& light, double white, const std::string& saturated = "") {
+  Diagnostics diagnostics;
+  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
+  const auto chart = load_chart("colorchecker24_babelcolor_average", {}, diagnostics);
+  const Curve lamp = load_illuminant(light, {}, diagnostics)->curve;
+  std::string rows =
+      "# unit: linear camera "
+      "values\npatch,R,G,B,R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels,R_saturated,G_"
+      "saturated,B_saturated\n";
+  for (const Patch& patch : chart->patches) {
+    const std::vector<double> raw = camera_raw(*channels, lamp, patch.reflectance);
+    rows += fmt::format("{},{},{},{},0.001,0.001,0.001,100,100,100,0,{},0\n", patch.name, white * raw[0],
+                        white * raw[1], white * raw[2], patch.name == saturated ? 0.1 : 0);
+  }
+  return rows;
+}
+
+TEST(Calibrate, TrainsAPhotographedCameraOnSpectraSeenThroughItsCurves) {
+  CalibrateOptions options = nikon();
+  options.measured = scratch() / "patches.csv";
+  std::ofstream(options.measured) << measured_table("D65", 300);
+  EXPECT_EQ(fault([&] { calibrate(options); }, "--camera with --measured only for --training"),
+            ErrorCode::usage);
+  options.training = "cie224_ces01-99_5nm,pmc_chart_luo2024";
+  const json trained = json_output(calibrate, options);
+  EXPECT_EQ(trained["training_patches"], 99 + 30);
+  EXPECT_LT(trained["dE00_mean"], 2);
+  options.camera.clear();
+  EXPECT_EQ(fault([&] { calibrate(options); }, "needs --camera"), ErrorCode::usage);
+  options.camera = "Nikon_D5100";
+  options.training = options.chart;
+  EXPECT_EQ(fault([&] { calibrate(options); }, "the chart itself"), ErrorCode::usage);
+}
+
+TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
+  CalibrateOptions options;
+  options.how.bootstrap.replicates = 2;
+  options.measured = scratch() / "patches.csv";
+  const auto with = [&](const std::string& text) {
+    std::ofstream(options.measured) << text;
+    return [options] { calibrate(options); };
+  };
+  // All patches alike: nothing of the camera can be known from them.
+  std::string grey = "# unit: linear camera values\npatch,R,G,B\n";
+  Diagnostics diagnostics;
+  const Chart chart = load_chart(options.chart, {}, diagnostics).value();
+  for (const Patch& patch : chart.patches) grey += patch.name + ",0.5,0.5,0.5\n";
+  EXPECT_EQ(fault(with(grey), "do not determine the correction: they show 0 independent colours (needed 2)"),
+            ErrorCode::input);
+  std::string negative = measured_table("D65", 1);
+  const std::size_t at = negative.find("0.001,0.001,0.001");
+  negative.replace(at, 5, "-0.01");
+  EXPECT_EQ(fault(with(negative), "expected deviations of 0 or more"), ErrorCode::input);
+  testing::internal::CaptureStderr();
+  options.json = true;
+  testing::internal::CaptureStdout();
+  with(measured_table("D65", 1, "cyan"))();
+  (void)testing::internal::GetCapturedStdout();
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("patch \"cyan\" has saturated pixels"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace abbe::test

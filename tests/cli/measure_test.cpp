@@ -1,0 +1,280 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/exr.h"
+#include "io/table.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// Charts in films, raw files and pictures.
+
+namespace abbe::test {
+namespace {
+
+std::string chart_scene(const std::string& name, const std::string& sensor, double corner = -3) {
+  return scratch()
+      .write(name + ".json", fmt::format(R"({{"abbe": 1,
+      "camera": {{"pinhole": {{"fov_deg": 0.25, "f_number": 1}}, "from": [0, 0, 1000], "to": [0, 0, 0], "up": [0, 1, 0]}},
+      "sensor": {{"resolution": [96, 64], {}}},
+      "lights": [{{"point": {{"at": [0, 0, 10000]}}, "emission": {{"illuminant": "D65", "luminous_flux_lm": 1.2e9}}}}],
+      "shapes": [{{"name": "chart", "chart": {{"reflectances": "colorchecker24_babelcolor_average",
+                   "corner": [{}, -2, 0], "edge_u": [6, 0, 0], "edge_v": [0, 4, 0]}}}}],
+      "render": {{"samples": 16}}}})",
+                                         sensor, corner))
+      .string();
+}
+const std::string kCamera = R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.4)";
+
+// The film of a chart before a mosaic, with its scene.
+struct Shot {
+  std::string scene;
+  std::string film;
+};
+Shot shot(const std::string& name, const std::string& sensor) {
+  Shot made{chart_scene(name, sensor), file(name + ".exr")};
+  const Outcome run = abbe("render " + made.scene + " --quiet -o " + made.film);
+  EXPECT_EQ(run.code, 0) << run.err;
+  return made;
+}
+
+nlohmann::json measured(const std::string& arguments) {
+  const Outcome run = abbe("measure " + arguments + " --json");
+  EXPECT_EQ(run.code, 0) << arguments << '\n' << run.err;
+  return run.code == 0 ? run.json() : nlohmann::json();
+}
+
+TEST(Measure, EveryRawFileHasTheSamePatches) {
+  const auto [scene, film] = shot("raw", kCamera);
+  std::string outputs;
+  std::string files;
+  for (const char* end : {"dng", "fits", "tif", "png"}) {
+    outputs += " -o " + file(std::string("raw.") + end);
+    files += file(std::string("raw.") + end) + " ";
+  }
+  ASSERT_EQ(abbe("develop " + film + outputs).code, 0);
+  const nlohmann::json all = measured(files + film + " --chart " + scene);
+  ASSERT_EQ(all.size(), 5U);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(all[i]["channels"], (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_EQ(all[i]["patches"], all[0]["patches"]) << all[i]["image"];
+  }
+  // What the film expects, the raw file has within its noise.
+  const nlohmann::json& expected = all[4]["patches"];
+  const nlohmann::json& found = all[0]["patches"];
+  ASSERT_EQ(found.size(), 24U);
+  double unit = 0;
+  for (std::size_t i = 0; i < 24; ++i)
+    unit += found[i]["mean"][1].get<double>() / expected[i]["mean"][1].get<double>() / 24;
+  for (std::size_t i = 0; i < 24; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double pixels = found[i]["pixels"][k];
+      const double error = found[i]["deviation"][k].get<double>() / std::sqrt(pixels);
+      EXPECT_GE(pixels, 9);
+      EXPECT_NEAR(found[i]["mean"][k], expected[i]["mean"][k].get<double>() * unit, 6 * error + 1)
+          << found[i]["patch"];
+    }
+}
+
+TEST(Measure, CornersByHandFindWhatTheSceneSays) {
+  const auto [scene, film] = shot("hand", R"("observer": "1931")");
+  const double half = 32 / std::tan(0.125 * 3.14159265358979 / 180) / 1000;  // pixels per metre
+  const std::string corners =
+      fmt::format("{},{},{},{},{},{},{},{}", 48 - 3 * half, 32 - 2 * half, 48 + 3 * half, 32 - 2 * half,
+                  48 + 3 * half, 32 + 2 * half, 48 - 3 * half, 32 + 2 * half);
+  const nlohmann::json by_scene = measured(film + " --chart " + scene);
+  const nlohmann::json by_hand =
+      measured(film + " --chart colorchecker24_babelcolor_average --corners " + corners);
+  EXPECT_EQ(by_hand["patches"], by_scene["patches"]);
+  const nlohmann::json compared = abbe("compare " + film + " --chart " + scene + " --json").json();
+  EXPECT_EQ(compared["patches"][3]["pixels"], by_scene["patches"][3]["pixels"][0]) << "the same code";
+}
+
+TEST(Measure, TheTableIsWhatCalibrateTakes) {
+  const auto [scene, film] = shot("loop", kCamera);
+  ASSERT_EQ(abbe("develop " + film + " -o " + file("loop.dng")).code, 0);
+  const Outcome run =
+      abbe("measure " + file("loop.dng") + " --chart " + scene + " -o " + file("patches.csv"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome calibrated = abbe("calibrate --measured " + file("patches.csv") +
+                                  " --chart colorchecker24_babelcolor_average --illuminant D65 --json");
+  ASSERT_EQ(calibrated.code, 0) << calibrated.err;
+}
+
+// A raw converter shows the patches in the colours that we do: as far as demosaicking and its 1/10000 go.
+TEST(Measure, LibRawMakesTheSameColoursOfADng) {
+  if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
+  const auto [scene, film] = shot("colours", kCamera);
+  ASSERT_EQ(abbe("develop " + film + " -o " + file("colours.dng") + " -o " + file("parts.exr")).code, 0);
+  const Outcome run = shell("dcraw_emu -w -o 1 -4 -g 1 1 -W -q 0 -T " + file("colours.dng"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const ExrPart& part : read_exr_parts(file("parts.exr")))
+    if (part.name == "preview")
+      write_exr(file("preview.exr"), {part.image.width, part.image.height, part.image.channels, {}});
+  const nlohmann::json theirs = measured(file("colours.dng.tiff") + " --chart " + scene)["patches"];
+  const nlohmann::json ours = measured(file("preview.exr") + " --chart " + scene)["patches"];
+  const auto mean = [](const nlohmann::json& patches, std::size_t patch, std::size_t channel) {
+    return patches[patch]["mean"][channel].get<double>();
+  };
+  const double scale = mean(theirs, 21, 1) / mean(ours, 21, 1);  // neutral 5
+  for (std::size_t patch = 0; patch < 24; ++patch) {
+    const double brightest = std::max({mean(ours, patch, 0), mean(ours, patch, 1), mean(ours, patch, 2)});
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (mean(ours, patch, k) <= 0) continue;  // the converter cuts what lies outside its gamut
+      EXPECT_NEAR(mean(theirs, patch, k) / scale, mean(ours, patch, k), 0.01 * brightest)
+          << ours[patch]["patch"] << ' ' << k;
+    }
+  }
+}
+
+// A profile whose matrices undo a mixing of linear sRGB with its mean, in D65 by this share, and none in A.
+std::string mixing_profile(const std::string& name, double share, int warm = 17) {
+  constexpr double kFromXyz[3][3] = {{3.2404542, -1.5371385, -0.4985314},
+                                     {-0.9692660, 1.8760108, 0.0415560},
+                                     {0.0556434, -0.2040259, 1.0572252}};
+  constexpr double kToD50[3][3] = {{0.4360747, 0.3850649, 0.1430804},
+                                   {0.2225045, 0.7168786, 0.0606169},
+                                   {0.0139322, 0.0971045, 0.7141733}};
+  nlohmann::json warm_light{
+      {"CalibrationIlluminant", warm}, {"ColorMatrix", kFromXyz}, {"ForwardMatrix", kFromXyz}};
+  nlohmann::json cool_light{{"CalibrationIlluminant", 21}, {"ForwardMatrix", kToD50}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      double mean = 0;
+      for (const auto& row : kFromXyz) mean += row[j] / 3;
+      cool_light["ColorMatrix"][i][j] = (kFromXyz[i][j] - share * mean) / (1 - share);
+    }
+  return scratch().write(name, nlohmann::json{{"lights", {warm_light, cool_light}}}.dump()).string();
+}
+
+// LibRaw takes the matrix of D65: what it then shows is the mixture, in each patch.
+TEST(Measure, LibRawTakesTheMatricesOfACalibration) {
+  if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
+  const auto [scene, film] = shot("profile", kCamera);
+  const auto patches = [&, &scene = scene, &film = film](const std::string& name, double share) {
+    const std::string dng = file(name + ".dng");
+    const Outcome made =
+        abbe("develop " + film + " --profile " + mixing_profile(name + ".json", share) + " -o " + dng);
+    EXPECT_EQ(made.code, 0);
+    EXPECT_EQ(made.err, "") << "libtiff knows its tags";
+    EXPECT_EQ(shell("dcraw_emu -w -o 1 -4 -g 1 1 -W -q 0 -T " + dng).code, 0);
+    return measured(dng + ".tiff --chart " + scene)["patches"];
+  };
+  const nlohmann::json plain = patches("plain", 0);
+  const nlohmann::json mixed = patches("mixed", 0.5);
+  for (std::size_t patch = 0; patch < 24; ++patch) {
+    const auto values = plain[patch]["mean"].get<std::vector<double>>();
+    const double mean = (values[0] + values[1] + values[2]) / 3;
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(mixed[patch]["mean"][k], (values[k] + mean) / 2, 0.005 * mean + 1e-4) << patch << ' ' << k;
+  }
+  const std::string told = shell("raw-identify -v " + file("mixed.dng")).out;
+  for (const char* line :
+       {"DNG Illuminant 1: Illuminant A", "DNG Illuminant 2: D65",
+        "DNG color matrix 1:\n3.2405\t-1.5371\t-0.4985", "DNG color matrix 2:\n5.7053\t-3.1192\t-1.1971",
+        "DNG forward matrix 1:\n3.2405\t-1.5371\t-0.4985", "DNG forward matrix 2:\n0.4361\t0.3851\t0.1431"})
+    EXPECT_NE(told.find(line), std::string::npos) << line << '\n' << told;
+}
+
+TEST(Measure, ProfilesThatNoConverterKnowsAreNamed) {
+  const auto [scene, film] = shot("unknown", kCamera);
+  const std::string out = " -o " + file("unknown.dng") + " --profile ";
+  const std::string lone = scratch().write("lone.json", R"({"lights": [{}]})").string();
+  const std::string bare = scratch().write("bare.json", R"({"lights": [{}, {}]})").string();
+  for (const auto& [arguments, code, message] :
+       {std::tuple{out + mixing_profile("other.json", 0, 255), 4, "the light has no number in Exif"},
+        std::tuple{out + lone, 4, "/lights"}, std::tuple{out + bare, 4, "missing key \"ColorMatrix\""},
+        std::tuple{out + file("absent.json"), 4, "absent.json"},
+        std::tuple{" -o " + file("unknown.tif") + " --profile " + lone, 2, "only a .dng takes it"}}) {
+    const Outcome run = abbe("develop " + film + arguments);
+    EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
+    EXPECT_NE(run.err.find(message), std::string::npos) << arguments << '\n' << run.err;
+  }
+}
+
+TEST(Measure, SpectralFilmsHaveAValueForEachBand) {
+  const auto [scene, film] = shot("bands", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 100})");
+  const nlohmann::json bands = measured(film + " --chart " + scene);
+  EXPECT_EQ(bands["channels"].size(), 3U);
+  const nlohmann::json& red = bands["patches"][14];
+  EXPECT_EQ(red["patch"], "red");
+  EXPECT_GT(red["mean"][2].get<double>(), 3 * red["mean"][0].get<double>());
+  const std::string path = file("bands.csv");
+  ASSERT_EQ(abbe("measure " + film + " --chart " + scene + " -o " + path).code, 0);
+  Diagnostics diagnostics;
+  const auto table = read_table(path, TableOrigin::user, diagnostics);
+  ASSERT_TRUE(table) << diagnostics.text();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto column = table->column(bands["channels"][k].get<std::string>());
+    ASSERT_TRUE(column) << bands["channels"][k];
+    EXPECT_EQ(table->rows[14][*column], fmt::format("{}", red["mean"][k].get<double>()));
+  }
+}
+
+TEST(Measure, SaturatedPatchesAreNamed) {
+  const auto [scene, film] = shot("bright", R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 20)");
+  ASSERT_EQ(abbe("develop " + film + " -o " + file("bright.tif")).code, 0);
+  const Outcome run = abbe("measure " + file("bright.tif") + " --chart " + scene);
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.err.find("saturated pixels, whose values are too low, in "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("white 9.5"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("black 2"), std::string::npos) << run.err;
+}
+
+// Black is what a crop holds beside its pixels, and what no patch is.
+TEST(Measure, PixelsThatWereNotRenderedAreNoPatches) {
+  const std::string scene = chart_scene("cropped", kCamera);
+  const std::string film = file("cropped.exr");
+  ASSERT_EQ(abbe("render " + scene + " --quiet --crop 0,0,96,30 -o " + film).code, 0);
+  std::string outputs;
+  for (const char* end : {"dng", "tif", "png", "parts.exr"})
+    outputs += " -o " + file(std::string("cropped.") + end);
+  ASSERT_EQ(abbe("develop " + film + outputs).code, 0);
+  for (const char* end : {"exr", "dng", "tif", "png", "parts.exr"}) {
+    const std::string image = file(std::string("cropped.") + end);
+    const Outcome run = abbe("measure " + image + " --chart " + scene);
+    EXPECT_EQ(run.code, 4) << end << '\n' << run.err;
+    EXPECT_NE(run.err.find("its middle is beyond the pixels that were rendered (got x in ["),
+              std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find("allowed [0, 96] and [0, 30])"), std::string::npos) << run.err;
+    EXPECT_EQ(abbe("measure " + image + " --chart colorchecker24_babelcolor_average --corners " +
+                   "0,0,96,0,96,30,0,30")
+                  .code,
+              0)
+        << end;
+  }
+}
+
+TEST(Measure, FaultsAreNamed) {
+  const auto [scene, film] = shot("faulty", kCamera);
+  const std::string aside = chart_scene("aside", kCamera, 0);
+  ASSERT_EQ(abbe("develop " + film + " -o " + file("faulty.dng")).code, 0);
+  const std::string table = " --chart colorchecker24_babelcolor_average";
+  (void)scratch().write("cut.dng", read_file(file("faulty.dng")).substr(0, 3000));
+  (void)scratch().write("cut.fits", "SIMPLE  =                    T");
+  for (const auto& [arguments, code, message] :
+       {std::tuple{film + " --chart " + aside, 4, "its middle is beyond the film"},
+        std::tuple{film + table + " --corners 0,0,200,0,200,64,0,64", 4,
+                   "its middle is beyond the film (got x in ["},
+        std::tuple{film + table + " --corners 0,0,9,9,9,0,0,9", 2,
+                   "--corners: expected the corners of a convex"},
+        std::tuple{film + table, 2, "a table of patches needs --corners"},
+        std::tuple{film + table + " --corners 0,0,9", 2, "got 3 numbers, allowed 8"},
+        std::tuple{film + table + " --corners 0,0,12,0,12,8,0,8", 4, "holds no whole pixel of channel R"},
+        std::tuple{file("cut.dng") + " --chart " + scene, 4, "cut.dng: "},
+        std::tuple{file("cut.fits") + " --chart " + scene, 4, "cut.fits: no FITS image"},
+        std::tuple{film + " --chart " + scene + " -o " + file("x.txt"), 2, "allowed .csv"},
+        std::tuple{film + " " + file("faulty.dng") + " --chart " + scene + " -o " + file("x.csv"), 2,
+                   "one table holds images of the same channels and unit"}}) {
+    const Outcome run = abbe("measure " + arguments);
+    EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
+    EXPECT_NE(run.err.find(message), std::string::npos) << arguments << '\n' << run.err;
+  }
+}
+
+}  // namespace
+}  // namespace abbe::test
