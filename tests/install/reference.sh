@@ -7,6 +7,6 @@ program=$ABBE_BUILD/cli/abbe
 "$program" help --format man >"$scratch/abbe.1"
 equal "complaints of groff" "$(groff -man -ww -z -b "$scratch/abbe.1" 2>&1)" ""
 page=$(groff -man -Tascii -P-cbou "$scratch/abbe.1")
-for text in "abbe query ior MATERIAL --at NM\[,NM...\] \[OPTION...\]" "--integrator auto|path|light" "exit with 70" "ABBE_DATA"; do
+for text in "abbe query ior MATERIAL --at NM\[,NM...\] \[OPTION...\]" "--seed N" "exit with 70" "ABBE_DATA"; do
   grep -qe "$text" <<<"$page" || fail "the manual page does not show $text"
 done

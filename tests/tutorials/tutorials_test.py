@@ -1,0 +1,158 @@
+"""The tutorials of docs/tutorials: every command runs, and figures that the pages claim are beside their known answers."""
+import csv
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import colour
+import spectra
+
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "docs" / "tutorials"
+SCRIPTS = sorted(path for path in FOLDER.glob("*.*") if path.suffix in (".sh", ".py") and path.name != "common.py")
+
+
+def words(text):
+    """Text without line breaks, continued or not."""
+    return " ".join(text.replace("\\\n", " ").split())
+
+
+class Pages(unittest.TestCase):
+    def test_every_script_has_a_page_of_its_commands_and_a_test(self):
+        self.assertEqual(sorted(path.stem for path in FOLDER.glob("*.md") if path.name != "README.md"), [script.stem for script in SCRIPTS])
+        self.assertEqual({test.SCRIPT for test in Tutorial.__subclasses__()}, {script.name for script in SCRIPTS})
+        for script in SCRIPTS:
+            shown = re.findall(r"^```sh\n(.*?)^```", script.with_suffix(".md").read_text(), re.MULTILINE | re.DOTALL)
+            commands = [words(line) for block in shown for line in block.replace("\\\n", " ").splitlines() if line.strip()]
+            self.assertTrue(commands, script.name)
+            for command in commands:
+                self.assertIn(command, words(script.read_text()), script.name)
+
+
+class Tutorial(unittest.TestCase):
+    """Runs the script SCRIPT where `data` and `abbe` are found."""
+
+    SCRIPT = None
+
+    def setUp(self):
+        if self.SCRIPT is None:
+            self.skipTest("of no script")
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.scratch = pathlib.Path(folder.name)
+        (self.scratch / "data").symlink_to(spectra.DATA)
+        binary = pathlib.Path(os.environ["ABBE_BINARY"])
+        path = f"{binary.parent}{os.pathsep}{os.environ['PATH']}"
+        interpreter = "bash" if self.SCRIPT.endswith(".sh") else sys.executable
+        done = subprocess.run([interpreter, FOLDER / self.SCRIPT], cwd=self.scratch, env={**os.environ, "PATH": path, "PYTHONDONTWRITEBYTECODE": "1"},
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def read(self, name):
+        return json.loads((self.scratch / name).read_text())
+
+    def claimed(self, pattern):
+        """The number that the page states where the pattern's group is."""
+        page = words((FOLDER / self.SCRIPT).with_suffix(".md").read_text())
+        return float(re.search(pattern, page)[1])
+
+
+class BenchToColour(Tutorial):
+    SCRIPT = "bench_to_colour.sh"
+
+    def test_the_chart_is_seen_as_well_as_the_camera_can(self):
+        limit, found, uneven = (self.read(name)["unseen_dE00_mean"] for name in ("limit.json", "found.json", "uneven.json"))
+        self.assertAlmostEqual(limit, self.claimed(r"without noise (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertAlmostEqual(found, self.claimed(r"flat-fielded (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertAlmostEqual(uneven, self.claimed(r"as it is (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertLess(abs(found - limit), 0.1)
+
+
+class NarrowFilters(Tutorial):
+    SCRIPT = "narrow_filters.sh"
+
+    def test_the_chart_is_seen_as_well_as_the_filters_can(self):
+        limit, found = (self.read(name)["unseen_dE00_mean"] for name in ("limit.json", "found.json"))
+        self.assertAlmostEqual(limit, self.claimed(r"without noise (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertAlmostEqual(found, self.claimed(r"flat-fielded (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertLess(abs(found - limit), 0.1)
+
+
+class BayerNoise(Tutorial):
+    SCRIPT = "bayer_noise.sh"
+
+    def test_gain_and_read_noise_are_those_of_the_model(self):
+        found = self.read("transfer.json")
+        gain, noise = (np.average(found[key], weights=[1, 2, 1]) for key in ("gain_e_per_dn", "read_noise_e"))
+        # What 98304 pixels tell.
+        self.assertAlmostEqual(gain / self.claimed(r"planted gain is (\d+(?:\.\d+)?)"), 1, delta=0.01)
+        self.assertAlmostEqual(noise / 3, 1, delta=0.01)
+        model = json.loads((spectra.DATA / "sensor" / "dslr_apsc_bayer_14bit.json").read_text())["sensor"]["readout"]
+        self.assertEqual(model["read_noise_e"], 3)
+
+
+class ChooseFilters(Tutorial):
+    SCRIPT = "choose_filters.py"
+
+    def test_numpy_finds_the_same_errors(self):
+        choice = self.read("choice.json")
+        _, xyz, white = spectra.chart_colours("D65")
+        reflectances = np.array(list(spectra.table("reflectance/colorchecker24_babelcolor_average.csv").values()))
+        light = spectra.lamp("D65")
+        for one in choice["tried"] + choice["widths"]:
+            bands = [tuple(map(float, band.split("-"))) for band in reversed(one["bands"].split(","))]  # R, G, B
+            curves = np.array([(spectra.NM >= low) & (spectra.NM < high) for low, high in bands])
+            values = reflectances @ (curves * light).T / (curves @ light)
+            seen = values @ np.array(one["columns"])
+            errors = colour.delta_e_2000(colour.lab(xyz, white), colour.lab(seen, white))
+            self.assertAlmostEqual(errors.mean(), one["dE00_mean"], delta=0.001, msg=one["bands"])
+        self.assertEqual(choice["best"]["left_out_dE00_mean"], min(one["left_out_dE00_mean"] for one in choice["tried"]))
+        self.assertAlmostEqual(choice["best"]["left_out_dE00_mean"], self.claimed(r"best 40 nm set (\d+(?:\.\d+)?)"), delta=0.005)
+
+
+class Spectrograph(Tutorial):
+    SCRIPT = "spectrograph.py"
+
+    def test_the_lines_of_cadmium_are_found(self):
+        found = self.read("found.json")
+        miss = np.abs(np.subtract(found["found_nm"], found["listed_nm"])).max()
+        self.assertLess(miss, self.claimed(r"within (\d+(?:\.\d+)?) nm"))
+
+
+class Rainbow(Tutorial):
+    SCRIPT = "rainbow.py"
+
+    def test_the_bow_ends_where_descartes_says(self):
+        edges = self.read("edges.json")
+        with open(spectra.DATA / "reference" / "rainbow_water_20C.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        expected = {}
+        for name, nm in (("450", "450"), ("546", "546.0740"), ("656", "656.2725")):
+            row = next(r for r in rows if float(r["wavelength_nm"]) == float(nm) and r["order_k"] == "1" and r["index_used"] == "relative_to_air")
+            angle, incidence = (np.radians(float(row[key])) for key in ("angle_from_antisolar_deg", "incidence_deg"))
+            # The ray leaves the drop, of radius 10 mm, as far beside its middle as it came, and goes 200 mm up.
+            expected[name] = 200 * np.tan(angle) + 10 * np.sin(incidence) / np.cos(angle)
+            self.assertAlmostEqual(edges[name], expected[name], delta=self.claimed(r"within (\d+(?:\.\d+)?) mm"), msg=name)
+        spread, wanted = (radii["656"] - radii["450"] for radii in (edges, expected))
+        self.assertAlmostEqual(spread, wanted, delta=self.claimed(r"differ by is right to (\d+(?:\.\d+)?) mm"))
+
+
+class Lens(Tutorial):
+    SCRIPT = "lens.py"
+
+    def test_the_focus_is_where_the_lensmaker_says(self):
+        # Schott's data sheet of N-BK7.
+        for nm, n in (("486.1327", 1.52238), ("587.5618", 1.51680), ("656.2725", 1.51432)):
+            # Thick plano-convex lens, curved side to the light: f = R/(n - 1), of which the glass takes t/n. A ray at 0.5 mm comes short by some h^2/f.
+            paraxial = 51.68 / (n - 1) - 5 / n
+            self.assertAlmostEqual(self.read("focus.json")[nm], paraxial, delta=0.01, msg=nm)
+
+
+if __name__ == "__main__":
+    unittest.main()
