@@ -39,7 +39,11 @@ Fields fields(Tag<Render>) {
        defaulted("roulette_depth", &Render::roulette_depth, {-1, 10000},
                  "Events before Russian roulette; -1 never plays it, and needs `max_depth`."),
        defaulted("seed", &Render::seed, {0, kMaxSeed}, "Chooses the random numbers."),
-       field("photons", &Render::photons)});
+       field("photons", &Render::photons),
+       defaulted(
+           "consistent", &Render::consistent,
+           "Whether `auto` may choose `vcm`, which blurs ever less from sample to sample, where light is "
+           "found by nothing else.")});
 }
 
 }  // namespace abbe::spec
@@ -56,6 +60,7 @@ RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& dia
     settings.photons = {photons->per_sample, photons->radius, photons->nearest, photons->final_gather};
     if (photons->radius) *settings.photons.radius_m *= unit_m;
   }
+  settings.consistent = render.consistent;
   return settings;
 }
 

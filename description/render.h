@@ -25,6 +25,7 @@ struct Render {
   schema::Located<int> roulette_depth{{4}, {}};
   std::uint64_t seed = 0;
   std::optional<Photons> photons;
+  bool consistent = false;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 

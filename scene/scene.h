@@ -71,6 +71,7 @@ struct RenderSettings {
   int roulette_depth = 4;  ///< Events before Russian roulette; a negative value never plays it.
   std::uint64_t seed = 0;
   PhotonSettings photons = {};
+  bool consistent = false;  ///< Whether Integrator::automatic may also choose what blurs, ever less.
 };
 
 /// Where to write, as the scene file asks; empty when it does not.
