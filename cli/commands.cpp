@@ -52,6 +52,8 @@ void add_render(CLI::App& app, Command& command) {
   add_parsed(render, "--integrator", sub->integrator,
              one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}), "Technique",
              fmt::format("{}", fmt::join(kIntegratorNames, "|")));
+  render.add_flag("--consistent", sub->consistent,
+                  "Let auto choose what blurs, ever less, where nothing else finds the light");
   add_parsed(render, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Seed of the random numbers", "N");
   add_parsed(render, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),

@@ -52,7 +52,7 @@ PlannedRender planned(const Scene& scene) {
   return render;
 }
 
-Json answer_for(const Scene& scene) {
+Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   const PlannedRender render = planned(scene);
   Json answer;
   answer["shapes"] = scene.shapes.size();
@@ -61,6 +61,8 @@ Json answer_for(const Scene& scene) {
   answer["materials"] = scene.materials.size();
   for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
   answer["because"] = scene.needs.because;
+  answer["integrator"] = {{"name", integrator_name(choice.integrator)}, {"because", choice.because}};
+  if (choice.cost_ratio) answer["integrator"]["cost_of_path_over_bdpt"] = *choice.cost_ratio;
   answer["techniques"] = Json::array();
   answer["owned"] = Json::object();
   for (const Technique technique : render.techniques) {
@@ -102,8 +104,8 @@ std::string shares_line(const Json& shares) {
 
 }  // namespace
 
-std::string describe(const Scene& scene) {
-  const Json answer = answer_for(scene);
+std::string describe(const Scene& scene, const IntegratorChoice& choice) {
+  const Json answer = answer_for(scene, choice);
   std::string lines = fmt::format(
       "{} shapes ({} triangles), {} lights, {} materials; {} x {} pixels, channels ",
       answer["shapes"].get<int>(), answer["triangles"].get<std::size_t>(), answer["lights"].get<int>(),
@@ -117,6 +119,8 @@ std::string describe(const Scene& scene) {
   lines += "skips\n";
   for (const NeedName& need : need_names())
     if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
+  lines += fmt::format("integrator   {}{}\n", integrator_name(choice.integrator),
+                       choice.because.empty() ? "" : fmt::format(" ({})", choice.because));
   lines += "techniques\n";
   for (const auto& [technique, paths] : answer["owned"].items())
     lines += fmt::format("  {:<10} {}\n", technique, paths.get<std::string>());
@@ -136,11 +140,13 @@ int info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  const IntegratorChoice choice = choose_integrator(scene, thread_count(0));
+  scene.render.integrator = choice.integrator;
   settle_white(scene, options.scene);
   if (options.json)
-    print(answer_for(scene), true);
+    print(answer_for(scene, choice), true);
   else
-    fmt::print("{}", describe(scene));
+    fmt::print("{}", describe(scene, choice));
   if (const auto refused = refusal(scene)) say(fmt::format("warning: {}", refused->what()));
   warn_of_dark_camera(scene, false);
   note_polarisation(scene.needs);

@@ -5,6 +5,7 @@
 
 #include "io/inputs.h"
 #include "scene/scene.h"
+#include "transport/render/choose_integrator.h"
 
 namespace abbe::cli {
 
@@ -18,7 +19,7 @@ struct InfoOptions {
 /// Prints what a scene contains, needs and skips. Returns the exit code.
 int info(const InfoOptions& options);
 
-/// What `abbe info` tells of a scene, in lines for reading.
-[[nodiscard]] std::string describe(const Scene& scene);
+/// What `abbe info` tells of a scene whose integrator is what was chosen, in lines for reading.
+[[nodiscard]] std::string describe(const Scene& scene, const IntegratorChoice& choice);
 
 }  // namespace abbe::cli

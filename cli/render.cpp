@@ -29,6 +29,7 @@
 #include "io/standard_stream.h"
 #include "preview/preview.h"
 #include "preview/tev_viewer.h"
+#include "transport/render/choose_integrator.h"
 #include "transport/render/collect.h"
 #include "transport/render/threads.h"
 
@@ -45,6 +46,7 @@ Scene load(const RenderOptions& options, Inputs& inputs) {
   scene.render.samples = options.samples.value_or(scene.render.samples);
   scene.render.integrator = options.integrator.value_or(scene.render.integrator);
   scene.render.seed = options.seed.value_or(scene.render.seed);
+  scene.render.consistent = scene.render.consistent || options.consistent;
   return scene;
 }
 
@@ -320,7 +322,9 @@ int render(const RenderOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   const LeaderTells silence(crew());
   Scene scene = load_together(options, inputs, crew());
+  const int threads = thread_count(options.threads);
   if (crew().rank != 0) {
+    scene.render.integrator = choose_integrator(scene, threads).integrator;
     Watchers none;
     (void)develop(scene, options, InterruptWatch(), none);
     return 0;
@@ -331,16 +335,19 @@ int render(const RenderOptions& options) {
   std::deque<FileLock> locks;
   for (const fs::path& output : files_of(outputs, options))
     if (!output.empty()) locks.emplace_back(output);
-  settle_white(scene, options.scene, thread_count(options.threads));
+  const bool leaves_integrator = scene.render.integrator == Integrator::automatic;
+  const IntegratorChoice choice = choose_integrator(scene, threads);
+  scene.render.integrator = choice.integrator;
+  settle_white(scene, options.scene, threads);
   costs.load = costs.command.spent();
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty() || !outputs.gamut.empty())
     metered(costs.display, [&] { display = display_of(scene, chosen_view(options)); })();
   if (display) require_distinct(files_of(outputs, options), display->files());
-  if (options.explain) tell(describe(scene));
+  if (options.explain) tell(describe(scene, choice));
   if (!options.quiet) note_polarisation(scene.needs);
   warn_of_dark_camera(scene, options.strict);
-  warn_of_lost_light(scene, options.strict);
+  warn_of_lost_light(scene, options.strict && !leaves_integrator);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));

@@ -30,6 +30,7 @@ struct RenderOptions {
   double checkpoint_interval_s = 60;
   bool resume = false;  ///< Goes on from the checkpoint where there is one.
   std::optional<Integrator> integrator;
+  bool consistent = false;  ///< Besides what the scene says.
   std::optional<std::uint64_t> seed;
   std::optional<Crop> crop;
   int threads = 0;

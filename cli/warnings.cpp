@@ -19,8 +19,7 @@ void warn(const std::string& message, bool is_error) {
 }  // namespace
 
 void warn_of_lost_light(const Scene& scene, bool strict) {
-  const bool chosen = scene.render.integrator != Integrator::automatic;
-  if (const auto lost = lost_light(scene)) warn(*lost, strict && chosen);
+  if (const auto lost = lost_light(scene)) warn(*lost, strict);
 }
 
 void warn_of_dark_camera(const Scene& scene, bool strict) {

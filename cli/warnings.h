@@ -5,7 +5,7 @@
 namespace abbe::cli {
 
 /// Warns on stderr of the classes of paths that the scene's integrator does not reach, whose light the image
-/// will lack. Throws Error{scene} instead, when `strict`, if the choice of an integrator may be the cause.
+/// will lack. Throws Error{scene} instead, when `strict`.
 void warn_of_lost_light(const Scene& scene, bool strict);
 
 /// Warns of a camera that stands within opaque matter where no light is: Error{scene} when `strict`.

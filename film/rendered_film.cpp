@@ -9,6 +9,7 @@
 #include "film/sensor_identity.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
+#include "transport/plan/techniques.h"
 
 namespace abbe {
 
@@ -31,6 +32,8 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
       {"integrator", integrator_name(scene.render.integrator)},
       {"replicates", fmt::format("{}", replicate_count(scene, how))},
   };
+  const std::string_view bias = bias_of(chosen_techniques(scene).front());
+  if (!bias.empty()) identity["bias"] = bias;
   identity.merge(sensor_identity(scene));
   if (!how.time_limit_s && !how.target_error)
     identity[kStatedSamplesKey] = fmt::format("{}", scene.render.samples);

@@ -15,6 +15,7 @@
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/json.h"
+#include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"
 
 namespace abbe::python {
@@ -95,8 +96,10 @@ const abbe::Scene& SceneHandle::with_white(int threads) {
   const std::scoped_lock lock(mutex_);
   if (has_white_) return scene_;
   abbe::Scene settled = scene_;
+  settled.render.integrator = choose_integrator(settled, thread_count(threads)).integrator;
   settle_white(settled, name_, thread_count(threads));
   const py::gil_scoped_acquire held;  // for those who read the scene meanwhile
+  scene_.render.integrator = settled.render.integrator;
   scene_.output = std::move(settled.output);
   has_white_ = true;
   return scene_;

@@ -19,7 +19,7 @@ class SceneHandle {
   SceneHandle(const pybind11::object& source, const pybind11::object& folder, const pybind11::dict& keywords);
 
   /// The scene without what pictures need, to be read under Python's lock; with it, once some call has
-  /// settled the white on that many threads, for callers without that lock.
+  /// settled white and integrator on that many threads, for callers without that lock.
   [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
   [[nodiscard]] const abbe::Scene& with_white(int threads);
 

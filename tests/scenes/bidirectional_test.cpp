@@ -1,5 +1,6 @@
 // Bidirectional path tracing beside the other techniques.
 #include "tests/scenes/scene_fixture.h"
+#include "transport/render/choose_integrator.h"
 #include "transport/render/render.h"
 
 namespace abbe {
@@ -51,11 +52,12 @@ TEST(Bidirectional, FindsLightThatConnectionsOfPathTracingDoNot) {
                {"name": "floor", "quad": {"corner": [-2, 0, -2], "edge_u": [0, 0, 4], "edge_v": [4, 0, 0]},
                 "material": "grey"}],
     "render": {"samples": 256, "integrator": "INTEGRATOR"}})";
-  const auto film = [&](const std::string& integrator) {
+  const auto by = [&](const std::string& integrator) {
     std::string text = scene;
     text.replace(text.find("INTEGRATOR"), 10, integrator);
-    return render(test::load_text(text), {}).film;
+    return test::load_text(text);
   };
+  const auto film = [&](const std::string& integrator) { return render(by(integrator), {}).film; };
   const Film path = film("path");
   const Film both = film("bdpt");
   const test::Comparison c = test::compare_regions(path, both, 2);
@@ -66,6 +68,9 @@ TEST(Bidirectional, FindsLightThatConnectionsOfPathTracingDoNot) {
     return sum;
   };
   EXPECT_LT(10 * variance(both), variance(path));
+  const IntegratorChoice choice = choose_integrator(by("auto"), 2);
+  EXPECT_EQ(choice.integrator, Integrator::bdpt) << choice.cost_ratio.value_or(0);
+  EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
 }
 
 }  // namespace

@@ -243,12 +243,36 @@ TEST(Media, LightScatteredOnceIsTheIntegralAlongTheLine) {
       .samples = 2048,
       .depth = R"("max_depth": 1, )"};
   const double expected = scattered_once(0.3, 0.4, forward, 0.5, 5, 95);
-  expect_near(radiances(bench), {expected, expected, expected}, 0.02, "path");
+  expect_near(radiances(bench), {expected, expected, expected}, 0.003, "path");
   // A sphere of it around the lamp alone, which the camera is outside of.
   Bench outside = bench;
   outside.shapes = ball("fog", 2);
   const double nearer = scattered_once(0.3, 0.4, forward, 0.5, 2, 2);
-  expect_near(radiances(outside), {nearer, nearer, nearer}, 0.02, "from outside");
+  expect_near(radiances(outside), {nearer, nearer, nearer}, 0.003, "from outside");
+}
+
+// The beam of a narrow spot across the line of sight, in matter whose lanes differ.
+TEST(Media, ABeamIsTheIntegralAcrossIt) {
+  constexpr double kHalfAngle_deg = 2;
+  const Bench bench{
+      .materials = R"("fog": {"medium": {"scattering_per_m": {"table": {"wavelength_nm": [440, 460, 540, 560, 640, 660],
+        "values": [0.6, 0.6, 0.3, 0.3, 0.1, 0.1], "outside": "clamp"}}, "absorption_per_m": 0.1}})",
+      .shapes = ball("fog", 100),
+      .lights = fmt::format(R"({{"spot": {{"at": [0, 0, 0.5], "direction": [0, 0, -1], "half_angle_deg": {}}},
+                                "emission": {{"spectrum": 1}}}})",
+                            kHalfAngle_deg),
+      .fov_deg = 0.01,
+      .samples = 512,
+      .depth = R"("max_depth": 1, )"};
+  const double across = 0.5 * std::tan(kHalfAngle_deg * kPi / 180);
+  std::vector<double> expected;
+  for (const double scattering : {0.6, 0.3, 0.1}) {
+    const double way = std::exp(-(scattering + 0.1) * (5 - across));
+    expected.push_back(
+        way * scattered_once(
+                  scattering, scattering + 0.1, [](double) { return 1 / (4 * kPi); }, 0.5, across, across));
+  }
+  expect_near(radiances(bench), expected, 0.003, "beam");
 }
 
 // What is far smaller than the wavelength scatters by 1/lambda^4 [Strutt1871]: the sky is blue.

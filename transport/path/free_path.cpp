@@ -21,6 +21,7 @@ void rescale(Walk& walk) {
   if (!(greatest > 0)) return;
   advance(packet, SampledSpectrum(1 / greatest), SampledSpectrum(1 / greatest));
   walk.connected *= 1 / greatest;
+  walk.stretch.lanes *= 1 / greatest;
 }
 
 // e^(-s_k x) in units of the greatest lane's, and one over that.
@@ -63,17 +64,20 @@ std::optional<SurfaceHit> surface_at(const Scene& scene, const Ray& ray, const S
 
 // Takes the walk as far as its matter lasts along `ray`, or to where the hero's optical `depth` is used up.
 // Whether it is.
-bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth) {
+bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth, const StretchVisitor& visitor) {
   const MediumAt& medium = walk.around.medium;
   if (medium.scattering == nullptr) {
     medium.attenuate(walk.packet.throughput, medium.march(ray, distance, kInfinity).column);
     return false;
   }
+  walk.stretch = {ray, medium.grid == nullptr ? distance : 0, walk.packet.lane_pdf.sum()};
+  if (visitor && walk.stretch.length > 0) visitor(walk.stretch);
   const float extinction = medium.extinction_per_m[walk.packet.hero];
   const GridStretch way = medium.march(ray, distance, extinction > 0 ? depth / extinction : kInfinity);
   const Passed passed = pass(medium, way.column);
   if (way.reached) {
     advance(walk.packet, passed.lanes * medium.scattering_per_m, passed.lanes * medium.extinction_per_m);
+    walk.stretch.lanes *= passed.unit;
     rescale(walk);
     walk.ray.origin = ray.origin + ray.direction * way.distance;
     return true;
@@ -88,13 +92,13 @@ bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth) {
 }  // namespace
 
 bool propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
-               std::optional<SurfaceHit>& hit) {
+               std::optional<SurfaceHit>& hit, const StretchVisitor& visitor) {
   constexpr float kDigits = 0x1p-24F;  // of a random number
   float depth = -std::log1p(-std::min(u.x + (u.y + 0.5F * kDigits) * kDigits, 1 - kDigits));
   Ray ray = walk.ray;
   float gone = 0;  // to its origin
   while (true) {
-    if (scatters_on(walk, ray, hit ? hit->t : kInfinity, depth)) return true;
+    if (scatters_on(walk, ray, hit ? hit->t : kInfinity, depth, visitor)) return true;
     if (!hit) return false;
     if (const std::optional<SurfaceHit> surface = surface_at(scene, ray, *hit)) {
       hit = surface;

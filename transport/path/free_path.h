@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "transport/path/ray_caster.h"
@@ -12,6 +13,9 @@ namespace abbe {
   return scene.needs.scattering || scene.needs.boundaries;
 }
 
+/// Is told of each stretch of even matter that scatters which a walk comes to, as it is at its origin.
+using StretchVisitor = std::function<void(const Stretch&)>;
+
 /// Takes a walk along its ray, whose nearest hit is `hit`, to its next event: at a surface, which `hit` then
 /// is, out of the scene, or in matter that scatters it. Boundaries of matter are passed. The ray goes on
 /// starting where it does unless matter scatters. Returns whether that is so: the event lies within matter,
@@ -22,7 +26,7 @@ namespace abbe {
 /// density of scattering there is s_k e^(-s_k x), that of passing e^(-s_k x), and the lanes are balanced over
 /// these as over densities of directions. [Wilkie2014, sec. 4.2]
 [[nodiscard]] bool propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
-                             std::optional<SurfaceHit>& hit);
+                             std::optional<SurfaceHit>& hit, const StretchVisitor& visitor = {});
 
 /// What is left of light on a straight way that nothing blocks, and with which density `propagate` would have
 /// come that way, lane by lane.

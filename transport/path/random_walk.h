@@ -103,7 +103,8 @@ class RandomWalks {
   bool advance_path(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
     if (has_free_paths_) {
       const std::array<float, 4> u = path.sampler.group(free_path_group(path.events));
-      if (propagate(scene_, caster_, {u[0], u[1]}, path, hit)) return scatter_within(technique, path);
+      if (propagate(scene_, caster_, {u[0], u[1]}, path, hit, visitor(technique, path, {u[2], u[3]})))
+        return scatter_within(technique, path);
     } else if (hit) {
       path.around.medium.attenuate(path.packet.throughput, hit->t);
     }
@@ -119,6 +120,14 @@ class RandomWalks {
     technique.meet(path, *hit);
     const SurfaceVertex vertex(scene_, *hit, met, path);
     return !is_black(vertex.bsdf) && !is_cut(technique, path) && leave(technique, path, vertex);
+  }
+
+  // What a technique does along matter that scatters, if anything.
+  StretchVisitor visitor(Technique& technique, Path& path, const Imath::V2f& u) const {
+    if constexpr (requires { technique.connects_along(); })
+      if (technique.connects_along() && path.events < most_events_)
+        return [&technique, &path, u](const Stretch& stretch) { technique.connect_along(path, stretch, u); };
+    return {};
   }
 
   bool scatter_within(Technique& technique, Path& path) {

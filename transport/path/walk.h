@@ -19,6 +19,13 @@ struct LightSampleContext {
   [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
 };
 
+/// A stretch of even matter that scatters, along a ray from its origin, and what a path has come there with.
+struct Stretch {
+  Ray ray;
+  float length = 0;  ///< [m], perhaps infinite; 0 where there is none.
+  float lanes = 0;   ///< Sum of the lane densities at its origin, in the unit of the path's.
+};
+
 /// A path of either direction under way: the ray it leaves its last vertex on, and all that is needed to go
 /// on from there.
 struct Walk {
@@ -34,6 +41,7 @@ struct Walk {
   float connected = 0;
   LightSampleContext last;  ///< The vertex it left.
   Surroundings around;
+  Stretch stretch;  ///< In which it was scattered, after an event within matter.
 
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
 };

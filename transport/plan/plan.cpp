@@ -68,6 +68,14 @@ std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& 
   return powers;
 }
 
+// Lamps at points, whose light falls off with the square of the distance wherever it is scattered.
+PowerLightSampler lamps_along_matter(const Scene& scene, const Emissions& emissions) {
+  std::vector<double> powers = sensor_weighted_powers(scene, emissions);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (!scene.needs.scattering || !scene.lights[i].is<PointLight, SpotLight>()) powers[i] = 0;
+  return PowerLightSampler(powers);
+}
+
 WavelengthDistribution make_wavelengths(const Scene& scene, std::span<const Curve> emissions) {
   std::vector<Curve> responses;
   for (const Channel& channel : scene.channels) responses.push_back(envelope(channel));
@@ -134,6 +142,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
       around_camera(scene),
       std::vector<MediumStack>(traces_light ? scene.lights.size() : 0),
       static_cast<float>(first_gather_radius(scene, photons))};
+  if (uses(plan.techniques, Technique::path)) plan.lights_along = lamps_along_matter(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
   if (traces_light && plan.traced_lights.empty()) {

@@ -34,6 +34,8 @@ struct Plan {
   MediumStack camera_inside;                            ///< Where camera paths start,
   std::vector<MediumStack> light_inside;                ///< and photons, likewise.
   float gather_radius = 0;                              ///< Of the first sample [m].
+  /// Those at points that camera paths connect to along matter that scatters.
+  PowerLightSampler lights_along{std::vector<double>()};
   /// Where camera paths look for the caustics of lights that photons are not traced from,
   CausticGuide caustics_of_paths = {};
   /// and of all lights that they can meet, once they have come through specular matter from the camera.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "transport/path/equiangular.h"
 #include "transport/path/mis_weight.h"
 
 namespace abbe {
@@ -162,9 +163,49 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   ways_.push_back(way_to(ray, chosen->towards));
 }
 
+// With which `connect_along` would have connected that place of the stretch to the light.
+float PathTracer::pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const {
+  const float picked = plan_.lights_along.probability(light);
+  if (!(picked > 0)) return 0;
+  const auto part = Equiangular::along(stretch.ray, stretch.length, scene_.lights[light]);
+  return part ? picked * part->pdf(distance) : 0;
+}
+
+// At t along matter of the extinction s_k and scattering s'_k, with q the probability of the light and p the
+// density of t, the light brought to the path is
+//     w sum_j [T_j / P_hero] s'_j e^(-s_j t) f_phase L_e / (q p),
+// balanced with what comes of scattering there, of the density s_k e^(-s_k t), and connecting then.
+void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const Imath::V2f& u) {
+  const PowerLightSampler::SampledLight pick = plan_.lights_along.pick(u.x);
+  const Light& light = scene_.lights[pick.light];
+  const auto part = Equiangular::along(stretch.ray, stretch.length, light);
+  if (!part) return;
+  const float t = part->sample(u.y);
+  const Imath::V3f point = stretch.ray.origin + stretch.ray.direction * t;
+  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {0, 0});
+  if (!towards) return;
+  const MediumAt& medium = path.around.medium;
+  SampledSpectrum passed(1.0F);
+  medium.attenuate(passed, t);
+  const Imath::V3f& wi = towards->wi;
+  const SampledSpectrum contribution =
+      path.packet.throughput * passed * medium.scattering_per_m * emission_from(light, wi, path.lambda_nm()) *
+      (pdf(medium.scattering->phase, stretch.ray.direction, wi) * towards->factor);
+  const float scattered = (path.packet.lane_pdf * passed * medium.extinction_per_m).sum() /
+                          path.packet.lane_pdf.sum() *
+                          plan_.path_lights.probability(pick.light, point, nullptr) * towards->pdf;
+  connect_through_media(path, {pick.light, light, *towards, pick.probability * part->pdf(t) + scattered},
+                        contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
+                        path.at.cos_film);
+}
+
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
-  const std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u);
+  std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u);
   if (!chosen) return;
+  if (connects_along() && path.stretch.length > 0)
+    chosen->pdf +=
+        pdf_along(path.stretch, (path.ray.origin - path.stretch.ray.origin).length(), chosen->index) *
+        path.stretch.lanes / path.packet.lane_pdf.sum();
   const Imath::V3f& wi = chosen->towards.wi;
   const SampledSpectrum turned(pdf(phase, path.ray.direction, wi));
   const SampledSpectrum contribution =

@@ -59,6 +59,9 @@ class PathTracer {
   void reach(CameraPath& path, const SurfaceVertex& vertex) const;
   void connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  // Lamps at points are connected to from places along stretches of matter too, where they are near.
+  [[nodiscard]] bool connects_along() const { return !plan_.lights_along.empty(); }
+  void connect_along(CameraPath& path, const Stretch& stretch, const Imath::V2f& u);
   [[nodiscard]] std::optional<BsdfSample> scatter(CameraPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
     return path.caustics.empty() ? vertex.scatter(u, path.packet.hero, kMode)
@@ -97,6 +100,7 @@ class PathTracer {
   bool start(const PixelSample& sample, CameraPath& path);
   [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
                                                         const std::array<float, 4>& u) const;
+  [[nodiscard]] float pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const;
   [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
                                      const Imath::V3f& normal) const;
   [[nodiscard]] bool owned_by_photons(const CameraPath& path, std::uint32_t light) const;

@@ -54,6 +54,7 @@ const std::vector<BenchSuite>& bench_suites() {
          R"({"name": "pane", "quad": {"corner": [1.5, 0.1, -6], "edge_u": [4, 0, 2], "edge_v": [0, 4, 0]}, )"
          R"("material": "pane"})"}}},
       {"bulb", "a lamp in a bulb of glass", "bench/bulb.json"},
+      {"beam", "the beam of a spot in fog, seen from the side", "bench/beam.json"},
       {"metals", "balls of polished and rough metal under a lamp and a sky", "bench/metals.json"},
       {"many-lights", "a hall with ten thousand lamps", "bench/hall.json", {{"/lights", make_lamps(100)}}},
       {"mesh",

@@ -1,0 +1,217 @@
+#include "transport/render/technique_pilots.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "transport/render/pilot.h"
+#include "transport/render/threads.h"
+#include "transport/technique/bidirectional.h"
+#include "transport/technique/light.h"
+#include "transport/technique/path.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uint32_t kPathsPerPixel = 8;
+constexpr std::uint32_t kPhotonsPerPixel = 2 * kPathsPerPixel;
+constexpr std::uint32_t kBatches = 64;
+constexpr int kGrid = 16;  // regions along an edge of the film
+
+// What the pilots found in one region, a value being the sum of |film value| over the channels.
+struct Region {
+  double pixels = 0;        // that camera paths went through
+  double mean = 0;          // sum over them of the mean,
+  double variance = 0;      // of the variance of a path,
+  double path_squares = 0;  // and of the mean square
+  double photons = 0;       // sum of all splats of photons that each stand for all of a sample's,
+  double squares = 0;       // and of their squares
+};
+
+struct Findings {
+  std::array<Region, static_cast<std::size_t>(kGrid) * kGrid> regions;
+  double photons_traced = 0;
+  std::uint64_t path_rays = 0;
+  std::uint64_t photon_rays = 0;
+
+  Region& at(const Camera& camera, int x, int y) {
+    return regions[static_cast<std::size_t>(y * kGrid / camera.height * kGrid + x * kGrid / camera.width)];
+  }
+  void add(const Findings& more) {
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      regions[i].pixels += more.regions[i].pixels;
+      regions[i].mean += more.regions[i].mean;
+      regions[i].variance += more.regions[i].variance;
+      regions[i].path_squares += more.regions[i].path_squares;
+      regions[i].photons += more.regions[i].photons;
+      regions[i].squares += more.regions[i].squares;
+    }
+    photons_traced += more.photons_traced;
+    path_rays += more.path_rays;
+    photon_rays += more.photon_rays;
+  }
+  void add_splat(const Camera& camera, const FilmPoint& at_film, double value) {
+    Region& region = at(camera, at_film.x, at_film.y);
+    region.photons += value;
+    region.squares += value * value;
+  }
+};
+
+double strength(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values) sum += std::abs(v);
+  return std::isfinite(sum) ? sum : 0;
+}
+
+// The pixel that a pilot looks at.
+std::pair<int, int> pixel_of(const Camera& camera, std::uint32_t pilot) {
+  const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 1, pilot).group(0);
+  return {std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1),
+          std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1)};
+}
+
+Sampler path_sampler(std::uint32_t pilot, std::uint32_t path) {
+  return {kSeedOfPilots, Purpose::pilot, 1, pilot, path};
+}
+
+using PathValues = std::array<double, kPathsPerPixel>;  // of the paths through one pixel
+
+void add_paths(const PathValues& values, Region& region) {
+  double sum = 0;
+  double squares = 0;
+  for (const double value : values) {
+    sum += value;
+    squares += value * value;
+  }
+  region.pixels += 1;
+  region.mean += sum / kPathsPerPixel;
+  region.path_squares += squares / kPathsPerPixel;
+  region.variance += std::max(0.0, squares - sum * sum / kPathsPerPixel) / (kPathsPerPixel - 1);
+}
+
+void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, Findings& found) {
+  const auto [x, y] = pixel_of(camera, pilot);
+  std::vector<PixelSample> samples;
+  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i) samples.push_back({x, y, path_sampler(pilot, i)});
+  PathValues values{};
+  tracer.trace(samples, [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
+    values[path] += strength(more);
+  });
+  add_paths(values, found.at(camera, x, y));
+}
+
+void try_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch, std::uint32_t photons_of_all,
+                 Findings& found) {
+  std::vector<Sampler> photons;
+  for (std::uint32_t i = batch; i < photons_of_all; i += kBatches)
+    photons.emplace_back(kSeedOfPilots, Purpose::pilot, 2, 0, i);
+  tracer.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+    found.add_splat(camera, at, strength(values));
+  });
+  found.photons_traced += static_cast<double>(photons.size());
+}
+
+// Of what a path from a light exposes, other pixels count as those of a photon.
+void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pilot, Findings& found) {
+  const Camera& camera = plan.scene.camera;
+  const auto [x, y] = pixel_of(camera, pilot);
+  std::vector<PixelPair> pairs;
+  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i)
+    pairs.push_back({x,
+                     y,
+                     path_sampler(pilot, i),
+                     {kSeedOfPilots, Purpose::pilot, 2, 0, pilot * kPathsPerPixel + i},
+                     true});
+  PathValues values{};
+  tracer.trace(pairs, [&](std::uint32_t pair, const FilmPoint& at, std::span<const double> more) {
+    if (at.x == pairs[pair].x && at.y == pairs[pair].y)
+      values[pair] += strength(more);
+    else
+      found.add_splat(camera, at, strength(more) * static_cast<double>(plan.photons));
+  });
+  found.photons_traced += kPathsPerPixel;
+  add_paths(values, found.at(camera, x, y));
+}
+
+Findings try_batch(const Plan& plan, std::uint32_t batch, std::uint32_t pixels) {
+  Findings found;
+  RayCaster path_caster(plan.scene);
+  RayCaster photon_caster(plan.scene);
+  if (uses(plan.techniques, Technique::bdpt)) {
+    BidirectionalTracer tracer(plan, path_caster);
+    for (std::uint32_t i = batch; i < pixels; i += kBatches) try_joined(tracer, plan, i, found);
+  }
+  if (uses(plan.techniques, Technique::path)) {
+    PathTracer tracer(plan, path_caster);
+    for (std::uint32_t i = batch; i < pixels; i += kBatches) try_paths(tracer, plan.scene.camera, i, found);
+  }
+  if (uses(plan.techniques, Technique::light)) {
+    LightTracer tracer(plan, photon_caster, 1);
+    try_photons(tracer, plan.scene.camera, batch, pixels * kPhotonsPerPixel, found);
+  }
+  found.path_rays = path_caster.rays();
+  found.photon_rays = photon_caster.rays();
+  return found;
+}
+
+Findings try_all(const Plan& plan, int threads, std::uint32_t pixels) {
+  std::vector<Findings> batches(kBatches);
+  std::atomic<std::uint32_t> next = 0;
+  run_on_threads(threads, [&] {
+    for (std::uint32_t batch = next++; batch < kBatches; batch = next++)
+      batches[batch] = try_batch(plan, batch, pixels);
+  });
+  Findings all;
+  for (const Findings& batch : batches) all.add(batch);  // in their order, whichever threads traced them
+  return all;
+}
+
+// How many pixels each region has: none, where the film has fewer along an edge than there are regions.
+std::vector<double> region_sizes(const Camera& camera) {
+  const auto cut = [](int film, int region) { return (region * film + kGrid - 1) / kGrid; };
+  std::vector<double> sizes;
+  for (int y = 0; y < kGrid; ++y)
+    for (int x = 0; x < kGrid; ++x)
+      sizes.push_back(static_cast<double>(cut(camera.width, x + 1) - cut(camera.width, x)) *
+                      (cut(camera.height, y + 1) - cut(camera.height, y)));
+  return sizes;
+}
+
+PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_t tried) {
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  const double photons = std::max(1.0, found.photons_traced);
+  const auto mean = [&](const Region& region, double size) {
+    return (region.pixels > 0 ? region.mean / region.pixels : 0) + region.photons / (photons * size);
+  };
+  const std::vector<double> sizes = region_sizes(camera);
+  double film_mean = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (sizes[i] > 0) film_mean += mean(found.regions.at(i), sizes[i]) * sizes[i] / pixels;
+  constexpr double kFloor = 0.01;  // of the film's mean, squared
+  PilotFindings told;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const Region& region = found.regions.at(i);
+    const double scale =
+        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kFloor * film_mean * film_mean : 0;
+    if (!(scale > 0)) continue;
+    told.photon_variance += region.squares / (photons * pixels) / scale;
+    if (!(region.pixels > 0)) continue;
+    told.path_variance += sizes[i] * region.variance / region.pixels / scale;
+    told.path_square += sizes[i] * region.path_squares / region.pixels / scale;
+  }
+  told.path_rays = static_cast<double>(found.path_rays) / (tried * kPathsPerPixel);
+  told.photon_rays = static_cast<double>(found.photon_rays) / photons;
+  return told;
+}
+
+}  // namespace
+
+PilotFindings try_techniques(const Plan& plan, int threads, std::uint32_t pixels) {
+  return relative(try_all(plan, threads, pixels), plan.scene.camera, pixels);
+}
+
+}  // namespace abbe

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "transport/plan/plan.h"
+
+namespace abbe {
+
+/// What pilots find of the techniques of a plan. Variances and squares are of film values, the sum of their
+/// magnitudes over the channels, relative to the squared mean of a sixteenth of the film's edges around, as
+/// relMSE takes them, and summed over the pixels.
+struct PilotFindings {
+  double path_variance = 0;    ///< Of a camera path through each pixel,
+  double path_square = 0;      ///< and the mean square.
+  double photon_variance = 0;  ///< Of as many photons as pixels.
+  double path_rays = 0;        ///< Of one camera path,
+  double photon_rays = 0;      ///< and of one photon; none where both are traced as one.
+};
+
+/// Tries the techniques of a plan, path tracing and light tracing or bidirectional path tracing, by eight
+/// camera paths through each of so many pixels, and twice as many photons, of bidirectional path tracing as
+/// many as camera paths, whose splats count as those of photons. Costs are rays counted: what is found
+/// depends on nothing but the plan.
+[[nodiscard]] PilotFindings try_techniques(const Plan& plan, int threads, std::uint32_t pixels = 4096);
+
+}  // namespace abbe
