@@ -255,7 +255,8 @@ TEST(Media, LightScatteredOnceIsTheIntegralAlongTheLine) {
 TEST(Media, ABeamIsTheIntegralAcrossIt) {
   constexpr double kHalfAngle_deg = 2;
   const Bench bench{
-      .materials = R"("fog": {"medium": {"scattering_per_m": {"table": {"wavelength_nm": [440, 460, 540, 560, 640, 660],
+      .materials =
+          R"("fog": {"medium": {"scattering_per_m": {"table": {"wavelength_nm": [440, 460, 540, 560, 640, 660],
         "values": [0.6, 0.6, 0.3, 0.3, 0.1, 0.1], "outside": "clamp"}}, "absorption_per_m": 0.1}})",
       .shapes = ball("fog", 100),
       .lights = fmt::format(R"({{"spot": {{"at": [0, 0, 0.5], "direction": [0, 0, -1], "half_angle_deg": {}}},

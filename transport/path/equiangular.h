@@ -8,8 +8,8 @@
 namespace abbe {
 
 /// A stretch of a ray through matter, from its origin, which a light at a point may light: the part of it
-/// that lies within the light's cone, if that is less than a half space, and the density there that is even in the angle under which the light
-/// sees it,
+/// that lies within the light's cone, if that is less than a half space, and the density there that is even
+/// in the angle under which the light sees it,
 ///     p(t) = D / ((theta_b - theta_a) (D^2 + t^2)),
 /// t being measured from where the ray passes the light at the distance D [Kulla2012]. So 1/d^2 of what the
 /// light sends cancels.
