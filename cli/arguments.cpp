@@ -110,6 +110,13 @@ Crop parse_crop(const std::string& option, const std::string& text) {
   return *crop;
 }
 
+std::vector<Feature> parse_feature_list(const std::string& option, const std::string& text) {
+  const std::optional<std::vector<Feature>> features = parse_features(text);
+  if (!features)
+    refuse(option, "\"" + text + "\"", fmt::format("names out of {}", fmt::join(kFeatureNames, ", ")));
+  return *features;
+}
+
 SampleRange parse_sample_range(const std::string& option, const std::string& text) {
   const std::optional<SampleRanges> ranges = parse_sample_ranges(text);
   if (!ranges || ranges->size() != 1) refuse(option, "\"" + text + "\"", "whole numbers a:b with a < b");

@@ -38,6 +38,8 @@ namespace abbe::cli {
 [[nodiscard]] CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.
 [[nodiscard]] Crop parse_crop(const std::string& option, const std::string& text);
+/// Names of features, separated by commas.
+[[nodiscard]] std::vector<Feature> parse_feature_list(const std::string& option, const std::string& text);
 /// "a:b", whole numbers with a < b.
 [[nodiscard]] SampleRange parse_sample_range(const std::string& option, const std::string& text);
 /// "port" or "address:port", an address of IPv6 in brackets; without one this machine alone.

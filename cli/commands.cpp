@@ -59,6 +59,11 @@ void add_render(CLI::App& app, Command& command) {
   add_parsed(render, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
              "Threads, 0 for one per processor", "N");
   add_parsed(render, "--crop", sub->crop, parse_crop, "Part of the film to render, in pixels", "X0,Y0,X1,Y1");
+  add_parsed(
+      render, "--aov", sub->features, parse_feature_list,
+      "Also tell, of the surface that each pixel sees first, some of: depth (depth.Z), position (P), normal (N), "
+      "shading-normal (Ns), albedo (Albedo), id (Id), and the share of samples that see one (Coverage)",
+      "NAME[,NAME...]");
   add_overrides(render, sub.options, "Replace a value of the scene file; may be repeated");
   CLI::Option* range = add_parsed(render, "--sample-range", sub->sample_range, parse_sample_range,
                                   "Render only samples A to B - 1 of every pixel", "A:B");

@@ -45,7 +45,7 @@ Headers read_headers(const MergeOptions& options) {
   std::optional<Headers> all;
   for (const fs::path& path : options.parts) {
     PartHeader part = read_part_header(path);
-    const std::size_t bytes = bytes_of_sums(part.shape);
+    const std::size_t bytes = bytes_of_sums(part);
     if (options.crop && !contains(*options.crop, pixels_of(part.shape)))
       throw Error(ErrorCode::input, path.string(),
                   fmt::format("has pixels beyond --crop (got {}, allowed {})", to_text(pixels_of(part.shape)),
@@ -63,8 +63,7 @@ Headers read_headers(const MergeOptions& options) {
 // Beside the sum are the film of a part and the bytes it is read from.
 RenderPart sum_of(const MergeOptions& options, const Headers& headers) {
   Inputs inputs(options.max_memory_bytes);
-  inputs.take_memory(options.parts.front().string(),
-                     bytes_of_sums(headers.sum.shape) + 2 * headers.largest_bytes);
+  inputs.take_memory(options.parts.front().string(), bytes_of_sums(headers.sum) + 2 * headers.largest_bytes);
   RenderPart sum = empty_part(headers.sum);
   for (const fs::path& path : options.parts) abbe::merge(sum, read_part(path), path);
   return sum;

@@ -111,6 +111,7 @@ abbe::RenderOptions how_to_render(const RenderOptions& options) {
   how.time_limit_s = options.time_limit_s;
   how.target_error = options.target_error;
   how.crop = options.crop;
+  how.features = options.features;
   how.samples = options.sample_range;
   how.checkpoint_interval_s = options.checkpoint_interval_s;
   how.measure_error = !options.stats.empty();

@@ -33,6 +33,7 @@ struct RenderOptions {
   bool consistent = false;  ///< Besides what the scene says.
   std::optional<std::uint64_t> seed;
   std::optional<Crop> crop;
+  std::vector<Feature> features;  ///< Of the first surfaces that are met, as channels of the film.
   int threads = 0;
   std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "film/build_id.h"
 #include "film/sensor_identity.h"
@@ -12,6 +13,21 @@
 #include "transport/plan/techniques.h"
 
 namespace abbe {
+namespace {
+
+constexpr std::size_t kMostShapes = 1024;
+
+// What features are told, and by what names the shapes go that ids are numbers of.
+void add_features(const Scene& scene, const std::vector<Feature>& features, FilmIdentity& identity) {
+  identity[kFeaturesKey] = to_text(features);
+  const bool ids = std::find(features.begin(), features.end(), Feature::id) != features.end();
+  if (!ids || scene.shapes.size() > kMostShapes) return;
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const ShapeInstance& shape : scene.shapes) names.push_back(shape.name);
+  identity[kShapeNamesKey] = names.dump();
+}
+
+}  // namespace
 
 const char* integrator_name(Integrator integrator) {
   return kIntegratorNames.at(static_cast<std::size_t>(integrator));
@@ -39,16 +55,18 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
     identity[kStatedSamplesKey] = fmt::format("{}", scene.render.samples);
   if (how.crop && *how.crop != Crop{0, 0, scene.camera.width, scene.camera.height})
     identity[kCropKey] = to_text(*how.crop);
+  if (!how.features.empty()) add_features(scene, how.features, identity);
   return identity;
 }
 
 std::size_t film_bytes(const Scene& scene, const RenderOptions& how) {
-  return bytes_of_sums({.width = scene.camera.width,
+  const FilmShape shape{.width = scene.camera.width,
                         .height = scene.camera.height,
                         .channels = static_cast<int>(scene.film_planes().size()),
                         .replicates = replicate_count(scene, how),
                         .unit_exponent = 0,
-                        .crop = how.crop});
+                        .crop = how.crop};
+  return bytes_of_sums(shape) + bytes_of_features(how.features, shape);
 }
 
 void write_film(const std::filesystem::path& path, const RenderPart& part) {

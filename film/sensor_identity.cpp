@@ -97,7 +97,9 @@ Image film_image(Image planes) {
 }
 
 Image film_image(const RenderPart& part) {
-  return film_image(image_of(part));
+  Image image = film_image(image_of(part));
+  add_features(image, part);
+  return image;
 }
 
 Image shown_film(const Scene& scene, Image film) {

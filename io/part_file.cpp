@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/sha256.h"
 #include "io/text.h"
 
 namespace abbe {
@@ -37,8 +38,8 @@ std::string header_text(const std::map<std::string, std::string>& header) {
   return text;
 }
 
-std::string hash(const std::map<std::string, std::string>& header, std::string_view bytes) {
-  return sha256(sha256(header_text(header)) + sha256(bytes));
+std::string hash(const std::map<std::string, std::string>& header, std::span<const std::string_view> pieces) {
+  return sha256(sha256(header_text(header)) + sha256_of_pieces(pieces));
 }
 
 // The format's line, then `key: value` lines up to an empty one.
@@ -104,19 +105,29 @@ OpenPartFile open_part_file(const fs::path& path) {
 }  // namespace
 
 void write_part_file(const fs::path& path, const std::map<std::string, std::string>& header,
-                     std::string_view bytes) {
+                     std::span<const std::string_view> pieces) {
+  std::size_t size = 0;
+  for (const std::string_view piece : pieces) size += piece.size();
   const std::string start = fmt::format("{}\n{}{}: {}\n{}: {}\n\n", kFormat, header_text(header), kBytes,
-                                        bytes.size(), kHash, hash(header, bytes));
+                                        size, kHash, hash(header, pieces));
   if (start.size() > kMaxHeaderBytes)
     throw Error(ErrorCode::internal, path.string(), "a header too long for a part file");
-  write_atomically(path, std::array{std::string_view(start), bytes});
+  std::vector<std::string_view> all{start};
+  all.insert(all.end(), pieces.begin(), pieces.end());
+  write_atomically(path, all);
+}
+
+void write_part_file(const fs::path& path, const std::map<std::string, std::string>& header,
+                     std::string_view bytes) {
+  write_part_file(path, header, std::span(&bytes, 1));
 }
 
 PartFile read_part_file(const fs::path& path) {
   OpenPartFile open = open_part_file(path);
   PartFile part{std::move(open.header), std::string(open.byte_count, '\0')};
   open.file.read(part.bytes.data(), static_cast<std::streamsize>(open.byte_count));
-  if (!open.file || hash(part.header, part.bytes) != open.hash)
+  const std::string_view bytes = part.bytes;
+  if (!open.file || hash(part.header, std::span(&bytes, 1)) != open.hash)
     refuse(path, "damaged: its contents do not have the hash it states");
   return part;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,10 @@ struct PartFile {
   std::string bytes;
 };
 
-/// Writes header and bytes to `path`, atomically. Throws Error{output}, and Error{internal} for a header that
-/// could not be read back.
+/// Writes header and bytes, of pieces one after another, to `path`, atomically. Throws Error{output}, and
+/// Error{internal} for a header that could not be read back.
+void write_part_file(const std::filesystem::path& path, const std::map<std::string, std::string>& header,
+                     std::span<const std::string_view> pieces);
 void write_part_file(const std::filesystem::path& path, const std::map<std::string, std::string>& header,
                      std::string_view bytes);
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "io/sha256.h"
 #include "io/standard_stream.h"
 
 namespace abbe {
@@ -167,10 +168,7 @@ std::string user_source(const SourceText& text) {
 }
 
 std::string sha256(std::string_view bytes) {
-  std::array<unsigned char, 32> digest;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorCode::internal, "", "SHA-256 is not available");
-  return fmt::format("{:02x}", fmt::join(digest, ""));
+  return sha256_of_pieces(std::span(&bytes, 1));
 }
 
 }  // namespace abbe

@@ -40,11 +40,17 @@ struct CompensatedSum {
   }
 };
 
+template <typename SumOf>
+double total_of(std::size_t replicates, SumOf sum_of) {
+  double total = 0;
+  for (std::size_t r = 0; r < replicates; ++r) total += sum_of(static_cast<int>(r));
+  return total;
+}
+
 // Mean, and its variance, of what has the sums `sum_of(replicate)` of so many samples each.
 template <typename SumOf>
 double mean_of(std::span<const std::uint64_t> samples, SumOf sum_of) {
-  double total = 0;
-  for (std::size_t r = 0; r < samples.size(); ++r) total += sum_of(static_cast<int>(r));
+  const double total = total_of(samples.size(), sum_of);
   const std::uint64_t count = std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
   return count == 0 ? 0 : total / static_cast<double>(count);
 }
@@ -177,6 +183,11 @@ int Film::filled_replicates() const {
 
 double Film::value(std::size_t pixel, int replicate, int channel) const {
   return from_fixed(sums_[index(pixel, replicate) + static_cast<std::size_t>(channel)], shape_.unit_exponent);
+}
+
+double Film::total(std::size_t pixel, int channel) const {
+  if (!has(pixel)) return 0;
+  return total_of(samples_.size(), [&](int r) { return value(pixel, r, channel); });
 }
 
 double Film::mean(std::size_t pixel, int channel) const {

@@ -73,6 +73,8 @@ class Film {
   [[nodiscard]] std::string_view bytes() const;
   [[nodiscard]] static std::optional<Film> from_bytes(const FilmShape& shape, std::string_view bytes);
 
+  /// Sum of a pixel's channel over its samples, 0 beyond the crop.
+  [[nodiscard]] double total(std::size_t pixel, int channel) const;
   /// Mean of a pixel's channel, and the variance of that mean (0 with fewer than two replicates).
   [[nodiscard]] double mean(std::size_t pixel, int channel) const;
   [[nodiscard]] double variance(std::size_t pixel, int channel) const;

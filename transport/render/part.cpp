@@ -27,8 +27,8 @@ constexpr const char* kSamples = "samples";
 constexpr const char* kAreas = "areas";  // in place of samples, where the pixels do not all have the same
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
-constexpr std::array<std::string_view, 6> kTellNothing{"scene",   kStatedSamplesKey, "to_xyz_d65",
-                                                       kWhiteKey, kWhiteXyKey,       kLightsXyKey};
+constexpr std::array<std::string_view, 7> kTellNothing{
+    "scene", kStatedSamplesKey, "to_xyz_d65", kWhiteKey, kWhiteXyKey, kLightsXyKey, kShapeNamesKey};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>
@@ -59,6 +59,16 @@ std::optional<FilmShape> parse_shape(const std::string& text) {
                         shape.height <= kMaxImageEdge && shape.channels > 0 && shape.channels <= 1 << 14 &&
                         shape.replicates > 0 && shape.replicates <= 1 << 14;
   return possible ? std::optional(shape) : std::nullopt;
+}
+
+std::vector<std::string> film_planes(const FilmIdentity& identity) {
+  return split(identity.at("sensor_channels"), ',');
+}
+
+// Those it tells, none where it tells none; nothing for what are no features.
+std::optional<std::vector<Feature>> features_of(const FilmIdentity& identity) {
+  const auto told = identity.find(kFeaturesKey);
+  return told == identity.end() ? std::vector<Feature>() : parse_features(told->second);
 }
 
 std::string take(FilmIdentity& header, const char* key) {
@@ -115,7 +125,8 @@ std::optional<ParsedHeader> parse_header(FilmIdentity header) {
   const auto cut_sum = parse_numbers<std::uint64_t>(take(header, kCutSum), 2);
   const bool named =
       split(header["sensor_channels"], ',').size() == static_cast<std::size_t>(shape ? shape->channels : 0);
-  if (!shape || !counts || !cut_sum || !named || !read_crop(header, *shape)) return std::nullopt;
+  if (!shape || !counts || !cut_sum || !named || !features_of(header) || !read_crop(header, *shape))
+    return std::nullopt;
   ParsedHeader parsed{{{}, *shape, {}}};
   if (!take_samples(header, parsed)) return std::nullopt;
   parsed.header.identity = std::move(header);
@@ -176,12 +187,13 @@ void count_done_tiles(const fs::path& path, ParsedHeader& parsed) {
   set_crop(header, bounds(header.areas));
 }
 
-// What the pixels of a crop have of a film.
-Film cropped(Film film, const FilmShape& shape) {
-  if (shape == film.shape()) return film;
+// What the pixels of a crop have of the films.
+void crop_to(const FilmShape& shape, RenderResult& result) {
+  if (shape == result.film.shape()) return;
   Film crop(shape);
-  crop.add(film);
-  return crop;
+  crop.add(result.film);
+  result.film = std::move(crop);
+  if (result.features) result.features = result.features->cropped(shape);
 }
 
 SampledAreas areas_of(const RenderPart& part) {
@@ -201,12 +213,30 @@ void set_areas(RenderPart& part, SampledAreas areas) {
   part.areas = everywhere ? SampledAreas{} : std::move(areas);
 }
 
-std::pair<ParsedHeader, Film> read_sums(const fs::path& path) {
+/// All that a file holds.
+struct ParsedPart {
+  ParsedHeader parsed;
+  RenderResult result;
+};
+
+// The film's sums come first, then those of its features.
+ParsedPart read_sums(const fs::path& path) {
   PartFile file = read_part_file(path);
   auto parsed = parse_header(std::move(file.header));
-  auto film = parsed ? Film::from_bytes(parsed->header.shape, file.bytes) : std::nullopt;
+  if (!parsed) refuse_contents(path);
+  const auto& [identity, shape, areas] = parsed->header;
+  const std::string_view bytes = file.bytes;
+  auto film = Film::from_bytes(shape, bytes.substr(0, bytes_of_sums(shape)));
   if (!film) refuse_contents(path);
-  return {*std::move(parsed), *std::move(film)};
+  RenderResult result{*std::move(film), {}, parsed->stats};
+  if (const auto features = features_of(identity); !features->empty()) {
+    result.features =
+        FeatureFilm::from_bytes(*features, shape, film_planes(identity), bytes.substr(bytes_of_sums(shape)));
+    if (!result.features) refuse_contents(path);
+  } else if (bytes.size() != bytes_of_sums(shape)) {
+    refuse_contents(path);
+  }
+  return {*std::move(parsed), std::move(result)};
 }
 
 }  // namespace
@@ -229,21 +259,24 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
       fmt::format("{} {} {} {}", stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths);
   header[kCutSum] = fmt::format("{} {}", static_cast<std::uint64_t>(stats.cut.sum >> 64),
                                 static_cast<std::uint64_t>(stats.cut.sum));
-  write_part_file(path, header, result.film.bytes());
+  std::vector<std::string_view> sums{result.film.bytes()};
+  if (result.features) sums.push_back(result.features->sums().bytes());
+  write_part_file(path, header, sums);
 }
 
 RenderPart read_checkpoint(const fs::path& path) {
-  auto [parsed, film] = read_sums(path);
-  RenderPart part{std::move(parsed.header.identity), {std::move(film), {}, parsed.stats, parsed.unfinished}};
+  auto [parsed, result] = read_sums(path);
+  result.unfinished = parsed.unfinished;
+  RenderPart part{std::move(parsed.header.identity), std::move(result)};
   set_areas(part, std::move(parsed.header.areas));
   return part;
 }
 
 RenderPart read_part(const fs::path& path) {
-  auto [parsed, film] = read_sums(path);
+  auto [parsed, result] = read_sums(path);
   count_done_tiles(path, parsed);
-  RenderPart part{std::move(parsed.header.identity),
-                  {cropped(std::move(film), parsed.header.shape), {}, parsed.stats}};
+  crop_to(parsed.header.shape, result);
+  RenderPart part{std::move(parsed.header.identity), std::move(result)};
   set_areas(part, std::move(parsed.header.areas));
   return part;
 }
@@ -285,8 +318,15 @@ void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
   set_crop(sum, bounds(sum.areas));
 }
 
+std::size_t bytes_of_sums(const PartHeader& header) {
+  return bytes_of_sums(header.shape) + bytes_of_features(*features_of(header.identity), header.shape);
+}
+
 RenderPart empty_part(const PartHeader& header) {
-  return {header.identity, {Film(header.shape), {}, {}}};
+  RenderPart part{header.identity, {Film(header.shape), {}, {}}};
+  if (const auto features = features_of(header.identity); !features->empty())
+    part.result.features.emplace(*features, header.shape, film_planes(header.identity));
+  return part;
 }
 
 void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
@@ -295,6 +335,7 @@ void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   if (!contains(sum.result.film.crop(), part.result.film.crop()))
     throw Error(ErrorCode::input, path.string(), "has pixels beyond the film that it is added to");
   sum.result.film.add(part.result.film);
+  if (sum.result.features) sum.result.features->sums().add(part.result.features->sums());
   set_areas(sum, std::move(header.areas));
   if (const auto stated = header.identity.find(kStatedSamplesKey); stated != header.identity.end())
     sum.identity[kStatedSamplesKey] = stated->second;
@@ -328,7 +369,7 @@ std::string in_words(const SampledAreas& areas, const FilmShape& shape, std::str
 
 Image image_of(const RenderPart& part) {
   const RenderResult& result = part.result;
-  Image image = result.film.image(split(part.identity.at("sensor_channels"), ','));
+  Image image = result.film.image(film_planes(part.identity));
   if (result.samples.empty())
     for (const SampledArea& area : part.areas)
       result.film.develop(image, area.pixels, count_per_replicate(area.samples, result.film.replicates()));
@@ -339,6 +380,13 @@ Image image_of(const RenderPart& part) {
   image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
   image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));
   return image;
+}
+
+void add_features(Image& image, const RenderPart& part) {
+  if (!part.result.features) return;
+  part.result.features->add_channels(image);
+  for (const SampledArea& area : areas_of(part))
+    part.result.features->develop(image, area.pixels, static_cast<double>(count(area.samples)));
 }
 
 }  // namespace abbe

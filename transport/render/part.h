@@ -65,6 +65,9 @@ void require_same_film(const std::filesystem::path& path, const FilmIdentity& id
 /// Error{input} naming `path` when it is of another film or has samples that pixels of `sum` have already.
 void merge(PartHeader& sum, const PartHeader& part, const std::filesystem::path& path);
 
+/// Memory that the sums of what the header tells take, with those of its features.
+[[nodiscard]] std::size_t bytes_of_sums(const PartHeader& header);
+
 /// Nothing yet of what the header tells, for parts to be added to.
 [[nodiscard]] RenderPart empty_part(const PartHeader& header);
 /// Adds the part read from `path`, whose crop lies within the film of `sum`. Throws as for headers, and for
@@ -82,5 +85,7 @@ void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path&
 /// The film with its variance, and its identity, sample count and error as metadata; without the latter two
 /// where pixels have different samples.
 [[nodiscard]] Image image_of(const RenderPart& part);
+/// Adds the channels of its features, if it has some, to an image of it.
+void add_features(Image& image, const RenderPart& part);
 
 }  // namespace abbe

@@ -20,6 +20,11 @@ constexpr std::uint32_t pieces(std::uint64_t whole, std::uint32_t piece) {
   return static_cast<std::uint32_t>((whole + piece - 1) / piece);
 }
 
+// Whether the work items of a technique are tiles, not batches of photons.
+bool goes_by_tiles(Technique technique) {
+  return technique != Technique::light && technique != Technique::photon_brute;
+}
+
 }  // namespace
 
 std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items) {
@@ -41,10 +46,11 @@ std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items) {
 }
 
 Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
-           std::uint32_t done, std::uint64_t seed)
+           std::uint32_t done, std::uint64_t seed, FeatureFilm* features)
     : plan_(plan),
       scene_(plan.scene),
       film_(film),
+      features_(features),
       crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
       first_(samples.first),
       last_(samples.last),
@@ -56,10 +62,11 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
   path_interval_ = plan.path_interval;
   sample_by_sample_ = uses(plan.techniques, Technique::vcm) ||
                       std::any_of(plan.techniques.begin(), plan.techniques.end(), gathers_photons);
-  for (const Technique technique : plan.techniques) {
-    stages_.push_back(stage_of(technique));
-    items_ += stages_.back().items;
-  }
+  for (const Technique technique : plan.techniques) stages_.push_back(stage_of(technique));
+  // Tiles look at the features of their pixels themselves, so that what is done of them is done of both.
+  if (features_ != nullptr && std::none_of(plan.techniques.begin(), plan.techniques.end(), goes_by_tiles))
+    stages_.push_back({tiles_, &Pass::look_at_tile});
+  for (const Stage& stage : stages_) items_ += stage.items;
 }
 
 Pass::Stage Pass::stage_of(Technique technique) const {
@@ -126,7 +133,7 @@ void Pass::collect(std::uint64_t sample, int threads, PassCounts& counts) {
 PassCounts Pass::work(std::uint32_t end, const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  Worker worker(plan_);
+  Worker worker(plan_, features_);
   for (std::uint32_t item = next_++; item < end; item = next_++) {
     do_item(item, worker);
     if (pause()) break;
@@ -180,15 +187,22 @@ std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t p
   return at / path_interval_;
 }
 
-// One sample of each pixel of a tile.
-void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
+// Of the pixels of a tile, the sample that `path_of` says of each, by its number.
+template <typename PathOf>
+void Pass::take_pixels(const Tile& tile, std::uint64_t sample, PathOf path_of, Worker& worker) const {
   constexpr int kEdge = kTile;
   worker.pixels.clear();
   for (int y = std::max(tile.y0, crop_.y0); y < std::min(tile.y0 + kEdge, crop_.y1); ++y)
     for (int x = std::max(tile.x0, crop_.x0); x < std::min(tile.x0 + kEdge, crop_.x1); ++x)
-      if (const auto path = path_of(sample, number_of(x, y)))
+      if (const std::optional<std::uint32_t> path = path_of(number_of(x, y)))
         worker.pixels.push_back(
             {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), *path)});
+}
+
+// One sample of each pixel of a tile.
+void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
+  take_pixels(
+      tile, sample, [&](std::uint32_t pixel) { return path_of(sample, pixel); }, worker);
   worker.counts.paths += worker.pixels.size();
 }
 
@@ -234,8 +248,24 @@ Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
   };
 }
 
+// What the samples of a tile's pixels see first, whichever of them have camera paths.
+void Pass::look(const Tile& tile, std::uint64_t sample, Worker& worker) {
+  if (features_ == nullptr) return;
+  take_pixels(
+      tile, sample, [&](std::uint32_t) { return std::optional(index(sample)); }, worker);
+  worker.feature_tracer->trace(worker.pixels, sample == 0,
+                               [this](const PixelSample& at, std::span<const double> values) {
+                                 features_->add(number_of(at.x, at.y), values);
+                               });
+}
+
+void Pass::look_at_tile(std::uint32_t number, Worker& worker) {
+  for (std::uint64_t s = first_; s < last_; ++s) look(tile(number), s, worker);
+}
+
 void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
+    look(tile(number), s, worker);
     take_pixels(tile(number), s, worker);
     worker.path_tracer.trace(worker.pixels, pixels_deposit(s, worker));
   }
@@ -243,6 +273,7 @@ void Pass::render_tile(std::uint32_t number, Worker& worker) {
 
 void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
+    look(tile(number), s, worker);
     take_pixels(tile(number), s, worker);
     worker.adjoint_brute_tracer.trace(worker.pixels, pixels_deposit(s, worker));
   }
@@ -255,6 +286,7 @@ void Pass::gather_tile(std::uint32_t item, Worker& worker) {
     kernel.nearest = static_cast<std::size_t>(scene_.render.photons.nearest);
     kernel.final_gather = scene_.render.photons.final_gather;
   }
+  look(tile(item % tiles_), sample, worker);
   take_pixels(tile(item % tiles_), sample, worker);
   worker.photon_gatherer.trace(worker.pixels, std::get<PhotonCloud>(left_), kernel,
                                pixels_deposit(sample, worker));
@@ -262,6 +294,7 @@ void Pass::gather_tile(std::uint32_t item, Worker& worker) {
 
 void Pass::join_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
+    look(tile(number), s, worker);
     take_pairs(tile(number), s, worker);
     for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 2 : 1;
     worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));
@@ -270,6 +303,7 @@ void Pass::join_tile(std::uint32_t number, Worker& worker) {
 
 void Pass::merge_tile(std::uint32_t item, Worker& worker) {
   const std::uint64_t sample = first_ + item / tiles_;
+  look(tile(item % tiles_), sample, worker);
   take_pairs(tile(item % tiles_), sample, worker);
   for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 1 : 0;
   worker.bidirectional_tracer.trace(worker.pairs, std::get<LightPaths>(left_), splats_of(sample, worker));

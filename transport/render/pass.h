@@ -9,10 +9,12 @@
 #include <variant>
 #include <vector>
 
+#include "sensor/film/feature_film.h"
 #include "sensor/film/film.h"
 #include "transport/render/render.h"
 #include "transport/technique/bidirectional.h"
 #include "transport/technique/brute.h"
+#include "transport/technique/features.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
 #include "transport/technique/photon_gathering.h"
@@ -48,9 +50,9 @@ struct PassCounts {
 class Pass {
  public:
   /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random
-  /// numbers.
+  /// numbers. Where there is a film of features, the samples' are added to it.
   Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples, std::uint32_t done,
-       std::uint64_t seed);
+       std::uint64_t seed, FeatureFilm* features = nullptr);
 
   /// Runs on that many threads until all is done, or until `pause`, which any thread may ask after any item,
   /// says so; exceptions of workers are rethrown here.
@@ -63,14 +65,16 @@ class Pass {
  private:
   // What one thread keeps between items.
   struct Worker {
-    explicit Worker(const Plan& plan)
+    Worker(const Plan& plan, const FeatureFilm* features)
         : caster(plan.scene),
           path_tracer(plan, caster),
           light_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)),
           bidirectional_tracer(plan, caster),
           photon_gatherer(plan, caster),
           brute_photon_tracer(plan, caster, 1.0 / static_cast<double>(plan.photons)),
-          adjoint_brute_tracer(plan, caster) {}
+          adjoint_brute_tracer(plan, caster) {
+      if (features != nullptr) feature_tracer.emplace(plan, features->features(), caster);
+    }
     Worker(const Worker&) = delete;  // the tracers refer to the caster
     Worker& operator=(const Worker&) = delete;
 
@@ -81,6 +85,7 @@ class Pass {
     PhotonGatherer photon_gatherer;
     BrutePhotonTracer brute_photon_tracer;
     AdjointBruteTracer adjoint_brute_tracer;
+    std::optional<FeatureTracer> feature_tracer;  // where there is a film of them
     std::vector<PixelSample> pixels;
     std::vector<PixelPair> pairs;
     std::vector<Sampler> photons;
@@ -108,10 +113,14 @@ class Pass {
   void gather_tile(std::uint32_t item, Worker& worker);
   void join_tile(std::uint32_t tile, Worker& worker);
   void merge_tile(std::uint32_t item, Worker& worker);
+  void look_at_tile(std::uint32_t tile, Worker& worker);
+  void look(const Tile& tile, std::uint64_t sample, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
   void trace_batch_brutely(std::uint32_t batch, Worker& worker);
 
   [[nodiscard]] Tile tile(std::uint32_t number) const;
+  template <typename PathOf>
+  void take_pixels(const Tile& tile, std::uint64_t sample, PathOf path_of, Worker& worker) const;
   void take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
@@ -133,6 +142,7 @@ class Pass {
   const Plan& plan_;
   const Scene& scene_;
   Film& film_;
+  FeatureFilm* features_;
   Crop crop_;
   std::uint64_t first_;
   std::uint64_t last_;

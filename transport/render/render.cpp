@@ -60,8 +60,11 @@ class Rendering {
                  starts_at_lights(plan_.techniques) ? plan_.photons : 0, plan_.path_interval, options.crop),
             {},
             {}} {
+    if (!options.features.empty())
+      result_.features.emplace(options.features, result_.film.shape(), scene.film_planes());
     if (start) {
-      if (start->film.shape() != result_.film.shape())
+      if (start->film.shape() != result_.film.shape() ||
+          start->features.has_value() != result_.features.has_value())
         throw Error(ErrorCode::input, "render", "the film to go on with has another shape");
       result_ = *std::move(start);
     }
@@ -132,6 +135,7 @@ class Rendering {
     if (alone()) return;
     RenderStats& stats = result_.stats;
     options_.crew.collect(result_.film.sums());
+    if (result_.features) options_.crew.collect(result_.features->sums().sums());
     std::array<Int128, 5> counts{stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths,
                                  stats.cut.sum};
     options_.crew.collect(counts);
@@ -154,6 +158,7 @@ class Rendering {
   // What was read of an earlier run counts in the first process only.
   void forget() {
     std::ranges::fill(result_.film.sums(), Int128{0});
+    if (result_.features) std::ranges::fill(result_.features->sums().sums(), Int128{0});
     RenderStats& stats = result_.stats;
     stats.paths = stats.rays = stats.nonfinite_samples = 0;
     stats.cut = {};
@@ -163,7 +168,7 @@ class Rendering {
   void trace(const SampleRange& range) {
     RenderStats& stats = result_.stats;
     Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0,
-              scene_.render.seed);
+              scene_.render.seed, result_.features ? &*result_.features : nullptr);
     while (!pass.finished()) {
       const PassCounts counts = pass.run(threads_, [this] { return alone() && save_is_due(); });
       stats.paths += counts.paths;

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "scene/scene.h"
 #include "sensor/film/crop.h"
+#include "sensor/film/feature_film.h"
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
 #include "transport/path/truncated_paths.h"
@@ -41,6 +43,7 @@ struct RenderOptions {
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
   std::optional<SampleRange> samples = {};  ///< Only these of the samples the scene asks for.
+  std::vector<Feature> features = {};  ///< Of the first surfaces that are met, each once, in their order.
   /// Called with what is done, maybe amid a pass, once `checkpoint_interval_s` has gone by since the last
   /// call or since the start, and so seldom that the calls take no more than a hundredth of the time; and
   /// once as soon as a stop is asked for.
@@ -76,6 +79,7 @@ struct RenderResult {
   SampleRanges samples;
   RenderStats stats;
   std::optional<UnfinishedPass> unfinished = {};  ///< Only in what a checkpoint gets.
+  std::optional<FeatureFilm> features = {};       ///< If some were asked for.
 };
 
 /// Renders the scene, or those of its samples that `start` does not have. For fixed samples the film is a

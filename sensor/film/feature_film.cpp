@@ -1,0 +1,153 @@
+#include "sensor/film/feature_film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/error.h"
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+constexpr int kUnitExponent = -60;
+
+std::vector<std::string> planes_of(Feature feature, std::span<const std::string> film_planes) {
+  switch (feature) {
+    case Feature::depth:
+      return {"depth.Z"};
+    case Feature::position:
+      return {"P.X", "P.Y", "P.Z"};
+    case Feature::normal:
+      return {"N.X", "N.Y", "N.Z"};
+    case Feature::shading_normal:
+      return {"Ns.X", "Ns.Y", "Ns.Z"};
+    case Feature::id:
+      return {"Id"};
+    case Feature::albedo:
+      break;
+  }
+  std::vector<std::string> planes;
+  for (const std::string& plane : film_planes) planes.push_back("Albedo." + plane);
+  return planes;
+}
+
+FilmShape shape_beside(const FilmShape& film, std::size_t planes) {
+  return {.width = film.width,
+          .height = film.height,
+          .channels = static_cast<int>(planes),
+          .replicates = 1,
+          .unit_exponent = kUnitExponent,
+          .crop = film.crop};
+}
+
+// What a pixel shows of a feature that samples have the sum `sum` of, `met` of `samples` having met a
+// surface.
+double shown(std::optional<Feature> feature, double sum, double met, double samples) {
+  if (!feature) return samples > 0 ? sum / samples : 0;
+  switch (*feature) {
+    case Feature::depth:
+      return met > 0 ? sum / met : static_cast<double>(kFeatureDepthOfNothing);
+    case Feature::position:
+      return met > 0 ? sum / met : 0;
+    case Feature::normal:
+    case Feature::shading_normal:
+    case Feature::albedo:
+      return samples > 0 ? sum / samples : 0;
+    case Feature::id:
+      return sum;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string to_text(std::span<const Feature> features) {
+  std::vector<const char*> words;
+  for (const Feature feature : features) words.push_back(kFeatureNames.at(static_cast<std::size_t>(feature)));
+  return fmt::format("{}", fmt::join(words, ","));
+}
+
+std::optional<std::vector<Feature>> parse_features(std::string_view text) {
+  std::vector<Feature> features;
+  for (const std::string& word : split(std::string(text), ',')) {
+    const auto known = std::find(kFeatureNames.begin(), kFeatureNames.end(), word);
+    if (known == kFeatureNames.end()) return std::nullopt;
+    features.push_back(static_cast<Feature>(known - kFeatureNames.begin()));
+  }
+  std::sort(features.begin(), features.end());
+  features.erase(std::unique(features.begin(), features.end()), features.end());
+  return features;
+}
+
+std::vector<FeaturePlane> feature_planes(std::span<const Feature> features,
+                                         std::span<const std::string> film_planes) {
+  std::vector<FeaturePlane> planes{{"Coverage", std::nullopt}};
+  for (const Feature feature : features)
+    for (std::string& name : planes_of(feature, film_planes)) planes.push_back({std::move(name), feature});
+  for (const FeaturePlane& plane : planes)
+    if (std::find(film_planes.begin(), film_planes.end(), plane.name) != film_planes.end())
+      throw Error(ErrorCode::scene, "sensor/channels",
+                  fmt::format("a channel has the name that a feature goes by (got \"{}\")", plane.name));
+  return planes;
+}
+
+FeatureFilm::FeatureFilm(std::vector<Feature> features, std::vector<FeaturePlane> planes, Film sums)
+    : features_(std::move(features)), planes_(std::move(planes)), sums_(std::move(sums)) {}
+
+FeatureFilm::FeatureFilm(std::vector<Feature> features, const FilmShape& beside,
+                         std::span<const std::string> film_planes)
+    : features_(std::move(features)),
+      planes_(feature_planes(features_, film_planes)),
+      sums_(shape_beside(beside, planes_.size())) {}
+
+std::optional<FeatureFilm> FeatureFilm::from_bytes(std::vector<Feature> features, const FilmShape& beside,
+                                                   std::span<const std::string> film_planes,
+                                                   std::string_view bytes) {
+  std::vector<FeaturePlane> planes = feature_planes(features, film_planes);
+  std::optional<Film> sums = Film::from_bytes(shape_beside(beside, planes.size()), bytes);
+  if (!sums) return std::nullopt;
+  return FeatureFilm(std::move(features), std::move(planes), *std::move(sums));
+}
+
+FeatureFilm FeatureFilm::cropped(const FilmShape& beside) const {
+  FeatureFilm crop(features_, planes_, Film(shape_beside(beside, planes_.size())));
+  crop.sums_.add(sums_);
+  return crop;
+}
+
+void FeatureFilm::add(std::size_t pixel, std::span<const double> values) {
+  if (std::all_of(values.begin(), values.end(), [this](double value) { return sums_.holds(value); }))
+    sums_.add(pixel, 0, values);
+}
+
+void FeatureFilm::add_channels(Image& image) const {
+  for (const FeaturePlane& plane : planes_)
+    image.channels.push_back(
+        {plane.name,
+         std::vector<float>(image.pixels(), plane.feature == Feature::depth ? kFeatureDepthOfNothing : 0)});
+}
+
+void FeatureFilm::develop(Image& image, const Crop& area, double samples) const {
+  const std::size_t first = image.channels.size() - planes_.size();
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    std::vector<float>& values = image.channels[first + i].values;
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x) {
+        const std::size_t pixel = sums_.pixel_at(x, y);
+        values[pixel] = static_cast<float>(shown(planes_[i].feature, sums_.total(pixel, static_cast<int>(i)),
+                                                 sums_.total(pixel, 0), samples));
+      }
+  }
+}
+
+std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside) {
+  if (features.empty()) return 0;
+  const std::vector<std::string> unnamed(static_cast<std::size_t>(beside.channels));
+  return bytes_of_sums(shape_beside(beside, feature_planes(features, unnamed).size()));
+}
+
+}  // namespace abbe

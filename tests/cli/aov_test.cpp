@@ -1,0 +1,89 @@
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/exr.h"
+#include "tests/cli/program.h"
+#include "tests/cli/scenes.h"
+
+// Channels of what each pixel sees first, from the command line to the files.
+
+namespace abbe::test {
+namespace {
+
+Outcome rendered(const std::string& name, const std::string& options) {
+  return abbe(fmt::format("render {} --quiet -o {} {}", ball(), file(name), options));
+}
+
+TEST(Aov, ChannelsHaveTheNamesThatDenoisersRead) {
+  ASSERT_EQ(rendered("aov.exr", "--aov id,normal,albedo,depth").code, 0);
+  const Image film = read_exr(file("aov.exr"));
+  for (const char* name :
+       {"X", "Z", "Variance.X", "Coverage", "depth.Z", "N.X", "N.Y", "N.Z", "Albedo.X", "Albedo.Z", "Id"})
+    EXPECT_NE(film.find(name), nullptr) << name;
+  EXPECT_EQ(film.find("P.X"), nullptr);
+  EXPECT_EQ(film.metadata.at("aov"), "depth,normal,albedo,id");
+  EXPECT_EQ(film.metadata.at("shapes"), R"(["ball"])");
+  const std::size_t middle = 8 * 24 + 12;
+  EXPECT_EQ(film.find("Coverage")->values[middle], 1);
+  EXPECT_NEAR(film.find("Albedo.Y")->values[middle], 0.8, 1e-6);
+  EXPECT_EQ(film.find("Coverage")->values[0], 0);
+}
+
+// A film with them is developed, shown and compared as one without.
+TEST(Aov, TheFilmItselfIsNoOther) {
+  ASSERT_EQ(rendered("plain.exr", "").code, 0);
+  ASSERT_EQ(rendered("with.exr", fmt::format("--aov position,albedo --display {}", file("with.png"))).code,
+            0);
+  const Outcome compared = abbe(fmt::format("compare {} {} --json", file("plain.exr"), file("with.exr")));
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  EXPECT_EQ(compared.json()["rmse"], 0);
+  const auto developed = [](const char* film) {
+    const Outcome run = abbe(fmt::format("develop {} --json -o {}", file(film), file("developed.exr")));
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.json();
+  };
+  EXPECT_EQ(developed("with.exr"), developed("plain.exr"));
+}
+
+TEST(Aov, PartsOfAnyCropsAndRangesMakeTheFileOfTheWhole) {
+  const std::string aov = "--aov depth,shading-normal,id ";
+  std::string parts;
+  for (const char* cut :
+       {"--crop 0,0,7,16", "--crop 7,0,24,16 --sample-range 3:8", "--crop 7,0,24,16 --sample-range 0:3"}) {
+    const std::string part = fmt::format("part{}.abbepart", parts.size());
+    ASSERT_EQ(rendered(part, aov + cut).code, 0);
+    parts += file(part) + " ";
+  }
+  ASSERT_EQ(rendered("whole.exr", aov).code, 0);
+  ASSERT_EQ(abbe(fmt::format("merge {} -o {}", parts, file("sum.exr"))).code, 0);
+  EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
+}
+
+TEST(Aov, AChannelOfTheSensorKeepsItsName) {
+  const Outcome run = rendered(
+      "id.exr",
+      R"(--aov id --set '/sensor={"resolution": [24, 16], "channels": {"Id": {"band": [500, 600]}}}')");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("a channel has the name that a feature goes by (got \"Id\")"), std::string::npos)
+      << run.err;
+}
+
+TEST(Aov, WhatIsNoFeatureOrAnotherIsRefused) {
+  const Outcome unknown = rendered("no.exr", "--aov depth,colour");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(
+      unknown.err.find(
+          R"(--aov: got "depth,colour", allowed names out of depth, position, normal, shading-normal, albedo, id)"),
+      std::string::npos)
+      << unknown.err;
+  const std::string checkpoint = fmt::format("--checkpoint {} ", file("begun.abbepart"));
+  ASSERT_EQ(rendered("begun.exr", checkpoint + "--aov depth --sample-range 0:4").code, 0);
+  const Outcome other = rendered("begun.exr", checkpoint + "--resume --aov id --sample-range 0:8");
+  EXPECT_EQ(other.code, 4);
+  EXPECT_NE(other.err.find("another aov (got depth, allowed id)"), std::string::npos) << other.err;
+}
+
+}  // namespace
+}  // namespace abbe::test
