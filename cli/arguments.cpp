@@ -110,6 +110,18 @@ Crop parse_crop(const std::string& option, const std::string& text) {
   return *crop;
 }
 
+LayerChoice parse_layer_choice(const std::string& option, const std::string& text) {
+  constexpr int kUsualBounces = 8;
+  constexpr int kMostBounces = 64;
+  const std::size_t colon = text.find(':');
+  const std::string word = text.substr(0, colon);
+  const std::string more = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if ((word != "lights" && word != "bounces") || (colon != std::string::npos && more.empty()))
+    refuse(option, "\"" + text + "\"", "lights, lights:NAME,..., bounces or bounces:N");
+  if (word == "lights") return {{}, more.empty() ? std::vector<std::string>() : split(more, ',')};
+  return {more.empty() ? kUsualBounces : static_cast<int>(parse_integer(option, more, 1, kMostBounces)), {}};
+}
+
 std::vector<Feature> parse_feature_list(const std::string& option, const std::string& text) {
   const std::optional<std::vector<Feature>> features = parse_features(text);
   if (!features)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/render.h"
 #include "description/load.h"
 #include "develop/film_sensor.h"
 #include "preview/page_server.h"
@@ -38,6 +39,8 @@ namespace abbe::cli {
 [[nodiscard]] CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.
 [[nodiscard]] Crop parse_crop(const std::string& option, const std::string& text);
+/// "lights", perhaps with names as "lights:key,fill", or "bounces", perhaps up to a number as "bounces:4".
+[[nodiscard]] LayerChoice parse_layer_choice(const std::string& option, const std::string& text);
 /// Names of features, separated by commas.
 [[nodiscard]] std::vector<Feature> parse_feature_list(const std::string& option, const std::string& text);
 /// "a:b", whole numbers with a < b.

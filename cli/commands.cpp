@@ -60,8 +60,14 @@ void add_render(CLI::App& app, Command& command) {
              "Threads, 0 for one per processor", "N");
   add_parsed(render, "--crop", sub->crop, parse_crop, "Part of the film to render, in pixels", "X0,Y0,X1,Y1");
   add_parsed(
+      render, "--layers", sub->layers, parse_layer_choice,
+      "Also tell the film apart, as channels that add up to it: by the lights' names (lights; of some alone "
+      "lights:NAME,...) or by the number of events (bounces; N and more in one layer bounces:N, default 8)",
+      "lights|bounces");
+  add_parsed(
       render, "--aov", sub->features, parse_feature_list,
-      "Also tell, of the surface that each pixel sees first, some of: depth (depth.Z), position (P), normal (N), "
+      "Also tell, of the surface that each pixel sees first, some of: depth (depth.Z), position (P), normal "
+      "(N), "
       "shading-normal (Ns), albedo (Albedo), id (Id), and the share of samples that see one (Coverage)",
       "NAME[,NAME...]");
   add_overrides(render, sub.options, "Replace a value of the scene file; may be repeated");

@@ -105,12 +105,16 @@ void check_ranges(const RenderOptions& options, const Scene& scene) {
                             options.sample_range->last, scene.render.samples));
 }
 
-abbe::RenderOptions how_to_render(const RenderOptions& options) {
+abbe::RenderOptions how_to_render(const RenderOptions& options, const Scene& scene) {
   abbe::RenderOptions how;
   how.threads = options.threads;
   how.time_limit_s = options.time_limit_s;
   how.target_error = options.target_error;
   how.crop = options.crop;
+  if (const std::optional<LayerChoice>& layers = options.layers) {
+    require_layers(scene);
+    how.layers = layers->bounces ? bounce_layers(*layers->bounces) : light_layers(scene, layers->lights);
+  }
   how.features = options.features;
   how.samples = options.sample_range;
   how.checkpoint_interval_s = options.checkpoint_interval_s;
@@ -197,7 +201,7 @@ void show_to(Watchers& watchers, abbe::RenderOptions& how) {
 RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch,
                    Watchers& watchers) {
   ProgressDisplay display;
-  abbe::RenderOptions how = how_to_render(options);
+  abbe::RenderOptions how = how_to_render(options, scene);
   const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
   how.stop = &watch.stop();
   how.crew = crew();
@@ -284,7 +288,9 @@ void call_watchers(Watchers& watchers, const Scene& scene, const RenderOptions& 
       static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height);
   const std::size_t bytes = 2 * sizeof(float) * pixels * scene.film_planes().size();
   const int threads = thread_count(options.threads);
-  const auto identity = [&] { return identity_of(scene, name_of(options.scene), how_to_render(options)); };
+  const auto identity = [&] {
+    return identity_of(scene, name_of(options.scene), how_to_render(options, scene));
+  };
   if (options.preview) {
     inputs.take_memory("the preview", bytes);
     watchers.page.emplace(scene, identity(), chosen_view(options), *options.preview, threads);
@@ -350,7 +356,7 @@ int render(const RenderOptions& options) {
   warn_of_dark_camera(scene, options.strict);
   warn_of_lost_light(scene, options.strict && !leaves_integrator);
 
-  inputs.take_memory("the film", film_bytes(scene, how_to_render(options)));
+  inputs.take_memory("the film", film_bytes(scene, how_to_render(options, scene)));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   Watchers watchers;
   call_watchers(watchers, scene, options, inputs);

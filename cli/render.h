@@ -14,6 +14,12 @@
 
 namespace abbe::cli {
 
+/// The layers that a film is to be told apart into.
+struct LayerChoice {
+  std::optional<int> bounces;       ///< By the number of events, up to this one; else by lights,
+  std::vector<std::string> lights;  ///< these, or all where none are named.
+};
+
 /// What `abbe render` was asked for; what is absent is as the scene says.
 struct RenderOptions {
   std::filesystem::path scene;  ///< "-" is standard input.
@@ -33,6 +39,7 @@ struct RenderOptions {
   bool consistent = false;  ///< Besides what the scene says.
   std::optional<std::uint64_t> seed;
   std::optional<Crop> crop;
+  std::optional<LayerChoice> layers;
   std::vector<Feature> features;  ///< Of the first surfaces that are met, as channels of the film.
   int threads = 0;
   std::size_t max_memory_bytes = default_memory_limit();

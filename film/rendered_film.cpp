@@ -4,6 +4,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "film/build_id.h"
@@ -55,6 +56,7 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
     identity[kStatedSamplesKey] = fmt::format("{}", scene.render.samples);
   if (how.crop && *how.crop != Crop{0, 0, scene.camera.width, scene.camera.height})
     identity[kCropKey] = to_text(*how.crop);
+  if (how.layers) identity[kLayersKey] = fmt::format("{}", fmt::join(how.layers->names, ","));
   if (!how.features.empty()) add_features(scene, how.features, identity);
   return identity;
 }
@@ -66,7 +68,8 @@ std::size_t film_bytes(const Scene& scene, const RenderOptions& how) {
                         .replicates = replicate_count(scene, how),
                         .unit_exponent = 0,
                         .crop = how.crop};
-  return bytes_of_sums(shape) + bytes_of_features(how.features, shape);
+  return bytes_of_sums(shape) + (how.layers ? bytes_of_sums(layered(shape, how.layers->names.size())) : 0) +
+         bytes_of_features(how.features, shape);
 }
 
 void write_film(const std::filesystem::path& path, const RenderPart& part) {

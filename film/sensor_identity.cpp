@@ -12,6 +12,7 @@
 #include "io/text.h"
 #include "scene/colors.h"
 #include "sensor/film/recorded_white.h"
+#include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
 #include "transport/render/white.h"
@@ -51,6 +52,17 @@ void add_display(const Scene& scene, FilmIdentity& identity) {
     identity["to_xyz_d65"] = to_text(display_of(scene).to_xyz_d65());
   } catch (const Error& error) {
     if (error.code == ErrorCode::internal) throw;
+  }
+}
+
+// The channels of a layer beside those of the film.
+void add_layer(Image& film, const std::string& name, Image layer) {
+  const std::string variance = variance_of("");
+  for (ImageChannel& channel : layer.channels) {
+    const bool tells_error = channel.name.starts_with(variance);
+    const std::string plane = tells_error ? channel.name.substr(variance.size()) : channel.name;
+    const std::string of_layer = name + "." + plane;
+    film.channels.push_back({tells_error ? variance_of(of_layer) : of_layer, std::move(channel.values)});
   }
 }
 
@@ -98,6 +110,7 @@ Image film_image(Image planes) {
 
 Image film_image(const RenderPart& part) {
   Image image = film_image(image_of(part));
+  for (auto& [name, layer] : layer_images(part)) add_layer(image, name, film_image(std::move(layer)));
   add_features(image, part);
   return image;
 }

@@ -16,7 +16,7 @@ namespace abbe {
 /// The planes of a film as its file holds them, told by their metadata: of a spectral sensor, radiances in
 /// the spectral layout and a preview R, G, B [cd/m^2]; of any other themselves.
 [[nodiscard]] Image film_image(Image planes);
-/// The same of a part, with its variance and its features.
+/// The same of a part, with its variance, its layers and its features.
 [[nodiscard]] Image film_image(const RenderPart& part);
 /// What a display shows of a film as its file holds it: of a mosaic, a plane for each channel.
 [[nodiscard]] Image shown_film(const Scene& scene, Image film);

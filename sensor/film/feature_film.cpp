@@ -113,12 +113,6 @@ std::optional<FeatureFilm> FeatureFilm::from_bytes(std::vector<Feature> features
   return FeatureFilm(std::move(features), std::move(planes), *std::move(sums));
 }
 
-FeatureFilm FeatureFilm::cropped(const FilmShape& beside) const {
-  FeatureFilm crop(features_, planes_, Film(shape_beside(beside, planes_.size())));
-  crop.sums_.add(sums_);
-  return crop;
-}
-
 void FeatureFilm::add(std::size_t pixel, std::span<const double> values) {
   if (std::all_of(values.begin(), values.end(), [this](double value) { return sums_.holds(value); }))
     sums_.add(pixel, 0, values);

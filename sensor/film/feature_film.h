@@ -51,8 +51,6 @@ class FeatureFilm {
                                                              const FilmShape& beside,
                                                              std::span<const std::string> film_planes,
                                                              std::string_view bytes);
-  /// What the pixels of another film's shape, which differs in its crop at most, have of it.
-  [[nodiscard]] FeatureFilm cropped(const FilmShape& beside) const;
 
   [[nodiscard]] const std::vector<Feature>& features() const { return features_; }
   [[nodiscard]] Film& sums() { return sums_; }

@@ -134,11 +134,11 @@ std::size_t Film::index(std::size_t pixel, int replicate) const {
          static_cast<std::size_t>(shape_.channels);
 }
 
-void Film::add(std::size_t pixel, int replicate, std::span<const double> values) {
+void Film::add(std::size_t pixel, int replicate, std::span<const double> values, std::size_t first) {
   std::atomic_flag& lock = locks_[pixel % kLocks];
   while (lock.test_and_set(std::memory_order_acquire)) {
   }
-  Int128* sum = &sums_[index(pixel, replicate)];
+  Int128* sum = &sums_[index(pixel, replicate) + first];
   for (const double value : values) {
     if (value != 0) *sum += to_fixed(value, shape_.unit_exponent);  // most samples of a dark pixel
     ++sum;

@@ -56,8 +56,9 @@ class Film {
   /// A crop of all pixels is none. Throws Error{resource} when there is no memory for the sums.
   explicit Film(const FilmShape& shape);
 
-  /// Adds one sample's or splat's values to a pixel of the crop; any thread may, at any time.
-  void add(std::size_t pixel, int replicate, std::span<const double> values);
+  /// Adds one sample's or splat's values, of the channels from `first` on, to a pixel of the crop; any thread
+  /// may, at any time.
+  void add(std::size_t pixel, int replicate, std::span<const double> values, std::size_t first = 0);
   /// Whether a value is finite and within what the film can hold.
   [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
 

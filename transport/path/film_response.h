@@ -33,6 +33,17 @@ struct FilmPoint {
   float time = 0;
 };
 
+/// By which way light came: from which light of the scene, and by how many events between it and the camera,
+/// or the meter.
+struct LightHistory {
+  std::uint32_t light;
+  int events;
+};
+
+/// Receives the film values, one per plane, of each contribution of a path by itself.
+using ContributionDeposit =
+    std::function<void(const FilmPoint& at, const LightHistory& of, std::span<const double> values)>;
+
 /// Receives the film values, one per plane, that the path of that number adds to a pixel.
 using Deposit = std::function<void(std::uint32_t path, const FilmPoint& at, std::span<const double> values)>;
 

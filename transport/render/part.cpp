@@ -14,6 +14,8 @@
 #include "io/part_file.h"
 #include "io/text.h"
 #include "sensor/film/recorded_white.h"
+#include "transport/render/layers.h"
+#include "transport/render/part_films.h"
 #include "transport/render/pass.h"
 
 namespace abbe {
@@ -59,16 +61,6 @@ std::optional<FilmShape> parse_shape(const std::string& text) {
                         shape.height <= kMaxImageEdge && shape.channels > 0 && shape.channels <= 1 << 14 &&
                         shape.replicates > 0 && shape.replicates <= 1 << 14;
   return possible ? std::optional(shape) : std::nullopt;
-}
-
-std::vector<std::string> film_planes(const FilmIdentity& identity) {
-  return split(identity.at("sensor_channels"), ',');
-}
-
-// Those it tells, none where it tells none; nothing for what are no features.
-std::optional<std::vector<Feature>> features_of(const FilmIdentity& identity) {
-  const auto told = identity.find(kFeaturesKey);
-  return told == identity.end() ? std::vector<Feature>() : parse_features(told->second);
 }
 
 std::string take(FilmIdentity& header, const char* key) {
@@ -125,7 +117,8 @@ std::optional<ParsedHeader> parse_header(FilmIdentity header) {
   const auto cut_sum = parse_numbers<std::uint64_t>(take(header, kCutSum), 2);
   const bool named =
       split(header["sensor_channels"], ',').size() == static_cast<std::size_t>(shape ? shape->channels : 0);
-  if (!shape || !counts || !cut_sum || !named || !features_of(header) || !read_crop(header, *shape))
+  if (!shape || !counts || !cut_sum || !named || !bytes_of_films(header, *shape) ||
+      !read_crop(header, *shape))
     return std::nullopt;
   ParsedHeader parsed{{{}, *shape, {}}};
   if (!take_samples(header, parsed)) return std::nullopt;
@@ -187,15 +180,6 @@ void count_done_tiles(const fs::path& path, ParsedHeader& parsed) {
   set_crop(header, bounds(header.areas));
 }
 
-// What the pixels of a crop have of the films.
-void crop_to(const FilmShape& shape, RenderResult& result) {
-  if (shape == result.film.shape()) return;
-  Film crop(shape);
-  crop.add(result.film);
-  result.film = std::move(crop);
-  if (result.features) result.features = result.features->cropped(shape);
-}
-
 SampledAreas areas_of(const RenderPart& part) {
   if (!part.areas.empty() || part.result.samples.empty()) return part.areas;
   return {{part.result.film.crop(), part.result.samples}};
@@ -208,7 +192,7 @@ void set_areas(RenderPart& part, SampledAreas areas) {
   });
   result.samples = same ? areas.front().samples : SampleRanges{};
   result.stats.samples_per_pixel = count(result.samples);
-  result.film.set_samples(count_per_replicate(result.samples, result.film.replicates()));
+  set_samples(result, result.samples);
   const bool everywhere = areas.size() == 1 && areas.front().pixels == result.film.crop();
   part.areas = everywhere ? SampledAreas{} : std::move(areas);
 }
@@ -219,24 +203,24 @@ struct ParsedPart {
   RenderResult result;
 };
 
-// The film's sums come first, then those of its features.
 ParsedPart read_sums(const fs::path& path) {
   PartFile file = read_part_file(path);
   auto parsed = parse_header(std::move(file.header));
-  if (!parsed) refuse_contents(path);
-  const auto& [identity, shape, areas] = parsed->header;
-  const std::string_view bytes = file.bytes;
-  auto film = Film::from_bytes(shape, bytes.substr(0, bytes_of_sums(shape)));
-  if (!film) refuse_contents(path);
-  RenderResult result{*std::move(film), {}, parsed->stats};
-  if (const auto features = features_of(identity); !features->empty()) {
-    result.features =
-        FeatureFilm::from_bytes(*features, shape, film_planes(identity), bytes.substr(bytes_of_sums(shape)));
-    if (!result.features) refuse_contents(path);
-  } else if (bytes.size() != bytes_of_sums(shape)) {
-    refuse_contents(path);
-  }
-  return {*std::move(parsed), std::move(result)};
+  auto films = parsed ? films_of(parsed->header.identity, parsed->header.shape, file.bytes) : std::nullopt;
+  if (!films) refuse_contents(path);
+  films->stats = parsed->stats;
+  return {*std::move(parsed), *std::move(films)};
+}
+
+// A film of the part's, each pixel by the samples it has.
+Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part) {
+  Image image = film.image(names);
+  if (part.result.samples.empty())
+    for (const SampledArea& area : part.areas)
+      film.develop(image, area.pixels, count_per_replicate(area.samples, film.replicates()));
+  image.metadata = part.identity;
+  for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
+  return image;
 }
 
 }  // namespace
@@ -259,9 +243,7 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
       fmt::format("{} {} {} {}", stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths);
   header[kCutSum] = fmt::format("{} {}", static_cast<std::uint64_t>(stats.cut.sum >> 64),
                                 static_cast<std::uint64_t>(stats.cut.sum));
-  std::vector<std::string_view> sums{result.film.bytes()};
-  if (result.features) sums.push_back(result.features->sums().bytes());
-  write_part_file(path, header, sums);
+  write_part_file(path, header, sums_of(result));
 }
 
 RenderPart read_checkpoint(const fs::path& path) {
@@ -275,7 +257,7 @@ RenderPart read_checkpoint(const fs::path& path) {
 RenderPart read_part(const fs::path& path) {
   auto [parsed, result] = read_sums(path);
   count_done_tiles(path, parsed);
-  crop_to(parsed.header.shape, result);
+  crop_films(parsed.header.shape, result);
   RenderPart part{std::move(parsed.header.identity), std::move(result)};
   set_areas(part, std::move(parsed.header.areas));
   return part;
@@ -319,14 +301,11 @@ void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
 }
 
 std::size_t bytes_of_sums(const PartHeader& header) {
-  return bytes_of_sums(header.shape) + bytes_of_features(*features_of(header.identity), header.shape);
+  return bytes_of_films(header.identity, header.shape).value_or(0);
 }
 
 RenderPart empty_part(const PartHeader& header) {
-  RenderPart part{header.identity, {Film(header.shape), {}, {}}};
-  if (const auto features = features_of(header.identity); !features->empty())
-    part.result.features.emplace(*features, header.shape, film_planes(header.identity));
-  return part;
+  return {header.identity, dark_films(header.identity, header.shape)};
 }
 
 void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
@@ -334,8 +313,7 @@ void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   merge(header, {part.identity, part.result.film.shape(), areas_of(part)}, path);
   if (!contains(sum.result.film.crop(), part.result.film.crop()))
     throw Error(ErrorCode::input, path.string(), "has pixels beyond the film that it is added to");
-  sum.result.film.add(part.result.film);
-  if (sum.result.features) sum.result.features->sums().add(part.result.features->sums());
+  add_films(sum.result, part.result);
   set_areas(sum, std::move(header.areas));
   if (const auto stated = header.identity.find(kStatedSamplesKey); stated != header.identity.end())
     sum.identity[kStatedSamplesKey] = stated->second;
@@ -369,17 +347,30 @@ std::string in_words(const SampledAreas& areas, const FilmShape& shape, std::str
 
 Image image_of(const RenderPart& part) {
   const RenderResult& result = part.result;
-  Image image = result.film.image(film_planes(part.identity));
-  if (result.samples.empty())
-    for (const SampledArea& area : part.areas)
-      result.film.develop(image, area.pixels, count_per_replicate(area.samples, result.film.replicates()));
-  image.metadata = part.identity;
-  for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
+  Image image = developed(result.film, film_planes(part.identity), part);
   image.metadata["renderer"] = "Abbe";
   if (result.samples.empty()) return image;
   image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
   image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));
   return image;
+}
+
+std::vector<LayerImage> layer_images(const RenderPart& part) {
+  if (!part.result.layers) return {};
+  const std::vector<std::string> names = parse_layers(part.identity.at(kLayersKey));
+  const std::vector<std::string> planes = film_planes(part.identity);
+  std::vector<std::string> repeated;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    repeated.insert(repeated.end(), planes.begin(), planes.end());
+  Image all = developed(*part.result.layers, repeated, part);
+  std::vector<LayerImage> images;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    LayerImage& layer = images.emplace_back(LayerImage{names[i], {all.width, all.height, {}, all.metadata}});
+    for (const std::size_t first : {i * planes.size(), (names.size() + i) * planes.size()})
+      for (std::size_t k = first; k < first + planes.size(); ++k)
+        layer.image.channels.push_back(std::move(all.channels[k]));
+  }
+  return images;
 }
 
 void add_features(Image& image, const RenderPart& part) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "transport/render/render.h"
 #include "transport/render/sampled_areas.h"
@@ -85,6 +86,12 @@ void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path&
 /// The film with its variance, and its identity, sample count and error as metadata; without the latter two
 /// where pixels have different samples.
 [[nodiscard]] Image image_of(const RenderPart& part);
+/// The layers of its film, each as `image_of` has the film; none where it is not told apart.
+struct LayerImage {
+  std::string name;
+  Image image;
+};
+[[nodiscard]] std::vector<LayerImage> layer_images(const RenderPart& part);
 /// Adds the channels of its features, if it has some, to an image of it.
 void add_features(Image& image, const RenderPart& part);
 

@@ -46,11 +46,11 @@ std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items) {
 }
 
 Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
-           std::uint32_t done, std::uint64_t seed, FeatureFilm* features)
+           std::uint32_t done, std::uint64_t seed, const BesideFilms& beside)
     : plan_(plan),
       scene_(plan.scene),
       film_(film),
-      features_(features),
+      beside_(beside),
       crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
       first_(samples.first),
       last_(samples.last),
@@ -64,7 +64,8 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
                       std::any_of(plan.techniques.begin(), plan.techniques.end(), gathers_photons);
   for (const Technique technique : plan.techniques) stages_.push_back(stage_of(technique));
   // Tiles look at the features of their pixels themselves, so that what is done of them is done of both.
-  if (features_ != nullptr && std::none_of(plan.techniques.begin(), plan.techniques.end(), goes_by_tiles))
+  if (beside_.features != nullptr &&
+      std::none_of(plan.techniques.begin(), plan.techniques.end(), goes_by_tiles))
     stages_.push_back({tiles_, &Pass::look_at_tile});
   for (const Stage& stage : stages_) items_ += stage.items;
 }
@@ -133,7 +134,7 @@ void Pass::collect(std::uint64_t sample, int threads, PassCounts& counts) {
 PassCounts Pass::work(std::uint32_t end, const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  Worker worker(plan_, features_);
+  Worker worker(plan_, beside_.features);
   for (std::uint32_t item = next_++; item < end; item = next_++) {
     do_item(item, worker);
     if (pause()) break;
@@ -240,6 +241,19 @@ Deposit Pass::pixels_deposit(std::uint64_t sample, Worker& worker) {
   };
 }
 
+// What the layers get of what the film gets, which counts `factor` times.
+ContributionDeposit Pass::layers_deposit(std::uint64_t sample, std::uint32_t factor, Worker& worker) {
+  if (beside_.layers == nullptr) return {};
+  return [=, this, &worker](const FilmPoint& at, const LightHistory& of, std::span<const double> values) {
+    if (!is_asked_for(at.x, at.y)) return;
+    worker.values.assign(values.begin(), values.end());
+    for (double& value : worker.values) value *= factor;
+    if (std::all_of(worker.values.begin(), worker.values.end(), [this](double v) { return film_.holds(v); }))
+      beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values,
+                              beside_.layers->of(of) * values.size());
+  };
+}
+
 // Paths from lights may come to any pixel of the film; those that are not asked for get nothing.
 Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
   return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
@@ -250,12 +264,12 @@ Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
 
 // What the samples of a tile's pixels see first, whichever of them have camera paths.
 void Pass::look(const Tile& tile, std::uint64_t sample, Worker& worker) {
-  if (features_ == nullptr) return;
+  if (beside_.features == nullptr) return;
   take_pixels(
       tile, sample, [&](std::uint32_t) { return std::optional(index(sample)); }, worker);
   worker.feature_tracer->trace(worker.pixels, sample == 0,
                                [this](const PixelSample& at, std::span<const double> values) {
-                                 features_->add(number_of(at.x, at.y), values);
+                                 beside_.features->add(number_of(at.x, at.y), values);
                                });
 }
 
@@ -267,6 +281,7 @@ void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     look(tile(number), s, worker);
     take_pixels(tile(number), s, worker);
+    worker.path_tracer.tell_apart(layers_deposit(s, path_interval_, worker));
     worker.path_tracer.trace(worker.pixels, pixels_deposit(s, worker));
   }
 }
@@ -297,6 +312,7 @@ void Pass::join_tile(std::uint32_t number, Worker& worker) {
     look(tile(number), s, worker);
     take_pairs(tile(number), s, worker);
     for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 2 : 1;
+    worker.bidirectional_tracer.tell_apart(layers_deposit(s, 1, worker));
     worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));
   }
 }
@@ -306,6 +322,7 @@ void Pass::merge_tile(std::uint32_t item, Worker& worker) {
   look(tile(item % tiles_), sample, worker);
   take_pairs(tile(item % tiles_), sample, worker);
   for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 1 : 0;
+  worker.bidirectional_tracer.tell_apart(layers_deposit(sample, 1, worker));
   worker.bidirectional_tracer.trace(worker.pairs, std::get<LightPaths>(left_), splats_of(sample, worker));
 }
 
@@ -314,6 +331,7 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
     const Deposit deposit = splats_of(s, worker);
+    worker.light_tracer.tell_apart(layers_deposit(s, 1, worker));
     for (std::uint64_t first = begin; first < end; first += kTogether) {
       take_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker);
       worker.light_tracer.trace(worker.photons, deposit);

@@ -11,6 +11,7 @@
 
 #include "sensor/film/feature_film.h"
 #include "sensor/film/film.h"
+#include "transport/render/layers.h"
 #include "transport/render/render.h"
 #include "transport/technique/bidirectional.h"
 #include "transport/technique/brute.h"
@@ -37,6 +38,13 @@ struct PassCounts {
   }
 };
 
+/// What a pass fills beside its film, where it is asked for.
+struct BesideFilms {
+  FeatureFilm* features = nullptr;
+  const Layers* layers = nullptr;  ///< With `layer_sums`, of as many times the planes of the film.
+  Film* layer_sums = nullptr;
+};
+
 /// The pixels of which the first items of a pass without photons have all samples: rectangles of a film of
 /// this shape that do not overlap.
 [[nodiscard]] std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items);
@@ -50,9 +58,9 @@ struct PassCounts {
 class Pass {
  public:
   /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random
-  /// numbers. Where there is a film of features, the samples' are added to it.
+  /// numbers.
   Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples, std::uint32_t done,
-       std::uint64_t seed, FeatureFilm* features = nullptr);
+       std::uint64_t seed, const BesideFilms& beside = {});
 
   /// Runs on that many threads until all is done, or until `pause`, which any thread may ask after any item,
   /// says so; exceptions of workers are rethrown here.
@@ -89,7 +97,7 @@ class Pass {
     std::vector<PixelSample> pixels;
     std::vector<PixelPair> pairs;
     std::vector<Sampler> photons;
-    std::vector<double> values;  // of a camera path, as the film takes them
+    std::vector<double> values;  // of a camera path, or of a layer, as the films take them
     PassCounts counts;
   };
 
@@ -127,6 +135,8 @@ class Pass {
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
   [[nodiscard]] PathPacket packet_of(std::uint64_t sample) const;
   [[nodiscard]] Deposit pixels_deposit(std::uint64_t sample, Worker& worker);
+  [[nodiscard]] ContributionDeposit layers_deposit(std::uint64_t sample, std::uint32_t factor,
+                                                   Worker& worker);
   [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
   [[nodiscard]] bool is_asked_for(int x, int y) const {
     return x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1;
@@ -142,7 +152,7 @@ class Pass {
   const Plan& plan_;
   const Scene& scene_;
   Film& film_;
-  FeatureFilm* features_;
+  BesideFilms beside_;
   Crop crop_;
   std::uint64_t first_;
   std::uint64_t last_;

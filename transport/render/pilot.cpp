@@ -35,11 +35,18 @@ std::vector<PixelSample> pixels_of(const Plan& plan, std::uint32_t batch) {
   return samples;
 }
 
+// Adds up what each light deposits.
+ContributionDeposit by_light(ExposureByLight& sums) {
+  return [&sums](const FilmPoint&, const LightHistory& of, std::span<const double> values) {
+    sums.add(of.light, values);
+  };
+}
+
 // Camera paths, whose mean stands for all pixels.
 void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
   const Camera& camera = plan.scene.camera;
   PathTracer tracer(plan, caster);
-  tracer.tell_lights_apart(sums);
+  tracer.tell_apart(by_light(sums));
   tracer.trace(pixels_of(plan, batch), [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
   for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kAll;
 }
@@ -51,7 +58,7 @@ void expose_joined(const Plan& plan, std::uint32_t batch, RayCaster& caster, Exp
     pairs.push_back({sample.x, sample.y, sample.sampler, {kSeedOfPilots, Purpose::light, 0, 0, i}, true});
   }
   BidirectionalTracer tracer(plan, caster);
-  tracer.tell_lights_apart(sums);
+  tracer.tell_apart(by_light(sums));
   tracer.trace(pairs, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
 }
 

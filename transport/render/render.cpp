@@ -12,6 +12,7 @@
 
 #include "io/error.h"
 #include "transport/render/learn_aims.h"
+#include "transport/render/part_films.h"
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
 #include "transport/render/replay.h"
@@ -60,10 +61,12 @@ class Rendering {
                  starts_at_lights(plan_.techniques) ? plan_.photons : 0, plan_.path_interval, options.crop),
             {},
             {}} {
+    if (options.layers) result_.layers.emplace(layered(result_.film.shape(), options.layers->names.size()));
     if (!options.features.empty())
       result_.features.emplace(options.features, result_.film.shape(), scene.film_planes());
     if (start) {
       if (start->film.shape() != result_.film.shape() ||
+          start->layers.has_value() != result_.layers.has_value() ||
           start->features.has_value() != result_.features.has_value())
         throw Error(ErrorCode::input, "render", "the film to go on with has another shape");
       result_ = *std::move(start);
@@ -122,7 +125,7 @@ class Rendering {
     for (const SampleRange& range : round)
       if (!add(result_.samples, range)) throw Error(ErrorCode::internal, "render", "a pass was done twice");
     result_.stats.samples_per_pixel = count(result_.samples);
-    result_.film.set_samples(count_per_replicate(result_.samples, result_.film.replicates()));
+    set_samples(result_, result_.samples);
     if (all_follow(look_is_due() && asks_for_error())) {
       collect();
       if (leads()) look_at_error();
@@ -135,6 +138,7 @@ class Rendering {
     if (alone()) return;
     RenderStats& stats = result_.stats;
     options_.crew.collect(result_.film.sums());
+    if (result_.layers) options_.crew.collect(result_.layers->sums());
     if (result_.features) options_.crew.collect(result_.features->sums().sums());
     std::array<Int128, 5> counts{stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths,
                                  stats.cut.sum};
@@ -158,6 +162,7 @@ class Rendering {
   // What was read of an earlier run counts in the first process only.
   void forget() {
     std::ranges::fill(result_.film.sums(), Int128{0});
+    if (result_.layers) std::ranges::fill(result_.layers->sums(), Int128{0});
     if (result_.features) std::ranges::fill(result_.features->sums().sums(), Int128{0});
     RenderStats& stats = result_.stats;
     stats.paths = stats.rays = stats.nonfinite_samples = 0;
@@ -168,7 +173,7 @@ class Rendering {
   void trace(const SampleRange& range) {
     RenderStats& stats = result_.stats;
     Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0,
-              scene_.render.seed, result_.features ? &*result_.features : nullptr);
+              scene_.render.seed, beside());
     while (!pass.finished()) {
       const PassCounts counts = pass.run(threads_, [this] { return alone() && save_is_due(); });
       stats.paths += counts.paths;
@@ -178,6 +183,11 @@ class Rendering {
       result_.unfinished = {range, pass.done()};
       if (!pass.finished()) save();
     }
+  }
+
+  [[nodiscard]] BesideFilms beside() {
+    return {result_.features ? &*result_.features : nullptr, options_.layers ? &*options_.layers : nullptr,
+            result_.layers ? &*result_.layers : nullptr};
   }
 
   // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,

@@ -13,6 +13,7 @@
 #include "sensor/film/relative_error.h"
 #include "transport/path/truncated_paths.h"
 #include "transport/render/crew.h"
+#include "transport/render/layers.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
@@ -43,6 +44,7 @@ struct RenderOptions {
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
   std::optional<SampleRange> samples = {};  ///< Only these of the samples the scene asks for.
+  std::optional<Layers> layers = {};        ///< Into which the film is also told apart.
   std::vector<Feature> features = {};  ///< Of the first surfaces that are met, each once, in their order.
   /// Called with what is done, maybe amid a pass, once `checkpoint_interval_s` has gone by since the last
   /// call or since the start, and so seldom that the calls take no more than a hundredth of the time; and
@@ -79,6 +81,7 @@ struct RenderResult {
   SampleRanges samples;
   RenderStats stats;
   std::optional<UnfinishedPass> unfinished = {};  ///< Only in what a checkpoint gets.
+  std::optional<Film> layers = {};                ///< Their planes one after another, if some were asked for.
   std::optional<FeatureFilm> features = {};       ///< If some were asked for.
 };
 

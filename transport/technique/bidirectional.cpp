@@ -247,19 +247,25 @@ FilmPoint BidirectionalTracer::film_point(std::uint32_t i, std::size_t t, const 
 void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_t light,
                               const SampledSpectrum& contribution) {
   const bool own = at.x == at_[i].x && at.y == at_[i].y && at.cos_film == at_[i].cos_film;
-  if (own && by_light_ == nullptr) {
+  if (own)
     found_[i] += contribution;
-    return;
-  }
-  expose(i, at, contribution);
-  if (by_light_ != nullptr) by_light_->add(light, values_);
+  else
+    expose(i, at, contribution);
+  if (!apart_) return;
+  set_values(i, at, contribution);
+  apart_(at, {light, static_cast<int>(joined_.z.size()) - 2}, values_);
 }
 
 void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution) {
+  set_values(i, at, contribution);
+  (*deposit_)(first_ + i, at, values_);
+}
+
+void BidirectionalTracer::set_values(std::uint32_t i, const FilmPoint& at,
+                                     const SampledSpectrum& contribution) {
   const SampledWavelengths& wavelengths = from_camera_.paths()[i].packet.wavelengths;
   std::fill(values_.begin(), values_.end(), 0.0);
   response_.add(at, wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_);
-  (*deposit_)(first_ + i, at, values_);
 }
 
 }  // namespace abbe

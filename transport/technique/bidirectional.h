@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -50,8 +51,8 @@ class BidirectionalTracer {
  public:
   BidirectionalTracer(const Plan& plan, RayCaster& caster);
 
-  /// Lets the tracer, from now on, also add up what each light deposits.
-  void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
+  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
+  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
 
   /// Traces both paths of each of some samples, and deposits what they find by their numbers.
   void trace(std::span<const PixelPair> samples, const Deposit& deposit);
@@ -79,6 +80,7 @@ class BidirectionalTracer {
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
   void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution);
   void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);
+  void set_values(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -90,7 +92,7 @@ class BidirectionalTracer {
   PathRecorder<TransportMode::power> from_light_;
   const LightPaths* from_lights_ = nullptr;  // if they are given
   const Deposit* deposit_ = nullptr;
-  ExposureByLight* by_light_ = nullptr;
+  ContributionDeposit apart_;           // if it is told
   std::span<const PixelPair> samples_;  // under way
   std::uint32_t first_ = 0;             // number of the first of the samples under way
   std::vector<FilmPoint> at_;           // where each exposes the film,

@@ -76,6 +76,7 @@ void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens
   }
   connections_.push_back(
       {path.path,
+       path.events + 1,
        contribution,
        {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
   ways_.push_back(way);
@@ -86,10 +87,11 @@ void LightTracer::resolve_connections() {
   if (!walks_.has_free_paths()) caster_.occluded(ways_, blocked_);
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (blocked_[i] != 0) continue;
-    const auto& [path, contribution, at] = connections_[i];
+    const auto& [path, events, contribution, at] = connections_[i];
     std::fill(values_.begin(), values_.end(), 0.0);
     response_.add(at, walks_.paths()[path].packet.wavelengths, contribution * scale_, values_);
     (*deposit_)(path, at, values_);
+    if (apart_) apart_(at, {starts_[path].light, events}, values_);
   }
   connections_.clear();
   ways_.clear();

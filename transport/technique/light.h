@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -32,6 +33,9 @@ class LightTracer {
   /// `share` is the part of a sample per pixel one photon stands for: 1/pixels when a sample per pixel is as
   /// many photons as pixels.
   LightTracer(const Plan& plan, RayCaster& caster, double share);
+
+  /// Lets the tracer, from now on, also tell by which way the light of each deposit came.
+  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
 
   /// Traces a photon for each of the samplers, and deposits what its connections bring, by its number.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
@@ -66,6 +70,7 @@ class LightTracer {
  private:
   struct Connection {
     std::uint32_t path;
+    int events;
     SampledSpectrum contribution;
     FilmPoint at;
   };
@@ -82,6 +87,7 @@ class LightTracer {
   FilmResponse response_;
   RandomWalks<LightTracer> walks_;
   const Deposit* deposit_ = nullptr;
+  ContributionDeposit apart_;  // if it is told
   std::vector<PhotonStart> starts_;
   std::vector<Connection> connections_;  // of the step under way,
   std::vector<BasicRay<double>> ways_;   // their ways to the lens,

@@ -100,7 +100,7 @@ void PathTracer::escape(CameraPath& path) {
     const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
     if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_photons(path, light)) continue;
     const float pdf = connection_pdf(path, light, Imath::V3f(0), Imath::V3f(0));
-    add(path, light,
+    add(path, {light, path.events},
         path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm()) *
             mis_weight(path.packet.lane_pdf, pdf, path.connected),
         path.at.cos_film);
@@ -114,7 +114,7 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
   if (!emits_towards(scene_.lights[light], hit.normal, -path.ray.direction) || owned_by_photons(path, light))
     return;
   const float pdf = connection_pdf(path, light, hit.point, hit.normal);
-  add(path, light,
+  add(path, {light, path.events},
       path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm()) *
           mis_weight(path.packet.lane_pdf, pdf, path.connected),
       path.at.cos_film);
@@ -159,7 +159,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
         .attenuate(contribution, chosen->towards.distance);
   else
     path.around.medium.attenuate(contribution, chosen->towards.distance);
-  connections_.push_back({path.path, chosen->index, contribution * weight, cos_film});
+  connections_.push_back({path.path, {chosen->index, path.events + 1}, contribution * weight, cos_film});
   ways_.push_back(way_to(ray, chosen->towards));
 }
 
@@ -228,7 +228,8 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
   if (!way) return;
   const float weight = mis_weight(path.packet.lane_pdf * scattering_pdf * way->density, chosen.pdf,
                                   path.packet.lane_pdf.sum());
-  if (std::isfinite(weight)) add(path, chosen.index, contribution * way->transmittance * weight, cos_film);
+  if (std::isfinite(weight))
+    add(path, {chosen.index, path.events + 1}, contribution * way->transmittance * weight, cos_film);
 }
 
 // The photons bring what comes through specular matter from traced lights, but for what is seen through it.
@@ -293,24 +294,23 @@ void PathTracer::resolve_connections() {
   caster_.occluded(ways_, blocked_);
   for (std::size_t i = 0; i < ways_.size(); ++i)
     if (blocked_[i] == 0)
-      add(walks_.paths()[connections_[i].path], connections_[i].light, connections_[i].contribution,
+      add(walks_.paths()[connections_[i].path], connections_[i].of, connections_[i].contribution,
           connections_[i].cos_film);
   connections_.clear();
   ways_.clear();
 }
 
 // Light that a meter sees directly comes in under an angle of its own.
-void PathTracer::add(CameraPath& path, std::uint32_t light, const SampledSpectrum& contribution,
+void PathTracer::add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution,
                      float cos_film) {
-  if (by_light_ == nullptr && !(response_.angular() && cos_film != path.at.cos_film)) {
-    path.found += contribution;
-    return;
-  }
+  const bool with_others = !response_.angular() || cos_film == path.at.cos_film;
+  if (with_others) path.found += contribution;
+  if (with_others && !apart_) return;
   const FilmPoint at{path.at.x, path.at.y, cos_film, path.at.time};
   std::fill(values_.begin(), values_.end(), 0.0);
   response_.add(at, path.packet.wavelengths, contribution * path.scale, values_);
-  if (by_light_ != nullptr) by_light_->add(light, values_);
-  (*deposit_)(first_ + path.path, at, values_);
+  if (apart_) apart_(at, of, values_);
+  if (!with_others) (*deposit_)(first_ + path.path, at, values_);
 }
 
 }  // namespace abbe

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -46,8 +47,8 @@ class PathTracer {
 
   PathTracer(const Plan& plan, RayCaster& caster);
 
-  /// Lets the tracer, from now on, also add up what each light deposits.
-  void tell_lights_apart(ExposureByLight& by_light) { by_light_ = &by_light; }
+  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
+  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
 
   /// Traces a path for each of some samples, and deposits what they find by their numbers, at least once
   /// each.
@@ -88,7 +89,7 @@ class PathTracer {
   };
   struct Connection {
     std::uint32_t path;
-    std::uint32_t light;
+    LightHistory of;
     SampledSpectrum contribution;
     float cos_film;
   };
@@ -107,7 +108,7 @@ class PathTracer {
   void connect_through_media(CameraPath& path, const ChosenLight& chosen, const SampledSpectrum& contribution,
                              const SampledSpectrum& scattering_pdf, const Ray& ray,
                              const Surroundings& around, float cos_film);
-  void add(CameraPath& path, std::uint32_t light, const SampledSpectrum& contribution, float cos_film);
+  void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -116,8 +117,8 @@ class PathTracer {
   FilmResponse response_;
   RandomWalks<PathTracer> walks_;
   const Deposit* deposit_ = nullptr;
-  std::uint32_t first_ = 0;  // number of the first of the paths under way
-  ExposureByLight* by_light_ = nullptr;
+  std::uint32_t first_ = 0;              // number of the first of the paths under way
+  ContributionDeposit apart_;            // if it is told
   std::vector<Connection> connections_;  // of the step under way,
   std::vector<BasicRay<double>> ways_;   // their ways to the light,
   std::vector<std::uint8_t> blocked_;    // and whether something stands on them

@@ -1,0 +1,99 @@
+#include "transport/render/layers.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/error.h"
+#include "transport/plan/techniques.h"
+
+namespace abbe {
+namespace {
+
+constexpr const char* kRest = "rest";
+
+// Of techniques that say of each contribution by which way its light came.
+bool tells_ways(Technique technique) {
+  return technique == Technique::path || technique == Technique::light || technique == Technique::bdpt ||
+         technique == Technique::vcm;
+}
+
+std::vector<std::string> layers_of_lights(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Light& light : scene.lights) names.push_back(layer_name(light.name));
+  return names;
+}
+
+std::vector<std::string> each_once(std::vector<std::string> all,
+                                   const std::optional<std::string>& more = {}) {
+  if (more) all.push_back(*more);
+  std::vector<std::string> once;
+  for (const std::string& name : all)
+    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+  return once;
+}
+
+}  // namespace
+
+std::size_t Layers::of(const LightHistory& light) const {
+  if (!of_light.empty()) return of_light[light.light];
+  return std::min(static_cast<std::size_t>(light.events), names.size() - 1);
+}
+
+Layers bounce_layers(int last) {
+  Layers layers;
+  for (int events = 0; events < last; ++events) layers.names.push_back(fmt::format("bounce{}", events));
+  layers.names.push_back(fmt::format("bounce{}plus", last));
+  return layers;
+}
+
+std::string layer_name(std::string light) {
+  const auto may_stay = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  for (char& c : light)
+    if (!may_stay(c)) c = '_';
+  return light;
+}
+
+Layers light_layers(const Scene& scene, std::vector<std::string> names) {
+  const std::vector<std::string> there = layers_of_lights(scene);
+  if (there.empty()) throw Error(ErrorCode::usage, "--layers", "the scene has no light to tell apart");
+  Layers layers{each_once(names.empty() ? there : std::move(names))};
+  for (const std::string& name : layers.names)
+    if (std::find(there.begin(), there.end(), name) == there.end())
+      throw Error(ErrorCode::usage, "--layers",
+                  fmt::format("no light has such a name (got \"{}\", allowed {})", name,
+                              fmt::join(each_once(there), ", ")));
+  const bool all = std::all_of(there.begin(), there.end(), [&](const std::string& name) {
+    return std::find(layers.names.begin(), layers.names.end(), name) != layers.names.end();
+  });
+  if (!all) layers.names = each_once(layers.names, kRest);
+  for (const std::string& name : there) {
+    auto found = std::find(layers.names.begin(), layers.names.end(), name);
+    if (found == layers.names.end()) found = std::find(layers.names.begin(), layers.names.end(), kRest);
+    layers.of_light.push_back(static_cast<std::uint32_t>(found - layers.names.begin()));
+  }
+  for (std::string& name : layers.names) name.insert(0, kLightLayer);
+  return layers;
+}
+
+void require_layers(const Scene& scene) {
+  for (const Technique technique : chosen_techniques(scene))
+    if (!tells_ways(technique))
+      throw Error(
+          ErrorCode::usage, "--layers",
+          fmt::format("the integrator does not tell by which way light came (got {}, allowed auto, path, "
+                      "light, bdpt, vcm)",
+                      name_of(technique)));
+}
+
+FilmShape layered(FilmShape film, std::size_t layers) {
+  film.channels *= static_cast<int>(layers);
+  return film;
+}
+
+}  // namespace abbe

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "sensor/film/film.h"
+#include "sensor/film/recorded_layers.h"
+#include "transport/path/film_response.h"
+
+namespace abbe {
+
+/// How the light of a film is told apart: each path belongs to one layer, and the layers add up to the film.
+struct Layers {
+  std::vector<std::string> names;
+  /// Of each light of the scene; where it is empty, the layer is the number of events between the light and
+  /// the camera, or the last.
+  std::vector<std::uint32_t> of_light = {};
+
+  [[nodiscard]] std::size_t of(const LightHistory& light) const;
+};
+
+/// The terms of the Neumann series [Kajiya1986]: `bounce0`, light that is seen as it is emitted, `bounce1`,
+/// light that was scattered once, and so on; what has had `last` events or more is in one layer,
+/// `bounce<last>plus`.
+[[nodiscard]] Layers bounce_layers(int last);
+/// A layer `light.NAME` for each of some lights, by the names that `layer_name` makes of theirs, which
+/// several lights may have, and `light.rest` for all others, if there are some. Of no names, all that the
+/// scene's lights have. Throws Error{usage} for a name that none has, and for a scene without lights.
+[[nodiscard]] Layers light_layers(const Scene& scene, std::vector<std::string> names);
+/// The name of a light with _ for all but letters, digits, - and _, so that channels of files can have it.
+[[nodiscard]] std::string layer_name(std::string light);
+
+/// Throws Error{usage} when a technique of the scene does not tell by which way light came.
+void require_layers(const Scene& scene);
+
+/// The shape of the sums of so many layers of a film.
+[[nodiscard]] FilmShape layered(FilmShape film, std::size_t layers);
+
+}  // namespace abbe

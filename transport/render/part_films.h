@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "transport/render/part.h"
+
+namespace abbe {
+
+/// The films of a part: its own, and those beside it of its layers and its features, as its identity tells.
+
+/// Memory that their sums take; nothing for an identity that tells of none.
+[[nodiscard]] std::optional<std::size_t> bytes_of_films(const FilmIdentity& identity, const FilmShape& shape);
+/// Films of that shape, without light.
+[[nodiscard]] RenderResult dark_films(const FilmIdentity& identity, const FilmShape& shape);
+/// Those that have these bytes, as `sums_of` has them; nothing if there are more or fewer.
+[[nodiscard]] std::optional<RenderResult> films_of(const FilmIdentity& identity, const FilmShape& shape,
+                                                   std::string_view bytes);
+/// Their sums, one film after another.
+[[nodiscard]] std::vector<std::string_view> sums_of(const RenderResult& films);
+/// Leaves what the pixels of a shape have that differs in its crop at most.
+void crop_films(const FilmShape& shape, RenderResult& films);
+/// Adds to films all that others have.
+void add_films(RenderResult& sum, const RenderResult& films);
+/// Sets the samples of all pixels that have variances.
+void set_samples(RenderResult& films, const SampleRanges& samples);
+
+/// The names of the film's own planes.
+[[nodiscard]] std::vector<std::string> film_planes(const FilmIdentity& identity);
+
+}  // namespace abbe
