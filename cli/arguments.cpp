@@ -110,6 +110,13 @@ Crop parse_crop(const std::string& option, const std::string& text) {
   return *crop;
 }
 
+LightFactor parse_light_factor(const std::string& option, const std::string& text) {
+  constexpr double kMost = 1e30;
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos || sign == 0) refuse(option, "\"" + text + "\"", "NAME=FACTOR");
+  return {text.substr(0, sign), parse_numbers(option, text.substr(sign + 1), -kMost, kMost)};
+}
+
 LayerChoice parse_layer_choice(const std::string& option, const std::string& text) {
   constexpr int kUsualBounces = 8;
   constexpr int kMostBounces = 64;

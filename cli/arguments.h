@@ -9,6 +9,7 @@
 #include "cli/render.h"
 #include "description/load.h"
 #include "develop/film_sensor.h"
+#include "develop/relight.h"
 #include "preview/page_server.h"
 #include "transport/render/render.h"
 #include "transport/render/sampled_areas.h"
@@ -35,6 +36,8 @@ namespace abbe::cli {
 [[nodiscard]] std::size_t parse_bytes(const std::string& option, const std::string& text);
 /// A share in (0, 1): "0.5%" or "0.005".
 [[nodiscard]] double parse_share(const std::string& option, const std::string& text);
+/// "name=factor", or a factor for each plane separated by commas.
+[[nodiscard]] LightFactor parse_light_factor(const std::string& option, const std::string& text);
 /// "bias", "dark", or "flat" perhaps with a share of saturation, as "flat:0.5".
 [[nodiscard]] CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.

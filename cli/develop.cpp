@@ -106,6 +106,7 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
 
 ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   Image film = read_film(options.film, &inputs);
+  if (!options.lights.empty()) relight(film, options.lights);
   if (is_spectral(film)) return expose_spectral(std::move(film), options, inputs);
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");

@@ -7,6 +7,7 @@
 
 #include "description/load.h"
 #include "develop/film_sensor.h"
+#include "develop/relight.h"
 #include "io/inputs.h"
 
 namespace abbe::cli {
@@ -18,6 +19,7 @@ struct DevelopOptions {
   std::filesystem::path display;               ///< Empty when no picture is wanted.
   std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
   std::vector<Override> overrides;             ///< Of the read-out and the white.
+  std::vector<LightFactor> lights;             ///< That count otherwise than in the film.
   std::optional<double> exposure_s;            ///< Of the sensor; that of the film when absent.
   std::optional<double> iso;                   ///< Speed of the sensor, in place of its gain.
   std::optional<CalibrationFrame> frame;       ///< What the camera sees instead of the scene.

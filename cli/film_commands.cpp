@@ -18,6 +18,17 @@ namespace {
 void add_exposure(CLI::App& options, DevelopOptions& how) {
   add_parsed(options, "--exposure-s", how.exposure_s, number_in(1e-12, 1e9),
              "Expose anew for this time in s, without rendering", "T");
+  options
+      .add_option_function<std::vector<std::string>>(
+          "--light",
+          [&how](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) how.lights.push_back(parse_light_factor("--light", text));
+          },
+          "Let a light of a film with layers of lights count so many times, or so many for each plane; may "
+          "be "
+          "repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=FACTOR[,...]");
   add_parsed(options, "--frame", how.frame, parse_calibration_frame,
              "See no scene: bias is the read-out alone, dark the film's own time without light, flat even "
              "light of this share of saturation (default 0.5)",

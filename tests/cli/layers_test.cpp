@@ -87,6 +87,28 @@ TEST(Layers, PartsMakeTheFileOfTheWhole) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
+// As bright as a render whose lamp is turned down, to the noise of neither: the same paths.
+TEST(Layers, LightsAreTurnedDownWithoutRendering) {
+  ASSERT_EQ(rendered(coloured(), "lit.exr", "--layers lights").code, 0);
+  const Image lit = read_exr(file("lit.exr"));
+  const Outcome run = abbe(fmt::format("develop {} --light lamp_1=0.25,0.5,1 --light sky=2 -o {}",
+                                       file("lit.exr"), file("anew.exr")));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::vector<ExrPart> parts = read_exr_parts(file("anew.exr"));
+  const Image& anew = parts.front().image;
+  const std::size_t pixel = 8 * 24 + 12;
+  for (const auto& [plane, factor] : {std::pair("X", 0.25F), std::pair("Y", 0.5F), std::pair("Z", 1.0F)}) {
+    const std::string of = std::string(".") + plane;
+    const float expected =
+        factor * value(lit, "light.lamp_1" + of, pixel) + 2 * value(lit, "light.sky" + of, pixel);
+    EXPECT_NEAR(value(anew, plane, pixel), expected, 1e-5 * expected) << plane;
+  }
+  ASSERT_EQ(rendered(spectral(), "dim.exr", "--layers lights").code, 0);
+  const Outcome seen =
+      abbe(fmt::format("develop {} --light lamp_1=0 --display {}", file("dim.exr"), file("dim.png")));
+  EXPECT_EQ(seen.code, 0) << seen.err;
+}
+
 TEST(Layers, WhatCannotBeToldIsRefused) {
   const auto fails = [](const Outcome& run, int code, const char* text) {
     EXPECT_EQ(run.code, code) << run.err;
@@ -101,6 +123,11 @@ TEST(Layers, WhatCannotBeToldIsRefused) {
   fails(rendered(coloured(), "no.exr", "--layers bounces --integrator sppm"), 2,
         "--layers: the integrator does not tell by which way light came (got sppm, allowed auto, path, "
         "light, bdpt, vcm)");
+  ASSERT_EQ(rendered(coloured(), "plain.exr", "").code, 0);
+  fails(abbe(fmt::format("develop {} --light sky=2 -o {}", file("plain.exr"), file("no.exr"))), 2,
+        "--light: the film has no layers of lights: render --layers lights makes them");
+  fails(abbe(fmt::format("develop {} --light sky -o {}", file("plain.exr"), file("no.exr"))), 2,
+        "--light: got \"sky\", allowed NAME=FACTOR");
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/image.h"
+
+namespace abbe {
+
+/// What a light's layer of a film counts: one factor for all planes, or one for each.
+struct LightFactor {
+  std::string light;  ///< As the layer is called, without `light.` before it.
+  std::vector<double> factors;
+};
+
+/// Adds a film up anew out of its layers of lights, those that are not named counting as they did; the film
+/// then has no layers any more. Layers share their paths, so that their errors are not independent: with any
+/// share w of the film F itself, sum_g w_g L_g = w F + sum_g (w_g - w) L_g, whose standard deviation is at
+/// most
+///     |w| sigma_F + sum_g |w_g - w| sigma_g,
+/// and the variance is the square of the least of these bounds: that of the film, scaled, where all factors
+/// are one. Throws Error{usage} for a film without such layers, for a light that has none, and for factors
+/// that are neither one nor as many as the film's planes.
+void relight(Image& film, std::span<const LightFactor> factors);
+
+}  // namespace abbe

@@ -1,0 +1,92 @@
+#include "develop/relight.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "io/error.h"
+#include "sensor/film/recorded_layers.h"
+
+namespace abbe {
+namespace {
+
+// Two pixels of two planes, lit by two lights.
+Image film() {
+  return {2,
+          1,
+          {{"R", {5, 8}},
+           {"G", {3, 2}},
+           {"Variance.R", {0.04F, 0.25F}},
+           {"Variance.G", {0.01F, 0.01F}},
+           {"light.key.R", {4, 6}},
+           {"light.key.G", {2, 2}},
+           {"light.sun.R", {1, 2}},
+           {"light.sun.G", {1, 0}},
+           {"Variance.light.key.R", {0.01F, 0.16F}},
+           {"Variance.light.key.G", {0.01F, 0.01F}},
+           {"Variance.light.sun.R", {0.01F, 0.09F}},
+           {"Variance.light.sun.G", {0.01F, 0}},
+           {"Coverage", {1, 0}}},
+          {{kLayersKey, "light.key,light.sun"}, {"frame_mean_error", "0.1"}}};
+}
+
+Image relit(const std::vector<LightFactor>& factors) {
+  Image image = film();
+  relight(image, factors);
+  return image;
+}
+
+std::vector<float> values(const Image& image, const char* channel) {
+  return image.find(channel)->values;
+}
+
+TEST(Relight, LightsCountAsOftenAsTheyAreAskedTo) {
+  const Image image = relit({{"key", {0.5}}, {"sun", {3, 2}}});
+  EXPECT_EQ(values(image, "R"), (std::vector<float>{5, 9}));
+  EXPECT_EQ(values(image, "G"), (std::vector<float>{3, 1}));
+  EXPECT_EQ(values(image, "Coverage"), (std::vector<float>{1, 0}));
+  EXPECT_EQ(image.find("light.key.R"), nullptr);
+  EXPECT_EQ(image.find("Variance.light.key.R"), nullptr);
+  EXPECT_FALSE(image.metadata.contains(kLayersKey));
+  EXPECT_FALSE(image.metadata.contains("frame_mean_error"));
+}
+
+TEST(Relight, AllAlikeTheVarianceIsTheFilms) {
+  const Image image = relit({{"key", {2}}, {"sun", {2}}});
+  EXPECT_EQ(values(image, "R"), (std::vector<float>{10, 16}));
+  EXPECT_NEAR(values(image, "Variance.R")[0], 4 * 0.04, 1e-6);
+  EXPECT_NEAR(values(image, "Variance.R")[1], 4 * 0.25, 1e-6);
+}
+
+// Deviations of R in the first pixel are 0.2, 0.1 and 0.1 of film, key and sun: both together twice each.
+TEST(Relight, ElseItIsTheLeastBound) {
+  // |w| 0.2 + |1 - w| 0.1 + |0 - w| 0.1 is 0.1 at w = 0: the key alone.
+  EXPECT_NEAR(values(relit({{"sun", {0}}}), "Variance.R")[0], 0.01, 1e-6);
+  // In the second, 0.5, 0.4 and 0.3: of key and 1.1 sun at w = 1 0.5 + 0.03, at 1.1 0.55 + 0.04, at 0 0.73.
+  EXPECT_NEAR(values(relit({{"sun", {1.1}}}), "Variance.R")[1], 0.53 * 0.53, 1e-6);
+}
+
+std::string refusal(Image image, const std::vector<LightFactor>& factors) {
+  try {
+    relight(image, factors);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::usage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Relight, RefusesWhatTheFilmDoesNotHave) {
+  EXPECT_EQ(refusal(film(), {{"moon", {1}}}),
+            "--light: the film has no layer of it (got \"moon\", allowed key, sun)");
+  EXPECT_EQ(refusal(film(), {{"sun", {1, 2, 3}}}),
+            "--light: got 3 factors of \"sun\", allowed 1, or 2 for the planes of the film");
+  Image bounces = film();
+  bounces.metadata[kLayersKey] = "bounce0,bounce1plus";
+  EXPECT_EQ(refusal(bounces, {{"sun", {1}}}),
+            "--light: the film has no layers of lights: render --layers lights makes them");
+}
+
+}  // namespace
+}  // namespace abbe
