@@ -14,8 +14,9 @@
 #include <glog/logging.h>
 
 #include "calibration/fit/response_model.h"
+#include "calibration/fit/response_noise.h"
 #include "calibration/fit/response_samples.h"
-#include "io/error.h"
+#include "calibration/fit/series_checks.h"
 
 namespace abbe {
 namespace {
@@ -24,8 +25,7 @@ constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
 constexpr double kFirstScale =
     0.01;  // of the first pass: code errors beyond 1 % of full scale count ever less
 constexpr double kFirstRoughness = 1;
-constexpr double kCauchy = 2.385;  // in deviations: 95 % efficient for Gaussian errors [Holland1977]
-constexpr double kMadToDeviation = 1.4826;
+constexpr double kCauchy = 2.385;         // in deviations: 95 % efficient for Gaussian errors [Holland1977]
 constexpr double kLeastDeviation = 2e-5;  // of a code: what even exact values are taken to be uncertain by
 constexpr double kSlopeDrift =
     0.01;  // weight of first differences, which carry the slope on where no sample lies
@@ -75,10 +75,6 @@ Unknowns start(const std::vector<ResponseSample>& samples, std::size_t patches) 
   }
   for (std::size_t i = 0; i < patches; ++i) unknowns.log_exposure[i] /= std::max(1, counts[i]);
   return unknowns;
-}
-
-void require(bool condition, const std::string& message) {
-  if (!condition) throw Error(ErrorCode::input, "response fit", message);
 }
 
 // Samples with what their residuals are multiplied by, so that their deviation is 1.
@@ -133,19 +129,14 @@ ceres::Solver::Summary converge(const Weighted& data, double roughness, int max_
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, problem.get(), &summary);
-  require(summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE &&
-              std::isfinite(summary.final_cost),
-          fmt::format(
-              "no curve goes through these codes (gave up after {} steps): do the exposure times belong to "
-              "the photographs, and did nothing move between them?",
-              summary.iterations.size()));
+  require_for_response(
+      summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE &&
+          std::isfinite(summary.final_cost),
+      fmt::format(
+          "no curve goes through these codes (gave up after {} steps): do the exposure times belong to "
+          "the photographs, and did nothing move between them?",
+          summary.iterations.size()));
   return summary;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Errors of the code values, absolute.
@@ -177,8 +168,16 @@ double noise_scale(const std::vector<ResponseSample>& samples, const Unknowns& u
   std::vector<double> sizes = code_errors(samples, unknowns);
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] /= samples[i].deviation;
   const double count = static_cast<double>(samples.size());
-  return kMadToDeviation * median(std::move(sizes)) *
+  return deviation_of(std::move(sizes)) *
          std::sqrt(count / std::max(1.0, count - static_cast<double>(unknown_count)));
+}
+
+// Gives samples of which nothing is known the deviations that the residuals of codes like theirs have.
+void learn_deviations(std::vector<ResponseSample>& samples, Weighted& fitted, const Unknowns& unknowns) {
+  const NoiseByCode noise(fitted.samples, code_errors(fitted.samples, unknowns));
+  for (std::vector<ResponseSample>* const list : {&samples, &fitted.samples})
+    for (ResponseSample& s : *list)
+      s.deviation = std::max(kLeastDeviation, noise.deviation(predicted_code(unknowns, s)));
 }
 
 Weighted weigh(const std::vector<ResponseSample>& all, const Unknowns& unknowns, double scale) {
@@ -294,8 +293,9 @@ std::vector<double> log_deviations(const Weighted& data, double roughness, Unkno
   ceres::Covariance covariance(options);
   const double* theta = unknowns.theta.data();
   const std::vector<std::pair<const double*, const double*>> blocks{{theta, theta}};
-  require(covariance.Compute(blocks, problem.get()),
-          "the codes leave the curve open: more exposures, or patches of other brightness, are needed");
+  require_for_response(
+      covariance.Compute(blocks, problem.get()),
+      "the codes leave the curve open: more exposures, or patches of other brightness, are needed");
   constexpr auto kSize = static_cast<int>(kCoefficients);
   Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> c;
   covariance.GetCovarianceBlock(theta, theta, c.data());
@@ -321,9 +321,9 @@ std::vector<double> tabulate(const Unknowns& unknowns, std::size_t size) {
 }
 
 void require_samples(const std::vector<ResponseSample>& samples) {
-  require(samples.size() >= kMinSamples,
-          fmt::format("only {} code values are neither black nor clipped (needed {})", samples.size(),
-                      kMinSamples));
+  require_for_response(samples.size() >= kMinSamples,
+                       fmt::format("only {} code values are neither black nor clipped (needed {})",
+                                   samples.size(), kMinSamples));
 }
 
 // The first pass knows neither slopes nor the size of errors.
@@ -337,12 +337,8 @@ Weighted first_weights(const std::vector<ResponseSample>& samples) {
 }  // namespace
 
 ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options) {
-  require(series.times_s.size() >= 2,
-          fmt::format("an exposure series needs two times or more (got {})", series.times_s.size()));
-  require(std::all_of(series.times_s.begin(), series.times_s.end(),
-                      [](double t) { return t > 0 && std::isfinite(t); }),
-          "exposure times must be positive");
-  const std::vector<ResponseSample> samples = usable_samples(series, false);
+  require_usable_times(series);
+  std::vector<ResponseSample> samples = usable_samples(series, false);
   Weighted data = first_weights(usable_samples(series, true));
   require_samples(data.samples);
   Unknowns unknowns = start(data.samples, series.codes.size());
@@ -351,6 +347,7 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   fit.iterations = static_cast<int>(summary.iterations.size());
   const std::size_t unknown_count = kCoefficients + series.codes.size();
   for (int pass = 0; pass < 2; ++pass) {
+    if (series.deviations.empty()) learn_deviations(samples, data, unknowns);
     fit.noise_scale = noise_scale(data.samples, unknowns, unknown_count);
     data = weigh(samples, unknowns, fit.noise_scale);
     require_samples(data.samples);
@@ -365,20 +362,23 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   fit.final_cost = summary.final_cost;
   fit.median_code = median(code_errors(data.samples, unknowns));
   fit.samples = data.samples.size();
-  require(
+  require_for_response(
       std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
           std::isfinite(fit.linear.back()),
       "the curve that goes through these codes does not rise everywhere: do the exposure times belong to the "
-      "photographs?");
+      "photographs, and are there enough of them?");
+  require_determined(fit, data.samples);
   return fit;
+}
+
+double half_width_95(const ResponseFit& fit, double code) {
+  return 1.96 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
 }
 
 double largest_uncertainty(const ResponseFit& fit) {
   double largest = 0;
-  for (int percent = 1; percent < 100; ++percent) {
-    const double code = percent / 100.0;
-    largest = std::max(largest, 1.96 * linearise(fit.log_deviation, code) * linearise(fit.linear, code));
-  }
+  for (int percent = 1; percent < 100; ++percent)
+    largest = std::max(largest, half_width_95(fit, percent / 100.0));
   return largest;
 }
 

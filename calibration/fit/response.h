@@ -20,7 +20,9 @@ struct ResponseFit {
   double final_cost = 0;    ///< Of the last pass.
   double median_code =
       0;  ///< Median size of the residuals, about that of the errors of the code values (full scale 1).
-  double noise_scale = 0;   ///< Size of the residuals in units of the deviations that were stated.
+  /// Size of the residuals in units of the deviations that were stated, or else of those learnt of residuals
+  /// before.
+  double noise_scale = 0;
   double roughness = 0;     ///< Weight of the curve's second differences that cross-validation chose.
   std::size_t samples = 0;  ///< Code values used: neither black nor clipped.
   int iterations = 0;       ///< Of all passes.
@@ -38,9 +40,13 @@ struct ResponseOptions {
 /// first pass has a wide loss and the slope of a straight line in the curve's coordinate; two more take slope
 /// and size of the residuals from the one before, leave out codes so near to black or full scale that noise
 /// may have clipped them, and choose the weight of smoothness by leaving out each exposure in turn, exactly
-/// for the linearised problem. Throws Error{input} when the series does not determine the curve or the solver
-/// does not converge.
+/// for the linearised problem. Deviations that the series does not state are learnt of the residuals before,
+/// by code. Throws Error{input} when times and codes contradict one another (`require_usable_times`), when
+/// the series does not determine the curve (`require_determined`), and when the solver does not converge.
 [[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options = {});
+
+/// Half the width of the 95 % interval of the exposure of a code in [0, 1], as a share of full scale.
+[[nodiscard]] double half_width_95(const ResponseFit& fit, double code);
 
 /// The largest half-width of the 95 % interval of exposure between 1 % and 99 % of the code range, as a share
 /// of full scale.

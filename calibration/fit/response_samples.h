@@ -11,7 +11,7 @@ namespace abbe {
 struct ResponseSample {
   std::size_t patch;
   double code;
-  double deviation;  ///< Known standard deviation of the code; 1 where none is known.
+  double deviation;  ///< Standard deviation of the code; 1 where none is known yet.
   double log_time;
 };
 

@@ -13,5 +13,15 @@ TEST(ResponseCoverage, HundredNoisySeriesOfEachCurve) {
   }
 }
 
+// Of which nothing tells how the noise of a code grows with it.
+TEST(ResponseCoverage, HundredSeriesOfSinglePixelsOfEachCurve) {
+  for (const char* name : {"linear", "gamma:2.2", "s-curve"}) {
+    const Recovery recovery = recover_often(name, 100, kSinglePixels, false);
+    RecordProperty(std::string("coverage of single pixels of ") + name, std::to_string(recovery.coverage));
+    EXPECT_GE(recovery.coverage, 0.90) << name;
+    EXPECT_LE(recovery.coverage, 0.99) << name;
+  }
+}
+
 }  // namespace
 }  // namespace abbe::test

@@ -56,18 +56,24 @@ inline double coverage(const ResponseFit& fit, const PlantedResponse& planted) {
 /// and a half at full scale.
 inline constexpr CodeNoise kNoisyCamera{12, 1.2e-4, 1.2e-7};
 
+/// A single pixel of such a camera: photons of 14 000 electrons at full scale, and a step of read noise.
+inline constexpr CodeNoise kSinglePixels{12, 3e-4, 7e-5};
+
 /// What recovering a planted curve from many noisy series comes to.
 struct Recovery {
   double worst = 0;     ///< Error over all seeds.
   double coverage = 0;  ///< Mean over all seeds.
 };
-inline Recovery recover_often(const std::string& response, int seeds) {
+inline Recovery recover_often(const std::string& response, int seeds, const CodeNoise& noise = kNoisyCamera,
+                              bool is_stated = true) {
   const PlantedResponse planted(response);
   const std::vector<double> values = chart_values();
   Recovery all;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const ResponseFit fit = recover_response(
-        expose(values, stops(-9, 6, 1.0 / 3), planted, kNoisyCamera, static_cast<std::uint64_t>(seed)));
+    ExposureSeries series =
+        expose(values, stops(-9, 6, 1.0 / 3), planted, noise, static_cast<std::uint64_t>(seed));
+    if (!is_stated) series.deviations.clear();
+    const ResponseFit fit = recover_response(series);
     all.worst = std::max(all.worst, worst_error(fit, planted));
     all.coverage += coverage(fit, planted) / seeds;
   }

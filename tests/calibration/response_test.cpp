@@ -114,6 +114,12 @@ TEST(ResponseFit, ItsIntervalHoldsThePlantedCurve) {
   }
 }
 
+// Photons make the errors of bright codes many times those of dark ones, and nothing says so.
+TEST(ResponseFit, ItsIntervalHoldsThePlantedCurveOfSinglePixels) {
+  for (const char* name : {"linear", "gamma:2.2", "s-curve"})
+    EXPECT_GE(recover_often(name, 6, kSinglePixels, false).coverage, 0.85) << name;
+}
+
 // Noise ten times as large makes the interval ten times as wide, whether it was announced or not.
 TEST(ResponseFit, IntervalGrowsWithTheNoise) {
   const PlantedResponse planted("gamma:2.2");
@@ -160,6 +166,36 @@ TEST(ResponseFit, SaysWhatIsMissing) {
   expect_error(fit({1}), ErrorCode::input, "an exposure series needs two times or more (got 1)");
   expect_error(fit({1, 0}), ErrorCode::input, "exposure times must be positive");
   expect_error(fit({1e4, 2e4}), ErrorCode::input, "only 0 code values are neither black nor clipped");
+  expect_error(
+      fit({0.5, 0.50005}), ErrorCode::input,
+      "the exposure times leave the curve open: the longest is 1.0001 times the shortest (allowed from "
+      "1.02 on");
+}
+
+// Two exposures that hardly differ: many patches of little noise tell of the codes that they have, though not
+// of those beyond, and few of much noise tell of neither.
+TEST(ResponseFit, RefusesACurveThatItDoesNotKnow) {
+  const auto series = [](int patches, double seconds, double noise) {
+    std::vector<double> values;
+    for (int i = 0; i < patches; ++i) values.push_back(std::exp(-2.5 * i / patches));
+    return expose(values, std::array{seconds, 1.02 * seconds}, PlantedResponse("linear"), {12, noise, 0});
+  };
+  expect_error([&] { static_cast<void>(recover_response(series(192, 0.5, 5e-4))); }, ErrorCode::input,
+               "no exposure tells of the codes beyond 0.51");
+  ExposureSeries few = series(40, 0.7, 3e-3);
+  few.deviations.clear();
+  expect_error([&] { static_cast<void>(recover_response(few)); }, ErrorCode::input,
+               "these exposures leave the curve open: of the codes");
+}
+
+TEST(ResponseFit, NoticesExposureTimesThatAreSwapped) {
+  for (const auto& [first, second] : {std::pair{10U, 11U}, {8U, 20U}}) {
+    ExposureSeries series =
+        expose(chart_values(), stops(-9, 6, 1.0 / 3), PlantedResponse("gamma:2.2"), kSinglePixels);
+    std::swap(series.times_s[first], series.times_s[second]);
+    expect_error([&] { static_cast<void>(recover_response(series)); }, ErrorCode::input,
+                 "are exposure times swapped, or did the light change?");
+  }
 }
 
 }  // namespace
