@@ -43,7 +43,7 @@ RawLight read_light(const JsonValue& light, Diagnostics& diagnostics) {
       if (read.illuminant < 1 || read.illuminant > kLastOfExif)
         diagnostics.error(
             code->where, fmt::format("the light has no number in Exif, so that raw converters do not know it "
-                                     "(got {}, allowed A, B, C, D50, D55, D65 and D75)",
+                                     "(got {}, allowed A, B, C, D50, D55, D65, D75 and fluorescent lamps)",
                                      read.illuminant));
     }
   read.color = read_matrix(light, "ColorMatrix", diagnostics);

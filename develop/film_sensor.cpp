@@ -140,6 +140,7 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
   sensor.f_number = data.find_number("aperture");
   sensor.display = read_display(data, sensor, view, white);
+  sensor.white = white ? white : recorded_white(film);
   sensor.display_exposure = data.find_number("display_exposure");
   return sensor;
 }

@@ -35,6 +35,7 @@ struct FilmSensor {
   std::string camera;       ///< Name of its model, else of the measured camera; empty where it has none.
   std::optional<DisplayTransform> display;
   std::optional<double> display_exposure;  ///< Film value shown as white.
+  std::optional<Chromaticity> white;       ///< Shown as white: what was asked for, else the film's own.
   std::vector<RawLight> lights;            ///< Of a calibration, for raw converters; else none.
 };
 

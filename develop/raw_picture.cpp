@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/output/dng_profile.h"
+#include "calibration/output/exif_light.h"
 #include "sensor/readout/speed.h"
 
 namespace abbe {
@@ -29,14 +31,26 @@ std::vector<std::uint16_t> linear_codes(const Readout& readout) {
   return table;
 }
 
-// Raw values are film values times each channel's exposure, all of which the display's matrix has seen.
-std::optional<std::array<double, 9>> from_xyz(const FilmSensor& sensor) {
-  if (!sensor.display || sensor.channels.size() != 3) return std::nullopt;
-  const Matrix3 inverse = sensor.display->to_xyz_d65().inverse(true);
+std::array<double, 9> rows_of(const Matrix3& matrix) {
   std::array<double, 9> rows{};
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) rows[static_cast<std::size_t>(3 * i + j)] = inverse[i][j];
+    for (int j = 0; j < 3; ++j) rows[static_cast<std::size_t>(3 * i + j)] = matrix[i][j];
   return rows;
+}
+
+// What the display's matrix says of raw values, which are film values times each channel's exposure, before
+// it adapts the film's white to D65. A white that no eye adapts to is shown as it looks in D65.
+void tell_colors(const FilmSensor& sensor, RawPicture& raw) {
+  raw.lights = sensor.lights;
+  if (!sensor.display || sensor.channels.size() != 3) return;
+  const bool adapts = sensor.white && adaptation(unit_xyz(*sensor.white), unit_xyz(kD65));
+  const Chromaticity white = adapts ? *sensor.white : kD65;
+  const auto matrices =
+      dng_matrices(white_adaptation(white).inverse(true) * sensor.display->to_xyz_d65(), unit_xyz(white));
+  if (!matrices) return;
+  if (raw.lights.empty())
+    raw.lights = {{exif_light_source(white), rows_of(matrices->color), rows_of(matrices->forward)}};
+  raw.neutral = matrices->neutral;
 }
 
 }  // namespace
@@ -65,8 +79,7 @@ RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor)
   raw.exposure_s = sensor.shared_exposure_s;
   raw.f_number = sensor.f_number;
   if (sensor.electrons_per_lx_s) raw.iso_speed = saturation_speed(readout, *sensor.electrons_per_lx_s);
-  raw.from_xyz_d65 = from_xyz(sensor);
-  raw.lights = sensor.lights;
+  tell_colors(sensor, raw);
   raw.camera = sensor.camera;
   raw.metadata = developed.codes.metadata;
   return raw;

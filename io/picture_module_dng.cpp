@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kVersion{1, 4, 0, 0};
 constexpr std::array<std::uint8_t, 4> kOldestReader{1, 1, 0, 0};
-constexpr std::uint16_t kD65 = 21;  // among the light sources of Exif
 
 // A file in memory, as libtiff asks for one.
 struct MemoryFile {
@@ -170,39 +169,25 @@ void set_levels(Tags& tags, const RawPicture& raw) {
   if (!raw.linear_codes.empty()) tags.set_all(TIFFTAG_LINEARIZATIONTABLE, raw.linear_codes);
 }
 
-std::vector<float> floats(const std::array<double, 9>& matrix, double divisor = 1) {
-  std::vector<float> values;
-  for (const double element : matrix) values.push_back(static_cast<float>(element / divisor));
-  return values;
+template <std::size_t N>
+std::vector<float> floats(const std::array<double, N>& values) {
+  return {values.begin(), values.end()};
 }
 
-void set_lights(Tags& tags, const std::array<const RawLight*, 2>& lights) {
-  tags.set(TIFFTAG_CALIBRATIONILLUMINANT1, lights[0]->illuminant);
-  tags.set(TIFFTAG_CALIBRATIONILLUMINANT2, lights[1]->illuminant);
-  tags.set_all(TIFFTAG_COLORMATRIX1, floats(lights[0]->color));
-  tags.set_all(TIFFTAG_COLORMATRIX2, floats(lights[1]->color));
-  tags.set_all(kForward1, floats(lights[0]->forward));
-  tags.set_all(kForward2, floats(lights[1]->forward));
-}
-
-// The matrix from XYZ to the camera and the camera's values of its white, D65 after adaptation.
+// The matrices of the lights, the white of the picture and the numbers of both.
 void set_colors(Tags& tags, const RawPicture& raw) {
-  if (raw.lights.size() == 2) set_lights(tags, {raw.lights.data(), &raw.lights[1]});
-  if (!raw.from_xyz_d65) return;
-  constexpr std::array<double, 3> kWhite{0.95047, 1, 1.08883};
-  std::vector<float> neutral;
-  for (std::size_t row = 0; row < 3; ++row) {
-    double value = 0;
-    for (std::size_t k = 0; k < 3; ++k) value += (*raw.from_xyz_d65)[3 * row + k] * kWhite[k];
-    neutral.push_back(static_cast<float>(value));
+  struct LightTags {
+    std::uint32_t illuminant, color, forward;
+  };
+  constexpr std::array<LightTags, 2> kLights{
+      {{TIFFTAG_CALIBRATIONILLUMINANT1, TIFFTAG_COLORMATRIX1, kForward1},
+       {TIFFTAG_CALIBRATIONILLUMINANT2, TIFFTAG_COLORMATRIX2, kForward2}}};
+  for (std::size_t i = 0; i < std::min(raw.lights.size(), kLights.size()); ++i) {
+    tags.set(kLights[i].illuminant, raw.lights[i].illuminant);
+    tags.set_all(kLights[i].color, floats(raw.lights[i].color));
+    tags.set_all(kLights[i].forward, floats(raw.lights[i].forward));
   }
-  const float most = *std::max_element(neutral.begin(), neutral.end());
-  if (!(most > 0) || *std::min_element(neutral.begin(), neutral.end()) <= 0) return;
-  for (float& value : neutral) value /= most;
-  tags.set_all(TIFFTAG_ASSHOTNEUTRAL, neutral);
-  if (!raw.lights.empty()) return;
-  tags.set(TIFFTAG_CALIBRATIONILLUMINANT1, kD65);
-  tags.set_all(TIFFTAG_COLORMATRIX1, floats(*raw.from_xyz_d65, static_cast<double>(most)));
+  if (raw.neutral) tags.set_all(TIFFTAG_ASSHOTNEUTRAL, floats(*raw.neutral));
 }
 
 void set_names(Tags& tags, const RawPicture& raw) {

@@ -12,7 +12,7 @@ namespace abbe {
 
 /// What calibration says of a camera under one light [DNG, ch. 6]; matrices row by row.
 struct RawLight {
-  int illuminant;                   ///< CalibrationIlluminant: the light's number in Exif.
+  int illuminant;                   ///< CalibrationIlluminant: the light's number in Exif, 255 for others.
   std::array<double, 9> color{};    ///< ColorMatrix: XYZ, not adapted, to linear camera values.
   std::array<double, 9> forward{};  ///< ForwardMatrix: balanced camera values to XYZ relative to D50.
 };
@@ -36,10 +36,10 @@ struct RawPicture {
   std::optional<double> exposure_s;  ///< Nothing where a file that was read does not tell.
   std::optional<double> f_number;
   std::optional<double> iso_speed;
-  /// XYZ relative to D65 to the linear codes of three channels above black, row by row; its scale is free.
-  std::optional<std::array<double, 9>> from_xyz_d65;
-  std::vector<RawLight> lights = {};  ///< Two calibrated ones, or none: then that matrix serves in D65.
-  std::string camera;                 ///< Its name.
+  std::vector<RawLight> lights = {};  ///< The film's own, or two calibrated ones; none without colours.
+  /// Linear codes above black of the white, of which the greatest is 1 (AsShotNeutral); with lights alone.
+  std::optional<std::array<double, 3>> neutral = {};
+  std::string camera;                           ///< Its name.
   std::map<std::string, std::string> metadata;  ///< All that the film tells.
 };
 

@@ -2,36 +2,31 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
-#include <utility>
 
 #include "calibration/output/color_spaces.h"
+#include "calibration/output/exif_light.h"
 #include "spectral/color_temperature.h"
 
 namespace abbe {
-namespace {
 
-int exif_code(const std::string& light) {
-  constexpr int kOther = 255;
-  constexpr std::array<std::pair<std::string_view, int>, 7> kCodes{
-      {{"A", 17}, {"B", 18}, {"C", 19}, {"D55", 20}, {"D65", 21}, {"D75", 22}, {"D50", 23}}};
-  for (const auto& [name, code] : kCodes)
-    if (name == light) return code;
-  return kOther;
+std::optional<DngMatrices> dng_matrices(const Matrix3& to_xyz, const XYZ& white) {
+  const auto to_d50 = adaptation(white, dng_white());
+  if (!to_d50 || !is_invertible(to_xyz)) return std::nullopt;
+  Matrix3 color = to_xyz.inverse(true);
+  const std::array<double, 3> camera_white = multiply(color, white);
+  const auto [least, most] = std::minmax_element(camera_white.begin(), camera_white.end());
+  if (*least <= 0) return std::nullopt;
+  color *= 1 / *most;
+  return DngMatrices{color, *to_d50 * to_xyz * diagonal(camera_white), multiply(color, white)};
 }
-
-}  // namespace
 
 std::optional<DngLight> dng_light(const CameraProfile& profile, const XYZ& white) {
   const auto temperature = color_temperature(white);
-  const auto to_d50 = adaptation(white, dng_white());
-  if (profile.correction.model != CorrectionModel::linear || !temperature || !to_d50) return std::nullopt;
-  const Matrix3 balanced_to_xyz = linear_part(profile.correction);
-  Matrix3 color = (balanced_to_xyz * diagonal(profile.gains)).inverse(true);
-  const std::array<double, 3> camera_white = multiply(color, white);
-  color *= 1 / *std::max_element(camera_white.begin(), camera_white.end());
-  return DngLight{profile.light, exif_code(profile.light), temperature->kelvin, color,
-                  *to_d50 * balanced_to_xyz};
+  if (profile.correction.model != CorrectionModel::linear || !temperature) return std::nullopt;
+  const auto matrices = dng_matrices(linear_part(profile.correction) * diagonal(profile.gains), white);
+  if (!matrices) return std::nullopt;
+  return DngLight{profile.light, exif_light_source(profile.light), temperature->kelvin, matrices->color,
+                  matrices->forward};
 }
 
 Matrix3 forward_between(const DngLight& first, const DngLight& second, double kelvin) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -9,13 +10,25 @@
 
 namespace abbe {
 
-/// What a DNG file tells of a camera under one light [DNG, ch. 6].
-struct DngLight {
-  std::string light;
-  int code;       ///< CalibrationIlluminant: the light's number in EXIF, 255 for others.
-  double kelvin;  ///< Correlated colour temperature of its white.
+/// How a DNG file tells the colours of a camera under one light [DNG, ch. 6].
+struct DngMatrices {
   Matrix3 color;  ///< ColorMatrix: XYZ, not adapted, to linear camera values, scaled so that white reaches 1.
   Matrix3 forward;  ///< ForwardMatrix: camera values balanced on the light to XYZ relative to D50.
+  std::array<double, 3> neutral;  ///< AsShotNeutral of a picture in this light: what white becomes.
+};
+
+/// The matrices of a camera whose linear values `to_xyz` takes to XYZ under a light with this white (Y = 1).
+/// Nothing for a matrix without an inverse, a white that no eye adapts to, and one that is not positive in
+/// every channel.
+[[nodiscard]] std::optional<DngMatrices> dng_matrices(const Matrix3& to_xyz, const XYZ& white);
+
+/// What calibration says of a camera under one light.
+struct DngLight {
+  std::string light;
+  int code;         ///< CalibrationIlluminant: the light's number in Exif, 255 for others.
+  double kelvin;    ///< Correlated colour temperature of its white.
+  Matrix3 color;    ///< As in `DngMatrices`.
+  Matrix3 forward;  ///< As in `DngMatrices`.
 };
 
 /// The matrices of a profile, from the XYZ of its light's white (Y = 1). Nothing for a root polynomial, and

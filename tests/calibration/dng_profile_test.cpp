@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "calibration/camera_calibration.h"
+#include "calibration/output/exif_light.h"
 #include "calibration/output/sensitivities.h"
 #include "tests/calibration/calibration_fixture.h"
 
@@ -36,6 +37,30 @@ TEST(DngProfile, TakesWhiteToWhiteBothWays) {
   const double greatest = std::max({camera_white[0], camera_white[1], camera_white[2]});
   const auto found = multiply(light->color, made.colors.white);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], camera_white[k] / greatest, 1e-12);
+}
+
+TEST(ExifLight, NumbersStandardLightsAndKindsOfFluorescentLamps) {
+  for (const auto& [name, number] : {std::pair{"A", 17},
+                                     {"B", 18},
+                                     {"C", 19},
+                                     {"D55", 20},
+                                     {"D65", 21},
+                                     {"D75", 22},
+                                     {"D50", 23},
+                                     {"FL1", 12},
+                                     {"FL10", 13},
+                                     {"FL2", 14},
+                                     {"FL11", 14},
+                                     {"FL3", 15},
+                                     {"FL4", 16},
+                                     {"FL12", 16},
+                                     {"LED-B3", 255},
+                                     {"E", 255},
+                                     {"FLASH", 255}})
+    EXPECT_EQ(exif_light_source(std::string(name)), number) << name;
+  for (const auto& [name, number] :
+       {std::pair{"A", 17}, {"D65", 21}, {"D50", 23}, {"FL2", 14}, {"FL4", 16}, {"LED-B1", 255}})
+    EXPECT_EQ(exif_light_source(chromaticity(test::illuminant(name))), number) << name;
 }
 
 TEST(DngProfile, MixesByReciprocalTemperature) {

@@ -1,0 +1,65 @@
+#include "calibration/output/exif_light.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "calibration/output/color_spaces.h"
+#include "spectral/color_temperature.h"
+#include "spectral/library.h"
+
+namespace abbe {
+namespace {
+
+constexpr int kOther = 255;
+constexpr std::array<std::pair<std::string_view, int>, 7> kStandard{
+    {{"A", 17}, {"B", 18}, {"C", 19}, {"D55", 20}, {"D65", 21}, {"D75", 22}, {"D50", 23}}};
+
+// Daylight, day white, cool white, white and warm white fluorescent, down to these temperatures.
+struct Kind {
+  double least_kelvin;
+  int number;
+};
+constexpr std::array<Kind, 5> kFluorescent{{{5700, 12}, {4600, 13}, {3800, 14}, {3250, 15}, {2600, 16}}};
+constexpr double kMostKelvin = 7100;
+
+std::optional<Chromaticity> chromaticity_of(const std::string& name) {
+  Diagnostics unheard;
+  const auto light = load_illuminant(name, {}, unheard);
+  return light ? std::optional(chromaticity(light->curve)) : std::nullopt;
+}
+
+int fluorescent_kind(const Chromaticity& white) {
+  const auto temperature = color_temperature(unit_xyz(white));
+  if (!temperature || temperature->kelvin > kMostKelvin) return kOther;
+  for (const Kind& kind : kFluorescent)
+    if (temperature->kelvin >= kind.least_kelvin) return kind.number;
+  return kOther;
+}
+
+}  // namespace
+
+int exif_light_source(const std::string& name) {
+  for (const auto& [standard, number] : kStandard)
+    if (standard == name) return number;
+  const auto white = name.starts_with("FL") ? chromaticity_of(name) : std::nullopt;
+  return white ? fluorescent_kind(*white) : kOther;
+}
+
+int exif_light_source(const Chromaticity& white) {
+  constexpr double kSame = 5e-4;
+  constexpr int kLamps = 12;
+  const auto is_of = [&](const std::string& name) {
+    const auto xy = chromaticity_of(name);
+    return xy && std::hypot((*xy)[0] - white[0], (*xy)[1] - white[1]) < kSame;
+  };
+  for (const auto& [name, number] : kStandard)
+    if (is_of(std::string(name))) return number;
+  for (int i = 1; i <= kLamps; ++i)
+    if (const std::string name = "FL" + std::to_string(i); is_of(name)) return exif_light_source(name);
+  return kOther;
+}
+
+}  // namespace abbe
