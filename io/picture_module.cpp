@@ -49,6 +49,8 @@ std::string encode(const std::string& path, const PictureHeader& header, const P
 }
 
 void read(const std::string& path, const std::function<float*(const PictureHeader&)>& room) {
+  constexpr const char* kDamaged = "truncated or corrupt";
+  if (picture_module::is_damaged_png(path)) throw Error(ErrorCode::input, path, kDamaged);
   const auto input = OIIO::ImageInput::open(path);
   if (!input) throw Error(ErrorCode::input, path, OIIO::geterror());
   const OIIO::ImageSpec spec = input->spec();
@@ -57,7 +59,7 @@ void read(const std::string& path, const std::function<float*(const PictureHeade
   float* pixels = room(header_of(spec));
   // Of strips that a TIFF lacks the library tells as an error, and makes something up.
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels) || input->has_error())
-    throw Error(ErrorCode::input, path, "truncated or corrupt");
+    throw Error(ErrorCode::input, path, kDamaged);
 }
 
 }  // namespace

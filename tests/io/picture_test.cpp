@@ -91,6 +91,30 @@ TEST(Picture, BrokenFilesAreInputErrors) {
   }
 }
 
+// Whose library would tell of it on stderr.
+TEST(Picture, DamagedPngsAreToldOfByOneSentence) {
+  const auto path = test_folder() / "damaged.png";
+  write_picture(path, {64, 64, {{"Y", std::vector<float>(64 * 64, 0.3F)}}, {}});
+  const std::string sound = bytes_of(path);
+  std::string flipped = sound;
+  flipped[sound.find("IDAT") + 10] ^= 1;
+  std::string header = sound;
+  header[20] ^= 16;
+  for (const std::string& bytes : {sound.substr(0, sound.size() / 2), sound.substr(0, 40),
+                                   sound.substr(0, sound.size() - 1), flipped, header}) {
+    put(path, bytes);
+    testing::internal::CaptureStderr();
+    std::string said;
+    try {
+      static_cast<void>(read_picture(path));
+    } catch (const Error& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_NE(said.find("damaged.png: truncated or corrupt"), std::string::npos) << said;
+  }
+}
+
 TEST(Picture, FullDiskIsAnOutputErrorAndKeepsTheOldFile) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // threads of libraries do not survive a fork
   const auto folder = test_folder();
