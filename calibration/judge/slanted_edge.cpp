@@ -18,6 +18,10 @@ constexpr double kLeastAngle = 1;  // degrees
 constexpr double kMostAngle = 40;
 constexpr double kTurn = 2 * std::numbers::pi;
 
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorCode::input, "slanted edge", what);
+}
+
 struct Plane {
   std::vector<double> values;
   int width;
@@ -76,9 +80,50 @@ EdgeLine edge_line(const Plane& plane, const EdgeLine& near, double half_width) 
     sxy += x * y;
   }
   const double spread = n * syy - sy * sy;
-  if (!(spread > 0)) throw Error(ErrorCode::input, "slanted edge", "there is no edge in these pixels");
+  if (!(spread > 0)) refuse("there is no edge in these pixels");
   const double slope = (n * sxy - sx * sy) / spread;
   return {(sx - slope * sy) / n, slope};
+}
+
+void require_finite(const Plane& plane) {
+  const auto bad =
+      std::find_if(plane.values.begin(), plane.values.end(), [](double v) { return !std::isfinite(v); });
+  if (bad == plane.values.end()) return;
+  const auto at = static_cast<int>(bad - plane.values.begin());
+  refuse(
+      fmt::format("pixel {},{} of these holds no number (got {})", at % plane.width, at / plane.width, *bad));
+}
+
+// Values around one straight edge go by the distance from it alone, and rise or fall from one side to the
+// other. Those of a chart, a line or a texture do not.
+struct Spread {
+  double sum = 0;
+  double squares = 0;
+  double count = 0;
+  [[nodiscard]] double mean() const { return sum / count; }
+  [[nodiscard]] double deviations() const { return std::max(0.0, squares - sum * sum / count); }
+};
+void require_edge(const std::vector<Spread>& bins) {
+  constexpr double kMostUnexplained = 0.1;  // an edge twelve times as high as the noise has 0.03
+  constexpr double kLeastStep = 0.5;        // of the range of means
+  Spread all;
+  double unexplained = 0;
+  double lowest = bins.front().mean();
+  double highest = lowest;
+  for (const Spread& bin : bins) {
+    all = {all.sum + bin.sum, all.squares + bin.squares, all.count + bin.count};
+    unexplained += bin.deviations();
+    lowest = std::min(lowest, bin.mean());
+    highest = std::max(highest, bin.mean());
+  }
+  const double share = unexplained / all.deviations();
+  if (!(share < kMostUnexplained))
+    refuse(
+        fmt::format("these pixels show no single straight edge: {:.2g} % of their variance is not that of "
+                    "the distance from one (allowed {:.2g} %): crop to an edge between two even sides",
+                    100 * share, 100 * kMostUnexplained));
+  if (!(std::abs(bins.back().mean() - bins.front().mean()) > kLeastStep * (highest - lowest)))
+    refuse("both sides of the line that these pixels show are alike: crop to an edge between two even sides");
 }
 
 // Mean values by distance from the line, which is in the middle.
@@ -88,26 +133,23 @@ std::vector<double> edge_spread(const Plane& plane, const EdgeLine& line) {
   const double ends[] = {line.at_top, line.at_top + line.slope * (plane.height - 1)};
   const double reach = std::min(std::min(ends[0], ends[1]), plane.width - 1 - std::max(ends[0], ends[1]));
   const int half = static_cast<int>(reach * cosine * kBinsPerPixel) - 1;
-  if (half < 2 * kBinsPerPixel)
-    throw Error(ErrorCode::input, "slanted edge",
-                "the edge leaves these pixels, or runs too near to their border");
-  std::vector<double> sums(static_cast<std::size_t>(2 * half), 0);
-  std::vector<double> counts(sums.size(), 0);
+  if (half < 2 * kBinsPerPixel) refuse("the edge leaves these pixels, or runs too near to their border");
+  std::vector<Spread> bins(static_cast<std::size_t>(2 * half));
   for (int y = 0; y < plane.height; ++y)
     for (int x = 0; x < plane.width; ++x) {
       const double distance = (x - line.at_top - line.slope * y) * cosine;
       const auto bin = static_cast<int>(std::floor(distance * kBinsPerPixel)) + half;
       if (bin < 0 || bin >= 2 * half) continue;
-      sums[static_cast<std::size_t>(bin)] += plane.at(x, y);
-      counts[static_cast<std::size_t>(bin)] += 1;
+      Spread& here = bins[static_cast<std::size_t>(bin)];
+      const double value = plane.at(x, y);
+      here = {here.sum + value, here.squares + value * value, here.count + 1};
     }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (counts[i] == 0)
-      throw Error(ErrorCode::input, "slanted edge",
-                  "too few rows for quarters of a pixel: the edge needs to cross four columns or more");
-    sums[i] /= counts[i];
-  }
-  return sums;
+  if (std::any_of(bins.begin(), bins.end(), [](const Spread& bin) { return bin.count == 0; }))
+    refuse("too few rows for quarters of a pixel: the edge needs to cross four columns or more");
+  require_edge(bins);
+  std::vector<double> means;
+  for (const Spread& bin : bins) means.push_back(bin.mean());
+  return means;
 }
 
 double sinc(double x) {
@@ -135,7 +177,7 @@ std::vector<double> modulation(const std::vector<double>& edge) {
     mtf.push_back(std::abs(sum) / kept(frequency));
   }
   const double whole = mtf.front();
-  if (!(whole > 0)) throw Error(ErrorCode::input, "slanted edge", "there is no edge in these pixels");
+  if (!(whole > 0)) refuse("there is no edge in these pixels");
   for (double& m : mtf) m /= whole;
   return mtf;
 }
@@ -144,10 +186,9 @@ std::vector<double> modulation(const std::vector<double>& edge) {
 
 EdgeResponse slanted_edge(std::span<const double> values, int width, int height) {
   if (width < kLeastEdge || height < kLeastEdge)
-    throw Error(
-        ErrorCode::input, "slanted edge",
-        fmt::format("got {} x {} pixels, allowed from {} x {} on", width, height, kLeastEdge, kLeastEdge));
+    refuse(fmt::format("got {} x {} pixels, allowed from {} x {} on", width, height, kLeastEdge, kLeastEdge));
   Plane plane{{values.begin(), values.end()}, width, height};
+  require_finite(plane);
   const Plane turned = transposed(plane);
   EdgeResponse response{};
   response.is_horizontal = contrast(turned) > contrast(plane);
@@ -158,9 +199,8 @@ EdgeResponse slanted_edge(std::span<const double> values, int width, int height)
   response.angle_deg = std::atan(line.slope) * 360 / kTurn;
   const double angle = std::abs(response.angle_deg);
   if (angle < kLeastAngle || angle > kMostAngle)
-    throw Error(ErrorCode::input, "slanted edge",
-                fmt::format("the edge is slanted by {:.2f} degrees (allowed {} to {})", angle, kLeastAngle,
-                            kMostAngle));
+    refuse(fmt::format("the edge is slanted by {:.2f} degrees (allowed {} to {})", angle, kLeastAngle,
+                       kMostAngle));
   response.edge = edge_spread(plane, line);
   response.mtf = modulation(response.edge);
   for (std::size_t i = 1; i < response.mtf.size() && !response.mtf50; ++i)

@@ -26,8 +26,9 @@ struct EdgeResponse {
 /// edge is found in each row as the centroid of its derivative and a line laid through; the values are binned
 /// by their distance from it in quarters of a pixel; the spectrum of the derivative, under Hamming's window,
 /// is divided by those of the bin and of the difference. Throws Error{input} for a picture smaller than 16 x
-/// 16, one without an edge, or whose edge is along the pixels (less than 1 degree) or near the diagonal (more
-/// than 40).
+/// 16, one with a value that is not finite, one without an edge, whose edge is along the pixels (less than 1
+/// degree) or near the diagonal (more than 40), and one whose values do not go by the distance from one edge
+/// (but for a tenth of their variance) from one side to the other, such as a chart or a line.
 [[nodiscard]] EdgeResponse slanted_edge(std::span<const double> values, int width, int height);
 
 }  // namespace abbe

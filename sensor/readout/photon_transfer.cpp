@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "io/error.h"
 
@@ -14,9 +17,10 @@ constexpr double kRoundingVariance = 1.0 / 12;  // DN^2
 constexpr double kFitted = 0.7;                 // of the signal at saturation
 constexpr double kPatternsAt = 0.5;
 constexpr double kLeastKnown = 0.5;  // relative error from which a gain is none
-constexpr const char* kNoLight = "no lit pair between darkness and saturation";
+constexpr const char* kNoLight =
+    "no lit pair between darkness and saturation: their codes scatter no more than those of the dark pairs";
 
-[[noreturn]] void refuse(const char* what) {
+[[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::input, "photon transfer", what);
 }
 
@@ -83,7 +87,7 @@ Line fitted(const std::vector<Moments>& points, double Moments::*value) {
     xy += p.exposure_s * p.*value;
   }
   const double spread = n * xx - x * x;
-  if (!(spread > 0)) refuse("dark pairs of one exposure time only");
+  if (!(spread > 0)) refuse("the dark pairs are of one exposure time only: the dark current needs two");
   const double slope = (n * xy - x * y) / spread;
   return {(y - slope * x) / n, slope};
 }
@@ -152,6 +156,11 @@ PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<c
       products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
       squares += signal(m) * signal(m);
     }
+  if (below.empty())
+    refuse(fmt::format(
+        "no lit pair is below {} of the signal where the sensor saturates, taken to be the {:.5g} "
+        "DN where the codes scatter most: weaker light is needed beside it ({} lit pair{} given)",
+        kFitted, saturation, lit.size(), lit.size() == 1 ? "" : "s"));
   if (!(products > 0)) refuse(kNoLight);
   const double gain = squares / products;
   const double read_variance = dark_variance.at_zero - kRoundingVariance;

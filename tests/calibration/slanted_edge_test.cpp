@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,34 @@ TEST(SlantedEdge, ObjectsInSentences) {
   refused(std::vector<double>(400, 1), 20, 20, "there is no edge");
   refused(edge(0, 0.5), kWidth, kHeight, "slanted by 0.00 degrees");
   refused(edge(43, 0.5), kWidth, kHeight, "allowed 1 to 40");
+}
+
+TEST(SlantedEdge, BearsNoise) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 0.8 / 12);
+  std::vector<double> values = edge(5, 0.5);
+  for (double& value : values) value += noise(random);
+  EXPECT_NEAR(slanted_edge(values, kWidth, kHeight).mtf50.value(),
+              slanted_edge(edge(5, 0.5), kWidth, kHeight).mtf50.value(), 0.03);
+}
+
+// Two patches on one side of the edge, a bright line along it, and a pixel that is no number.
+TEST(SlantedEdge, RefusesWhatIsNone) {
+  const auto refused = [](const std::vector<double>& values, const std::string& text) {
+    test::expect_error([&] { (void)slanted_edge(values, kWidth, kHeight); }, ErrorCode::input, text);
+  };
+  const std::vector<double> other = edge(5, 0.5);
+  std::vector<double> patches = other;
+  for (std::size_t i = patches.size() / 2; i < patches.size(); ++i)
+    patches[i] = 0.1 + 0.4 * (patches[i] - 0.1);
+  refused(patches, "these pixels show no single straight edge: 2");
+  std::vector<double> line = other;
+  for (std::size_t i = line.size() - 1; i % kWidth >= 4 || i > kWidth; --i)
+    if (i % kWidth >= 4) line[i] -= 0.7 * (other[i - 4] - 0.1);
+  refused(line, "both sides of the line that these pixels show are alike");
+  std::vector<double> hole = other;
+  hole[kWidth + 2] = std::nan("");
+  refused(hole, "pixel 2,1 of these holds no number (got nan)");
 }
 
 }  // namespace

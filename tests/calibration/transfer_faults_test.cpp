@@ -1,11 +1,4 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include "calibration/chart/transfer_frames.h"
-#include "io/picture.h"
-#include "sensor/readout/readout.h"
-#include "tests/calibration/calibration_fixture.h"
+#include "tests/calibration/transfer_fixture.h"
 
 // Frames that were confused with one another.
 
@@ -14,41 +7,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TransferFaults : public testing::Test {
+class TransferFaults : public test::PlantedFrames {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path frame(double electrons, double exposure_s, double gain_e_per_dn = 2) {
-    Readout readout;
-    readout.gain_e_per_dn = gain_e_per_dn;
-    readout.bits = 12;
-    readout.read_noise_e = 6;
-    readout.offset_dn = 50;
     const std::vector<float> expected(kEdge * kEdge, static_cast<float>(electrons));
-    const RawFrame raw = read_out(readout, expected, {exposure_s, ++frames_, 0});
-    Image image{kEdge, kEdge, {{"raw", {raw.dn.begin(), raw.dn.end()}}}, {}};
-    image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
-                      {"gain_e_per_dn", fmt::format("{}", gain_e_per_dn)},
-                      {"sensor", R"({"readout":{"bits":12,"offset_dn":50}})"}};
-    const fs::path path = folder_ / fmt::format("{}.tif", frames_);
-    write_raw_picture(path, image);
-    return path;
+    return PlantedFrames::frame(fmt::format("{}.tif", ++frames_), expected, exposure_s, gain_e_per_dn, 12,
+                                {{"gain_e_per_dn", fmt::format("{}", gain_e_per_dn)}});
   }
 
-  using Files = std::vector<fs::path>;
   static void refused(const Files& dark, const Files& lit, const fs::path& file, const std::string& text) {
-    test::expect_error(
-        [&] {
-          Inputs inputs;
-          (void)measure_transfer(dark, lit, inputs);
-        },
-        ErrorCode::input, file.filename().string() + ": " + text);
+    PlantedFrames::refused(dark, lit, file.filename().string() + ": " + text);
   }
 
   static constexpr int kEdge = 64;
   std::uint32_t frames_ = 0;
-  fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_transfer_faults_" + std::to_string(::getpid()));
 };
 
 TEST_F(TransferFaults, GainsAreNotMixed) {

@@ -2,43 +2,23 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include "io/picture.h"
-#include "sensor/readout/readout.h"
-#include "tests/calibration/calibration_fixture.h"
+#include "tests/calibration/transfer_fixture.h"
 
 namespace abbe {
 namespace {
 
 namespace fs = std::filesystem;
 
-class TransferFrames : public testing::Test {
+class TransferFrames : public test::PlantedFrames {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  // A frame of a sensor of 512 x 512 pixels under R and G in columns, of which G sees twice as much.
+  // A frame of a sensor under R and G in columns, of which G sees twice as much.
   fs::path frame(const std::string& name, double electrons, double exposure_s, int bits = 12) const {
-    Readout readout;
-    readout.gain_e_per_dn = 2;
-    readout.bits = bits;
-    readout.read_noise_e = 6;
-    readout.offset_dn = 50;
     std::vector<float> expected(kEdge * kEdge);
     for (std::size_t i = 0; i < expected.size(); ++i)
       expected[i] = static_cast<float>(i % 2 == 0 ? electrons : 2 * electrons);
-    const RawFrame raw = read_out(readout, expected, {exposure_s, std::hash<std::string>()(name), 0});
-    Image image{kEdge, kEdge, {{"raw", {raw.dn.begin(), raw.dn.end()}}}, {}};
-    image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
-                      {"mosaic", "R,G"},
-                      {"mosaic_channels", "R,G"},
-                      {"electrons_per_lx_s", "1000"},
-                      {"sensor", fmt::format(R"({{"readout":{{"bits":{},"offset_dn":50}}}})", bits)}};
-    write_raw_picture(folder_ / name, image);
-    return folder_ / name;
+    return PlantedFrames::frame(
+        name, expected, exposure_s, 2, bits,
+        {{"mosaic", "R,G"}, {"mosaic_channels", "R,G"}, {"electrons_per_lx_s", "1000"}});
   }
 
   std::vector<fs::path> pair(double electrons, double exposure_s) const {
@@ -47,7 +27,6 @@ class TransferFrames : public testing::Test {
   }
 
   static constexpr int kEdge = 512;
-  fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_transfer_" + std::to_string(::getpid()));
 };
 
 TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
@@ -75,24 +54,14 @@ TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
 TEST_F(TransferFrames, ObjectsInSentences) {
   const std::vector<fs::path> dark = pair(0, 0.01);
   const std::vector<fs::path> lit = pair(500, 0.01);
-  const auto refused = [&](const std::vector<fs::path>& d, const std::vector<fs::path>& l, ErrorCode code,
-                           const std::string& text) {
-    test::expect_error(
-        [&] {
-          Inputs inputs;
-          (void)measure_transfer(d, l, inputs);
-        },
-        code, text);
-  };
-  refused(dark, {lit[0]}, ErrorCode::input, "is alone: two frames of each exposure are needed");
-  refused(dark, {lit[0], lit[1], lit[0], frame("other.tif", 500, 0.02)}, ErrorCode::input,
+  refused(dark, {lit[0]}, "is alone: two frames of each exposure are needed");
+  refused(dark, {lit[0], lit[1], lit[0], frame("other.tif", 500, 0.02)},
           "is exposed for 0.02 s and the frame before it for 0.01");
-  refused(dark, {lit[0], frame("deep.tif", 500, 0.01, 14)}, ErrorCode::input,
-          "has 14 bits, the first frame 12");
-  refused(dark, lit, ErrorCode::input, "dark pairs of one exposure time only");
+  refused(dark, {lit[0], frame("deep.tif", 500, 0.01, 14)}, "has 14 bits, the first frame 12");
+  refused(dark, lit, "dark pairs are of one exposure time only");
   Image plain{kEdge, kEdge, {{"Y", std::vector<float>(kEdge * kEdge, 7)}}, {}};
   write_raw_picture(folder_ / "plain.tif", plain);
-  refused({folder_ / "plain.tif"}, lit, ErrorCode::input, "tells neither bits nor exposure time");
+  refused({folder_ / "plain.tif"}, lit, "tells neither bits nor exposure time");
 }
 
 }  // namespace

@@ -70,7 +70,10 @@ TEST(Transfer, FaultsAreNamed) {
   expect_fault("transfer " + dark_pairs() + "--lit " + pair("dim", 50, 1, 0.01), 4,
                "no lit pair between darkness and saturation");
   expect_fault("transfer --dark " + pair("short", 50, 1, 0.01) + "--lit " + lit, 4,
-               "dark pairs of one exposure time only");
+               "dark pairs are of one exposure time only");
+  expect_fault("transfer " + dark_pairs() + "--lit " + lit, 4,
+               "no lit pair is below 0.7 of the signal where the sensor saturates, taken to be the 480 DN "
+               "where the codes scatter most: weaker light is needed beside it (1 lit pair given)");
   expect_fault("transfer " + dark_pairs(), 2, "--lit");
   expect_fault("transfer " + dark_pairs() + "--lit " + file("absent.tif"), 4, "absent.tif");
 }
