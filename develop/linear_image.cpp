@@ -15,6 +15,7 @@
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "sensor/film/recorded_crop.h"
+#include "sensor/film/recorded_mosaic.h"
 
 namespace abbe {
 namespace {
@@ -26,12 +27,10 @@ std::optional<std::string> told(const Image& image, const std::string& key) {
 
 // The mosaic that a film or a raw file of ours tells.
 void read_mosaic(LinearImage& read) {
-  const auto pattern = told(read.image, "mosaic");
-  const auto names = told(read.image, "mosaic_channels");
-  if (!pattern || !names || read.image.channels.size() != 1) return;
-  std::vector<std::string> channels = split(*names, ',');
-  read.mosaic = parse_mosaic(*pattern, channels);
-  if (read.mosaic) read.channels = std::move(channels);
+  auto told = recorded_mosaic(read.image.metadata);
+  if (!told || read.image.channels.size() != 1) return;
+  read.mosaic = std::move(told->pattern);
+  read.channels = std::move(told->channels);
 }
 
 // Files keep channels by the alphabet; the sensor has an order of its own.
@@ -57,36 +56,15 @@ LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
   return read;
 }
 
-// A TIFF, so a DNG, has lines "key: value" where others have attributes.
-void tell_lines(Image& image) {
-  const auto lines = told(image, "ImageDescription");
-  if (!lines) return;
-  for (const std::string& line : split(*lines, '\n'))
-    if (const std::size_t colon = line.find(": "); colon != std::string::npos)
-      image.metadata.emplace(line.substr(0, colon), line.substr(colon + 2));
-}
-
 LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
   const RawPicture raw = read_raw_picture(path);
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
-  LinearImage read;
-  read.image.width = static_cast<int>(raw.width);
-  read.image.height = static_cast<int>(raw.height);
-  read.image.metadata = raw.metadata;
+  LinearImage read{code_planes(raw), raw.channels, mosaic_of(raw), raw.white_level_dn - raw.black_level_dn,
+                   kNumbersAboveBlack};
   tell_lines(read.image);
-  read.channels = raw.channels;
-  read.unit = kNumbersAboveBlack;
-  read.saturation = raw.white_level_dn - raw.black_level_dn;
-  const std::size_t planes = raw.planes.size();
-  for (std::size_t k = 0; k < planes; ++k) {
-    ImageChannel& plane = read.image.channels.emplace_back(ImageChannel{raw.planes[k], {}});
-    for (std::size_t i = k; i < raw.codes.size(); i += planes)
-      plane.values.push_back(static_cast<float>(raw.codes[i] - raw.black_level_dn));
-  }
-  if (raw.mosaic_width > 0)
-    read.mosaic = Mosaic{static_cast<int>(raw.mosaic_width),
-                         static_cast<int>(raw.mosaic.size()) / static_cast<int>(raw.mosaic_width),
-                         {raw.mosaic.begin(), raw.mosaic.end()}};
+  for (ImageChannel& plane : read.image.channels)
+    for (float& value : plane.values)
+      value = static_cast<float>(static_cast<double>(value) - raw.black_level_dn);
   return read;
 }
 

@@ -2,44 +2,40 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "io/picture.h"
-#include "io/raw_picture.h"
 #include "io/text.h"
+#include "sensor/film/recorded_mosaic.h"
 
 namespace abbe {
 namespace {
 
 constexpr double kSixteenBits = 65535;
+using Attributes = std::map<std::string, std::string>;
 
-// An attribute; a TIFF has them as lines of its description.
-std::optional<std::string> attribute(const Image& image, const std::string& key) {
-  if (const auto found = image.metadata.find(key); found != image.metadata.end()) return found->second;
-  const auto lines = image.metadata.find("ImageDescription");
-  if (lines == image.metadata.end()) return std::nullopt;
-  for (const std::string& line : split(lines->second, '\n'))
-    if (line.starts_with(key + ": ")) return line.substr(key.size() + 2);
-  return std::nullopt;
+// The lines "key: value" of a TIFF's description.
+Attributes lines_of(const Image& image) {
+  Attributes told;
+  const auto found = image.metadata.find("ImageDescription");
+  if (found == image.metadata.end()) return told;
+  for (const std::string& line : split(found->second, '\n'))
+    if (const std::size_t colon = line.find(": "); colon != std::string::npos)
+      told.emplace(line.substr(0, colon), line.substr(colon + 2));
+  return told;
 }
 
-std::optional<double> number(const Image& image, const std::string& key) {
-  const auto text = attribute(image, key);
+std::optional<std::string> attribute(const Attributes& told, const std::string& key) {
+  const auto found = told.find(key);
+  return found == told.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<double> number(const Attributes& told, const std::string& key) {
+  const auto text = attribute(told, key);
   return text ? parse_number(*text) : std::nullopt;
-}
-
-Image codes_of(const RawPicture& raw) {
-  Image image{static_cast<int>(raw.width), static_cast<int>(raw.height), {}, raw.metadata};
-  const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
-  const std::size_t planes = raw.planes.size();
-  for (std::size_t k = 0; k < planes; ++k) {
-    ImageChannel& plane = image.channels.emplace_back(ImageChannel{raw.planes[k], {}});
-    plane.values.reserve(image.pixels());
-    for (std::size_t i = k; i < raw.codes.size(); i += planes)
-      plane.values.push_back(static_cast<float>(raw.codes[i]) * share);
-  }
-  return image;
 }
 
 // By the tags or keywords that every program writes.
@@ -49,35 +45,54 @@ RawScale scale_of(const RawPicture& raw) {
   scale.offset_dn = raw.black_level_dn;
   scale.saturation_dn = raw.white_level_dn;
   scale.exposure_s = raw.exposure_s;
-  if (raw.mosaic_width == 0) return scale;
-  scale.channels = raw.channels;
-  scale.mosaic = Mosaic{static_cast<int>(raw.mosaic_width),
-                        static_cast<int>(raw.mosaic.size()) / static_cast<int>(raw.mosaic_width),
-                        {raw.mosaic.begin(), raw.mosaic.end()}};
+  scale.mosaic = mosaic_of(raw);
+  if (scale.mosaic) scale.channels = raw.channels;
   return scale;
 }
 
 }  // namespace
 
+Image code_planes(const RawPicture& raw) {
+  Image image{static_cast<int>(raw.width), static_cast<int>(raw.height), {}, raw.metadata};
+  const std::size_t planes = raw.planes.size();
+  for (std::size_t k = 0; k < planes; ++k) {
+    ImageChannel& plane = image.channels.emplace_back(ImageChannel{raw.planes[k], {}});
+    plane.values.reserve(image.pixels());
+    for (std::size_t i = k; i < raw.codes.size(); i += planes)
+      plane.values.push_back(static_cast<float>(raw.codes[i]));
+  }
+  return image;
+}
+
+std::optional<Mosaic> mosaic_of(const RawPicture& raw) {
+  if (raw.mosaic_width == 0) return std::nullopt;
+  const int width = static_cast<int>(raw.mosaic_width);
+  return Mosaic{width, static_cast<int>(raw.mosaic.size()) / width, {raw.mosaic.begin(), raw.mosaic.end()}};
+}
+
+void tell_lines(Image& image) {
+  image.metadata.merge(lines_of(image));
+}
+
 std::optional<RawScale> raw_scale(const Image& image) {
-  const auto sensor = attribute(image, "sensor");
-  const auto told = nlohmann::json::parse(sensor.value_or(""), nullptr, false);
-  if (!told.is_object() || !told.contains("readout") || !told["readout"].is_object()) return std::nullopt;
-  const auto& readout = told["readout"];
+  Attributes told = image.metadata;
+  told.merge(lines_of(image));
+  const auto sensor = nlohmann::json::parse(attribute(told, "sensor").value_or(""), nullptr, false);
+  if (!sensor.is_object() || !sensor.contains("readout") || !sensor["readout"].is_object())
+    return std::nullopt;
+  const auto& readout = sensor["readout"];
   RawScale scale;
   if (readout.contains("bits") && readout["bits"].is_number_integer()) scale.bits = readout["bits"];
   if (readout.contains("offset_dn") && readout["offset_dn"].is_number())
     scale.offset_dn = readout["offset_dn"];
   if (readout.contains("saturation_dn") && readout["saturation_dn"].is_number())
     scale.saturation_dn = readout["saturation_dn"];
-  scale.exposure_s = number(image, "exposure_s");
-  scale.gain_e_per_dn = number(image, "gain_e_per_dn");
-  scale.electrons_per_lx_s = number(image, "electrons_per_lx_s");
-  const auto names = attribute(image, "mosaic_channels");
-  const auto mosaic = attribute(image, "mosaic");
-  if (names && mosaic) {
-    scale.channels = split(*names, ',');
-    scale.mosaic = parse_mosaic(*mosaic, scale.channels);
+  scale.exposure_s = number(told, "exposure_s");
+  scale.gain_e_per_dn = number(told, "gain_e_per_dn");
+  scale.electrons_per_lx_s = number(told, "electrons_per_lx_s");
+  if (auto mosaic = recorded_mosaic(told)) {
+    scale.channels = std::move(mosaic->channels);
+    scale.mosaic = std::move(mosaic->pattern);
   }
   return scale;
 }
@@ -90,7 +105,10 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   }
   const RawPicture raw = read_raw_picture(path);
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
-  RawImage read{codes_of(raw), {}};
+  RawImage read{code_planes(raw), {}};
+  const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
+  for (ImageChannel& plane : read.image.channels)
+    for (float& code : plane.values) code *= share;
   read.scale = raw_scale(read.image);
   // A DNG's codes have been made linear by its table: the levels are those behind it.
   if (!read.scale || raw.is_linearised) read.scale = scale_of(raw);

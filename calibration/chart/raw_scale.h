@@ -7,6 +7,7 @@
 
 #include "io/image.h"
 #include "io/inputs.h"
+#include "io/raw_picture.h"
 #include "sensor/response/mosaic.h"
 
 namespace abbe {
@@ -31,6 +32,15 @@ struct RawScale {
 
 /// Reads that of an image's attributes; nothing for a file that tells of no read-out.
 [[nodiscard]] std::optional<RawScale> raw_scale(const Image& image);
+
+/// A raw picture as an image: a channel of codes for each plane, with what the picture tells as attributes.
+[[nodiscard]] Image code_planes(const RawPicture& raw);
+/// The mosaic of a raw picture; nothing for one without.
+[[nodiscard]] std::optional<Mosaic> mosaic_of(const RawPicture& raw);
+
+/// Makes attributes of the lines "key: value" that a TIFF, so a DNG, has in their place (`ImageDescription`);
+/// those that it has besides stay.
+void tell_lines(Image& image);
 
 /// An image whose 16-bit codes are shares of 65535, and what is told of them.
 struct RawImage {

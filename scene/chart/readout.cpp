@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "sensor/film/recorded_crop.h"
+#include "sensor/film/recorded_mosaic.h"
 
 namespace abbe {
 namespace {
@@ -37,6 +38,18 @@ const ImageChannel& channel_of(const Image& film, const std::string& name) {
   throw Error(ErrorCode::input, "", fmt::format("the film has no channel {}", name));
 }
 
+// The channels of a film, which under a mosaic are all in one plane.
+MeasuredPlanes planes_of(const Image& film, const std::vector<std::string>& channels) {
+  MeasuredPlanes planes{{}, channels, {}, {}, recorded_crop(film)};
+  if (const auto told = recorded_mosaic(film.metadata); told && told->channels == channels) {
+    planes.mosaic = told->pattern;
+    planes.planes.push_back(&channel_of(film, kRawPlane));
+    return planes;
+  }
+  for (const std::string& name : channels) planes.planes.push_back(&channel_of(film, name));
+  return planes;
+}
+
 }  // namespace
 
 std::vector<PatchOutline> chart_outlines(const Scene& scene, const ChartInstance& chart) {
@@ -53,8 +66,7 @@ std::vector<PatchOutline> chart_outlines(const Scene& scene, const ChartInstance
 std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& chart, const Image& film,
                                        const std::vector<std::string>& channels) {
   require_film_of(scene, chart, film);
-  MeasuredPlanes planes{{}, channels, {}, {}, recorded_crop(film)};
-  for (const std::string& name : channels) planes.planes.push_back(&channel_of(film, name));
+  const MeasuredPlanes planes = planes_of(film, channels);
   std::vector<PatchReading> readings;
   for (const PatchValues& patch : measure_patches(film, planes, chart_outlines(scene, chart))) {
     const ShapeInstance& shape = scene.shapes.at(chart.first + readings.size());
@@ -62,7 +74,7 @@ std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& 
     PatchReading& reading = readings.emplace_back(
         PatchReading{shape.name.substr(chart.name.size() + 1), 0, {}, &diffuse.reflectance.curve()});
     for (const PatchChannel& channel : patch.channels) {
-      reading.pixels = channel.pixels;
+      reading.pixels = planes.mosaic ? reading.pixels + channel.pixels : channel.pixels;
       reading.mean.push_back(channel.mean);
     }
   }

@@ -26,7 +26,8 @@ struct PatchReading {
 /// Throws Error{input} unless an image has as many pixels as the scene's camera.
 void require_film_of(const Scene& scene, const ChartInstance& chart, const Image& film);
 
-/// Reads every patch of a chart from a film of the scene, whether anything hides it or not. Throws
+/// Reads every patch of a chart from a film of the scene, whether anything hides it or not; under a mosaic
+/// each channel of its own pixels. Throws
 /// Error{input} when the film's size is not the scene's, when it lacks a channel, and when the middle of a
 /// patch is beyond the film or holds no pixel.
 [[nodiscard]] std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& chart,

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -15,16 +17,17 @@
 namespace abbe::test {
 namespace {
 
-std::string chart_scene(const std::string& name, const std::string& sensor, double corner = -3) {
+std::string chart_scene(const std::string& name, const std::string& sensor, double corner = -3,
+                        const std::string& illuminant = "D65") {
   return scratch()
       .write(name + ".json", fmt::format(R"({{"abbe": 1,
       "camera": {{"pinhole": {{"fov_deg": 0.25, "f_number": 1}}, "from": [0, 0, 1000], "to": [0, 0, 0], "up": [0, 1, 0]}},
       "sensor": {{"resolution": [96, 64], {}}},
-      "lights": [{{"point": {{"at": [0, 0, 10000]}}, "emission": {{"illuminant": "D65", "luminous_flux_lm": 1.2e9}}}}],
+      "lights": [{{"point": {{"at": [0, 0, 10000]}}, "emission": {{"illuminant": "{}", "luminous_flux_lm": 1.2e9}}}}],
       "shapes": [{{"name": "chart", "chart": {{"reflectances": "colorchecker24_babelcolor_average",
                    "corner": [{}, -2, 0], "edge_u": [6, 0, 0], "edge_v": [0, 4, 0]}}}}],
       "render": {{"samples": 16}}}})",
-                                         sensor, corner))
+                                         sensor, illuminant, corner))
       .string();
 }
 const std::string kCamera = R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.4)";
@@ -34,8 +37,8 @@ struct Shot {
   std::string scene;
   std::string film;
 };
-Shot shot(const std::string& name, const std::string& sensor) {
-  Shot made{chart_scene(name, sensor), file(name + ".exr")};
+Shot shot(const std::string& name, const std::string& sensor, const std::string& illuminant = "D65") {
+  Shot made{chart_scene(name, sensor, -3, illuminant), file(name + ".exr")};
   const Outcome run = abbe("render " + made.scene + " --quiet -o " + made.film);
   EXPECT_EQ(run.code, 0) << run.err;
   return made;
@@ -93,6 +96,23 @@ TEST(Measure, CornersByHandFindWhatTheSceneSays) {
   EXPECT_EQ(compared["patches"][3]["pixels"], by_scene["patches"][3]["pixels"][0]) << "the same code";
 }
 
+// Each channel of its own pixels, all of them together the patch's.
+TEST(Measure, CompareReadsAMosaicByTheSameCode) {
+  const auto [scene, film] = shot("mosaic", kCamera);
+  const nlohmann::json patches = measured(film + " --chart " + scene)["patches"];
+  const Outcome run = abbe("compare " + film + " --chart " + scene + " --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json compared = run.json();
+  ASSERT_EQ(compared["patches"].size(), 24U);
+  for (std::size_t i = 0; i < 24; ++i) {
+    std::size_t pixels = 0;
+    for (const std::size_t of_channel : patches[i]["pixels"]) pixels += of_channel;
+    EXPECT_EQ(compared["patches"][i]["pixels"], pixels) << i;
+  }
+  EXPECT_GT(compared["patches_dE00_mean"], 0.1);
+  EXPECT_LT(compared["patches_dE00_mean"], 2.5) << "what the camera errs by";
+}
+
 TEST(Measure, TheTableIsWhatCalibrateTakes) {
   const auto [scene, film] = shot("loop", kCamera);
   ASSERT_EQ(abbe("develop " + film + " -o " + file("loop.dng")).code, 0);
@@ -128,6 +148,40 @@ TEST(Measure, LibRawMakesTheSameColoursOfADng) {
           << ours[patch]["patch"] << ' ' << k;
     }
   }
+}
+
+// The colour matrix that LibRaw tells of a file, row by row.
+std::array<double, 9> told_matrix(const std::string& told) {
+  std::array<double, 9> matrix{};
+  const std::string title = "DNG color matrix 1:\n";
+  const std::size_t at = told.find(title);
+  EXPECT_NE(at, std::string::npos) << told;
+  if (at == std::string::npos) return matrix;
+  std::istringstream numbers(told.substr(at + title.size()));
+  for (double& element : matrix) numbers >> element;
+  return matrix;
+}
+
+// In light A the matrix is that of light A: it takes the white of that light, not adapted, to the values of
+// the greys, on which the white balance lies.
+TEST(Measure, ADngOfAWarmLightTellsTheCameraInThatLight) {
+  if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
+  const auto [scene, film] = shot("warm", R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 2)", "A");
+  const std::string dng = file("warm.dng");
+  ASSERT_EQ(abbe("develop " + film + " -o " + dng).code, 0);
+  const std::string told = shell("raw-identify -v " + dng).out;
+  EXPECT_NE(told.find("DNG Illuminant 1: Illuminant A"), std::string::npos) << told;
+  const std::array<double, 9> matrix = told_matrix(told);
+  constexpr std::array<double, 3> kWhiteA{1.09850, 1, 0.35585};
+  std::array<double, 3> white{};
+  for (std::size_t i = 0; i < 9; ++i) white[i / 3] += matrix[i] * kWhiteA[i % 3];
+  const nlohmann::json grey = measured(dng + " --chart " + scene)["patches"][19]["mean"];
+  for (const std::size_t k : {0U, 2U})
+    EXPECT_NEAR(white[k] / white[1], grey[k].get<double>() / grey[1].get<double>(), 0.03 * white[k]) << k;
+  ASSERT_EQ(shell("dcraw_emu -w -o 1 -4 -g 1 1 -W -q 0 -T " + dng).code, 0);
+  const nlohmann::json shown = measured(dng + ".tiff --chart " + scene)["patches"][19]["mean"];
+  for (const std::size_t k : {0U, 2U})
+    EXPECT_NEAR(shown[k].get<double>() / shown[1].get<double>(), 1, 0.03) << k << ": grey is grey";
 }
 
 // A profile whose matrices undo a mixing of linear sRGB with its mean, in D65 by this share, and none in A.

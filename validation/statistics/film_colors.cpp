@@ -17,7 +17,8 @@ FilmColors film_colors(const Image& image) {
   const std::vector<std::string> rgb{"R", "G", "B"};
   if (!image.metadata.contains("channel.R")) return {rgb, rgb_to_xyz(kRec709), false, white};
   const auto matrix = image.metadata.find("to_xyz_d65");
-  const auto names = image.metadata.find("sensor_channels");
+  const bool mosaic = image.metadata.contains("mosaic");
+  const auto names = image.metadata.find(mosaic ? "mosaic_channels" : "sensor_channels");
   if (matrix == image.metadata.end() || names == image.metadata.end()) return {rgb, {}, false, white};
   const std::vector<std::string> channels = split(names->second, ',');
   if (!std::is_permutation(channels.begin(), channels.end(), rgb.begin(), rgb.end()))

@@ -19,8 +19,8 @@ struct FilmColors {
 };
 
 /// X, Y, Z are the observer. R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own
-/// matrix `to_xyz_d65`, in the order of `sensor_channels`; without one that can be read, nothing is known of
-/// their colours. R, G, B of any other image are linear Rec.709.
+/// matrix `to_xyz_d65`, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic; without
+/// one that can be read, nothing is known of their colours. R, G, B of any other image are linear Rec.709.
 [[nodiscard]] FilmColors film_colors(const Image& image);
 
 }  // namespace abbe
