@@ -26,3 +26,22 @@ function(abbe_test name)
     DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data")
 endfunction()
+
+# abbe_python_tests(<module> PREFIX name CASES classes... TIMEOUT seconds [PATH folder]): classes of Debian's Python and its unittest in
+# the folder's <module>_test.py, which run the program and read what it wrote with numpy and OpenImageIO; none where Python
+# has not both.
+function(abbe_python_tests module)
+  cmake_parse_arguments(TEST "" "TIMEOUT;PATH;PREFIX" "CASES" ${ARGN})
+  if(NOT Python_EXECUTABLE)
+    return()
+  endif()
+  execute_process(COMMAND "${Python_EXECUTABLE}" -c "import numpy, OpenImageIO" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+  if(NOT missing EQUAL 0)
+    return()
+  endif()
+  foreach(case ${TEST_CASES})
+    add_test(NAME ${TEST_PREFIX}.${case} COMMAND "${Python_EXECUTABLE}" -B -m unittest -v ${module}_test.${case} WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
+    set_tests_properties(${TEST_PREFIX}.${case} PROPERTIES LABELS scenes TIMEOUT ${TEST_TIMEOUT}
+      ENVIRONMENT "ABBE_BINARY=$<TARGET_FILE:abbe>;ABBE_DATA=${PROJECT_SOURCE_DIR}/data;PYTHONPATH=${TEST_PATH}")
+  endforeach()
+endfunction()
