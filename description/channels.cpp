@@ -172,12 +172,14 @@ struct ChannelBuilder {
     refuse(place(said.response), "response", "observer", context);
     refuse(place(said.quantum_efficiency), "quantum_efficiency", "observer", context);
     refuse(place(said.peak_quantum_efficiency), "peak_quantum_efficiency", "observer", context);
+    refuse(place(said.electrons_per_lx_s), "electrons_per_lx_s", "observer", context);
     sensor.channels = observer_channels(observer.value);
   }
   void operator()(const spec::Bins& bins) const {
     refuse(place(said.response), "response", "spectral", context);
     refuse(place(said.quantum_efficiency), "quantum_efficiency", "spectral", context);
     refuse(place(said.peak_quantum_efficiency), "peak_quantum_efficiency", "spectral", context);
+    refuse(place(said.electrons_per_lx_s), "electrons_per_lx_s", "spectral", context);
     refuse(place(said.filters), "filters", "spectral", context);
     refuse(place(said.lens_transmission), "lens_transmission", "spectral", context);
     refuse(place(said.mosaic), "mosaic", "spectral", context);
@@ -186,12 +188,17 @@ struct ChannelBuilder {
   }
 };
 
-// Makes counters of electrons of channels whose efficiency is told by its peak.
+// Makes counters of electrons of channels whose efficiency is told by its peak, or, for now by any, by what a
+// pixel counts in daylight: behind filters of which nothing is known here.
 void scale_to_peak(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
-  const auto& peak = said.peak_quantum_efficiency;
+  const auto& counted = said.electrons_per_lx_s;
+  const auto& peak = said.peak_quantum_efficiency ? said.peak_quantum_efficiency : counted;
   if (!peak) return;
-  if (said.quantum_efficiency)
-    context.diagnostics.error(peak->where, "peak_quantum_efficiency goes without quantum_efficiency");
+  const char* const key = &peak == &counted ? "electrons_per_lx_s" : "peak_quantum_efficiency";
+  if (said.peak_quantum_efficiency && counted)
+    context.diagnostics.error(counted->where, "peak_quantum_efficiency says the same scale: one of them");
+  else if (said.quantum_efficiency)
+    context.diagnostics.error(peak->where, fmt::format("{} goes without quantum_efficiency", key));
   else if (!sensor.channels.empty() && !sensor.spectral && !is_observer(sensor.channels))
     sensor.channels = with_peak_efficiency(std::move(sensor.channels), peak->value);
 }

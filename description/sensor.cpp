@@ -96,6 +96,10 @@ Fields fields(Tag<Sensor>) {
              "Electrons per photon of the most sensitive channel where it is most sensitive: measured "
              "responses "
              "of any scale, as of `camera`, become quantum efficiencies, scaled together."),
+       field("electrons_per_lx_s", &Sensor::electrons_per_lx_s, Range::positive(),
+             "The same scale by the electrons that a pixel of the most sensitive channel counts for each lx "
+             "s of "
+             "daylight (D55) on the sensor, filters and lens transmission included."),
        field("filters", &Sensor::filters, filters(), "Filters before every channel, one behind the other."),
        field("lens_transmission", &Sensor::lens_transmission,
              "Transmittance in [0, 1.05] before all filters."),
@@ -177,6 +181,16 @@ std::optional<Readout> build_readout(const spec::Sensor& said, const Sensor& sen
                      context.diagnostics);
 }
 
+// Makes the most sensitive channel count as many electrons in daylight as is said.
+void scale_to_sensitivity(const spec::Sensor& said, Sensor& sensor) {
+  if (!said.electrons_per_lx_s || sensor.channels.empty()) return;
+  const double area_m2 = gathering_area(sensor.pixel_pitch, sensor.fill_factor);
+  const std::optional<double> counted = daylight_sensitivity(sensor.channels, area_m2);
+  if (!counted || !(*counted > 0)) return;  // what is wrong with the channels is told
+  for (Channel& channel : sensor.channels)
+    channel = scaled(std::move(channel), said.electrons_per_lx_s->value / *counted);
+}
+
 }  // namespace
 
 Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
@@ -186,6 +200,7 @@ Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
   sensor.exposure_s = said.exposure_s;
   sensor.fill_factor = said.fill_factor;
   build_channels(said, sensor, context);
+  scale_to_sensitivity(said, sensor);
   if (said.model && std::holds_alternative<std::monostate>(said.counts))
     context.diagnostics.error(said.where, "neither the model nor the scene says what its pixels count");
   if (said.mosaic && !sensor.spectral) sensor.mosaic = build_mosaic(said, sensor.channels, context);

@@ -49,6 +49,7 @@ struct Sensor {
   std::optional<schema::Located<ResponseKind>> response;
   std::optional<Curve> quantum_efficiency;
   std::optional<schema::Located<double>> peak_quantum_efficiency;
+  std::optional<schema::Located<double>> electrons_per_lx_s;
   std::optional<schema::Located<Filters>> filters;
   std::optional<Curve> lens_transmission;
   std::optional<schema::Located<std::vector<schema::Located<std::vector<schema::Located<std::string>>>>>>

@@ -20,9 +20,15 @@ constexpr const char* kKey = "model";
 constexpr std::string_view kExtension = ".json";
 
 // Keys that say the same in different ways: one of a scene replaces all of a file.
-constexpr std::array<std::string_view, 8> kCounts{
-    "channels", "camera",   "observer",           "spectral",
-    "mosaic",   "response", "quantum_efficiency", "peak_quantum_efficiency"};
+constexpr std::array<std::string_view, 9> kCounts{"channels",
+                                                  "camera",
+                                                  "observer",
+                                                  "spectral",
+                                                  "mosaic",
+                                                  "response",
+                                                  "quantum_efficiency",
+                                                  "peak_quantum_efficiency",
+                                                  "electrons_per_lx_s"};
 constexpr std::array<std::string_view, 4> kWhatCounts{"channels", "camera", "observer", "spectral"};
 constexpr std::array<std::string_view, 2> kConversion{"gain_e_per_dn", "iso"};
 

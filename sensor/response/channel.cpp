@@ -41,11 +41,18 @@ Channel behind(Channel channel, const FilterStack& filters) {
   return channel;
 }
 
+Channel scaled(Channel channel, double factor) {
+  channel.weight = scaled(channel.weight, factor);
+  if (channel.angular) {
+    channel.angular->filters.fixed = scaled(channel.angular->filters.fixed, factor);
+    channel.angular->envelope = scaled(channel.angular->envelope, factor);
+  }
+  return channel;
+}
+
 Channel exposed(Channel channel, double ratio) {
   channel.exposure_ratio *= ratio;
-  channel.weight = scaled(channel.weight, ratio);
-  if (channel.angular) channel.angular->filters.fixed = scaled(channel.angular->filters.fixed, ratio);
-  return channel;
+  return scaled(std::move(channel), ratio);
 }
 
 std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak) {
@@ -58,8 +65,7 @@ std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double 
   const double factor = peak / (photon_energy(1) * highest);  // since weight = QE lambda/(hc)
   for (Channel& channel : channels) {
     channel.kind = ResponseKind::quantum;
-    channel.weight = scaled(channel.weight, factor);
-    if (channel.angular) channel.angular->filters.fixed = scaled(channel.angular->filters.fixed, factor);
+    channel = scaled(std::move(channel), factor);
   }
   return channels;
 }

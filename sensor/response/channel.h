@@ -59,6 +59,8 @@ struct Channel {
 
 /// The channel behind filters, reached by light from all sides.
 [[nodiscard]] Channel behind(Channel channel, const FilterStack& filters);
+/// The channel that counts `factor` times as much of the same light.
+[[nodiscard]] Channel scaled(Channel channel, double factor);
 /// The channel with an exposure of its own, `ratio` times the sensor's.
 [[nodiscard]] Channel exposed(Channel channel, double ratio);
 /// The channels as counters of electrons, scaled by one factor so that the greatest quantum efficiency among

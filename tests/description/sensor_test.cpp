@@ -242,6 +242,35 @@ TEST_F(SensorTest, APeakMakesQuantumEfficienciesOfAMeasuredCamera) {
         << "one camera, said in two ways";
 }
 
+// What a pixel of G counts of an exposure of 1 lx s by daylight, through filter and lens, is what was said.
+TEST_F(SensorTest, ElectronsInDaylightScaleAMeasuredCamera) {
+  const std::string camera =
+      R"("resolution": [1, 1], "pixel_pitch_um": 5, "fill_factor": 0.8, "camera": "Nikon_D5100",
+      "lens_transmission": 0.7, "filters": [{"band": [400, 700]}], )";
+  const Loaded counted = load(sensed(camera + R"("electrons_per_lx_s": 9000)"));
+  const Loaded peaked = load(sensed(camera + R"("peak_quantum_efficiency": 0.5)"));
+  ASSERT_TRUE(counted.scene && peaked.scene) << counted.text() << peaked.text();
+  Diagnostics diagnostics;
+  const Curve daylight = load_illuminant("D55", {}, diagnostics)->curve;
+  const double lux = photometric(daylight);
+  const Channel& green = counted->channels[1];
+  EXPECT_EQ(green.kind, ResponseKind::quantum);
+  EXPECT_NEAR(integral_of_product(daylight, green.weight) / lux * 0.8 * 25e-12, 9000, 1e-6);
+  const double ratio = green.weight(540) / peaked->channels[1].weight(540);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(counted->channels[k].weight(560) / peaked->channels[k].weight(560), ratio, 1e-9 * ratio);
+  expect_refused(
+      {{"both", sensed(camera + R"("electrons_per_lx_s": 9000, "peak_quantum_efficiency": 0.5)"),
+        ErrorCode::scene, "peak_quantum_efficiency says the same scale: one of them"},
+       {"an efficiency", sensed(R"("resolution": [1, 1], "channels": {"a": 1}, "quantum_efficiency": 1,
+                             "electrons_per_lx_s": 9000)"),
+        ErrorCode::scene, "electrons_per_lx_s goes without quantum_efficiency"},
+       {"nothing", sensed(camera + R"("electrons_per_lx_s": 0)"), ErrorCode::scene,
+        "/sensor/electrons_per_lx_s"},
+       {"an observer", sensed(R"("resolution": [1, 1], "observer": "1931", "electrons_per_lx_s": 1)"),
+        ErrorCode::scene, "electrons_per_lx_s goes with channels"}});
+}
+
 TEST_F(SensorTest, AColumnOfAnyFolderIsACurve) {
   const Curve red = curve(R"("Nikon_D5100:R")");
   EXPECT_NEAR(red(600),
