@@ -12,6 +12,7 @@
 #include "calibration/fit/balance.h"
 #include "calibration/output/ocio.h"
 #include "calibration/output/sensitivities.h"
+#include "cli/bench_plots.h"
 #include "cli/calibrate_page.h"
 #include "cli/calibrate_report.h"
 #include "cli/output_files.h"
@@ -186,7 +187,16 @@ int calibrate_all(const CalibrateOptions& options) {
   return 0;
 }
 
-void write_all(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases, Json& report) {
+BenchAnswers read_bench(const CalibrateOptions& options) {
+  Inputs inputs(options.max_memory_bytes);
+  BenchAnswers bench;
+  if (!options.transfer.empty()) bench.transfer = read_answer(options.transfer, transfer_plot, inputs);
+  if (!options.mtf.empty()) bench.mtf = read_answer(options.mtf, mtf_plot, inputs);
+  return bench;
+}
+
+void write_all(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases,
+               const BenchAnswers& bench, Json& report) {
   std::vector<CameraProfile> profiles;
   for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
   const WrittenConfig written = write_ocio_config(options.output, profiles);
@@ -204,7 +214,7 @@ void write_all(const CalibrateOptions& options, const std::vector<CalibrationCas
     channels = accepted(camera_channels(options.camera, diagnostics), diagnostics);
     write_atomically(options.output / "sensitivities.json", sensitivities_json(options.camera, channels));
   }
-  write_atomically(options.output / "report.html", page_of(cases, channels));
+  write_atomically(options.output / "report.html", page_of(cases, channels, bench));
   write_atomically(options.output / "report.json", text(report, true));
 }
 
@@ -229,7 +239,14 @@ int calibrate(const CalibrateOptions& options) {
       files_among({options.camera, options.chart, options.test, options.measured.string()});
   for (const std::string& illuminant : split(options.illuminants, ','))
     for (fs::path& file : files_among({illuminant})) inputs.push_back(std::move(file));
+  for (const fs::path& file : {options.transfer, options.mtf}) {
+    if (file.empty()) continue;
+    if (options.output.empty())
+      throw Error(ErrorCode::usage, file.string(), "is for the page, which is written with --output alone");
+    inputs.push_back(file);
+  }
   require_distinct(output_files(options), inputs);
+  const BenchAnswers bench = read_bench(options);
   if (options.all_cameras) return calibrate_all(options);
   if (is_real && options.measured.empty()) return calibrate_response(options);
   std::vector<CalibrationCase> cases;
@@ -237,7 +254,7 @@ int calibrate(const CalibrateOptions& options) {
     cases.push_back(is_real ? measure(options, illuminant) : simulate(options, illuminant));
   Json report{{"calibrations", Json::array()}};
   for (const CalibrationCase& one : cases) report["calibrations"].push_back(json_of(one));
-  if (!options.output.empty()) write_all(options, cases, report);
+  if (!options.output.empty()) write_all(options, cases, bench, report);
   if (options.json)
     print(one_or_all(report["calibrations"]), true);
   else

@@ -23,6 +23,8 @@ struct CalibrateOptions {
   std::string planted_response;  ///< "linear", "gamma:G" or "s-curve"; empty: linear, and known to be.
   int bits = 12;
   CharacterisationOptions how;
+  std::filesystem::path transfer{};  ///< What `abbe transfer --json` and
+  std::filesystem::path mtf{};       ///< `abbe mtf --json` have answered, for the page; empty: nothing.
   std::filesystem::path
       output;  ///< Folder for the OpenColorIO configuration and the report; nothing is written when empty.
   std::size_t max_memory_bytes = default_memory_limit();

@@ -1,11 +1,11 @@
 #include "cli/calibrate_page.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "calibration/judge/camera_space.h"
+#include "cli/bench_plots.h"
 #include "validation/picture/display_color.h"
 #include "validation/plot/line_plot.h"
 #include "validation/plot/svg.h"
@@ -26,14 +26,6 @@ constexpr const char* kStyle =
 // A picture of its own within the page.
 std::string inline_svg(const std::string& document) {
   return document.substr(document.find("<svg"));
-}
-
-std::string line_color(const std::string& channel, std::size_t i) {
-  constexpr std::array kOthers{"#333333", "#8e44ad", "#b7791f"};
-  return channel == "R"   ? "#c0392b"
-         : channel == "G" ? "#2e8b57"
-         : channel == "B" ? "#2a5db0"
-                          : kOthers.at(i % 3);
 }
 
 std::string curves(const std::vector<Channel>& channels) {
@@ -86,6 +78,29 @@ std::string figures(const CameraCalibration& c) {
          row("left out of the fit", c.unseen) + "</table>\n";
 }
 
+std::string cell(const Json& value) {
+  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  return value.is_string() ? escaped(value.get<std::string>()) : "–";
+}
+
+// Figures of each channel by name, but for those that are lists.
+std::string noise_section(const Json& answer) {
+  std::string html = "<h2>Noise and range</h2>\n<table>\n";
+  for (const auto& [name, values] : answer.items()) {
+    if (!values.is_array() || values.empty() || values.front().is_array()) continue;
+    html += fmt::format("<tr><td>{}</td>", escaped(name));
+    for (const Json& value : values) html += fmt::format("<td>{}</td>", cell(value));
+    html += "</tr>\n";
+  }
+  return html + "</table>\n" + inline_svg(transfer_plot(answer));
+}
+
+std::string sharpness_section(const Json& answer) {
+  return fmt::format("<h2>Sharpness</h2>\n<p>Modulation of one half at {} cycles per pixel.</p>\n",
+                     cell(answer.value("mtf50", Json()))) +
+         inline_svg(mtf_plot(answer));
+}
+
 std::string section(const CalibrationCase& one) {
   const CameraCalibration& c = one.result;
   std::string html = fmt::format(
@@ -101,7 +116,8 @@ std::string section(const CalibrationCase& one) {
 
 }  // namespace
 
-std::string page_of(const std::vector<CalibrationCase>& cases, const std::vector<Channel>& channels) {
+std::string page_of(const std::vector<CalibrationCase>& cases, const std::vector<Channel>& channels,
+                    const BenchAnswers& bench) {
   const std::string camera = cases.empty() ? "" : escaped(cases.front().camera);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
@@ -109,6 +125,8 @@ std::string page_of(const std::vector<CalibrationCase>& cases, const std::vector
       "<body>\n<h1>{0}</h1>\n",
       camera, kStyle);
   if (channels.size() == 3) html += curves(channels) + judged(channels);
+  if (!bench.transfer.is_null()) html += noise_section(bench.transfer);
+  if (!bench.mtf.is_null()) html += sharpness_section(bench.mtf);
   for (const CalibrationCase& one : cases) html += section(one);
   return html + "</body></html>\n";
 }

@@ -256,6 +256,11 @@ void add_calibrate(CLI::App& app, Command& command) {
       .add_option("-o,--output", calibration->output,
                   "Folder for the OpenColorIO configuration, CLF, ACES input transform and report")
       ->type_name("FOLDER");
+  options
+      .add_option("--transfer", calibration->transfer, "What transfer --json has said, for the report's page")
+      ->type_name("FILE.json");
+  options.add_option("--mtf", calibration->mtf, "What mtf --json has said, for the same")
+      ->type_name("FILE.json");
   add_max_memory(options, calibration.options);
   add_json(options, calibration->json);
 }

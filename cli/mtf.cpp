@@ -7,11 +7,11 @@
 #include "calibration/judge/slanted_edge.h"
 #include "cli/answer.h"
 #include "cli/bench_measurements.h"
+#include "cli/bench_plots.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"
-#include "validation/plot/line_plot.h"
 
 namespace abbe::cli {
 namespace {
@@ -60,16 +60,13 @@ int mtf(const MtfOptions& options) {
   answer["angle_deg"] = found.angle_deg;
   answer["edge"] = found.is_horizontal ? "horizontal" : "vertical";
   answer["mtf50"] = found.mtf50 ? Json(*found.mtf50) : Json();
-  PlotSeries curve{"", {}, "#2a5db0"};
   for (std::size_t i = 0; i < found.mtf.size(); ++i) {
     answer["frequency"].push_back(found.frequency(i));
     answer["mtf"].push_back(found.mtf[i]);
-    curve.points.emplace_back(found.frequency(i), found.mtf[i]);
   }
   if (!options.plot.empty()) {
     require_distinct(std::array{options.plot}, inputs.files());
-    write_atomically(options.plot,
-                     svg(LinePlot{"Modulation transfer", "cycles per pixel", "modulation", {curve}}));
+    write_atomically(options.plot, mtf_plot(answer));
   }
   print(answer, options.json);
   return 0;

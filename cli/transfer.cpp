@@ -4,45 +4,16 @@
 #include "calibration/chart/transfer_frames.h"
 #include "cli/answer.h"
 #include "cli/bench_measurements.h"
+#include "cli/bench_plots.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
-#include "validation/plot/log_plot.h"
 
 namespace abbe::cli {
-namespace {
-
-const char* color_of(const std::string& channel) {
-  return channel == "R" ? "#c0392b" : channel == "G" ? "#2e8b57" : channel == "B" ? "#2a5db0" : "#333333";
-}
-
-// Variance over signal as measured, and the line of the fitted gain.
-LogPlot plot_of(const std::vector<ChannelTransfer>& channels) {
-  LogPlot plot{"Photon transfer", "signal [DN]", "variance [DN^2]", {}};
-  for (const ChannelTransfer& one : channels) {
-    PlotSeries measured{one.channel, {}, color_of(one.channel), true, true};
-    PlotSeries fitted{one.channel + " by the gain", {}, color_of(one.channel)};
-    for (const TransferPoint& point : one.transfer.points) {
-      if (!(point.signal_dn > 0 && point.variance_dn2 > 0)) continue;
-      measured.points.emplace_back(point.signal_dn, point.variance_dn2);
-      fitted.points.emplace_back(point.signal_dn, point.signal_dn / one.transfer.gain_e_per_dn);
-    }
-    plot.series.push_back(std::move(measured));
-    plot.series.push_back(std::move(fitted));
-  }
-  return plot;
-}
-
-}  // namespace
-
 int transfer(const TransferOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
   const std::vector<ChannelTransfer> channels = measure_transfer(options.dark, options.lit, inputs);
-  if (!options.plot.empty()) {
-    require_distinct(std::array{options.plot}, inputs.files());
-    write_atomically(options.plot, svg(plot_of(channels)));
-  }
   Json answer;
   for (const ChannelTransfer& one : channels) {
     const PhotonTransfer& found = one.transfer;
@@ -61,7 +32,22 @@ int transfer(const TransferOptions& options) {
     answer["snr10_e"].push_back(one.snr10_e);
     answer["snr10_lx_s"].push_back(one.snr10_lx_s ? Json(*one.snr10_lx_s) : Json());
   }
-  print(answer, options.json);
+  Json with_curves = answer;
+  for (const ChannelTransfer& one : channels) {
+    Json signals = Json::array();
+    Json variances = Json::array();
+    for (const TransferPoint& point : one.transfer.points) {
+      signals.push_back(point.signal_dn);
+      variances.push_back(point.variance_dn2);
+    }
+    with_curves["signal_dn"].push_back(std::move(signals));
+    with_curves["variance_dn2"].push_back(std::move(variances));
+  }
+  if (!options.plot.empty()) {
+    require_distinct(std::array{options.plot}, inputs.files());
+    write_atomically(options.plot, transfer_plot(with_curves));
+  }
+  print(options.json ? with_curves : answer, options.json);
   return 0;
 }
 

@@ -33,6 +33,30 @@ TEST(Calibrate, TakesValuesForLinearUnlessAskedToRecoverThem) {
   EXPECT_EQ(json_output(calibrate, asked)["responses"].size(), 3U);
 }
 
+// What other commands have measured of the sensor stands beside its colours.
+TEST(Calibrate, ShowsNoiseAndSharpnessOnItsPage) {
+  CalibrateOptions options = nikon();
+  options.output = scratch() / "measured";
+  options.transfer = scratch() / "transfer.json";
+  options.mtf = scratch() / "mtf.json";
+  std::ofstream(options.transfer) << R"({"channel": ["R", "G"], "gain_e_per_dn": [0.348, 0.351],
+    "dynamic_range_db": [66.25, null], "signal_dn": [[10, 100], [12, 120]], "variance_dn2": [[30, 290], [35, 340]]})";
+  std::ofstream(options.mtf) << R"({"mtf50": 0.3125, "frequency": [0, 0.25, 0.5], "mtf": [1, 0.6, 0.2]})";
+  json_output(calibrate, options);
+  const std::string page = read_file(options.output / "report.html");
+  for (const char* text : {"<td>0.348</td><td>0.351</td>", "<td>66.25</td><td>–</td>", "Photon transfer",
+                           "one half at 0.3125 cycles", "Modulation transfer"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("signal_dn</td>"), std::string::npos);
+  for (const char* damaged : {R"({"channel": ["R"], "signal_dn": [[1]]})", R"({"mtf": 1})", "[", "3"}) {
+    std::ofstream(options.transfer) << damaged;
+    EXPECT_EQ(fault([&] { calibrate(options); }, "is not what the command prints with --json"),
+              ErrorCode::input);
+  }
+  options.output.clear();
+  EXPECT_EQ(fault([&] { calibrate(options); }, "which is written with --output alone"), ErrorCode::usage);
+}
+
 TEST(Calibrate, WritesTheMatricesOfDngAndTheCurvesOfRawtoaces) {
   CalibrateOptions options = nikon();
   options.illuminants = "A,FL11,D65";
