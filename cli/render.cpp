@@ -338,6 +338,7 @@ int render(const RenderOptions& options) {
   }
   const Outputs outputs = choose_outputs(options, scene, inputs);
   check_ranges(options, scene);
+  (void)how_to_render(options, scene);  // tells wrong layers before any pilot is traced
   const InterruptWatch watch;
   std::deque<FileLock> locks;
   for (const fs::path& output : files_of(outputs, options))

@@ -196,7 +196,8 @@ void scale_to_peak(const spec::Sensor& said, Sensor& sensor, LoadContext& contex
   if (!peak) return;
   const char* const key = &peak == &counted ? "electrons_per_lx_s" : "peak_quantum_efficiency";
   if (said.peak_quantum_efficiency && counted)
-    context.diagnostics.error(counted->where, "peak_quantum_efficiency says the same scale: one of them");
+    context.diagnostics.error(counted->where,
+                              "says the scale that peak_quantum_efficiency says too; give one of them");
   else if (said.quantum_efficiency)
     context.diagnostics.error(peak->where, fmt::format("{} goes without quantum_efficiency", key));
   else if (!sensor.channels.empty() && !sensor.spectral && !is_observer(sensor.channels))

@@ -181,14 +181,31 @@ std::optional<Readout> build_readout(const spec::Sensor& said, const Sensor& sen
                      context.diagnostics);
 }
 
+// The greatest quantum efficiency of channels of which one at least responds.
+double peak_efficiency(const std::vector<Channel>& channels) {
+  const std::vector<Channel> of_one = with_peak_efficiency(channels, 1);
+  double peak = 0;
+  for (std::size_t k = 0; k < channels.size(); ++k)
+    if (of_one[k].weight.max() > 0) peak = channels[k].weight.max() / of_one[k].weight.max();
+  return peak;
+}
+
 // Makes the most sensitive channel count as many electrons in daylight as is said.
-void scale_to_sensitivity(const spec::Sensor& said, Sensor& sensor) {
+void scale_to_sensitivity(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
   if (!said.electrons_per_lx_s || sensor.channels.empty()) return;
   const double area_m2 = gathering_area(sensor.pixel_pitch, sensor.fill_factor);
   const std::optional<double> counted = daylight_sensitivity(sensor.channels, area_m2);
   if (!counted || !(*counted > 0)) return;  // what is wrong with the channels is told
   for (Channel& channel : sensor.channels)
     channel = scaled(std::move(channel), said.electrons_per_lx_s->value / *counted);
+  if (const double peak = peak_efficiency(sensor.channels); peak > spec::kPeak.high)
+    context.diagnostics.error(
+        said.electrons_per_lx_s->where,
+        fmt::format(
+            "asks for {:.3g} electrons of a photon (allowed up to {:g}): a pixel of {:g} um counts at "
+            "most {:.4g} per lx s",
+            peak, spec::kPeak.high, said.pixel_pitch_um,
+            said.electrons_per_lx_s->value * spec::kPeak.high / peak));
 }
 
 }  // namespace
@@ -200,7 +217,7 @@ Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
   sensor.exposure_s = said.exposure_s;
   sensor.fill_factor = said.fill_factor;
   build_channels(said, sensor, context);
-  scale_to_sensitivity(said, sensor);
+  scale_to_sensitivity(said, sensor, context);
   if (said.model && std::holds_alternative<std::monostate>(said.counts))
     context.diagnostics.error(said.where, "neither the model nor the scene says what its pixels count");
   if (said.mosaic && !sensor.spectral) sensor.mosaic = build_mosaic(said, sensor.channels, context);

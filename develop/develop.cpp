@@ -7,7 +7,9 @@
 
 #include "calibration/output/white_clip.h"
 #include "io/text.h"
+#include "sensor/film/feature_film.h"
 #include "sensor/film/recorded_crop.h"
+#include "sensor/film/recorded_layers.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
@@ -19,6 +21,7 @@ namespace {
 std::map<std::string, std::string> told_of(const ExposedFilm& exposed) {
   const FilmSensor& sensor = exposed.sensor;
   std::map<std::string, std::string> told = exposed.film.metadata;
+  for (const char* beside : {kLayersKey, kFeaturesKey, kShapeNamesKey}) told.erase(beside);
   if (!sensor.description.empty()) told["sensor"] = sensor.description;
   if (sensor.readout && sensor.electrons_per_lx_s)
     told[kIsoSpeedKey] =

@@ -14,6 +14,7 @@
 #include "io/raw_picture.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_crop.h"
 #include "sensor/film/recorded_mosaic.h"
 
@@ -33,12 +34,18 @@ void read_mosaic(LinearImage& read) {
   read.channels = std::move(told->channels);
 }
 
-// Files keep channels by the alphabet; the sensor has an order of its own.
-void put_in_order(Image& image) {
-  const std::vector<std::string> order = split(told(image, "sensor_channels").value_or("R,G,B"), ',');
-  std::stable_sort(image.channels.begin(), image.channels.end(), [&](const auto& a, const auto& b) {
-    return std::find(order.begin(), order.end(), a.name) < std::find(order.begin(), order.end(), b.name);
-  });
+// Leaves the film's own planes, in the order of the sensor; files keep channels by the alphabet.
+void keep_planes(Image& image) {
+  std::vector<std::string> order = plane_names(image);
+  if (!told(image, "sensor_channels") && !is_spectral(image)) {
+    std::erase_if(order, [](const std::string& name) { return name.find('.') != std::string::npos; });
+    const std::vector<std::string> colors{"R", "G", "B"};
+    if (std::is_permutation(order.begin(), order.end(), colors.begin(), colors.end())) order = colors;
+  }
+  std::vector<ImageChannel> planes;
+  for (const std::string& name : order)
+    if (const ImageChannel* plane = image.find(name)) planes.push_back(*plane);
+  image.channels = std::move(planes);
 }
 
 LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
@@ -46,10 +53,7 @@ LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
   const bool spectral = is_spectral(read.image);
   const std::size_t all = read.image.memory_bytes();
   if (spectral) read.unit = "radiance of the band [W/(m^2 sr)]";
-  std::erase_if(read.image.channels, [&](const ImageChannel& channel) {
-    return spectral ? !channel.name.starts_with("S0.") : channel.name.find('.') != std::string::npos;
-  });
-  if (!spectral) put_in_order(read.image);
+  keep_planes(read.image);
   if (inputs != nullptr) inputs->give_back_memory(all - read.image.memory_bytes());
   for (const ImageChannel& channel : read.image.channels) read.channels.push_back(channel.name);
   read_mosaic(read);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 
 #include "io/error.h"
 #include "io/text.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_layers.h"
 #include "sensor/film/variance_name.h"
 
@@ -34,11 +35,17 @@ std::string layer_of(const std::string& light, const std::string& plane) {
   return kLightLayer + light + "." + plane;
 }
 
-// The planes that layers have of their own, in the order of the film.
-std::vector<std::string> planes_of(const Image& film, const std::string& light) {
-  std::vector<std::string> planes;
-  for (const ImageChannel& channel : film.channels)
-    if (film.find(layer_of(light, channel.name)) != nullptr) planes.push_back(channel.name);
+// The planes that all lights have layers of, in the order of the sensor or of wavelength.
+std::vector<std::string> planes_with_layers(const Image& film, const std::vector<std::string>& lights) {
+  std::vector<std::string> planes = plane_names(film);
+  std::erase_if(planes, [&](const std::string& plane) {
+    return std::any_of(lights.begin(), lights.end(), [&](const std::string& light) {
+      return film.find(layer_of(light, plane)) == nullptr;
+    });
+  });
+  if (planes.empty())
+    throw Error(ErrorCode::usage, "--light",
+                "the film has lost its layers of lights: take the one that render made");
   return planes;
 }
 
@@ -52,10 +59,13 @@ std::vector<std::vector<double>> factors_by_light(const std::vector<std::string>
       throw Error(ErrorCode::usage, "--light",
                   fmt::format("the film has no layer of it (got \"{}\", allowed {})", asked.light,
                               fmt::join(lights, ", ")));
+    if (std::count_if(factors.begin(), factors.end(),
+                      [&](const LightFactor& other) { return other.light == asked.light; }) > 1)
+      throw Error(ErrorCode::usage, "--light", fmt::format("{} is named twice", asked.light));
     if (asked.factors.size() != 1 && asked.factors.size() != planes)
       throw Error(ErrorCode::usage, "--light",
-                  fmt::format("got {} factors of \"{}\", allowed 1, or {} for the planes of the film",
-                              asked.factors.size(), asked.light, planes));
+                  fmt::format("got {} factors of \"{}\", allowed 1{}", asked.factors.size(), asked.light,
+                              planes > 1 ? fmt::format(", or {} for the planes of the film", planes) : ""));
     std::vector<double>& of = all[static_cast<std::size_t>(light - lights.begin())];
     of = asked.factors.size() == 1 ? std::vector<double>(planes, asked.factors[0]) : asked.factors;
   }
@@ -115,18 +125,50 @@ void drop_layers(Image& film) {
   film.metadata.erase("frame_mean_error");
 }
 
+// What else has layers is the preview of a spectral film: it follows lights that are dimmed, and not those
+// whose bands are, so that there it goes.
+void relight_preview(Image& film, const std::vector<std::string>& planes,
+                     const std::vector<std::string>& lights,
+                     const std::vector<std::vector<double>>& by_light) {
+  const bool dimmed = std::all_of(by_light.begin(), by_light.end(), [](const std::vector<double>& factors) {
+    return std::adjacent_find(factors.begin(), factors.end(), std::not_equal_to<>()) == factors.end();
+  });
+  std::vector<std::string> previews;
+  for (const ImageChannel& channel : film.channels)
+    if (film.find(layer_of(lights.front(), channel.name)) != nullptr &&
+        std::find(planes.begin(), planes.end(), channel.name) == planes.end())
+      previews.push_back(channel.name);
+  std::vector<double> of_lights;
+  for (const std::vector<double>& factors : by_light) of_lights.push_back(factors.front());
+  for (const std::string& preview : previews) {
+    if (dimmed)
+      relight_plane(film, preview, lights, of_lights);
+    else
+      std::erase_if(film.channels, [&](const ImageChannel& channel) { return channel.name == preview; });
+  }
+}
+
+std::string told_factors(std::span<const LightFactor> factors) {
+  std::vector<std::string> told;
+  for (const LightFactor& factor : factors)
+    told.push_back(fmt::format("{}={}", factor.light, fmt::join(factor.factors, ",")));
+  return fmt::format("{}", fmt::join(told, " "));
+}
+
 }  // namespace
 
 void relight(Image& film, std::span<const LightFactor> factors) {
   const std::vector<std::string> lights = lights_of(film);
-  const std::vector<std::string> planes = planes_of(film, lights.front());
+  const std::vector<std::string> planes = planes_with_layers(film, lights);
   const std::vector<std::vector<double>> by_light = factors_by_light(lights, planes.size(), factors);
   for (std::size_t k = 0; k < planes.size(); ++k) {
     std::vector<double> of_plane;
     for (const std::vector<double>& of_light : by_light) of_plane.push_back(of_light[k]);
     relight_plane(film, planes[k], lights, of_plane);
   }
+  relight_preview(film, planes, lights, by_light);
   drop_layers(film);
+  film.metadata["relit"] = told_factors(factors);
 }
 
 }  // namespace abbe

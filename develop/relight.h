@@ -15,13 +15,15 @@ struct LightFactor {
 };
 
 /// Adds a film up anew out of its layers of lights, those that are not named counting as they did; the film
-/// then has no layers any more. Layers share their paths, so that their errors are not independent: with any
+/// then has no layers any more, and tells the factors under `relit`. Factors of planes are in the order of
+/// the sensor's channels, or of wavelength; the preview of a spectral film whose bands are weighed apart is
+/// left out. Layers share their paths, so that their errors are not independent: with any
 /// share w of the film F itself, sum_g w_g L_g = w F + sum_g (w_g - w) L_g, whose standard deviation is at
 /// most
 ///     |w| sigma_F + sum_g |w_g - w| sigma_g,
 /// and the variance is the square of the least of these bounds: that of the film, scaled, where all factors
-/// are one. Throws Error{usage} for a film without such layers, for a light that has none, and for factors
-/// that are neither one nor as many as the film's planes.
+/// are one. Throws Error{usage} for a film without such layers, for a light that has none or is named twice,
+/// and for factors that are neither one nor as many as the film's planes.
 void relight(Image& film, std::span<const LightFactor> factors);
 
 }  // namespace abbe

@@ -17,6 +17,7 @@
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/picture.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/film/variance_name.h"
 
 namespace abbe::python {
@@ -40,16 +41,6 @@ std::vector<BandChannel> band_channels(const Image& image) {
   std::sort(bands.begin(), bands.end(),
             [](const BandChannel& a, const BandChannel& b) { return a.center_nm < b.center_nm; });
   return bands;
-}
-
-// What a sensor lists; of other images every channel that is no variance, in the order of the file.
-std::vector<std::string> sensor_channels(const Image& image) {
-  if (const auto listed = image.metadata.find("sensor_channels"); listed != image.metadata.end())
-    return split(listed->second, ',');
-  std::vector<std::string> names;
-  for (const ImageChannel& channel : image.channels)
-    if (!channel.name.starts_with(variance_of(""))) names.push_back(channel.name);
-  return names;
 }
 
 py::object wavelengths(const FilmHandle& film) {
@@ -204,11 +195,7 @@ const Image& FilmHandle::image() const {
 }
 
 std::vector<std::string> FilmHandle::channels() const {
-  const std::vector<BandChannel> bands = band_channels(image());
-  if (bands.empty()) return sensor_channels(image());
-  std::vector<std::string> names;
-  for (const BandChannel& band : bands) names.push_back(band.name);
-  return names;
+  return plane_names(image());
 }
 
 py::object FilmHandle::array() const {

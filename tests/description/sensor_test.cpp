@@ -261,10 +261,12 @@ TEST_F(SensorTest, ElectronsInDaylightScaleAMeasuredCamera) {
     EXPECT_NEAR(counted->channels[k].weight(560) / peaked->channels[k].weight(560), ratio, 1e-9 * ratio);
   expect_refused(
       {{"both", sensed(camera + R"("electrons_per_lx_s": 9000, "peak_quantum_efficiency": 0.5)"),
-        ErrorCode::scene, "peak_quantum_efficiency says the same scale: one of them"},
+        ErrorCode::scene, "says the scale that peak_quantum_efficiency says too; give one of them"},
        {"an efficiency", sensed(R"("resolution": [1, 1], "channels": {"a": 1}, "quantum_efficiency": 1,
                              "electrons_per_lx_s": 9000)"),
         ErrorCode::scene, "electrons_per_lx_s goes without quantum_efficiency"},
+       {"more than photons", sensed(camera + R"("electrons_per_lx_s": 1e12)"), ErrorCode::scene,
+        "electrons of a photon (allowed up to 10)"},
        {"nothing", sensed(camera + R"("electrons_per_lx_s": 0)"), ErrorCode::scene,
         "/sensor/electrons_per_lx_s"},
        {"an observer", sensed(R"("resolution": [1, 1], "observer": "1931", "electrons_per_lx_s": 1)"),

@@ -8,10 +8,13 @@
 
 #include "calibration/chart/chart_corners.h"
 #include "io/error.h"
+#include "io/exr.h"
 #include "io/picture.h"
 
 namespace abbe {
 namespace {
+
+namespace fs = std::filesystem;
 
 LinearImage image_of(int width, int height, double (*value)(int, int), std::optional<Mosaic> mosaic = {}) {
   LinearImage image{{width, height, {{"raw", {}}}, {}}, {"raw"}, std::move(mosaic), {}, ""};
@@ -93,6 +96,22 @@ TEST(ChartCorners, PerspectiveIsSeen) {
               (void)outlines_between({Imath::V2d(0, 0), {10, 10}, {10, 0}, {0, 10}}, names, 2);
             }).find("--corners: expected the corners of a convex quadrilateral"),
             std::string::npos);
+}
+
+// What stands beside the planes of a film is not measured, and its mosaic stays one.
+TEST(LinearImage, OfAFilmItsPlanesAlone) {
+  const fs::path path = fs::path(testing::TempDir()) / ("abbe_planes_" + std::to_string(::getpid()) + ".exr");
+  write_exr(path, {2,
+                   1,
+                   {{"raw", {1, 2}}, {"Coverage", {1, 1}}, {"Id", {1, 1}}, {"light.key.raw", {1, 2}}},
+                   {{"sensor_channels", "raw"}, {"mosaic", "R,G"}, {"mosaic_channels", "R,G"}}});
+  const LinearImage mosaic = read_linear_image(path);
+  EXPECT_EQ(mosaic.channels, (std::vector<std::string>{"R", "G"}));
+  ASSERT_TRUE(mosaic.mosaic);
+  EXPECT_EQ(mosaic.image.channels.size(), 1U);
+  write_exr(path, {1, 1, {{"B", {3}}, {"G", {2}}, {"Id", {1}}, {"R", {1}}}, {{"sensor_channels", "R,G,B"}}});
+  EXPECT_EQ(read_linear_image(path).channels, (std::vector<std::string>{"R", "G", "B"}));
+  fs::remove(path);
 }
 
 TEST(LinearImage, ASaturatedFlatIsRefused) {

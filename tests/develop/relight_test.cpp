@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "io/spectral_exr.h"
 #include "sensor/film/recorded_layers.h"
 
 namespace abbe {
@@ -67,6 +68,44 @@ TEST(Relight, ElseItIsTheLeastBound) {
   EXPECT_NEAR(values(relit({{"sun", {1.1}}}), "Variance.R")[1], 0.53 * 0.53, 1e-6);
 }
 
+// Files keep channels by the alphabet, factors come in the order of the sensor.
+TEST(Relight, FactorsAreThoseOfTheSensorsChannels) {
+  Image image{
+      1,
+      1,
+      {{"B", {3}}, {"G", {2}}, {"R", {1}}, {"light.key.B", {3}}, {"light.key.G", {2}}, {"light.key.R", {1}}},
+      {{kLayersKey, "light.key"}, {"sensor_channels", "R,G,B"}}};
+  relight(image, std::vector<LightFactor>{{"key", {10, 1, 0}}});
+  EXPECT_EQ(values(image, "R"), (std::vector<float>{10}));
+  EXPECT_EQ(values(image, "G"), (std::vector<float>{2}));
+  EXPECT_EQ(values(image, "B"), (std::vector<float>{0}));
+  EXPECT_EQ(image.metadata.at("relit"), "key=10,1,0");
+}
+
+// Bands count by wavelength; the preview follows a light that is dimmed, and goes with one that is coloured.
+TEST(Relight, OfSpectralFilmsBandsAreWeighed) {
+  const std::string blue = spectral_channel(450);
+  const std::string infrared = spectral_channel(1050);
+  const Image spectral{1,
+                       1,
+                       {{infrared, {5}},
+                        {blue, {4}},
+                        {"R", {1}},
+                        {"light.key." + infrared, {5}},
+                        {"light.key." + blue, {4}},
+                        {"light.key.R", {1}}},
+                       {{kLayersKey, "light.key"}}};
+  Image dimmed = spectral;
+  relight(dimmed, std::vector<LightFactor>{{"key", {0.5}}});
+  EXPECT_EQ(values(dimmed, blue.c_str()), (std::vector<float>{2}));
+  EXPECT_EQ(values(dimmed, "R"), (std::vector<float>{0.5}));
+  Image colored = spectral;
+  relight(colored, std::vector<LightFactor>{{"key", {2, 0}}});
+  EXPECT_EQ(values(colored, blue.c_str()), (std::vector<float>{8}));
+  EXPECT_EQ(values(colored, infrared.c_str()), (std::vector<float>{0}));
+  EXPECT_EQ(colored.channels.size(), 2U);
+}
+
 std::string refusal(Image image, const std::vector<LightFactor>& factors) {
   try {
     relight(image, factors);
@@ -82,6 +121,12 @@ TEST(Relight, RefusesWhatTheFilmDoesNotHave) {
             "--light: the film has no layer of it (got \"moon\", allowed key, sun)");
   EXPECT_EQ(refusal(film(), {{"sun", {1, 2, 3}}}),
             "--light: got 3 factors of \"sun\", allowed 1, or 2 for the planes of the film");
+  EXPECT_EQ(refusal(film(), {{"sun", {1}}, {"sun", {2}}}), "--light: sun is named twice");
+  Image lost = film();
+  std::erase_if(lost.channels,
+                [](const ImageChannel& channel) { return channel.name.starts_with("light."); });
+  EXPECT_EQ(refusal(lost, {{"sun", {1}}}),
+            "--light: the film has lost its layers of lights: take the one that render made");
   Image bounces = film();
   bounces.metadata[kLayersKey] = "bounce0,bounce1plus";
   EXPECT_EQ(refusal(bounces, {{"sun", {1}}}),

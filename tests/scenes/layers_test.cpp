@@ -164,6 +164,10 @@ TEST(Layers, OfSomeLightsLeaveARest) {
   EXPECT_EQ(some.names, (std::vector<std::string>{"light.key", "light.rest"}));
   EXPECT_EQ(some.of_light, (std::vector<std::uint32_t>{0, 1, 1}));
   EXPECT_THROW((void)light_layers(all, {"sun"}), Error);
+  Scene taken = all;
+  taken.lights.front().name = "rest";
+  EXPECT_EQ(light_layers(taken, {}).names.front(), "light.rest");
+  EXPECT_THROW((void)light_layers(taken, {"rest"}), Error);
 }
 
 TEST(Layers, TheirBitsDependOnNothingButTheSamples) {

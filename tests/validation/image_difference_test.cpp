@@ -28,6 +28,13 @@ TEST(Compare, VarianceChannelsDoNotCount) {
   EXPECT_EQ(c.rmse, 0);
 }
 
+TEST(Compare, WhatStandsBesideTheFilmDoesNotCount) {
+  Image a = image({{"QE", {2, 4}}, {"Coverage", {1, 0}}, {"depth.Z", {3, 1e10F}}, {"light.key.QE", {2, 4}}});
+  Image b = image({{"QE", {2, 4}}, {"Coverage", {0, 1}}, {"depth.Z", {5, 9}}, {"light.key.QE", {1, 1}}});
+  a.metadata["sensor_channels"] = b.metadata["sensor_channels"] = "QE";
+  EXPECT_EQ(compare_images(a, b).rmse, 0);
+}
+
 TEST(Compare, EqualImagesHaveNoColourDifferenceAndBrightnessMatters) {
   const Image a = image({{"X", {0.9F, 0.5F}}, {"Y", {1, 0.5F}}, {"Z", {1.1F, 0.2F}}});
   EXPECT_EQ(compare_images(a, a).color->max, 0);

@@ -56,7 +56,7 @@ std::string layer_name(std::string light) {
   };
   for (char& c : light)
     if (!may_stay(c)) c = '_';
-  return light;
+  return light.empty() ? "_" : light;
 }
 
 Layers light_layers(const Scene& scene, std::vector<std::string> names) {
@@ -71,6 +71,10 @@ Layers light_layers(const Scene& scene, std::vector<std::string> names) {
   const bool all = std::all_of(there.begin(), there.end(), [&](const std::string& name) {
     return std::find(layers.names.begin(), layers.names.end(), name) != layers.names.end();
   });
+  if (!all && std::find(there.begin(), there.end(), kRest) != there.end())
+    throw Error(
+        ErrorCode::usage, "--layers",
+        fmt::format("a light has the name \"{}\", that of all others together: call it otherwise", kRest));
   if (!all) layers.names = each_once(layers.names, kRest);
   for (const std::string& name : there) {
     auto found = std::find(layers.names.begin(), layers.names.end(), name);

@@ -12,6 +12,8 @@
 #include "calibration/judge/appearance.h"
 #include "calibration/judge/itp.h"
 #include "calibration/output/display.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/variance_name.h"
 #include "spectral/colorimetry.h"
 #include "validation/statistics/film_colors.h"
 
@@ -30,10 +32,11 @@ std::vector<Pair> common_channels(const Image& image, const Image& reference) {
                 fmt::format("the images differ in size (got {} x {} and {} x {})", image.width, image.height,
                             reference.width, reference.height));
   std::vector<Pair> pairs;
-  for (const ImageChannel& channel : reference.channels) {
-    const ImageChannel* other = image.find(channel.name);
-    if (other != nullptr && !channel.name.starts_with("Variance."))
-      pairs.push_back({other->values, channel.values, reference.find("Variance." + channel.name)});
+  for (const std::string& plane : plane_names(reference)) {
+    const ImageChannel* own = reference.find(plane);
+    const ImageChannel* other = image.find(plane);
+    if (own != nullptr && other != nullptr)
+      pairs.push_back({other->values, own->values, reference.find(variance_of(plane))});
   }
   if (pairs.empty()) throw Error(ErrorCode::input, "", "the images have no channel in common");
   return pairs;
