@@ -23,8 +23,8 @@ struct IntegratorChoice {
 /// relative variance V of a sample's film values and the cost c of the sample: of camera paths with photons
 /// beside them (sqrt(V c) + sqrt(V' c'))^2, as the best share of both has it. It is Integrator::bdpt where
 /// that costs so much less that the pilots' noise does not make the difference, else Integrator::automatic. A
-/// function of the scene and its seed alone, whatever the threads. Never throws what `make_plan` does: there it is
-/// Integrator::automatic.
+/// function of the scene and its seed alone, whatever the threads. Never throws what `make_plan` does: there
+/// it is Integrator::automatic.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 
 }  // namespace abbe
