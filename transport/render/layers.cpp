@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,10 +58,10 @@ std::string layer_name(std::string light) {
   return light.empty() ? "_" : light;
 }
 
-Layers light_layers(const Scene& scene, std::vector<std::string> names) {
+Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> there = layers_of_lights(scene);
   if (there.empty()) throw Error(ErrorCode::usage, "--layers", "the scene has no light to tell apart");
-  Layers layers{each_once(names.empty() ? there : std::move(names))};
+  Layers layers{each_once(names.empty() ? there : names)};
   for (const std::string& name : layers.names)
     if (std::find(there.begin(), there.end(), name) == there.end())
       throw Error(ErrorCode::usage, "--layers",
