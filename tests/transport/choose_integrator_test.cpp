@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Scene load(const fs::path& scene, std::vector<Override> settings = {}) {
-  settings.push_back({"/sensor/resolution", "[32, 32]"});
+  settings.insert(settings.begin(), {"/sensor/resolution", "[128, 128]"});
   Diagnostics diagnostics;
   auto loaded = load_scene(data_directory() / scene, settings, diagnostics);
   EXPECT_TRUE(loaded) << diagnostics.text();
@@ -30,6 +30,26 @@ TEST(ChooseIntegrator, LeavesLampsThatAreConnectedToEasilyToPathTracing) {
 TEST(ChooseIntegrator, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = load("scenes/cornell.json");
   EXPECT_EQ(choose_integrator(scene, 1).cost_ratio, choose_integrator(scene, 3).cost_ratio);
+}
+
+// Twelve pixels with paths of two hundred vertices, of which each pair has 40,000 connections.
+TEST(ChooseIntegrator, SpendsNothingOnFilmsOfFewPixels) {
+  const Scene scene =
+      load("scenes/cornell.json", {{"/sensor/resolution", "[4, 3]"}, {"/render/max_depth", "200"}});
+  EXPECT_FALSE(choose_integrator(scene, 2).cost_ratio);
+}
+
+// Nor where paths, in a closed sphere, cost more than their film is worth, though it could pay for shorter
+// ones.
+TEST(ChooseIntegrator, SpendsLittleOnLongPaths) {
+  const auto cost_ratio = [](const std::string& depth) {
+    return choose_integrator(
+               load("scenes/furnace.json", {{"/render/max_depth", depth}, {"/render/roulette_depth", "-1"}}),
+               2)
+        .cost_ratio;
+  };
+  EXPECT_TRUE(cost_ratio("3"));
+  EXPECT_FALSE(cost_ratio("200"));
 }
 
 TEST(ChooseIntegrator, LeavesWhatIsAskedFor) {

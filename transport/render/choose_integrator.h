@@ -22,9 +22,10 @@ struct IntegratorChoice {
 /// unbiased, it is Integrator::vcm. Else pilots estimate for both what the error costs, sum V c with the
 /// relative variance V of a sample's film values and the cost c of the sample: of camera paths with photons
 /// beside them (sqrt(V c) + sqrt(V' c'))^2, as the best share of both has it. It is Integrator::bdpt where
-/// that costs so much less that the pilots' noise does not make the difference, else Integrator::automatic. A
-/// function of the scene and its seed alone, whatever the threads. Never throws what `make_plan` does: there
-/// it is Integrator::automatic.
+/// that costs so much less that the pilots' noise does not make the difference, else Integrator::automatic,
+/// as it is where the film has so few pixels that pilots would not pay. A function of the scene and its seed
+/// alone, whatever the threads and the samples. Never throws what `make_plan` does: there it is
+/// Integrator::automatic.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 
 }  // namespace abbe

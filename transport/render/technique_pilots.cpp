@@ -17,8 +17,7 @@
 namespace abbe {
 namespace {
 
-constexpr std::uint32_t kPathsPerPixel = 8;
-constexpr std::uint32_t kPhotonsPerPixel = 2 * kPathsPerPixel;
+constexpr std::uint32_t kPhotonsPerPixel = 2 * kPilotPathsPerPixel;
 constexpr std::uint32_t kBatches = 64;
 constexpr int kGrid = 16;  // regions along an edge of the film
 
@@ -78,7 +77,7 @@ Sampler path_sampler(std::uint32_t pilot, std::uint32_t path) {
   return {kSeedOfPilots, Purpose::pilot, 1, pilot, path};
 }
 
-using PathValues = std::array<double, kPathsPerPixel>;  // of the paths through one pixel
+using PathValues = std::array<double, kPilotPathsPerPixel>;  // of the paths through one pixel
 
 void add_paths(const PathValues& values, Region& region) {
   double sum = 0;
@@ -88,15 +87,15 @@ void add_paths(const PathValues& values, Region& region) {
     squares += value * value;
   }
   region.pixels += 1;
-  region.mean += sum / kPathsPerPixel;
-  region.path_squares += squares / kPathsPerPixel;
-  region.variance += std::max(0.0, squares - sum * sum / kPathsPerPixel) / (kPathsPerPixel - 1);
+  region.mean += sum / kPilotPathsPerPixel;
+  region.path_squares += squares / kPilotPathsPerPixel;
+  region.variance += std::max(0.0, squares - sum * sum / kPilotPathsPerPixel) / (kPilotPathsPerPixel - 1);
 }
 
 void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, Findings& found) {
   const auto [x, y] = pixel_of(camera, pilot);
   std::vector<PixelSample> samples;
-  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i) samples.push_back({x, y, path_sampler(pilot, i)});
+  for (std::uint32_t i = 0; i < kPilotPathsPerPixel; ++i) samples.push_back({x, y, path_sampler(pilot, i)});
   PathValues values{};
   tracer.trace(samples, [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
     values[path] += strength(more);
@@ -120,11 +119,11 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
   const Camera& camera = plan.scene.camera;
   const auto [x, y] = pixel_of(camera, pilot);
   std::vector<PixelPair> pairs;
-  for (std::uint32_t i = 0; i < kPathsPerPixel; ++i)
+  for (std::uint32_t i = 0; i < kPilotPathsPerPixel; ++i)
     pairs.push_back({x,
                      y,
                      path_sampler(pilot, i),
-                     {kSeedOfPilots, Purpose::pilot, 2, 0, pilot * kPathsPerPixel + i},
+                     {kSeedOfPilots, Purpose::pilot, 2, 0, pilot * kPilotPathsPerPixel + i},
                      true});
   PathValues values{};
   tracer.trace(pairs, [&](std::uint32_t pair, const FilmPoint& at, std::span<const double> more) {
@@ -133,7 +132,7 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
     else
       found.add_splat(camera, at, strength(more) * static_cast<double>(plan.photons));
   });
-  found.photons_traced += kPathsPerPixel;
+  found.photons_traced += kPilotPathsPerPixel;
   add_paths(values, found.at(camera, x, y));
 }
 
@@ -203,7 +202,8 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
     told.path_variance += sizes[i] * region.variance / region.pixels / scale;
     told.path_square += sizes[i] * region.path_squares / region.pixels / scale;
   }
-  told.path_rays = static_cast<double>(found.path_rays) / (tried * kPathsPerPixel);
+  told.path_rays = static_cast<double>(found.path_rays) / (tried * kPilotPathsPerPixel);
+  told.rays = found.path_rays + found.photon_rays;
   told.photon_rays = static_cast<double>(found.photon_rays) / photons;
   return told;
 }

@@ -15,12 +15,16 @@ struct PilotFindings {
   double photon_variance = 0;  ///< Of as many photons as pixels.
   double path_rays = 0;        ///< Of one camera path,
   double photon_rays = 0;      ///< and of one photon; none where both are traced as one.
+  std::uint64_t rays = 0;      ///< Of all pilots.
 };
 
-/// Tries the techniques of a plan, path tracing and light tracing or bidirectional path tracing, by eight
-/// camera paths through each of so many pixels, and twice as many photons, of bidirectional path tracing as
-/// many as camera paths, whose splats count as those of photons. Costs are rays counted: what is found
-/// depends on nothing but the plan.
+/// Camera paths that pilots trace through a pixel.
+inline constexpr std::uint32_t kPilotPathsPerPixel = 8;
+
+/// Tries the techniques of a plan, path tracing and light tracing or bidirectional path tracing, by
+/// `kPilotPathsPerPixel` camera paths through each of so many pixels, and twice as many photons, of
+/// bidirectional path tracing as many as camera paths, whose splats count as those of photons. Costs are rays
+/// counted: what is found depends on nothing but the plan.
 [[nodiscard]] PilotFindings try_techniques(const Plan& plan, int threads, std::uint32_t pixels = 4096);
 
 }  // namespace abbe
