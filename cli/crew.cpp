@@ -1,13 +1,12 @@
 #include "cli/crew.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <string_view>
 
-#include "io/error.h"
+#include "io/module.h"
 
 namespace abbe::cli {
 namespace {
@@ -19,13 +18,8 @@ const CrewModule* load_module() {
   const char* processes = std::getenv(kProcesses);
   if (processes == nullptr || std::string_view(processes) == "1") return nullptr;
   // Open MPI's own modules find its library among what is loaded for all.
-  void* module = dlopen(ABBE_MPI_MODULE, RTLD_NOW | RTLD_GLOBAL);
-  void* symbol = module != nullptr ? dlsym(module, kCrewSymbol) : nullptr;
-  if (symbol == nullptr)
-    throw Error(
-        ErrorCode::input, "mpirun",
-        std::string("the module by which processes render one film together does not load: ") + dlerror());
-  return reinterpret_cast<const CrewModule* (*)()>(symbol)();
+  return &module_functions<CrewModule>(ABBE_MPI_MODULE, kCrewSymbol, ModuleScope::shared,
+                                       "mpirun: the module by which processes render one film together");
 }
 
 // Nothing until a command has asked: what fails before has no others to end.

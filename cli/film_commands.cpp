@@ -92,13 +92,14 @@ void add_develop(CLI::App& app, Command& command) {
 
 namespace {
 
-std::array<Imath::V2d, 4> parse_corners(const std::string& option, const std::string& text) {
+ChartCorners parse_corners(const std::string& option, const std::string& text) {
+  if (text == "find") return FindCorners{};
   const std::vector<double> numbers = parse_numbers(option, text, -1e6, 1e6);
   if (numbers.size() != 8)
     throw Error(ErrorCode::usage, option,
                 fmt::format("expected x and y of four corners (got {} numbers, allowed 8)", numbers.size()));
-  return {Imath::V2d(numbers[0], numbers[1]), Imath::V2d(numbers[2], numbers[3]),
-          Imath::V2d(numbers[4], numbers[5]), Imath::V2d(numbers[6], numbers[7])};
+  return std::array{Imath::V2d(numbers[0], numbers[1]), Imath::V2d(numbers[2], numbers[3]),
+                    Imath::V2d(numbers[4], numbers[5]), Imath::V2d(numbers[6], numbers[7])};
 }
 
 }  // namespace
@@ -119,8 +120,9 @@ void add_measure(CLI::App& app, Command& command) {
       ->type_name("SCENE|TABLE");
   CLI::Option* corners =
       add_parsed(options, "--corners", sub->corners, parse_corners,
-                 "Where the chart's top left, top right, bottom right and bottom left corner are, in pixels",
-                 "X,Y,X,Y,X,Y,X,Y");
+                 "Where the chart's top left, top right, bottom right and bottom left corner are, in pixels; "
+                 "find: wherever a ColorChecker is found in each image",
+                 "X,Y,X,Y,X,Y,X,Y|find");
   add_parsed(options, "--columns", sub->columns, integer_in<std::size_t>(1, 1000),
              "Patches in a row of the chart (default 6)", "N")
       ->needs(corners);

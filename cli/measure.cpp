@@ -9,6 +9,7 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "description/load.h"
+#include "develop/find_chart.h"
 #include "develop/linear_image.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
@@ -21,11 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Corners = std::array<Imath::V2d, 4>;
+
 /// A chart to be found in images, and the scene that says where, if one does.
 struct ChartToMeasure {
   std::optional<Scene> scene;
-  std::vector<PatchOutline> outlines;
-  std::vector<std::string> names;  ///< As the chart's table has them.
+  std::vector<PatchOutline> outlines;  ///< Empty where they are to be found in each image.
+  std::vector<std::string> names;      ///< As the chart's table has them.
 };
 
 ChartToMeasure chart_of_scene(const fs::path& path, Inputs& inputs) {
@@ -49,7 +52,13 @@ ChartToMeasure find_chart(const MeasureOptions& options, Inputs& inputs) {
   Diagnostics diagnostics;
   ChartToMeasure chart;
   chart.names = accepted(load_chart_targets(options.chart, Curve(1.0), {}, diagnostics), diagnostics).names;
-  chart.outlines = outlines_between(*options.corners, chart.names, options.columns);
+  if (const auto* corners = std::get_if<Corners>(&*options.corners))
+    chart.outlines = outlines_between(*corners, chart.names, options.columns);
+  else if (chart.names.size() != 24 || options.columns != 6)
+    throw Error(ErrorCode::usage, "--corners find",
+                fmt::format("finds ColorCheckers of 24 patches alone, 6 to a row (got {} with {} patches, {} "
+                            "to a row)",
+                            options.chart, chart.names.size(), options.columns));
   return chart;
 }
 
@@ -59,20 +68,30 @@ struct Measurement {
   std::vector<std::string> channels;
   std::string unit;
   std::vector<PatchValues> patches;
+  std::optional<Corners> found;  // where the chart was, if it had to be found
 };
+
+// Where the chart is in an image, and whether that had to be found.
+std::vector<PatchOutline> outlines_in(const LinearImage& image, const ChartToMeasure& chart,
+                                      const MeasureOptions& options, Measurement& measured) {
+  if (chart.scene) require_film_of(*chart.scene, chart.scene->charts.front(), image.image);
+  if (!chart.outlines.empty()) return chart.outlines;
+  measured.found = find_chart(image);
+  return outlines_between(*measured.found, chart.names, options.columns);
+}
 
 // An image's name stands before what is wrong with it.
 Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
                           const std::optional<LinearImage>& flat, const MeasureOptions& options,
                           Inputs& inputs) {
   LinearImage read = read_linear_image(file, &inputs);
-  Measurement measured{file, read.channels, read.unit, {}};
+  Measurement measured{file, read.channels, read.unit, {}, {}};
   try {
-    if (chart.scene) require_film_of(*chart.scene, chart.scene->charts.front(), read.image);
-    measured.patches = measure_patches(read.image, read.planes(), chart.outlines);
+    const std::vector<PatchOutline> outlines = outlines_in(read, chart, options, measured);
+    measured.patches = measure_patches(read.image, read.planes(), outlines);
     if (flat) {
       flat_field(read, *flat, options.flat);
-      const std::vector<PatchValues> evened = measure_patches(read.image, read.planes(), chart.outlines);
+      const std::vector<PatchValues> evened = measure_patches(read.image, read.planes(), outlines);
       for (std::size_t i = 0; i < evened.size(); ++i)
         for (std::size_t k = 0; k < evened[i].channels.size(); ++k) {
           PatchChannel channel = evened[i].channels[k];
@@ -86,6 +105,15 @@ Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
   for (std::size_t i = 0; i < chart.names.size(); ++i) measured.patches[i].name = chart.names[i];
   inputs.give_back_memory(read.image.memory_bytes());
   return measured;
+}
+
+// So that one can check them, and give them for others of the same place.
+void tell_found(const Measurement& measured) {
+  if (!measured.found) return;
+  std::string numbers;
+  for (const Imath::V2d& corner : *measured.found)
+    numbers += fmt::format("{}{:.1f},{:.1f}", numbers.empty() ? "" : ",", corner.x, corner.y);
+  say(fmt::format("{}: the chart was found at --corners {}", measured.file.string(), numbers));
 }
 
 void warn_of_saturation(const Measurement& measured) {
@@ -111,10 +139,13 @@ Json json_of(const Measurement& measured) {
     }
     patches.push_back(std::move(told));
   }
-  return {{"image", measured.file.string()},
-          {"unit", measured.unit},
-          {"channels", measured.channels},
-          {"patches", std::move(patches)}};
+  Json told{{"image", measured.file.string()},
+            {"unit", measured.unit},
+            {"channels", measured.channels},
+            {"patches", std::move(patches)}};
+  if (measured.found)
+    for (const Imath::V2d& corner : *measured.found) told["corners"].push_back({corner.x, corner.y});
+  return told;
 }
 
 std::string quoted(const std::string& text) {
@@ -190,6 +221,7 @@ int measure(const MeasureOptions& options) {
   std::vector<Measurement> all;
   for (const fs::path& image : options.images) {
     all.push_back(measure_image(image, chart, flat, options, inputs));
+    tell_found(all.back());
     warn_of_saturation(all.back());
   }
   if (!options.output.empty()) {

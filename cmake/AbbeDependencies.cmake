@@ -16,6 +16,12 @@ find_package(nlohmann_json REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(MPI QUIET COMPONENTS CXX)  # for the module by which processes render together
+# For the module that finds charts. OpenCV's CMake config is in a package that brings all of it.
+find_path(OPENCV_INCLUDE_DIR opencv2/mcc.hpp PATH_SUFFIXES opencv4)
+foreach(part calib3d core imgproc mcc)
+  string(TOUPPER ${part} PART)
+  find_library(OPENCV_${PART}_LIBRARY opencv_${part})
+endforeach()
 # For the package of Python: Debian's own, unless another is named.
 set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the package abbe is for")
 find_package(Python QUIET COMPONENTS Interpreter Development.Module)

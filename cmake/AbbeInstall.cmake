@@ -6,9 +6,11 @@ set(ABBE_PUBLIC_ROOMS io sampling spectral materials sensor scene description tr
 
 install(TARGETS abbe DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 install(TARGETS abbe_pictures DESTINATION "${ABBE_MODULE_DIR}" COMPONENT tool)
-if(TARGET abbe_mpi)
-  install(TARGETS abbe_mpi DESTINATION "${ABBE_MODULE_DIR}" COMPONENT mpi)
-endif()
+foreach(module mpi charts)  # each a package of its own
+  if(TARGET abbe_${module})
+    install(TARGETS abbe_${module} DESTINATION "${ABBE_MODULE_DIR}" COMPONENT ${module})
+  endif()
+endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${ABBE_DATA_INSTALL_DIR}" COMPONENT tool)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
 install(FILES CITATION.cff cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)

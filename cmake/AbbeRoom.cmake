@@ -16,6 +16,20 @@ function(abbe_room name)
   abbe_compile_options(abbe_${name})
 endfunction()
 
+# abbe_module(<name> SOURCES ... LINKS <third parties>...)
+#
+# A library that a program opens while it runs (io/module.h), as it is needed seldom or there on few machines. Its name holds the version, so that
+# a program never opens that of another.
+function(abbe_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(abbe_${name} MODULE ${MODULE_SOURCES})
+  set_target_properties(abbe_${name} PROPERTIES PREFIX "" OUTPUT_NAME "abbe_${name}-${PROJECT_VERSION}" CXX_VISIBILITY_PRESET hidden INSTALL_RPATH ""
+    LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${ABBE_MODULE_DIR}")
+  target_include_directories(abbe_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(abbe_${name} PRIVATE ${MODULE_LINKS})
+  abbe_compile_options(abbe_${name})
+endfunction()
+
 # Warnings and the CPU family for one target; every build of one machine family gives the same bits. GCC 12 warns of overlapping copies in
 # `"literal" + std::string` where there are none (GCC bug 105651), so -Wrestrict is off. Nothing traps floating-point exceptions or reads errno,
 # and saying so turns branches in loops over wavelengths into selections on whole vectors; values do not change.

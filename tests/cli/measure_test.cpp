@@ -330,5 +330,39 @@ TEST(Measure, FaultsAreNamed) {
   }
 }
 
+// A chart seen from the side in a raw file: what is measured where it is found is what the scene's camera
+// says.
+TEST(Measure, CornersAreFound) {
+  if (!ABBE_FINDS_CHARTS) GTEST_SKIP() << "built without OpenCV";
+  const std::string scene = scratch()
+                                .write("askew.json", R"({"abbe": 1,
+      "camera": {"pinhole": {"fov_deg": 40, "f_number": 5.6}, "from": [3, 2, 9], "to": [0, 0, 0], "up": [0.2, 1, 0]},
+      "sensor": {"resolution": [384, 256], "model": "dslr_apsc_bayer_14bit", "exposure_s": 0.02},
+      "lights": [{"point": {"at": [5, 5, 20]}, "emission": {"illuminant": "D65", "luminous_flux_lm": 1e6}}],
+      "shapes": [{"name": "chart", "chart": {"reflectances": "colorchecker24_babelcolor_average",
+                   "corner": [-3, -2, 0], "edge_u": [6, 0, 0], "edge_v": [0, 4, 0]}}],
+      "render": {"samples": 8}})")
+                                .string();
+  const std::string film = file("askew.exr");
+  const std::string raw = file("askew.dng");
+  ASSERT_EQ(abbe("render " + scene + " --quiet -o " + film).code, 0);
+  ASSERT_EQ(abbe("develop " + film + " -o " + raw).code, 0);
+  const std::string table = " --chart colorchecker24_babelcolor_average --corners find";
+  const nlohmann::json known = measured(raw + " --chart " + scene)["patches"];
+  const nlohmann::json found = measured(raw + table);
+  ASSERT_EQ(found["corners"].size(), 4U);
+  for (std::size_t i = 0; i < 24; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = known[i]["mean"][k];
+      const double noise =
+          known[i]["deviation"][k].get<double>() / std::sqrt(known[i]["pixels"][k].get<double>());
+      EXPECT_NEAR(found["patches"][i]["mean"][k], value, 0.005 * value + 2 * noise) << known[i]["patch"];
+    }
+  const Outcome told = abbe("measure " + raw + table);
+  EXPECT_NE(told.err.find("the chart was found at --corners "), std::string::npos) << told.err;
+  const Outcome wrong = abbe("measure " + raw + " --chart colorcheckersg_after_nov2014 --corners find");
+  EXPECT_EQ(wrong.code, 2) << wrong.err;
+}
+
 }  // namespace
 }  // namespace abbe::test

@@ -26,6 +26,12 @@ if command -v mpirun >/dev/null; then
   contains "files of abbe-mpi" "$(dpkg-deb -c "$mpi")" "./usr/lib/abbe/abbe_mpi-"
   equal "package with the module of MPI" "$(grep -c abbe_mpi <<<"$files" || true)" 0
 fi
+charts=${package/abbe_/abbe-charts_}
+if [ -f "$ABBE_BUILD"/lib/abbe/abbe_charts-*.so ]; then
+  contains "Depends of abbe-charts" "$(dpkg-deb -f "$charts" Depends)" "libopencv-contrib"
+  contains "files of abbe-charts" "$(dpkg-deb -c "$charts")" "./usr/lib/abbe/abbe_charts-"
+  equal "package with the module of charts" "$(grep -c abbe_charts <<<"$files" || true)" 0
+fi
 cd /
 check_program "$scratch/root/usr/bin/abbe" "$scratch/root/usr/share/abbe/data"
 if command -v lintian >/dev/null; then
