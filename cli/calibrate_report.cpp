@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/fit/median.h"
 #include "calibration/output/dng_profile.h"
 
 namespace abbe::cli {
@@ -73,12 +74,6 @@ constexpr Figure kFigures[] = {
     {"max", [](const CameraQuality& q) { return q.root_unseen.max; }},
     {"index", [](const CameraQuality& q) { return q.sensitivity_index; }},
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 Json summary(const PatchErrors& errors) {
   return {{"mean", errors.mean}, {"max", errors.max}};

@@ -47,6 +47,11 @@ Scene load(const RenderOptions& options, Inputs& inputs) {
   scene.render.integrator = options.integrator.value_or(scene.render.integrator);
   scene.render.seed = options.seed.value_or(scene.render.seed);
   scene.render.consistent = scene.render.consistent || options.consistent;
+  if (options.consistent && scene.render.integrator != Integrator::automatic)
+    throw Error(ErrorCode::usage, "--consistent",
+                fmt::format("lets auto choose among more integrators, and this one is chosen already (got "
+                            "--integrator {}, allowed auto)",
+                            integrator_name(scene.render.integrator)));
   return scene;
 }
 

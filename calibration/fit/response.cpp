@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <glog/logging.h>
 
+#include "calibration/fit/median.h"
 #include "calibration/fit/response_model.h"
 #include "calibration/fit/response_noise.h"
 #include "calibration/fit/response_samples.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "calibration/fit/median.h"
+
 namespace abbe {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr std::size_t kGroups = 12;
 constexpr std::size_t kLeastGroup = 32;  // a deviation known to about a seventh
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double deviation_of(std::vector<double> sizes) {
   return kMadToDeviation * median(std::move(sizes));

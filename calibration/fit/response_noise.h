@@ -7,9 +7,6 @@
 
 namespace abbe {
 
-/// The middle one of `values`, of which there is one at least; of an even number the upper of the two.
-[[nodiscard]] double median(std::vector<double> values);
-
 /// The standard deviation that errors of these absolute sizes have if they are Gaussian; few outliers do not
 /// tell.
 [[nodiscard]] double deviation_of(std::vector<double> sizes);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/fit/median.h"
 #include "calibration/fit/response_noise.h"
 #include "io/error.h"
 

@@ -120,7 +120,8 @@ void require_edge(const std::vector<Spread>& bins) {
   if (!(share < kMostUnexplained))
     refuse(
         fmt::format("these pixels show no single straight edge: {:.2g} % of their variance is not that of "
-                    "the distance from one (allowed {:.2g} %): crop to an edge between two even sides",
+                    "the distance from one (allowed {:.2g} %): crop to an edge between two even sides, and "
+                    "where it is noise take more light or samples",
                     100 * share, 100 * kMostUnexplained));
   if (!(std::abs(bins.back().mean() - bins.front().mean()) > kLeastStep * (highest - lowest)))
     refuse("both sides of the line that these pixels show are alike: crop to an edge between two even sides");

@@ -47,6 +47,17 @@ TEST(Warnings, LightThatAChosenTechniqueLosesIsNamed) {
   EXPECT_NE(strict.err.find("integrator \"light\" does not reach"), std::string::npos) << strict.err;
 }
 
+// Else one would believe that what is allowed is done.
+TEST(Warnings, WhatChoosesNothingIsRefused) {
+  const std::string scene = room(ball("white"), kLamp);
+  EXPECT_EQ(rendered(scene, " --integrator auto --consistent").code, 0);
+  for (const char* chosen : {" --integrator path", " --set /render/integrator=path"}) {
+    const Outcome run = rendered(scene, std::string(" --consistent") + chosen);
+    EXPECT_EQ(run.code, 2) << chosen;
+    EXPECT_NE(run.err.find("--consistent: lets auto choose"), std::string::npos) << run.err;
+  }
+}
+
 TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
   const std::string scene = room(ball("glass") + ", " + ball("white", "0.1"), kBulb);
   const Outcome run = rendered(scene, " --strict");
