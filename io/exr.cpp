@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
+#include <string_view>
 #include <utility>
 
 #include "io/atomic_file.h"
@@ -78,12 +80,15 @@ bool same_bits(const ExrPart& written, const ExrPart& read) {
         const auto other = b.metadata.find(entry.first);
         return other != b.metadata.end() && other->second == stored_text(entry.first, entry.second);
       });
+  std::map<std::string_view, const ImageChannel*> by_name;  // of layers there may be thousands
+  for (const ImageChannel& channel : b.channels) by_name[channel.name] = &channel;
   return written.name == read.name && a.width == b.width && a.height == b.height && same_metadata &&
          a.channels.size() == b.channels.size() &&
-         std::all_of(a.channels.begin(), a.channels.end(), [&b](const ImageChannel& channel) {
-           const ImageChannel* other = b.find(channel.name);
+         std::all_of(a.channels.begin(), a.channels.end(), [&](const ImageChannel& channel) {
+           const auto other = by_name.find(channel.name);
            const std::size_t bytes = channel.values.size() * sizeof(float);
-           return other && std::memcmp(channel.values.data(), other->values.data(), bytes) == 0;
+           return other != by_name.end() &&
+                  std::memcmp(channel.values.data(), other->second->values.data(), bytes) == 0;
          });
 }
 
