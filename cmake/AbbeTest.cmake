@@ -27,11 +27,17 @@ function(abbe_test name)
     PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data")
 endfunction()
 
-# abbe_python_tests(<module> PREFIX name CASES classes... TIMEOUT seconds [PATH folder]): classes of Debian's Python and its unittest in
-# the folder's <module>_test.py, which run the program and read what it wrote with numpy and OpenImageIO; none where Python
+# abbe_python_tests(<module> PREFIX name CASES classes... TIMEOUT seconds [PATH folder] [NIGHTLY]): classes of Debian's Python and its unittest
+# in the folder's <module>_test.py, which run the program and read what it wrote with numpy and OpenImageIO; none where Python
 # has not both.
 function(abbe_python_tests module)
-  cmake_parse_arguments(TEST "" "TIMEOUT;PATH;PREFIX" "CASES" ${ARGN})
+  cmake_parse_arguments(TEST "NIGHTLY" "TIMEOUT;PATH;PREFIX" "CASES" ${ARGN})
+  set(label scenes)
+  set(nightly "")
+  if(TEST_NIGHTLY)
+    set(label nightly)
+    set(nightly ";ABBE_NIGHTLY=1")
+  endif()
   if(NOT Python_EXECUTABLE)
     return()
   endif()
@@ -41,7 +47,7 @@ function(abbe_python_tests module)
   endif()
   foreach(case ${TEST_CASES})
     add_test(NAME ${TEST_PREFIX}.${case} COMMAND "${Python_EXECUTABLE}" -B -m unittest -v ${module}_test.${case} WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
-    set_tests_properties(${TEST_PREFIX}.${case} PROPERTIES LABELS scenes TIMEOUT ${TEST_TIMEOUT}
-      ENVIRONMENT "ABBE_BINARY=$<TARGET_FILE:abbe>;ABBE_DATA=${PROJECT_SOURCE_DIR}/data;PYTHONPATH=${TEST_PATH}")
+    set_tests_properties(${TEST_PREFIX}.${case} PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT}
+      ENVIRONMENT "ABBE_BINARY=$<TARGET_FILE:abbe>;ABBE_DATA=${PROJECT_SOURCE_DIR}/data;PYTHONPATH=${TEST_PATH}${nightly}")
   endforeach()
 endfunction()
