@@ -327,6 +327,34 @@ void write_pictures(const Outputs& outputs, const DisplayTransform& display, con
                     100 * picture.outside_share, 100 * picture.clipped_share));
 }
 
+void write_results(const RenderOptions& options, const Outputs& outputs,
+                   const std::optional<DisplayTransform>& display, const Scene& scene, const RenderPart& part,
+                   Costs& costs) {
+  const auto write_display = [&] {
+    write_pictures(outputs, *display, scene, shown_film(scene, film_image(part)), options.quiet);
+  };
+  std::vector<std::function<void()>> writers;
+  if (!options.checkpoint.empty())
+    writers.emplace_back(
+        metered(costs.write, [&] { write_part(options.checkpoint, part.identity, part.result); }));
+  writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
+  if (display) writers.emplace_back(metered(costs.display, write_display));
+  if (!options.stats.empty())
+    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
+  write_all(writers);
+}
+
+void tell_results(const RenderOptions& options, const fs::path& film, const Scene& scene,
+                  const RenderStats& stats) {
+  if (!options.quiet)
+    say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", film.string(), stats.samples_per_pixel,
+                    stats.wall_s, error_text(stats.error, ", ")));
+  if (options.target_error && !options.time_limit_s && !stats.interrupted &&
+      !std::isfinite(stats.error.median))
+    say("warning: a pilot found no light on the film: --error had nothing to wait for");
+  for (const std::string& loss : left_out(scene, stats)) say("warning: " + loss);
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -367,27 +395,10 @@ int render(const RenderOptions& options) {
   Watchers watchers;
   call_watchers(watchers, scene, options, inputs);
   const RenderPart part = develop(scene, options, watch, watchers);
-  const RenderStats& stats = part.result.stats;
-  const auto write_display = [&] {
-    write_pictures(outputs, *display, scene, shown_film(scene, film_image(part)), options.quiet);
-  };
-  std::vector<std::function<void()>> writers;
-  if (!options.checkpoint.empty())
-    writers.emplace_back(
-        metered(costs.write, [&] { write_part(options.checkpoint, part.identity, part.result); }));
-  writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
-  if (display) writers.emplace_back(metered(costs.display, write_display));
-  if (!options.stats.empty())
-    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
-  write_all(writers);
+  write_results(options, outputs, display, scene, part, costs);
   watchers.end(part.result);
-  if (!options.quiet)
-    say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", outputs.film.string(),
-                    stats.samples_per_pixel, stats.wall_s, error_text(stats.error, ", ")));
-  if (options.target_error && !options.time_limit_s && !stats.interrupted &&
-      !std::isfinite(stats.error.median))
-    say("warning: a pilot found no light on the film: --error had nothing to wait for");
-  for (const std::string& loss : left_out(scene, stats)) say("warning: " + loss);
+  const RenderStats& stats = part.result.stats;
+  tell_results(options, outputs.film, scene, stats);
   if (stats.interrupted) return kSignalExit + watch.signal();
   return options.strict && stats.nonfinite_samples > 0 ? static_cast<int>(ErrorCode::internal) : 0;
 }
