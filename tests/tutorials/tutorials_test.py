@@ -154,5 +154,29 @@ class Lens(Tutorial):
             self.assertAlmostEqual(self.read("focus.json")[nm], paraxial, delta=0.01, msg=nm)
 
 
+class Lessons(Tutorial):
+    SCRIPT = "lessons.py"
+
+    def test_the_textbook_is_right(self):
+        found = self.read("found.json")
+        useful = found["useful"]
+        self.assertAlmostEqual(useful["photons, 1 m"] / useful["photons, 0.5 m"], 4, delta=1)
+        self.assertGreater(useful["adjoint, 0.5 m"], 50 * useful["photons, 0.5 m"])
+        self.assertGreater(useful["path, 0.5 m"], 10 * useful["adjoint, 0.5 m"])
+        for before, after in zip(found["terms"], found["terms"][1:]):
+            self.assertAlmostEqual(after / before, 0.8, delta=0.005)
+        self.assertAlmostEqual(found["terms"][0], self.claimed(r"lamp's own (\d\.\d+)"), delta=0.001)
+        blur = [found["map"][nearest] for nearest in ("25", "100", "400", "1600")]
+        self.assertEqual(blur, sorted(blur))
+        # Error falls as the square root of the passes or slower [Hachisuka2009].
+        progress = [found["ppm"][passes] for passes in ("4", "16", "64")]
+        for before, after in zip(progress, progress[1:]):
+            self.assertGreater(before / after, 1.4)
+        for lamp, claim in (("A", r"\(A\) (\d+) lm/W"), ("FL2", r"\(FL2\) (\d+)"), ("FL11", r"\(FL11\) (\d+)"), ("LED-B1", r"\(LED-B1\) (\d+)")):
+            self.assertAlmostEqual(found["efficacy"][lamp], self.claimed(claim), delta=0.5, msg=lamp)
+        self.assertAlmostEqual(found["blue_over_red"]["cloud"], 1, delta=0.01)
+        self.assertAlmostEqual(found["blue_over_red"]["air"], (650 / 450) ** 4, delta=0.05)
+
+
 if __name__ == "__main__":
     unittest.main()
