@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include "io/sha256.h"
@@ -78,14 +79,36 @@ std::nullptr_t refuse_length(const std::shared_ptr<const SourceText>& source, st
                 ErrorCode::resource, diagnostics);
 }
 
-// What the open file holds, as the text of `source`.
-std::shared_ptr<const SourceText> read_text(int descriptor, const std::shared_ptr<SourceText>& source,
-                                            Diagnostics& diagnostics, ErrorCode code,
-                                            std::size_t limit_bytes) {
-  if (const int error = read_bytes(descriptor, limit_bytes + 1, source->text))
-    return refuse(source, kFile, fmt::format("cannot read the file ({})", reason(error)), code, diagnostics);
-  if (source->text.size() > limit_bytes) return refuse_length(source, limit_bytes, diagnostics);
+// What the open file holds, as the bytes of `source`.
+bool read_source(int descriptor, const std::shared_ptr<SourceText>& source, Diagnostics& diagnostics,
+                 ErrorCode code, std::size_t limit_bytes) {
+  if (const int error = read_bytes(descriptor, limit_bytes + 1, source->text)) {
+    refuse(source, kFile, fmt::format("cannot read the file ({})", reason(error)), code, diagnostics);
+    return false;
+  }
+  if (source->text.size() <= limit_bytes) return true;
+  refuse_length(source, limit_bytes, diagnostics);
+  return false;
+}
 
+// The bytes of a regular file.
+std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                        ErrorCode code, std::size_t limit_bytes) {
+  const auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
+  const Descriptor file(path);
+  struct stat status {};
+  if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
+    return refuse(source, kFile, fmt::format("cannot open the file ({})", reason(errno)), code, diagnostics);
+  if (!S_ISREG(status.st_mode)) return refuse(source, kFile, "not a regular file", code, diagnostics);
+  if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > limit_bytes)
+    return refuse_length(source, limit_bytes, diagnostics);
+  if (!read_source(file.value(), source, diagnostics, code, limit_bytes)) return nullptr;
+  return source;
+}
+
+// The source, if its bytes are UTF-8.
+std::shared_ptr<const SourceText> checked(const std::shared_ptr<SourceText>& source, Diagnostics& diagnostics,
+                                          ErrorCode code) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (source->text.starts_with(kByteOrderMark)) source->text.erase(0, kByteOrderMark.size());
   const std::size_t valid = valid_prefix(source->text);
@@ -97,24 +120,69 @@ std::shared_ptr<const SourceText> read_text(int descriptor, const std::shared_pt
                 code, diagnostics);
 }
 
+enum class ByteOrder { little, big };
+
+// Of UTF-16: by its mark, or by which byte of the first letter is zero.
+std::optional<ByteOrder> utf16_order(std::string_view bytes) {
+  if (bytes.size() < 2) return std::nullopt;
+  if (bytes.starts_with("\xFF\xFE")) return ByteOrder::little;
+  if (bytes.starts_with("\xFE\xFF")) return ByteOrder::big;
+  if (bytes[0] != 0 && bytes[1] == 0) return ByteOrder::little;
+  if (bytes[0] == 0 && bytes[1] != 0) return ByteOrder::big;
+  return std::nullopt;
+}
+
+// The units of a UTF-16 text, without its mark.
+std::u16string utf16_units(std::string_view bytes, ByteOrder order) {
+  std::u16string units;
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    const auto first = static_cast<unsigned char>(bytes[i]);
+    const auto second = static_cast<unsigned char>(bytes[i + 1]);
+    units += static_cast<char16_t>(order == ByteOrder::little ? first | second << 8 : first << 8 | second);
+  }
+  if (units.starts_with(u'\uFEFF')) units.erase(0, 1);
+  return units;
+}
+
+// Appends the text as UTF-8, up to the first unpaired surrogate; false if there is one.
+bool append_utf8(const std::u16string& units, std::string& text) {
+  using Utf16 = boost::locale::utf::utf_traits<char16_t>;
+  const char16_t* at = units.data();
+  const char16_t* const end = at + units.size();
+  while (at != end) {
+    const boost::locale::utf::code_point point = Utf16::decode(at, end);
+    if (!boost::locale::utf::is_valid_codepoint(point)) return false;
+    boost::locale::utf::utf_traits<char>::encode(point, std::back_inserter(text));
+  }
+  return true;
+}
+
 }  // namespace
 
 std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, Diagnostics& diagnostics,
                                             ErrorCode code, std::size_t limit_bytes) {
-  const auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
-  const Descriptor file(path);
-  struct stat status {};
-  if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
-    return refuse(source, kFile, fmt::format("cannot open the file ({})", reason(errno)), code, diagnostics);
-  if (!S_ISREG(status.st_mode)) return refuse(source, kFile, "not a regular file", code, diagnostics);
-  if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > limit_bytes)
-    return refuse_length(source, limit_bytes, diagnostics);
-  return read_text(file.value(), source, diagnostics, code, limit_bytes);
+  const auto source = read_source(path, diagnostics, code, limit_bytes);
+  return source ? checked(source, diagnostics, code) : nullptr;
+}
+
+std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path& path,
+                                                    Diagnostics& diagnostics, ErrorCode code) {
+  const auto source = read_source(path, diagnostics, code, kMaxTextBytes);
+  if (!source) return nullptr;
+  const auto order = utf16_order(source->text);
+  if (!order) return checked(source, diagnostics, code);
+  const bool whole = source->text.size() % 2 == 0;
+  const std::u16string units = utf16_units(source->text, *order);
+  source->text.clear();
+  if (!append_utf8(units, source->text) || !whole)
+    return refuse(source, source->text.size(), "invalid UTF-16 (half of a character)", code, diagnostics);
+  return checked(source, diagnostics, code);
 }
 
 std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code) {
-  return read_text(STDIN_FILENO, std::make_shared<SourceText>(SourceText{kStandardInputName, {}}),
-                   diagnostics, code, kMaxTextBytes);
+  const auto source = std::make_shared<SourceText>(SourceText{kStandardInputName, {}});
+  if (!read_source(STDIN_FILENO, source, diagnostics, code, kMaxTextBytes)) return nullptr;
+  return checked(source, diagnostics, code);
 }
 
 bool is_file(const std::filesystem::path& path, const SourcePosition& where, Diagnostics& diagnostics) {

@@ -20,6 +20,11 @@ inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
                                                           Diagnostics& diagnostics,
                                                           ErrorCode code = ErrorCode::input,
                                                           std::size_t limit_bytes = kMaxTextBytes);
+/// The same of a file that may be UTF-16 as well, which is told by its byte order mark, or by the zeros that
+/// the letters of plain text have in it; unpaired surrogates are reported. The text given is UTF-8.
+[[nodiscard]] std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path& path,
+                                                                  Diagnostics& diagnostics,
+                                                                  ErrorCode code = ErrorCode::input);
 /// Reads standard input, whatever kind of file it is, under the name "<stdin>", with the limits and errors of
 /// a file.
 [[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
