@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "io/diagnostics.h"
+#include "io/inputs.h"
+#include "lens/system.h"
+
+namespace abbe {
+
+/// Reads a lens: a file of `data/lens` by its name, a prescription as `.json`, a sequential lens of Zemax as
+/// `.zmx`, or a table of radius, thickness, index and diameter as pbrt reads it, as `.dat`. What is wrong is
+/// reported, at its place in the file; nothing then. `inputs` learns of every file that is read.
+[[nodiscard]] std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics,
+                                                    Inputs* inputs = nullptr);
+
+/// The lenses of `data/lens`, sorted.
+[[nodiscard]] std::vector<std::string> lens_names();
+
+}  // namespace abbe

@@ -1,0 +1,83 @@
+#include "description/lenses/zemax.h"
+
+#include <fmt/format.h>
+
+#include "description/lenses/zemax_keywords.h"
+#include "description/lenses/zemax_reader.h"
+#include "io/text.h"
+
+namespace abbe::description {
+namespace zemax {
+
+void Reader::take(const Line& line) {
+  const auto& words = surfaces_.empty() ? system_words() : surface_words();
+  const auto found = words.find(line.keyword());
+  ended_ =
+      ended_ || (!surfaces_.empty() && !line.indented && found == words.end() && line.keyword() != "SURF");
+  if (ended_) {
+    if (line.keyword() == "MNUM") configurations(line);
+  } else if (line.keyword() == "SURF") {
+    surface(line);
+  } else if (found != words.end()) {
+    (this->*found->second)(line);
+  } else if (!is_idle(line.keyword())) {
+    report_unknown(line);
+  }
+}
+
+void Reader::report_unknown(const Line& line) {
+  std::vector<std::string> known = idle_words();
+  for (const auto& [word, handler] : surfaces_.empty() ? system_words() : surface_words())
+    known.push_back(word);
+  error(line, 0, unknown_name("keyword of Zemax", line.keyword(), known));
+}
+
+// What a file has that ends where it should: all of each surface, and an image that is plane and in air.
+void Reader::require_whole() {
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const ReadSurface& read = surfaces_[i];
+    for (const auto& [there, word] : {std::pair(read.has_type, "TYPE"), std::pair(read.has_curvature, "CURV"),
+                                      std::pair(read.has_thickness, "DISZ")})
+      if (!there)
+        diagnostics_.error(read.surface.where,
+                           fmt::format("surface {} has no {}: is the file cut short?", i, word),
+                           ErrorCode::input);
+  }
+  const ReadSurface& image = surfaces_.back();
+  if (image.surface.glass || image.curvature != 0 || image.surface.stop)
+    diagnostics_.error(
+        image.surface.where,
+        "the last surface, which is the image, must be plane, in air and not the stop: is the file cut "
+        "short?",
+        ErrorCode::input);
+}
+
+std::optional<spec::Lens> Reader::read(const std::shared_ptr<const SourceText>& source) {
+  lens_.where = {source, SourcePosition::kWholeFile, ""};
+  for (const Line& line : lenses::lines_of(source)) take(line);
+  if (surfaces_.size() < 3) {
+    diagnostics_.error(
+        lens_.where,
+        fmt::format("a lens of Zemax has an object, surfaces and an image (got {} SURF, expected 3 or "
+                    "more): is the file cut short?",
+                    surfaces_.size()),
+        ErrorCode::input);
+    return std::nullopt;
+  }
+  require_whole();
+  if (!surfaces_.front().at_infinity) lens_.object_distance = surfaces_.front().surface.thickness * unit_mm_;
+  for (std::size_t i = 1; i + 1 < surfaces_.size(); ++i) lens_.surfaces.push_back(finished(surfaces_[i]));
+  if (auto* pupil = std::get_if<spec::PupilDiameter>(&lens_.aperture)) pupil->value *= unit_mm_;
+  finish_fields();
+  finish_wavelengths(lens_.where);
+  return diagnostics_.has_errors() ? std::nullopt : std::optional(std::move(lens_));
+}
+
+}  // namespace zemax
+
+std::optional<spec::Lens> read_zemax(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  const auto source = read_unicode_text(file, diagnostics);
+  return source ? zemax::Reader(diagnostics).read(source) : std::nullopt;
+}
+
+}  // namespace abbe::description

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "description/lenses/lens.h"
+#include "description/lenses/lines.h"
+
+namespace abbe::description::zemax {
+
+using lenses::Line;
+
+inline constexpr std::size_t kEvenCoefficients = 8;  // EVENASPH: r^2 to r^16
+
+/// A surface with what decides how its lines are meant.
+struct ReadSurface {
+  spec::LensSurface surface;
+  double curvature = 0;
+  std::array<double, kEvenCoefficients> even{};
+  double semi_diameter = 0;
+  bool fixed = false;  // its diameter is one that stops light
+  bool at_infinity = false;
+  bool has_type = false;
+  bool has_curvature = false;
+  bool has_thickness = false;
+};
+
+/// A file line by line: those of the system, then those of each surface.
+class Reader {
+ public:
+  explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// Nothing after an error.
+  [[nodiscard]] std::optional<spec::Lens> read(const std::shared_ptr<const SourceText>& source);
+
+ private:
+  using Handler = void (Reader::*)(const Line&);
+  static const std::map<std::string, Handler>& system_words();
+  static const std::map<std::string, Handler>& surface_words();
+
+  void take(const Line& line);
+  void report_unknown(const Line& line);
+
+  void mode(const Line& line);
+  void name(const Line& line);
+  void unit(const Line& line);
+  void pupil(const Line& line);
+  void f_number(const Line& line);
+  void open_by_stop(const Line&) { open_by_stop_ = true; }
+  void environment(const Line& line);
+  void catalogues(const Line& line);
+  void field_type(const Line& line);
+  void x_fields(const Line& line);
+  void y_fields(const Line& line) { fields_ = line.numbers(1); }
+  void wavelength(const Line& line);
+  void primary(const Line& line);
+  void vignetting(const Line& line);
+  void configurations(const Line& line);
+
+  void surface(const Line& line);
+  void type(const Line& line);
+  void curvature(const Line& line);
+  void thickness(const Line& line);
+  void glass(const Line& line);
+  void conic(const Line& line);
+  void parameter(const Line& line);
+  void stop(const Line&) { now().surface.stop = true; }
+  void diameter(const Line& line);
+  void clear_aperture(const Line& line);
+  void floating_aperture(const Line&) { now().fixed = true; }
+  void coating(const Line& line);
+
+  ReadSurface& now() { return surfaces_.back(); }
+  void error(const Line& line, std::size_t word, std::string message) {
+    diagnostics_.error(line.where(word), std::move(message), ErrorCode::input);
+  }
+  spec::LensGlass named_glass(const Line& line) const;
+  void require_whole();
+  void finish_fields();
+  void finish_wavelengths(const SourcePosition& where);
+  spec::LensSurface finished(const ReadSurface& read) const;
+
+  Diagnostics& diagnostics_;
+  spec::Lens lens_{};
+  std::vector<ReadSurface> surfaces_{};
+  std::vector<std::string> catalogues_{};
+  std::vector<double> fields_{};
+  std::map<int, double> wavelengths_nm_{};
+  double unit_mm_ = 1;
+  int field_kind_ = 0;
+  std::size_t field_count_ = 0;       // 0: as many as stand there
+  std::size_t wavelength_count_ = 0;  // the same
+  int primary_ = 1;
+  bool open_by_stop_ = false;
+  bool ended_ = false;  // what follows are operands of merit functions and tolerances
+};
+
+}  // namespace abbe::description::zemax

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "description/lenses/zemax_reader.h"
+#include "materials/index/library.h"
+
+// The surfaces of a `.zmx` file.
+namespace abbe::description::zemax {
+
+const std::map<std::string, Reader::Handler>& Reader::surface_words() {
+  static const std::map<std::string, Handler> kWords{
+      {"TYPE", &Reader::type},           {"CURV", &Reader::curvature},
+      {"DISZ", &Reader::thickness},      {"GLAS", &Reader::glass},
+      {"CONI", &Reader::conic},          {"PARM", &Reader::parameter},
+      {"STOP", &Reader::stop},           {"DIAM", &Reader::diameter},
+      {"CLAP", &Reader::clear_aperture}, {"FLAP", &Reader::floating_aperture},
+      {"COAT", &Reader::coating}};
+  return kWords;
+}
+
+void Reader::surface(const Line& line) {
+  const auto number = line.number(1, diagnostics_);
+  if (number && *number != static_cast<double>(surfaces_.size()))
+    error(line, 1,
+          fmt::format("surfaces are numbered in their order (got {:g}, expected {})", *number,
+                      surfaces_.size()));
+  surfaces_.emplace_back().surface.where = line.where();
+}
+
+void Reader::type(const Line& line) {
+  now().has_type = true;
+  const std::string said = line.text(1).value_or("");
+  if (said != "STANDARD" && said != "EVENASPH")
+    error(line, 1,
+          fmt::format("this type of surface is not understood (got {}, allowed STANDARD, EVENASPH)", said));
+}
+
+void Reader::curvature(const Line& line) {
+  now().has_curvature = true;
+  now().curvature = line.number(1, diagnostics_).value_or(0);
+}
+
+void Reader::thickness(const Line& line) {
+  now().has_thickness = true;
+  now().at_infinity = line.text(1) == "INFINITY";
+  if (now().at_infinity && surfaces_.size() > 1) error(line, 1, "only the object can be at infinity");
+  if (!now().at_infinity) now().surface.thickness = line.number(1, diagnostics_).value_or(0);
+}
+
+// As the first of the file's catalogues sells it, else as scenes find it.
+spec::LensGlass Reader::named_glass(const Line& line) const {
+  std::string name = line.words[1].text;
+  const std::vector<std::string> sold = glass_names();
+  for (const std::string& maker : catalogues_)
+    if (std::binary_search(sold.begin(), sold.end(), maker + "/" + name)) {
+      name = maker + "/" + name;
+      break;
+    }
+  spec::LensGlass glass;
+  spec::Ior ior;
+  ior.value = name;
+  ior.where = glass.where = line.where(1);
+  glass.value = ior;
+  return glass;
+}
+
+void Reader::glass(const Line& line) {
+  const std::string said = line.text(1).value_or("");
+  if (said == "MIRROR") return error(line, 1, "mirrors are not understood: lenses refract alone");
+  if (said.empty()) return error(line, 0, "GLAS names a glass");
+  if (said != "___BLANK") {
+    now().surface.glass = named_glass(line);
+    return;
+  }
+  const auto nd = line.number(4, diagnostics_);
+  const auto vd = line.number(5, diagnostics_);
+  if (!nd || !vd) return;
+  now().surface.glass.emplace();
+  now().surface.glass->where = line.where(1);
+  if (*vd > 0)
+    now().surface.glass->value = spec::ModelGlass{*nd, *vd};
+  else  // without dispersion
+    now().surface.glass->value = spec::Ior{{{*nd}, line.where(4)}};
+}
+
+void Reader::conic(const Line& line) {
+  now().surface.conic = line.number(1, diagnostics_).value_or(0);
+}
+
+void Reader::parameter(const Line& line) {
+  const auto number = line.number(1, diagnostics_);
+  const auto value = line.number(2, diagnostics_);
+  if (!number || !value || *value == 0) return;
+  if (*number >= 1 && *number <= static_cast<double>(kEvenCoefficients))
+    now().even[static_cast<std::size_t>(*number) - 1] = *value;
+  else
+    error(line, 1,
+          fmt::format("parameter without a meaning here (got {:g}, allowed 1 to {})", *number,
+                      kEvenCoefficients));
+}
+
+// The second number tells a diameter that the user has set from one that Zemax has worked out.
+void Reader::diameter(const Line& line) {
+  now().semi_diameter = line.number(1, diagnostics_).value_or(0);
+  if (line.text(2) == "1") now().fixed = true;
+}
+
+void Reader::clear_aperture(const Line& line) {
+  const auto inner = line.number(1, diagnostics_);
+  const auto outer = line.number(2, diagnostics_);
+  if (inner && *inner != 0) error(line, 1, "apertures with a hole are not understood");
+  if (outer) now().surface.aperture = *outer;
+}
+
+void Reader::coating(const Line& line) {
+  diagnostics_.warning(
+      line.where(1),
+      fmt::format("the coating {} is left out: its layers are in another file", line.text(1).value_or("")));
+}
+
+spec::LensSurface Reader::finished(const ReadSurface& read) const {
+  spec::LensSurface surface = read.surface;
+  surface.radius = read.curvature == 0 ? 0 : unit_mm_ / read.curvature;
+  surface.thickness *= unit_mm_;
+  surface.r2 = read.even[0] / unit_mm_;
+  for (std::size_t i = 1; i < read.even.size(); ++i)
+    surface.asphere.push_back(read.even[i] / std::pow(unit_mm_, 2.0 * static_cast<double>(i) + 1));
+  if (!surface.aperture && (read.fixed || (open_by_stop_ && surface.stop)) && read.semi_diameter > 0)
+    surface.aperture = read.semi_diameter;
+  if (surface.aperture) *surface.aperture *= unit_mm_;
+  return surface;
+}
+
+}  // namespace abbe::description::zemax

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "description/lenses/zemax_reader.h"
+
+// The part of a `.zmx` file before its surfaces.
+namespace abbe::description::zemax {
+
+const std::map<std::string, Reader::Handler>& Reader::system_words() {
+  static const std::map<std::string, Handler> kWords{
+      {"MODE", &Reader::mode},        {"NAME", &Reader::name},          {"UNIT", &Reader::unit},
+      {"ENPD", &Reader::pupil},       {"FNUM", &Reader::f_number},      {"FLOA", &Reader::open_by_stop},
+      {"ENVD", &Reader::environment}, {"GCAT", &Reader::catalogues},    {"FTYP", &Reader::field_type},
+      {"XFLN", &Reader::x_fields},    {"YFLN", &Reader::y_fields},      {"WAVM", &Reader::wavelength},
+      {"PWAV", &Reader::primary},     {"VDXN", &Reader::vignetting},    {"VDYN", &Reader::vignetting},
+      {"VCXN", &Reader::vignetting},  {"VCYN", &Reader::vignetting},    {"VANN", &Reader::vignetting},
+      {"ZVDX", &Reader::vignetting},  {"ZVDY", &Reader::vignetting},    {"ZVCX", &Reader::vignetting},
+      {"ZVCY", &Reader::vignetting},  {"MNUM", &Reader::configurations}};
+  return kWords;
+}
+
+void Reader::mode(const Line& line) {
+  if (line.text(1) != "SEQ")
+    error(
+        line, 1,
+        fmt::format("only sequential lenses are read (got mode {}, allowed SEQ)", line.text(1).value_or("")));
+}
+
+void Reader::name(const Line& line) {
+  for (std::size_t i = 1; i < line.words.size(); ++i) lens_.title += (i > 1 ? " " : "") + line.words[i].text;
+}
+
+void Reader::unit(const Line& line) {
+  static const std::map<std::string, double> kUnits{{"MM", 1}, {"CM", 10}, {"IN", 25.4}, {"METER", 1000}};
+  const auto found = kUnits.find(line.text(1).value_or(""));
+  if (found == kUnits.end())
+    error(line, 1,
+          fmt::format("unknown unit (got {}, allowed MM, CM, IN, METER)", line.text(1).value_or("nothing")));
+  else
+    unit_mm_ = found->second;
+}
+
+void Reader::pupil(const Line& line) {
+  if (const auto value = line.number(1, diagnostics_)) lens_.aperture = spec::PupilDiameter{{*value}};
+}
+
+void Reader::f_number(const Line& line) {
+  if (const auto value = line.number(1, diagnostics_)) lens_.aperture = spec::FNumber{{*value}};
+  if (line.text(2).value_or("0") != "0")
+    error(line, 2, "an f-number of a near object is not understood: say ENPD or FLOA");
+}
+
+// The catalogues' indices are those at 20 C and 1 atmosphere.
+void Reader::environment(const Line& line) {
+  const std::vector<double> values = line.numbers(1);
+  if (values.size() >= 2 && (values[0] != 20 || values[1] != 1))
+    diagnostics_.warning(line.where(1), "indices are those at 20 C and 1 atm, wherever the lens is used");
+}
+
+void Reader::catalogues(const Line& line) {
+  for (std::size_t i = 1; i < line.words.size(); ++i) {
+    std::string maker = line.words[i].text;
+    std::transform(maker.begin(), maker.end(), maker.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    catalogues_.push_back(std::move(maker));
+  }
+}
+
+void Reader::field_type(const Line& line) {
+  const std::vector<double> values = line.numbers(1);
+  if (values.empty() || !(values[0] >= 0 && values[0] <= 2))
+    return error(
+        line, 1,
+        fmt::format("fields of this kind are not understood (got {}, allowed 0 angles, 1 object heights, "
+                    "2 paraxial image heights)",
+                    line.text(1).value_or("nothing")));
+  field_kind_ = static_cast<int>(values[0]);
+  const auto count = [&](std::size_t i) {
+    return values.size() > i && values[i] > 0 && values[i] < 1000 ? static_cast<std::size_t>(values[i]) : 0;
+  };
+  field_count_ = count(2);
+  wavelength_count_ = count(3);
+}
+
+void Reader::x_fields(const Line& line) {
+  const std::vector<double> values = line.numbers(1);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] != 0)
+      return error(line, i + 1,
+                   fmt::format("fields are taken along y alone (got x {:g}, allowed 0)", values[i]));
+}
+
+void Reader::wavelength(const Line& line) {
+  const auto number = line.number(1, diagnostics_);
+  const auto um = line.number(2, diagnostics_);
+  if (!number || !um) return;
+  if (!spec::kWavelength.contains(*um * 1000)) {
+    // Zemax fills the places of wavelengths that are not used.
+    if (wavelength_count_ == 0 || *number <= static_cast<double>(wavelength_count_))
+      error(line, 2,
+            fmt::format("wavelength out of range (got {} nm, allowed {} nm)", *um * 1000,
+                        spec::kWavelength.text()));
+    return;
+  }
+  wavelengths_nm_[static_cast<int>(*number)] = *um * 1000;
+}
+
+void Reader::primary(const Line& line) {
+  if (const auto number = line.number(1, diagnostics_)) primary_ = static_cast<int>(*number);
+}
+
+void Reader::vignetting(const Line& line) {
+  const std::vector<double> values = line.numbers(1);
+  const auto used = std::find_if(values.begin(), values.end(), [](double v) { return v != 0; });
+  if (used != values.end())
+    diagnostics_.warning(line.where(1),
+                         fmt::format("the vignetting factors of {} are left out: clear apertures alone "
+                                     "take light away",
+                                     line.keyword()));
+}
+
+void Reader::configurations(const Line& line) {
+  if (line.numbers(1).size() > 0 && line.numbers(1)[0] > 1)
+    error(line, 1,
+          fmt::format("lenses of several configurations are not understood (got {:g})", line.numbers(1)[0]));
+}
+
+void Reader::finish_fields() {
+  if (field_count_ > 0) fields_.resize(field_count_);
+  if (field_kind_ != 0)
+    for (double& field : fields_) field *= unit_mm_;
+  if (field_kind_ == 0)
+    lens_.fields = spec::FieldAngles{{fields_}};
+  else if (field_kind_ == 1)
+    lens_.fields = spec::ObjectHeights{{fields_}};
+  else
+    lens_.fields = spec::ImageHeights{{fields_}};
+}
+
+void Reader::finish_wavelengths(const SourcePosition& where) {
+  if (wavelengths_nm_.empty()) return;
+  lens_.wavelengths_nm.clear();
+  for (const auto& [number, nm] : wavelengths_nm_) {
+    if (wavelength_count_ > 0 && number > static_cast<int>(wavelength_count_)) break;
+    lens_.wavelengths_nm.push_back(nm);
+  }
+  if (const auto found = wavelengths_nm_.find(primary_); found != wavelengths_nm_.end())
+    lens_.primary_nm = {{found->second}, where};
+}
+
+}  // namespace abbe::description::zemax

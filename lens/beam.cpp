@@ -1,0 +1,186 @@
+#include "lens/beam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "lens/paraxial.h"
+
+namespace abbe::lens {
+namespace {
+
+using V2d = Imath::V2d;
+using V3d = Imath::V3d;
+
+constexpr int kMaxSteps = 40;
+constexpr int kMaxHalvings = 20;
+constexpr double kAimed = 1e-12;      // in radii of the stop: what Newton's method strives for,
+constexpr double kGoodEnough = 1e-9;  // and what is taken where rounding does not let it
+constexpr double kDifference = 1e-4;  // of the entrance pupil's radius, for the Jacobian
+constexpr double kFieldStep = 0.1;    // of the field, from chief ray to chief ray
+constexpr double kLeastStep = 1e-4;
+constexpr int kRimRays = 32;
+
+// What must be added to the argument of a function of this Jacobian, given by columns, to add `wanted` to it.
+V2d solved(const V2d& by_x, const V2d& by_y, const V2d& wanted) {
+  const double det = by_x.x * by_y.y - by_y.x * by_x.y;
+  return V2d(wanted.x * by_y.y - by_y.x * wanted.y, by_x.x * wanted.y - wanted.x * by_x.y) / det;
+}
+
+}  // namespace
+
+Beam::Beam(const SystemAt& at, double stop_radius_mm) : at_(&at), radius_(stop_radius_mm) {
+  const FirstOrder first = first_order(at);
+  const bool near_pupil = std::isfinite(first.entrance_pupil_mm) && !at.system->object_distance_mm;
+  pupil_z_ = near_pupil ? first.entrance_pupil_mm : 0;
+  const double magnification = std::abs(first.entrance_magnification);
+  scale_ = radius_ * (std::isfinite(magnification) ? magnification : 1);
+}
+
+void Beam::set_field(double field) {
+  if (const auto distance = at_->system->object_distance_mm) {
+    object_ = {0, field, -*distance};
+  } else {
+    const double angle = field * std::numbers::pi / 180;
+    direction_ = {0, std::sin(angle), std::cos(angle)};
+  }
+}
+
+Ray Beam::launch(const V2d& p) const {
+  if (at_->system->object_distance_mm) {
+    const V3d to = V3d(p.x, p.y, 0) - object_;
+    return {object_, to.normalized()};
+  }
+  const V3d up(0, direction_.z, -direction_.y);
+  return {V3d(p.x, 0, pupil_z_) + p.y * up, direction_};
+}
+
+double Beam::density(const V2d& p) const {
+  if (!at_->system->object_distance_mm) return 1;
+  const V3d to = V3d(p.x, p.y, 0) - object_;
+  const double distance2 = to.length2();
+  return to.z * to.z / (distance2 * distance2);
+}
+
+std::optional<V2d> Beam::pupil_of(const V2d& launched) const {
+  const std::size_t stop = at_->system->stop;
+  const RayPath path = trace(*at_, launch(launched), Apertures::ignored, stop + 1);
+  // The ray's end behind the stop does not matter for where it passed it.
+  if (path.hits.size() <= stop) return std::nullopt;
+  const V3d point = local_point(*at_, stop, path.hits[stop].point);
+  return V2d(point.x, point.y) / radius_;
+}
+
+// Newton's method with a Jacobian of differences, its steps halved until they come nearer.
+bool Beam::solve(const V2d& pupil, V2d& launched) const {
+  auto now = pupil_of(launched);
+  if (!now) return false;
+  const double h = kDifference * scale_;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const double error = (*now - pupil).length();
+    if (error <= kAimed) return true;
+    const auto x0 = pupil_of(launched - V2d(h, 0));
+    const auto x1 = pupil_of(launched + V2d(h, 0));
+    const auto y0 = pupil_of(launched - V2d(0, h));
+    const auto y1 = pupil_of(launched + V2d(0, h));
+    if (!x0 || !x1 || !y0 || !y1) return error <= kGoodEnough;
+    V2d change = solved((*x1 - *x0) / (2 * h), (*y1 - *y0) / (2 * h), pupil - *now);
+    if (!std::isfinite(change.x) || !std::isfinite(change.y)) return false;
+    int halvings = 0;
+    std::optional<V2d> next;
+    for (; halvings < kMaxHalvings; ++halvings, change *= 0.5) {
+      next = pupil_of(launched + change);
+      if (next && (*next - pupil).length() < error) break;
+    }
+    if (halvings == kMaxHalvings) return error <= kGoodEnough;
+    launched += change;
+    now = next;
+  }
+  return (*now - pupil).length() <= kGoodEnough;
+}
+
+// From the axis outwards, in steps that are halved where the last chief ray does not lead to the next.
+bool Beam::find_chief(double field) {
+  V2d launched(0, 0);
+  double reached = 0;
+  set_field(0);
+  if (!solve({0, 0}, launched)) return false;
+  double step = kFieldStep;
+  while (reached < 1) {
+    const double next = std::min(1.0, reached + step);
+    V2d tried = launched;
+    set_field(next * field);
+    if (solve({0, 0}, tried)) {
+      reached = next;
+      launched = tried;
+      step = std::min(2 * step, 2 * kFieldStep);
+    } else if ((step /= 2) < kLeastStep) {
+      return false;
+    }
+  }
+  chief_ = launched;
+  return true;
+}
+
+std::optional<Beam> Beam::of(const SystemAt& at, double field, double stop_radius_mm) {
+  Beam beam(at, stop_radius_mm);
+  if (!beam.find_chief(field)) return std::nullopt;
+  return beam;
+}
+
+std::optional<V2d> Beam::aim(const V2d& pupil) const {
+  V2d launched = chief_;
+  double reached = 0;
+  double step = 1;
+  while (reached < 1) {
+    const double next = std::min(1.0, reached + step);
+    V2d tried = launched;
+    if (solve(next * pupil, tried)) {
+      reached = next;
+      launched = tried;
+    } else if ((step /= 2) < 1.0 / 64) {
+      return std::nullopt;
+    }
+  }
+  return launched;
+}
+
+Imath::Box2d Beam::bounds() const {
+  Imath::Box2d box(chief_);
+  for (int i = 0; i < kRimRays; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kRimRays;
+    for (double share = 1; share > 0; share -= 0.125)  // as far out as rays get
+      if (const auto launched = aim(share * V2d(std::cos(angle), std::sin(angle)))) {
+        box.extendBy(*launched);
+        break;
+      }
+  }
+  const V2d room = 0.01 * box.size();  // what of the rim lies between its rays
+  return {box.min - room, box.max + room};
+}
+
+double stop_radius(const System& system) {
+  if (system.aperture.kind == ApertureKind::stop) return system.aperture.value;
+  System centred = system;
+  for (Surface& surface : centred.surfaces) surface.decenter_mm = surface.tilt_deg = V2d(0, 0);
+  const SystemAt at(centred, system.primary_nm());
+  const FirstOrder first = first_order(at);
+  const double diameter = system.aperture.kind == ApertureKind::entrance_pupil
+                              ? system.aperture.value
+                              : std::abs(first.focal_length_mm) / system.aperture.value;
+  Ray ray{{0, diameter / 2, first.entrance_pupil_mm}, {0, 0, 1}};
+  if (system.object_distance_mm) {
+    const V3d object(0, 0, -*system.object_distance_mm);
+    ray = {object, (ray.origin - object).normalized()};
+  }
+  const RayPath path = trace(at, ray, Apertures::ignored, system.stop + 1);
+  if (path.hits.size() <= system.stop)
+    throw Error(ErrorCode::scene, system.title,
+                fmt::format("the axial ray of an entrance pupil of {:g} mm {}", diameter, reason(path)));
+  return std::abs(local_point(at, system.stop, path.hits[system.stop].point).y);
+}
+
+}  // namespace abbe::lens

@@ -1,0 +1,98 @@
+#include "lens/field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "lens/paraxial.h"
+
+namespace abbe::lens {
+namespace {
+
+using V2d = Imath::V2d;
+
+constexpr double kFirstZeroOfJ1 = 3.8317059702075123;
+constexpr double kFieldDifference = 1e-3;  // degrees, or millimetres of the object
+
+std::optional<RayPath> traced(const Beam& beam, const V2d& pupil, Apertures apertures) {
+  const auto launched = beam.aim(pupil);
+  if (!launched) return std::nullopt;
+  RayPath path = trace(beam.at(), beam.launch(*launched), apertures);
+  return path.reached() ? std::optional(std::move(path)) : std::nullopt;
+}
+
+std::optional<RayPath> chief_path(const SystemAt& at, double field, double stop_radius_mm) {
+  const auto beam = Beam::of(at, field, stop_radius_mm);
+  return beam ? traced(*beam, {0, 0}, Apertures::ignored) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) {
+  const auto beam = Beam::of(at, 0, stop_radius_mm);
+  const auto edge = beam ? beam->aim({0, 1}) : std::nullopt;
+  const auto marginal = edge ? traced(*beam, {0, 1}, Apertures::ignored) : std::nullopt;
+  if (!marginal) return std::nullopt;
+  const Spot axial = spot(*beam, 0, side);
+  if (!(axial.passed > 0)) return std::nullopt;
+  const FirstOrder first = first_order(at);
+  const Ray ray = beam->launch(*edge);
+  const double to_pupil = (first.entrance_pupil_mm - ray.origin.z) / ray.direction.z;
+  Speed speed{};
+  speed.entrance_diameter_mm = 2 * std::abs(ray.origin.y + to_pupil * ray.direction.y);
+  speed.f_number = std::abs(first.focal_length_mm) / speed.entrance_diameter_mm;
+  speed.working_f_number = 1 / (2 * at.n.back() * std::abs(marginal->last.direction.y));
+  speed.transmittance = axial.transmitted / axial.passed;
+  speed.t_stop = speed.f_number / std::sqrt(speed.transmittance);
+  speed.airy_radius_um = kFirstZeroOfJ1 / std::numbers::pi * at.wavelength_nm * 1e-3 * speed.working_f_number;
+  return speed;
+}
+
+std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_radius_mm) {
+  const auto path = chief_path(at, field, stop_radius_mm);
+  if (!path) return std::nullopt;
+  Chief chief{path->last.origin.y, std::nullopt};
+  const FirstOrder first = first_order(at);
+  const Imath::V3d& d = path->last.direction;
+  const double defocus = at.system->surfaces.back().thickness_mm - first.image_distance_mm;
+  const double ideal = paraxial_image_height(at, first, field) + defocus * d.y / d.z;
+  if (ideal != 0 && std::isfinite(ideal)) chief.distortion = chief.height_mm / ideal - 1;
+  return chief;
+}
+
+std::optional<double> relative_illumination(const SystemAt& at, double field, double stop_radius_mm,
+                                            const Spot& there, const Spot& on_axis) {
+  if (at.system->displaced() || !(on_axis.transmitted > 0)) return std::nullopt;
+  const double h = kFieldDifference;
+  const double unit = at.system->object_distance_mm ? 1 : std::numbers::pi / 180;
+  std::array<double, 4> y{};  // of the chief rays beside the field, and beside the axis
+  const std::array<double, 4> fields{field - h, field + h, -h, h};
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const auto path = chief_path(at, fields[i], stop_radius_mm);
+    if (!path) return std::nullopt;
+    y[i] = path->last.origin.y;
+  }
+  const double by_field = (y[1] - y[0]) / (2 * h * unit);
+  const double by_axis = (y[3] - y[2]) / (2 * h * unit);
+  const double power = there.transmitted / on_axis.transmitted;
+  if (std::abs(field) < h) return power;
+  const double across = at.system->object_distance_mm ? field : std::sin(field * unit);
+  return power * across * by_axis * by_axis / ((y[0] + y[1]) / 2 * by_field);
+}
+
+RayFan ray_fan(const Beam& beam, const V2d& chief_point, int count) {
+  RayFan fan;
+  for (int i = 0; i < count; ++i) {
+    const double p = count > 1 ? -1 + 2.0 * i / (count - 1) : 0;
+    const auto tangential = traced(beam, {0, p}, Apertures::obeyed);
+    const auto sagittal = traced(beam, {p, 0}, Apertures::obeyed);
+    fan.pupil.push_back(p);
+    fan.tangential.push_back(tangential ? std::optional(tangential->last.origin.y - chief_point.y)
+                                        : std::nullopt);
+    fan.sagittal.push_back(sagittal ? std::optional(sagittal->last.origin.x - chief_point.x) : std::nullopt);
+  }
+  return fan;
+}
+
+}  // namespace abbe::lens

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "lens/system.h"
+
+namespace abbe::lens {
+
+/// A paraxial ray at a surface: its height there and its slope behind it.
+struct ParaxialHit {
+  double y;
+  double u;
+};
+
+/// Follows a paraxial ray of height y at the first vertex and slope u before it, to `surfaces` surfaces:
+/// n'u' = n u - y c (n' - n), y(next) = y + u' d. Decentres and tilts are left out. [Welford1986]
+[[nodiscard]] std::vector<ParaxialHit> paraxial_trace(const SystemAt& at, double y, double u);
+
+/// What a system does to rays near its axis, at one wavelength. Distances of object space are counted from
+/// the first vertex, of image space from the last, both positive towards +z.
+struct FirstOrder {
+  double focal_length_mm;         ///< f' = n'/power; infinite for a system without power.
+  double back_focus_mm;           ///< Of the rear focal point.
+  double front_focus_mm;          ///< Of the front focal point.
+  double front_principal_mm;      ///< Of the principal plane of object space.
+  double rear_principal_mm;       ///< Of the principal plane of image space.
+  double entrance_pupil_mm;       ///< Of the image of the stop in object space.
+  double exit_pupil_mm;           ///< Of the image of the stop in image space.
+  double entrance_magnification;  ///< Entrance pupil over stop.
+  double exit_magnification;      ///< Exit pupil over stop.
+  double image_distance_mm;       ///< Of the image of the object: the back focus for one at infinity.
+  double magnification;           ///< Of a near object; 0 for one at infinity.
+};
+
+[[nodiscard]] FirstOrder first_order(const SystemAt& at);
+
+/// Height in the plane of the image that a paraxial chief ray of the field has; fields as in `System`.
+[[nodiscard]] double paraxial_image_height(const SystemAt& at, const FirstOrder& first, double field);
+
+}  // namespace abbe::lens

@@ -1,0 +1,145 @@
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "lens/paraxial.h"
+#include "lenses.h"
+
+namespace abbe::lens {
+namespace {
+
+using testing::lens_of;
+using testing::sound_lens_of;
+
+// A singlet with something in the place of its surfaces or beside them.
+std::string singlet(const std::string& surfaces, const std::string& beside = R"("entrance_pupil": 5)") {
+  return "{" + beside + ",\n \"surfaces\": [" + surfaces + "]}";
+}
+
+const std::string kFront =
+    R"({"radius": 50, "thickness": 4, "glass": "N-BK7", "stop": true, "aperture": 10})";
+
+void expect_fault(const std::string& text, const std::string& place, const std::string& message) {
+  const auto loaded = lens_of(text);
+  EXPECT_FALSE(loaded.system) << text;
+  EXPECT_NE(loaded.text().find("lens.json:" + place), std::string::npos) << loaded.text();
+  EXPECT_NE(loaded.text().find(message), std::string::npos) << loaded.text();
+}
+
+TEST(LensPrescription, ShippedLensesAreWhatTheyAreCalled) {
+  EXPECT_EQ(lens_names().size(), 6U);
+  for (const std::string& name : lens_names()) {
+    const auto loaded = testing::load_said(name);
+    ASSERT_TRUE(loaded.system) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.all().empty()) << loaded.text();
+    EXPECT_FALSE(loaded.system->source.empty()) << name;
+  }
+  const auto focal_length = [](const char* name) {
+    const System system = testing::lens_named(name);
+    return first_order(SystemAt(system, system.primary_nm())).focal_length_mm;
+  };
+  EXPECT_NEAR(focal_length("fisheye"), 10.5647, 5e-5);
+  EXPECT_NEAR(focal_length("tessar"), 100, 0.5);
+  EXPECT_NEAR(focal_length("landscape"), 10, 0.5);
+}
+
+TEST(LensPrescription, ShortFormSaysTheSame) {
+  const System brief = sound_lens_of(singlet(kFront + ", [-40, 60, null, 9]"));
+  const System full = sound_lens_of(singlet(kFront + R"(, {"radius": -40, "thickness": 60, "aperture": 9})"));
+  EXPECT_EQ(brief.surfaces[1].profile.curvature, -1.0 / 40);
+  EXPECT_EQ(brief.surfaces[1].profile.curvature, full.surfaces[1].profile.curvature);
+  EXPECT_EQ(brief.surfaces[1].thickness_mm, 60);
+  EXPECT_EQ(brief.surfaces[1].semi_aperture_mm, full.surfaces[1].semi_aperture_mm);
+  EXPECT_FALSE(brief.surfaces[1].behind);
+}
+
+TEST(LensPrescription, GlassesComeFromCataloguesAndNumbers) {
+  const System system = sound_lens_of(
+      R"({"entrance_pupil": 1, "wavelengths_nm": [587.5618], "surfaces": [{"thickness": 1, "glass": "N-BK7", "stop": true},
+      [0, 1, {"nd": 1.7, "vd": 40}], [0, 1, 1.9], [0, 1, "schott/F5"], [0, 1]]})");
+  const SystemAt d(system, 587.5618);
+  EXPECT_NEAR(d.n[1], 1.516800, 5e-7);
+  EXPECT_NEAR(d.n[2], 1.7, 1e-12);
+  EXPECT_EQ(d.n[3], 1.9);
+  EXPECT_EQ(d.n[5], 1);
+  const double spread = SystemAt(system, 486.1327).n[2] - SystemAt(system, 656.2725).n[2];
+  EXPECT_NEAR((1.7 - 1) / spread, 40, 1e-9);
+}
+
+TEST(LensPrescription, UnknownGlassIsToldWithTheNearest) {
+  expect_fault(singlet(kFront + R"(, [-50, 3, "N-SF66x"], [0, 1])"), "2:", "did you mean \"N-SF66\"?");
+}
+
+TEST(LensPrescription, LensHasOneStop) {
+  expect_fault(singlet("[50, 4, 1.5], [-50, 40]"), "1:1", "no surface is the stop");
+  expect_fault(singlet(kFront + R"(, {"radius": -50, "thickness": 9, "stop": true})"),
+               "2:", "a second stop: surface 1");
+}
+
+TEST(LensPrescription, AperturesEndWhereTheirSurfaceDoes) {
+  expect_fault(singlet(kFront + ", [8, 40, null, 8.5]"), "2:", "got 8.5 mm, allowed less than 8 mm");
+  EXPECT_TRUE(
+      lens_of(singlet(kFront + R"(, {"radius": 8, "thickness": 40, "aperture": 8.5, "conic": -1})")).system);
+}
+
+TEST(LensPrescription, SurfacesDoNotCross) {
+  expect_fault(singlet(kFront + ", [-10, 40, null, 9]"), "2:", "surface 1 crosses surface 2");
+  EXPECT_TRUE(lens_of(singlet(kFront + ", [-10, 40, null, 6]")).system);
+  expect_fault(singlet(R"([50, -1, 1.5], {"thickness": 1, "stop": true})"), "2:", "got a gap of -1 mm");
+  // A stop in air may stand within what is before it.
+  EXPECT_TRUE(lens_of(singlet(R"([50, 4, 1.5], [50, -1], {"thickness": 30, "stop": true})")).system);
+}
+
+TEST(LensPrescription, ConditionsMustFit) {
+  expect_fault(
+      singlet(R"({"radius": 50, "thickness": 4, "glass": 1.5, "stop": true}, [0, 9])", R"("title": "x")"),
+      "1:1", "how wide is the lens open?");
+  expect_fault(singlet(kFront, R"("entrance_pupil": 5, "f_number": 2)"), "1:", "a lens has one aperture");
+  expect_fault(singlet(kFront, R"("object_heights": [1])"), "1:1", "object_heights need an object_distance");
+  expect_fault(singlet(kFront, R"("primary_nm": 500)"),
+               "1:", "got 500, allowed 486.1327, 587.5618, 656.2725");
+  expect_fault(singlet("[50]"), "2:", "got 1 values, allowed 2 to 4");
+  expect_fault(singlet(R"({"radus": 50, "thickness": 1, "stop": true})"), "2:", "did you mean \"radius\"?");
+  expect_fault(singlet(kFront + R"(, {"asphere": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]})"),
+               "2:", "an asphere ends at r^20");
+}
+
+TEST(LensPrescription, FieldsOfAnyKindBecomeDirectionsOrHeights) {
+  const System image = sound_lens_of(singlet(kFront + ", [-50, 40]", R"("image_heights": [0, 10])"));
+  const double f = first_order(SystemAt(image, image.primary_nm())).focal_length_mm;
+  EXPECT_NEAR(image.fields[1], std::atan(10 / f) * 180 / 3.14159265358979, 1e-9);
+  const System near =
+      sound_lens_of(singlet(kFront + ", [-50, 40]", R"("fields_deg": [0, 45], "object_distance": 200)"));
+  EXPECT_NEAR(near.fields[1], -200, 1e-9);  // the stop is at the first vertex
+  const System plain =
+      sound_lens_of(singlet(kFront + ", [-50, 40]", R"("object_heights": [3], "object_distance": 200)"));
+  EXPECT_EQ(plain.fields[0], 3);
+}
+
+TEST(LensPrescription, UnknownLensIsToldWithTheNearest) {
+  const auto loaded = testing::load_said("tesar");
+  EXPECT_FALSE(loaded.system);
+  EXPECT_NE(loaded.text().find("did you mean \"tessar\"?"), std::string::npos) << loaded.text();
+  EXPECT_EQ(loaded.diagnostics.code(), ErrorCode::input);
+}
+
+TEST(LensPrescription, PbrtTableIsReadAsPbrtDoes) {
+  const System table = sound_lens_of(
+      "# A singlet behind its stop\n# radius thickness index diameter\n0 2 0 5\n50 4 1.5 12 # front\n-50\t90 "
+      "1 12\n",
+      ".dat");
+  EXPECT_EQ(table.title, "A singlet behind its stop");
+  EXPECT_EQ(table.stop, 0U);
+  EXPECT_EQ(table.aperture.value, 2.5);
+  EXPECT_EQ(*table.surfaces[1].semi_aperture_mm, 6);
+  EXPECT_EQ(SystemAt(table, 550).n[2], 1.5);
+  EXPECT_EQ(table.surfaces.back().thickness_mm, first_order(SystemAt(table, 550)).back_focus_mm);
+  const auto torn = lens_of("0 2 0 5\n50 4 1.5\n", ".dat");
+  EXPECT_FALSE(torn.system);
+  EXPECT_NE(torn.text().find("lens.dat:2:"), std::string::npos) << torn.text();
+  EXPECT_NE(torn.text().find("got 3 numbers, expected 4"), std::string::npos) << torn.text();
+}
+
+}  // namespace
+}  // namespace abbe::lens

@@ -1,0 +1,180 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "lens/paraxial.h"
+#include "lenses.h"
+
+namespace abbe::lens {
+namespace {
+
+using testing::lens_of;
+using testing::sound_lens_of;
+
+// A cemented achromat as makers' files have it.
+const std::string kAchromat = R"(VERS 120928 0 30221
+MODE SEQ
+NAME AC254-100-A POSITIVE ACHROMAT
+UNIT MM X W X CM MR CPMM
+ENPD 2.286E+1
+ENVD 2.0E+1 1 0
+GCAT SCHOTT INFRARED MISC
+FTYP 0 0 2 3 0 0 0
+XFLN 0 0 0 0 0 0 0 0 0 0 0 0
+YFLN 0 1 0 0 0 0 0 0 0 0 0 0
+VCYN 0 0 0 0 0 0 0 0 0 0 0 0
+WAVM 1 4.861E-1 1
+WAVM 2 5.876E-1 1
+WAVM 3 6.563E-1 1
+WAVM 4 5.5E-1 1
+PWAV 2
+SURF 0
+  TYPE STANDARD
+  CURV 0.0 0 0 0 0 ""
+  DISZ INFINITY
+  DIAM 0 0 0 0 1 ""
+SURF 1
+  COMM front
+  STOP
+  TYPE STANDARD
+  CURV 1.593625498007969800E-002 0 0 0 0 ""
+  HIDE 0 0 0 0 0 0 0 0 0 0
+  DISZ 4.0
+  GLAS N-BK7 0 0 0 0 0 0 0 0 0 0
+  DIAM 1.27E+1 1 0 0 1 ""
+SURF 2
+  TYPE STANDARD
+  CURV -2.187705097352880100E-002 0 0 0 0 ""
+  DISZ 2.5
+  GLAS SF5 0 0 0 0 0 0 0 0 0 0
+  DIAM 1.27E+1 1 0 0 1 ""
+SURF 3
+  TYPE STANDARD
+  CURV -7.798487093503899700E-003 0 0 0 0 ""
+  DISZ 9.706800996493E+1
+  DIAM 1.2 0 0 0 1 ""
+SURF 4
+  TYPE STANDARD
+  CURV 0.0 0 0 0 0 ""
+  DISZ 0
+TOL TOFF   0   0              0              0   0 0 0
+MNUM 1 1
+)";
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+std::string utf16(const std::string& text, bool little, bool mark) {
+  std::string bytes = mark ? (little ? "\xFF\xFE" : "\xFE\xFF") : "";
+  for (const char c : text) bytes += little ? std::string{c, '\0'} : std::string{'\0', c};
+  return bytes;
+}
+
+void expect_fault(const std::string& text, const std::string& place, const std::string& message) {
+  const auto loaded = lens_of(text, ".zmx");
+  EXPECT_FALSE(loaded.system) << message;
+  EXPECT_NE(loaded.text().find("lens.zmx:" + place), std::string::npos) << loaded.text();
+  EXPECT_NE(loaded.text().find(message), std::string::npos) << loaded.text();
+  EXPECT_EQ(loaded.diagnostics.code() == ErrorCode::input || loaded.diagnostics.code() == ErrorCode::scene,
+            true);
+}
+
+TEST(LensZemax, MakersAchromatIsTheShippedOne) {
+  const System read = sound_lens_of(kAchromat, ".zmx");
+  const System shipped = testing::lens_named("achromat");
+  EXPECT_EQ(read.title, "AC254-100-A POSITIVE ACHROMAT");
+  EXPECT_EQ(read.fields, shipped.fields);
+  EXPECT_EQ(read.primary, 1U);
+  ASSERT_EQ(read.wavelengths_nm.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(read.wavelengths_nm[i], shipped.wavelengths_nm[i], 1e-9);
+  const FirstOrder found = first_order(SystemAt(read, 587.6));
+  const FirstOrder expected = first_order(SystemAt(shipped, 587.6));
+  EXPECT_NEAR(found.focal_length_mm, expected.focal_length_mm, 1e-11);
+  EXPECT_NEAR(found.back_focus_mm, expected.back_focus_mm, 1e-11);
+  EXPECT_EQ(*read.surfaces[0].semi_aperture_mm, 12.7);
+  EXPECT_FALSE(read.surfaces[2].semi_aperture_mm);  // worked out by Zemax
+  EXPECT_EQ(read.surfaces[1].behind->name, "schott/SF5");
+}
+
+TEST(LensZemax, Utf16IsReadAsUtf8Is) {
+  const FirstOrder plain = first_order(SystemAt(sound_lens_of(kAchromat, ".zmx"), 587.6));
+  for (const bool little : {true, false})
+    for (const bool mark : {true, false}) {
+      const auto loaded = lens_of(utf16(kAchromat, little, mark), ".zmx");
+      ASSERT_TRUE(loaded.system) << loaded.text();
+      EXPECT_EQ(first_order(SystemAt(*loaded.system, 587.6)).focal_length_mm, plain.focal_length_mm);
+    }
+}
+
+TEST(LensZemax, OtherEncodingsAreErrors) {
+  expect_fault(replaced(kAchromat, "front", "fr\xF6nt"), "23:10", "invalid UTF-8");
+  expect_fault(utf16(kAchromat, true, true) + "x", "", "invalid UTF-16");
+  expect_fault(utf16("MODE SEQ\n", true, true) + "\x01\xD8\x41" + std::string(1, '\0'), "2:1",
+               "invalid UTF-16");
+  expect_fault(std::string("MODE\0SEQ", 8), "1:5", "NUL byte");
+}
+
+TEST(LensZemax, FaultsAreToldAtTheirPlace) {
+  expect_fault(replaced(kAchromat, "GLAS SF5", "GLAS N-SF555"), "35:8", "did you mean");
+  expect_fault(replaced(kAchromat, "  STOP\n", ""), "", "no surface is the stop");
+  expect_fault(replaced(kAchromat, "  DISZ 2.5", "  STOP\n  DISZ 2.5"), "31:1", "a second stop");
+  expect_fault(replaced(kAchromat, "TYPE STANDARD\n  CURV -2", "TYPE COORDBRK\n  CURV -2"), "32:8",
+               "got COORDBRK");
+  expect_fault(replaced(kAchromat, "GLAS SF5", "GLAS MIRROR"), "35:8", "mirrors are not understood");
+  expect_fault(replaced(kAchromat, "MODE SEQ", "MODE NSC"), "2:6", "only sequential lenses");
+  expect_fault(replaced(kAchromat, "UNIT MM", "UNIT FT"), "4:6", "unknown unit");
+  expect_fault(replaced(kAchromat, "FTYP 0", "FTYP 3"), "8:6", "fields of this kind");
+  expect_fault(replaced(kAchromat, "XFLN 0 0", "XFLN 0 2"), "9:8", "along y alone");
+  expect_fault(replaced(kAchromat, "DISZ 4.0", "DISZ four"), "28:8", "got \"four\"");
+  expect_fault(replaced(kAchromat, "  COMM front", "  GRAT 600"), "23:3",
+               "unknown keyword of Zemax \"GRAT\"");
+  expect_fault(replaced(kAchromat, "MNUM 1 1", "MNUM 3 1"), "47:6", "several configurations");
+  expect_fault(replaced(kAchromat, "-2.187705097352880100E-002", "-0.2"), "31:1", "beyond the edge");
+}
+
+TEST(LensZemax, TruncatedFilesAreToldAsSuch) {
+  expect_fault(kAchromat.substr(0, kAchromat.find("SURF 1")), "", "is the file cut short?");
+  expect_fault(kAchromat.substr(0, kAchromat.find("  DISZ 9.7068")), "37:1", "surface 3 has no DISZ");
+  expect_fault(kAchromat.substr(0, kAchromat.find("SURF 3")), "31:1", "the last surface, which is the image");
+  expect_fault(kAchromat.substr(0, kAchromat.find("9.706800996493E+1\n")), "40:3", "got the end of the line");
+}
+
+TEST(LensZemax, WhatIsLeftOutIsTold) {
+  auto loaded = lens_of(replaced(kAchromat, "VCYN 0 0", "VCYN 0 0.2"), ".zmx");
+  ASSERT_TRUE(loaded.system);
+  EXPECT_NE(loaded.text().find("lens.zmx:11:6: warning: the vignetting factors of VCYN"), std::string::npos)
+      << loaded.text();
+  loaded = lens_of(replaced(kAchromat, "  COMM front", "  COAT THORA"), ".zmx");
+  ASSERT_TRUE(loaded.system);
+  EXPECT_NE(loaded.text().find("the coating THORA is left out"), std::string::npos) << loaded.text();
+}
+
+TEST(LensZemax, UnitsAspheresAndModelGlassesAreUnderstood) {
+  const auto lens = [](const std::string& unit, const std::string& scale) {
+    return "MODE SEQ\nUNIT " + unit + "\nFLOA\nFTYP 1 0 2 1\nYFLN 0 0.5" + scale + "\nWAVM 1 0.55 1\n" +
+           "SURF 0\n TYPE STANDARD\n CURV 0\n DISZ 20" + scale + "\nSURF 1\n TYPE EVENASPH\n STOP\n CURV " +
+           (scale.empty() ? "0.5" : "0.05") + "\n PARM 1 " + (scale.empty() ? "0.01" : "0.001") +
+           "\n PARM 2 " + (scale.empty() ? "0.02" : "0.00002") + "\n CONI -0.5\n DISZ 0.5" + scale +
+           "\n GLAS ___BLANK 1 0 1.6 50 0\n DIAM 0.1" + scale +
+           " 0\nSURF 2\n TYPE STANDARD\n CURV 0\n DISZ 3" + scale +
+           "\nSURF 3\n TYPE STANDARD\n CURV 0\n DISZ 0\n";
+  };
+  const System cm = sound_lens_of(lens("CM", ""), ".zmx");
+  const System mm = sound_lens_of(lens("MM", "E+1"), ".zmx");
+  EXPECT_NEAR(cm.surfaces[0].profile.curvature, 0.05, 1e-15);
+  EXPECT_NEAR(cm.surfaces[0].profile.even[0], 0.001, 1e-15);
+  EXPECT_NEAR(cm.surfaces[0].profile.even[1], 0.00002, 1e-15);
+  EXPECT_EQ(cm.surfaces[0].profile.conic, -0.5);
+  EXPECT_NEAR(cm.surfaces[0].profile.even[1], mm.surfaces[0].profile.even[1], 1e-18);
+  EXPECT_EQ(*cm.object_distance_mm, 200);
+  EXPECT_EQ(cm.fields[1], 5);
+  EXPECT_EQ(cm.aperture.kind, ApertureKind::stop);
+  EXPECT_EQ(cm.aperture.value, 1);
+  EXPECT_NEAR(SystemAt(cm, 587.5618).n[1], 1.6, 1e-12);
+}
+
+}  // namespace
+}  // namespace abbe::lens
