@@ -1,7 +1,9 @@
 #include "cli/answer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,12 +44,17 @@ std::string table(const std::vector<std::pair<std::string, Json>>& columns) {
   return all;
 }
 
+// What the first list of a table may be.
+constexpr std::array<std::string_view, 4> kFirstColumns{"wavelength_nm", "surface", "field_deg",
+                                                        "object_height_mm"};
+
 std::string readable(const Json& answer) {
   std::string lines;
   std::vector<std::pair<std::string, Json>> columns;
   for (const auto& [key, value] : answer.items()) {
     const bool is_column =
-        columns.empty() ? key == "wavelength_nm" : value.size() == columns.front().second.size();
+        columns.empty() ? std::find(kFirstColumns.begin(), kFirstColumns.end(), key) != kFirstColumns.end()
+                        : value.size() == columns.front().second.size();
     if (is_column && value.is_array())
       columns.emplace_back(key, value);
     else

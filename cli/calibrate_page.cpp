@@ -6,6 +6,7 @@
 
 #include "calibration/judge/camera_space.h"
 #include "cli/bench_plots.h"
+#include "cli/page.h"
 #include "validation/picture/display_color.h"
 #include "validation/plot/line_plot.h"
 #include "validation/plot/svg.h"
@@ -14,19 +15,6 @@ namespace abbe::cli {
 namespace {
 
 constexpr double kHistogramStep = 0.25;
-constexpr const char* kStyle =
-    "body { font: 15px/1.5 system-ui, \"DejaVu Sans\", sans-serif; color: #1c2430; max-width: 1080px; "
-    "margin: 0 auto; "
-    "padding: 24px; }\nh2 { border-bottom: 2px solid; margin-top: 40px; }\n"
-    ".patches { display: grid; grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); gap: 10px; }\n"
-    ".patch { font-size: 12px; }\n.swatch { display: flex; height: 54px; }\n.swatch div { flex: 1; }\n"
-    "table { border-collapse: collapse; }\ntd, th { padding: 2px 14px 2px 0; text-align: right; }\n"
-    "td:first-child, th:first-child { text-align: left; }\n.soft { color: #5b6675; }\n";
-
-// A picture of its own within the page.
-std::string inline_svg(const std::string& document) {
-  return document.substr(document.find("<svg"));
-}
 
 std::string curves(const std::vector<Channel>& channels) {
   double greatest = 0;
@@ -118,17 +106,13 @@ std::string section(const CalibrationCase& one) {
 
 std::string page_of(const std::vector<CalibrationCase>& cases, const std::vector<Channel>& channels,
                     const BenchAnswers& bench) {
-  const std::string camera = cases.empty() ? "" : escaped(cases.front().camera);
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
-      "charset=\"utf-8\"><title>{0}</title>\n<style>\n{1}</style></head>\n"
-      "<body>\n<h1>{0}</h1>\n",
-      camera, kStyle);
+  const std::string camera = cases.empty() ? "" : cases.front().camera;
+  std::string html = page_head(camera);
   if (channels.size() == 3) html += curves(channels) + judged(channels);
   if (!bench.transfer.is_null()) html += noise_section(bench.transfer);
   if (!bench.mtf.is_null()) html += sharpness_section(bench.mtf);
   for (const CalibrationCase& one : cases) html += section(one);
-  return html + "</body></html>\n";
+  return html + kPageEnd;
 }
 
 }  // namespace abbe::cli

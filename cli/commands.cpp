@@ -378,6 +378,7 @@ void add_commands(CLI::App& app, Command& command) {
   add_info(app, command);
   add_trace(app, command);
   add_draw(app, command);
+  add_lens(app, command);
   add_query(app, command);
   add_lab(app, command);
   add_develop(app, command);

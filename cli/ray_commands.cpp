@@ -1,6 +1,7 @@
 #include "cli/ray_commands.h"
 
 #include "cli/draw.h"
+#include "cli/lens.h"
 #include "cli/trace.h"
 
 namespace abbe::cli {
@@ -62,6 +63,23 @@ void add_draw(CLI::App& app, Command& command) {
              "Events to follow at most (default 64)", "N");
   add_follow(*sub.app, sub->follow);
   add_max_memory(*sub.app, sub.options);
+}
+
+void add_lens(CLI::App& app, Command& command) {
+  const Sub<LensOptions> sub(app, "lens", "Say what a lens does: first order, aberrations, spots, losses",
+                             command, lens);
+  sub.app
+      ->add_option("lens", sub->lens,
+                   "Prescription, a lens of Zemax, a table as pbrt reads it, or a name of data/lens")
+      ->required()
+      ->type_name("FILE.json|FILE.zmx|FILE.dat");
+  add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
+             "Wavelengths in place of the lens's, the middle one being the primary", "NM,...");
+  add_parsed(*sub.app, "--frequencies", sub->frequencies_per_mm, numbers_in(1e-3, 1e4),
+             "Lines per mm to tell the modulation at (default 10,20,40)", "N,...");
+  sub.app->add_option("--html", sub->html, "Page to write")->type_name("FILE.html");
+  sub.app->add_option("-o,--output", sub->drawing, "Drawing of the lens to write")->type_name("FILE.svg");
+  add_json(*sub.app, sub->json);
 }
 
 }  // namespace abbe::cli

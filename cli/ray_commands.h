@@ -8,5 +8,7 @@ namespace abbe::cli {
 void add_trace(CLI::App& app, Command& command);
 /// `abbe draw`.
 void add_draw(CLI::App& app, Command& command);
+/// `abbe lens`.
+void add_lens(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

@@ -1,0 +1,67 @@
+#include "cli/lens.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "cli/answer.h"
+#include "cli/lens_answer.h"
+#include "cli/output_files.h"
+#include "description/lenses/load_lens.h"
+#include "io/atomic_file.h"
+#include "io/extension.h"
+#include "validation/lens/drawing.h"
+
+namespace abbe::cli {
+namespace {
+
+lens::System load(const LensOptions& options, Inputs& inputs) {
+  Diagnostics diagnostics;
+  lens::System system = accepted(load_lens(options.lens, diagnostics, &inputs), diagnostics);
+  if (options.wavelengths_nm.empty()) return system;
+  // The stop keeps the size it has at the lens's own primary wavelength.
+  system.aperture = {lens::ApertureKind::stop, lens::stop_radius(system)};
+  system.wavelengths_nm = options.wavelengths_nm;
+  system.primary = system.wavelengths_nm.size() / 2;
+  return system;
+}
+
+// A table of columns with a line for each.
+std::string turned(const Json& columns) {
+  std::string lines;
+  for (const auto& [name, values] : columns.items()) {
+    lines += fmt::format("{:<22}", name);
+    for (const Json& value : values)
+      lines += fmt::format("  {:>12}", value.is_string() ? value.get<std::string>()
+                                       : value.is_null() ? "-"
+                                                         : value.dump());
+    lines += '\n';
+  }
+  return lines;
+}
+
+void print_tables(const LensFigures& figures) {
+  const LensTables tables = lens_tables(figures);
+  fmt::print("{}\n{}\n{}\n{}", text(tables.whole, false), turned(tables.wavelengths),
+             text(tables.surfaces, false), text(tables.fields, false));
+}
+
+}  // namespace
+
+int lens(const LensOptions& options) {
+  if (!options.html.empty()) require_extension(options.html, {".html"});
+  if (!options.drawing.empty()) require_extension(options.drawing, {".svg"});
+  Inputs inputs;
+  const lens::System system = load(options, inputs);
+  require_distinct(std::array{options.html, options.drawing}, inputs.files());
+  const LensFigures figures = lens_figures(system, {.frequencies_per_mm = options.frequencies_per_mm});
+  if (!options.html.empty()) write_atomically(options.html, lens_page(figures));
+  if (!options.drawing.empty()) write_atomically(options.drawing, lens_drawing(figures));
+  if (options.json)
+    print(lens_answer(figures), true);
+  else
+    print_tables(figures);
+  return 0;
+}
+
+}  // namespace abbe::cli

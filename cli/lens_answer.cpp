@@ -1,0 +1,183 @@
+#include "cli/lens_answer.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace abbe::cli {
+namespace {
+
+using lens::FirstOrder;
+using lens::Speed;
+
+constexpr double kUmPerMm = 1000;
+
+Json optional(const std::optional<double>& value, double factor = 1) {
+  return value && std::isfinite(*value) ? Json(factor * *value) : Json();
+}
+
+Json finite(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json first_order_answer(const LensFigures& figures) {
+  Json answer{{"wavelength_nm", figures.system.wavelengths_nm}};
+  const auto add = [&](const char* name, double FirstOrder::*member) {
+    for (const FirstOrder& first : figures.first_order) answer[name].push_back(finite(first.*member));
+  };
+  add("focal_length_mm", &FirstOrder::focal_length_mm);
+  add("back_focus_mm", &FirstOrder::back_focus_mm);
+  add("front_focus_mm", &FirstOrder::front_focus_mm);
+  add("front_principal_mm", &FirstOrder::front_principal_mm);
+  add("rear_principal_mm", &FirstOrder::rear_principal_mm);
+  add("entrance_pupil_mm", &FirstOrder::entrance_pupil_mm);
+  add("exit_pupil_mm", &FirstOrder::exit_pupil_mm);
+  for (const FirstOrder& first : figures.first_order)
+    answer["exit_diameter_mm"].push_back(
+        finite(2 * figures.stop_radius_mm * std::abs(first.exit_magnification)));
+  add("image_distance_mm", &FirstOrder::image_distance_mm);
+  if (figures.system.object_distance_mm) add("magnification", &FirstOrder::magnification);
+  const double primary = figures.first_order[figures.system.primary].image_distance_mm;
+  for (const FirstOrder& first : figures.first_order)
+    answer["focal_shift_um"].push_back(finite(kUmPerMm * (first.image_distance_mm - primary)));
+  return answer;
+}
+
+Json wavelength_answer(const LensFigures& figures) {
+  Json answer = first_order_answer(figures);
+  const auto add = [&](const char* name, double Speed::*member) {
+    for (const auto& speed : figures.speed) answer[name].push_back(speed ? finite((*speed).*member) : Json());
+  };
+  add("entrance_diameter_mm", &Speed::entrance_diameter_mm);
+  add("f_number", &Speed::f_number);
+  add("working_f_number", &Speed::working_f_number);
+  add("transmittance", &Speed::transmittance);
+  add("t_stop", &Speed::t_stop);
+  add("airy_radius_um", &Speed::airy_radius_um);
+  return answer;
+}
+
+Json seidel_answer(const lens::SeidelSums& sums) {
+  using lens::Seidel;
+  Json answer;
+  for (std::size_t i = 0; i < sums.surfaces.size(); ++i) answer["surface"].push_back(i + 1);
+  answer["surface"].push_back("sum");
+  const auto add = [&](const char* name, double Seidel::*member) {
+    for (const Seidel& surface : sums.surfaces) answer[name].push_back(surface.*member);
+    answer[name].push_back(sums.sum.*member);
+  };
+  add("S_I", &Seidel::spherical);
+  add("S_II", &Seidel::coma);
+  add("S_III", &Seidel::astigmatism);
+  add("S_IV", &Seidel::petzval);
+  add("S_V", &Seidel::distortion);
+  add("C_I", &Seidel::axial_color);
+  add("C_II", &Seidel::lateral_color);
+  return answer;
+}
+
+Json fans_answer(const LensFigures& figures, const LensFieldFigures& field) {
+  Json fans = Json::array();
+  for (std::size_t w = 0; w < field.fans.size(); ++w) {
+    const lens::RayFan& fan = field.fans[w];
+    Json one{{"wavelength_nm", figures.system.wavelengths_nm[w]}, {"pupil", fan.pupil}};
+    one["tangential_um"] = one["sagittal_um"] = Json::array();
+    for (std::size_t i = 0; i < fan.pupil.size(); ++i) {
+      one["tangential_um"].push_back(optional(fan.tangential[i], kUmPerMm));
+      one["sagittal_um"].push_back(optional(fan.sagittal[i], kUmPerMm));
+    }
+    fans.push_back(std::move(one));
+  }
+  return fans;
+}
+
+Json spots_answer(const LensFieldFigures& field) {
+  Json spots = Json::array();
+  for (std::size_t w = 0; w < field.spots.size(); ++w) {
+    const lens::Spot& spot = field.spots[w];
+    const auto size = lens::size_of({&spot, 1});
+    const auto& chief = field.chiefs[w];
+    Json one{{"wavelength_nm", spot.wavelength_nm}, {"rays", spot.rays.size()}};
+    one["chief_mm"] = chief ? Json(chief->height_mm) : Json();
+    one["distortion_percent"] = chief ? optional(chief->distortion, 100) : Json();
+    one["centroid_mm"] = size ? Json{size->centroid.x, size->centroid.y} : Json();
+    one["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
+    one["largest_um"] = size ? Json(kUmPerMm * size->largest_mm) : Json();
+    one["vignetting_percent"] = 100 * spot.vignetting();
+    spots.push_back(std::move(one));
+  }
+  return spots;
+}
+
+Json field_answer(const LensFigures& figures, const LensFieldFigures& field) {
+  const auto size = lens::size_of(field.spots);
+  Json answer{{figures.system.object_distance_mm ? "object_height_mm" : "field_deg", field.field}};
+  answer["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
+  answer["lateral_color_um"] = optional(field.lateral_color_mm(), kUmPerMm);
+  answer["relative_illumination"] = optional(field.relative_illumination);
+  answer["mtf"] = {{"per_mm", figures.frequencies_per_mm},
+                   {"tangential", field.tangential_mtf},
+                   {"sagittal", field.sagittal_mtf}};
+  answer["spots"] = spots_answer(field);
+  answer["fans"] = fans_answer(figures, field);
+  return answer;
+}
+
+Json whole_answer(const LensFigures& figures) {
+  Json answer{{"title", figures.system.title}, {"source", figures.system.source}};
+  answer["primary_nm"] = figures.system.primary_nm();
+  answer["stop_surface"] = figures.system.stop + 1;
+  answer["stop_radius_mm"] = figures.stop_radius_mm;
+  answer["image_mm"] = figures.system.surfaces.back().thickness_mm;
+  answer["best_focus_shift_mm"] = figures.best_focus_mm;
+  return answer;
+}
+
+// The figures of a field for one line of a table.
+void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& table) {
+  const std::size_t primary = figures.system.primary;
+  const auto size = lens::size_of(field.spots);
+  const auto& chief = field.chiefs[primary];
+  table[figures.system.object_distance_mm ? "object_height_mm" : "field_deg"].push_back(field.field);
+  table["image_mm"].push_back(chief ? Json(chief->height_mm) : Json());
+  table["distortion_%"].push_back(chief ? optional(chief->distortion, 100) : Json());
+  table["lateral_color_um"].push_back(optional(field.lateral_color_mm(), kUmPerMm));
+  table["vignetting_%"].push_back(100 * field.spots[primary].vignetting());
+  table["relative_illumination"].push_back(optional(field.relative_illumination));
+  table["rms_um"].push_back(size ? Json(kUmPerMm * size->rms_mm) : Json());
+  for (std::size_t i = 0; i < figures.frequencies_per_mm.size(); ++i) {
+    table[fmt::format("T{:g}", figures.frequencies_per_mm[i])].push_back(field.tangential_mtf[i]);
+    table[fmt::format("S{:g}", figures.frequencies_per_mm[i])].push_back(field.sagittal_mtf[i]);
+  }
+}
+
+// Digits that a table has room for.
+Json rounded(Json table) {
+  for (auto& [name, values] : table.items())
+    for (Json& value : values)
+      if (value.is_number_float()) value = fmt::format("{:.7g}", value.get<double>() + 0.0);  // no negative zeros
+  return table;
+}
+
+}  // namespace
+
+Json lens_answer(const LensFigures& figures) {
+  Json answer = whole_answer(figures);
+  answer.update(wavelength_answer(figures));
+  answer["seidel_mm"] = seidel_answer(figures.seidel);
+  answer["fields"] = Json::array();
+  for (const LensFieldFigures& field : figures.fields)
+    answer["fields"].push_back(field_answer(figures, field));
+  return answer;
+}
+
+LensTables lens_tables(const LensFigures& figures) {
+  LensTables tables{whole_answer(figures), {}, rounded(seidel_answer(figures.seidel)), {}};
+  const Json wavelengths = wavelength_answer(figures);
+  tables.wavelengths = rounded(wavelengths);
+  for (const LensFieldFigures& field : figures.fields) add_row(figures, field, tables.fields);
+  tables.fields = rounded(std::move(tables.fields));
+  return tables;
+}
+
+}  // namespace abbe::cli

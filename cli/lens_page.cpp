@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include "cli/lens_answer.h"
+#include "cli/page.h"
+#include "validation/lens/drawing.h"
+#include "validation/lens/plots.h"
+#include "validation/plot/svg.h"
+
+namespace abbe::cli {
+namespace {
+
+std::string cell(const Json& value) {
+  return value.is_string() ? escaped(value.get<std::string>())
+         : value.is_null() ? "\u2013"
+                           : escaped(value.dump());
+}
+
+// A table whose lists are its columns.
+std::string columns_table(const Json& table) {
+  std::string html = "<table>\n<tr>";
+  for (const auto& [name, values] : table.items()) html += fmt::format("<th>{}</th>", escaped(name));
+  html += "</tr>\n";
+  for (std::size_t row = 0; row < table.front().size(); ++row) {
+    html += "<tr>";
+    for (const Json& values : table) html += fmt::format("<td>{}</td>", cell(values.at(row)));
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+// One whose lists are its rows, or values of their own.
+std::string rows_table(const Json& table) {
+  std::string html = "<table>\n";
+  for (const auto& [name, values] : table.items()) {
+    html += fmt::format("<tr><td>{}</td>", escaped(name));
+    for (const Json& value : values.is_array() ? values : Json::array({values}))
+      html += fmt::format("<td>{}</td>", cell(value));
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+}  // namespace
+
+std::string lens_page(const LensFigures& figures) {
+  const LensTables tables = lens_tables(figures);
+  std::string html = page_head(figures.system.title);
+  html += inline_svg(lens_drawing(figures)) + rows_table(tables.whole);
+  html += "<h2>By wavelength</h2>\n" + rows_table(tables.wavelengths) + inline_svg(focal_shift_plot(figures));
+  html += "<h2>Seidel sums [mm]</h2>\n" + columns_table(tables.surfaces);
+  html +=
+      "<h2>By field</h2>\n<p>Diffraction is left out: of lines as fine as the Airy disc the modulation is "
+      "less than this.</p>\n" +
+      columns_table(tables.fields);
+  html += inline_svg(spot_plot(figures)) + inline_svg(lens_mtf_plot(figures));
+  for (const LensFieldFigures& field : figures.fields) html += inline_svg(fan_plot(figures, field));
+  return html + kPageEnd;
+}
+
+}  // namespace abbe::cli

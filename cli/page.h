@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+// What pages of commands have in common.
+namespace abbe::cli {
+
+/// The beginning of an HTML document, with its style and the title as its first heading.
+[[nodiscard]] std::string page_head(const std::string& title);
+/// What ends it.
+inline constexpr const char* kPageEnd = "</body></html>\n";
+
+/// A picture of its own within the page.
+[[nodiscard]] std::string inline_svg(const std::string& document);
+
+}  // namespace abbe::cli

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace abbe::test {
+namespace {
+
+TEST(Lens, JsonHasEveryFigure) {
+  const Outcome run = abbe("lens double_gauss --json --frequencies 10,30");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto answer = run.json();
+  EXPECT_EQ(answer["wavelength_nm"], nlohmann::json({656.3, 587.6, 486.1}));
+  EXPECT_NEAR(answer["focal_length_mm"][1].get<double>(), 100.0038, 6e-5);
+  EXPECT_NEAR(answer["back_focus_mm"][1].get<double>(), 61.4875, 6e-5);
+  EXPECT_NEAR(answer["seidel_mm"]["S_I"].back().get<double>(), 0.153471, 1e-5);
+  ASSERT_EQ(answer["fields"].size(), 3U);
+  const auto& field = answer["fields"][1];
+  EXPECT_EQ(field["field_deg"], 10);
+  EXPECT_NEAR(field["spots"][1]["chief_mm"].get<double>(), 17.485856, 5e-6);
+  EXPECT_NEAR(field["spots"][1]["distortion_percent"].get<double>(), -0.4976, 5e-5);
+  EXPECT_EQ(field["mtf"]["per_mm"], nlohmann::json({10, 30}));
+  EXPECT_EQ(field["fans"][2]["tangential_um"].size(), 41U);
+  EXPECT_GT(answer["t_stop"][1].get<double>(), answer["f_number"][1].get<double>());
+}
+
+TEST(Lens, TablesTellWavelengthsSurfacesAndFields) {
+  const Outcome run = abbe("lens achromat --lambda 500,550,600");
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* line :
+       {"title  Cemented achromat", "wavelength_nm                    500           550           600",
+        "focal_length_mm", "surface ", "    sum ", "field_deg  image_mm"})
+    EXPECT_NE(run.out.find(line), std::string::npos) << line << '\n' << run.out;
+}
+
+// The stop is set at the file's wavelength, whatever wavelengths are asked for.
+TEST(Lens, OtherWavelengthsKeepTheStop) {
+  const auto own = abbe("lens double_gauss --json").json();
+  const auto other = abbe("lens double_gauss --lambda 450 --json").json();
+  EXPECT_EQ(own["stop_radius_mm"], other["stop_radius_mm"]);
+  EXPECT_NE(own["entrance_diameter_mm"][1], other["entrance_diameter_mm"][0]);
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+TEST(Lens, PageAndDrawingShowTheLens) {
+  const auto svg = scratch() / "lens.svg";
+  const auto html = scratch() / "lens.html";
+  const Outcome run = abbe("lens double_gauss -o " + svg.string() + " --html " + html.string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string drawing = read_file(svg);
+  EXPECT_EQ(count(drawing, "class=\"glass\""), 6U);
+  EXPECT_EQ(count(drawing, "class=\"stop\""), 2U);
+  EXPECT_EQ(count(drawing, "class=\"ray\""), 15U);  // five of each field
+  const std::string page = read_file(html);
+  EXPECT_EQ(count(page, "<svg"), 7U);  // drawing, focal shift, spots, modulation, a fan of each field
+  EXPECT_EQ(count(page, "</svg>"), 7U);
+  EXPECT_EQ(page.find("<?xml"), std::string::npos);
+  EXPECT_NE(page.find("<td>focal_length_mm</td>"), std::string::npos);
+  if (shell("command -v xmllint").code == 0) {
+    EXPECT_EQ(shell("xmllint --noout " + svg.string()).code, 0);
+  }
+}
+
+TEST(Lens, FaultsAreToldWithTheirPlace) {
+  const auto file = scratch().write("bad.json", R"({"entrance_pupil": 5,
+  "surfaces": [{"radius": 50, "thickness": 4, "glass": "N-BK8", "stop": true}, [-50, 40]]})");
+  const Outcome run = abbe("lens " + file.string());
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(run.out.empty());
+  EXPECT_NE(run.err.find("bad.json:2:56: /surfaces/0/glass: error: unknown material \"N-BK8\"; did you mean"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(abbe("lens no_such_lens").code, 4);
+  EXPECT_EQ(abbe("lens " + (scratch() / "none.zmx").string()).code, 4);
+  EXPECT_EQ(abbe("lens double_gauss -o lens.png").code, 2);
+}
+
+// A stop that no ray fills, and a field beyond what the lens sees, leave their figures out.
+TEST(Lens, WhatDoesNotGetThroughHasNoFigures) {
+  const auto dark = scratch().write("dark.json", R"({"entrance_pupil": 5, "fields_deg": [0, 100],
+  "surfaces": [{"radius": 50, "thickness": 4, "glass": "N-BK7", "stop": true, "aperture": 10}, [-50, 40, null, 10]]})");
+  const Outcome run = abbe("lens " + dark.string() + " --json --html " + (scratch() / "dark.html").string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(run.json()["fields"][1]["rms_um"].is_null());
+  EXPECT_EQ(run.json()["fields"][1]["spots"][0]["vignetting_percent"], 100);
+  const auto wide = scratch().write("wide.json", R"({"entrance_pupil": 500,
+  "surfaces": [{"thickness": 1, "stop": false}, [50, 4, "N-BK7"], {"radius": -50, "thickness": 4, "stop": true}]})");
+  const Outcome refused = abbe("lens " + wide.string());
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("the axial ray of an entrance pupil of 500 mm misses surface 2"),
+            std::string::npos)
+      << refused.err;
+}
+
+}  // namespace
+}  // namespace abbe::test
