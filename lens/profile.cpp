@@ -52,7 +52,7 @@ V3d Profile::normal(const V3d& point) const {
 }
 
 std::optional<double> Profile::intersect(const Ray& ray) const {
-  // From the point nearest to the vertex on, so that far origins cost no digits.
+  // From the point nearest to the vertex on, so that the squares of far origins do not swamp the rest.
   const double nearest = -ray.origin.dot(ray.direction);
   const V3d o = ray.origin + nearest * ray.direction;
   const V3d& d = ray.direction;

@@ -10,6 +10,7 @@ namespace abbe::description::lenses {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr double kMost = 1e9;
 
 }  // namespace
 
@@ -30,6 +31,16 @@ std::optional<double> Line::number(std::size_t word, Diagnostics& diagnostics) c
                                   said ? fmt::format("\"{}\"", *said) : "the end of the line"),
                       ErrorCode::input);
   return value;
+}
+
+std::optional<double> Line::positive(std::size_t word, Diagnostics& diagnostics) const {
+  const auto value = number(word, diagnostics);
+  if (!value || (*value > 0 && *value <= kMost)) return value;
+  diagnostics.error(
+      where(word),
+      fmt::format("{} has a number above 0 here (got {:g}, allowed (0, {:g}])", keyword(), *value, kMost),
+      ErrorCode::input);
+  return std::nullopt;
 }
 
 std::vector<double> Line::numbers(std::size_t first) const {

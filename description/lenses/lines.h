@@ -26,6 +26,8 @@ struct Line {
   [[nodiscard]] std::optional<std::string> text(std::size_t word) const;
   /// A word as a number. Reports one that is none or is missing.
   [[nodiscard]] std::optional<double> number(std::size_t word, Diagnostics& diagnostics) const;
+  /// The same of a number above 0, and at most 1e9.
+  [[nodiscard]] std::optional<double> positive(std::size_t word, Diagnostics& diagnostics) const;
   /// All words from `first` on as numbers, up to the first that is none.
   [[nodiscard]] std::vector<double> numbers(std::size_t first) const;
 };

@@ -74,7 +74,7 @@ void Reader::glass(const Line& line) {
     now().surface.glass = named_glass(line);
     return;
   }
-  const auto nd = line.number(4, diagnostics_);
+  const auto nd = line.positive(4, diagnostics_);
   const auto vd = line.number(5, diagnostics_);
   if (!nd || !vd) return;
   now().surface.glass.emplace();
@@ -109,7 +109,7 @@ void Reader::diameter(const Line& line) {
 
 void Reader::clear_aperture(const Line& line) {
   const auto inner = line.number(1, diagnostics_);
-  const auto outer = line.number(2, diagnostics_);
+  const auto outer = line.positive(2, diagnostics_);
   if (inner && *inner != 0) error(line, 1, "apertures with a hole are not understood");
   if (outer) now().surface.aperture = *outer;
 }

@@ -43,11 +43,11 @@ void Reader::unit(const Line& line) {
 }
 
 void Reader::pupil(const Line& line) {
-  if (const auto value = line.number(1, diagnostics_)) lens_.aperture = spec::PupilDiameter{{*value}};
+  if (const auto value = line.positive(1, diagnostics_)) lens_.aperture = spec::PupilDiameter{{*value}};
 }
 
 void Reader::f_number(const Line& line) {
-  if (const auto value = line.number(1, diagnostics_)) lens_.aperture = spec::FNumber{{*value}};
+  if (const auto value = line.positive(1, diagnostics_)) lens_.aperture = spec::FNumber{{*value}};
   if (line.text(2).value_or("0") != "0")
     error(line, 2, "an f-number of a near object is not understood: say ENPD or FLOA");
 }
@@ -93,7 +93,7 @@ void Reader::x_fields(const Line& line) {
 }
 
 void Reader::wavelength(const Line& line) {
-  const auto number = line.number(1, diagnostics_);
+  const auto number = line.positive(1, diagnostics_);
   const auto um = line.number(2, diagnostics_);
   if (!number || !um) return;
   if (!spec::kWavelength.contains(*um * 1000)) {
@@ -108,7 +108,7 @@ void Reader::wavelength(const Line& line) {
 }
 
 void Reader::primary(const Line& line) {
-  if (const auto number = line.number(1, diagnostics_)) primary_ = static_cast<int>(*number);
+  if (const auto number = line.positive(1, diagnostics_)) primary_ = static_cast<int>(*number);
 }
 
 void Reader::vignetting(const Line& line) {

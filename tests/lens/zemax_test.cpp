@@ -131,6 +131,7 @@ TEST(LensZemax, FaultsAreToldAtTheirPlace) {
   expect_fault(replaced(kAchromat, "DISZ 4.0", "DISZ four"), "28:8", "got \"four\"");
   expect_fault(replaced(kAchromat, "  COMM front", "  GRAT 600"), "23:3",
                "unknown keyword of Zemax \"GRAT\"");
+  expect_fault(replaced(kAchromat, "ENPD 2.286E+1", "ENPD 0"), "5:6", "got 0, allowed (0, 1e+09]");
   expect_fault(replaced(kAchromat, "MNUM 1 1", "MNUM 3 1"), "47:6", "several configurations");
   expect_fault(replaced(kAchromat, "-2.187705097352880100E-002", "-0.2"), "31:1", "beyond the edge");
 }
