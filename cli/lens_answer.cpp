@@ -155,7 +155,8 @@ void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& ta
 Json rounded(Json table) {
   for (auto& [name, values] : table.items())
     for (Json& value : values)
-      if (value.is_number_float()) value = fmt::format("{:.7g}", value.get<double>() + 0.0);  // no negative zeros
+      if (value.is_number_float())
+        value = fmt::format("{:.7g}", value.get<double>() + 0.0);  // no negative zeros
   return table;
 }
 

@@ -34,6 +34,7 @@ cd "$scratch"
 mkdir folder
 touch a.json b.json c.exr d.csv e.abbepart
 completes "abbe render " "a.json b.json folder"
+completes "abbe lens " "a.json b.json folder"
 completes "abbe render a.json -o " "c.exr e.abbepart folder"
 completes "abbe render a.json --stats " "a.json b.json folder"
 completes "abbe merge e.abbepart " "e.abbepart folder"

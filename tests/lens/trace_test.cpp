@@ -132,6 +132,18 @@ TEST(LensTrace, CoatingsCountFromEitherSide) {
   EXPECT_NEAR(transmitted(coated, {V3d(0, 0, -1), V3d(0, 0, 1)}), 1, 1e-12);
 }
 
+// Layers lie from the air inwards on either face: of two unlike ones, both faces let the same through.
+TEST(LensTrace, CoatingsLieFromTheAirInwards) {
+  const Coating layers{{{"low", RefractiveIndex(1.38)}, {"high", RefractiveIndex(2.1)}}, {{0, 90}, {1, 40}}};
+  System front = plate(1.7, 2);
+  System back = front;
+  front.surfaces[0].coating = layers;
+  back.surfaces[1].coating = layers;
+  const Ray axial{V3d(0, 0, -1), V3d(0, 0, 1)};
+  EXPECT_NEAR(transmitted(front, axial), transmitted(back, axial), 1e-12);
+  EXPECT_GT(transmitted(front, axial), transmitted(plate(1.7, 2), axial) + 0.01);
+}
+
 // A prism's second face: beyond the critical angle of 41.8 degrees.
 TEST(LensTrace, RaysThatEndSayWhyAndWhere) {
   System system = plate(1.5, 20);
