@@ -24,8 +24,8 @@ TEST(References, EveryCitationInTheCodeIsInTheBibliography) {
     known.insert((*it)[1]);
   ASSERT_FALSE(known.empty());
   const std::regex citation(R"(\[([A-Z][A-Za-z]+\d{2,4})(,[^\]]*)?\])");
-  for (const char* room : {"io", "spectral", "materials", "lens", "sensor", "scene", "transport", "calibration",
-                           "validation", "cli", "docs"})
+  for (const char* room : {"io", "spectral", "materials", "lens", "sensor", "scene", "transport",
+                           "calibration", "validation", "cli", "docs"})
     for (const auto& file : std::filesystem::recursive_directory_iterator(root / room)) {
       const std::string extension = file.path().extension();
       if (extension != ".h" && extension != ".cpp" && extension != ".md") continue;
