@@ -94,6 +94,8 @@ cv::Mat mat_of(const ByteImage& picture) {
 }
 
 std::optional<FoundChart> find(const ByteImage& picture) {
+  // Threads of its own fill its tables at once, and lose some.
+  cv::setNumThreads(1);
   const cv::Mat image = mat_of(picture);
   const auto detector = cv::mcc::CCheckerDetector::create();
   if (!detector->process(image, cv::mcc::MCC24, 1)) return std::nullopt;
