@@ -94,7 +94,7 @@ bool read_source(int descriptor, const std::shared_ptr<SourceText>& source, Diag
 // The bytes of a regular file.
 std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
                                         ErrorCode code, std::size_t limit_bytes) {
-  const auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
+  auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
   const Descriptor file(path);
   struct stat status {};
   if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
