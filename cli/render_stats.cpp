@@ -1,0 +1,62 @@
+#include "cli/render_stats.h"
+
+#include <vector>
+
+#include "cli/answer.h"
+#include "io/data_directory.h"
+
+namespace abbe::cli {
+namespace {
+
+Json json_of(const Cost& cost) {
+  return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
+}
+
+// Of the planes over what was rendered.
+Json film_figures(const Scene& scene, const Film& film) {
+  const Crop of = film.crop();
+  const std::vector<std::string> planes = scene.film_planes();
+  Json figures;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Film::Average average = film.average(static_cast<int>(i), of.x0, of.y0, of.x1, of.y1);
+    const bool known = average.degrees_of_freedom > 0;
+    figures[planes[i]] = {{"mean", average.mean},
+                          {"standard_error", known ? Json(average.standard_error) : Json()},
+                          {"degrees_of_freedom", average.degrees_of_freedom}};
+  }
+  return figures;
+}
+
+}  // namespace
+
+std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs) {
+  const RenderStats& stats = result.stats;
+  Json answer;
+  answer["wall_s"] = stats.wall_s;
+  answer["cpu_s"] = stats.cpu_s;
+  answer["command"] = json_of(costs.command.spent());
+  answer["overhead"] = {
+      {"load", json_of(costs.load)}, {"display", json_of(costs.display)}, {"write", json_of(costs.write)}};
+  answer["threads"] = stats.threads;
+  answer["processes"] = stats.processes;
+  answer["samples_per_pixel"] = stats.samples_per_pixel;
+  answer["photons_per_sample"] = result.film.shape().photons;
+  answer["path_interval"] = result.film.shape().path_interval;
+  answer["paths"] = stats.paths;
+  answer["rays"] = stats.rays;
+  answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again
+  answer["relative_error"] = stats.error.median;
+  answer["relative_error_p95"] = stats.error.p95;
+  answer["frame_mean_error"] = stats.error.frame_mean;
+  answer["nonfinite_samples"] = stats.nonfinite_samples;
+  answer["cut_paths"] = stats.cut.paths;
+  answer["cut_throughput"] = stats.cut.throughput();
+  answer["film"] = film_figures(scene, result.film);
+  answer["version"] = ABBE_VERSION;
+  answer["seed"] = scene.render.seed;
+  answer["scene_sha256"] = scene.sha256;
+  answer["data_sha256"] = data_sha256();
+  return text(answer, true);
+}
+
+}  // namespace abbe::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "cli/cost.h"
+#include "scene/scene.h"
+#include "transport/render/render.h"
+
+namespace abbe::cli {
+
+/// Of the command, and of what comes before and after the render itself.
+struct Costs {
+  CostMeter command;
+  Cost load;     ///< Reading the scene, building what it describes and finding its white.
+  Cost display;  ///< Making pictures of the film, and writing them.
+  Cost write;    ///< Writing the film and the last checkpoint.
+};
+
+/// What `abbe render --stats` writes, as JSON; its command's cost is what was spent until now.
+[[nodiscard]] std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs);
+
+}  // namespace abbe::cli
