@@ -66,9 +66,8 @@ std::string figures(const CameraCalibration& c) {
          row("left out of the fit", c.unseen) + "</table>\n";
 }
 
-std::string cell(const Json& value) {
-  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
-  return value.is_string() ? escaped(value.get<std::string>()) : "–";
+std::string figure_cell(const Json& value) {
+  return value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : table_cell(value);
 }
 
 // Figures of each channel by name, but for those that are lists.
@@ -77,7 +76,7 @@ std::string noise_section(const Json& answer) {
   for (const auto& [name, values] : answer.items()) {
     if (!values.is_array() || values.empty() || values.front().is_array()) continue;
     html += fmt::format("<tr><td>{}</td>", escaped(name));
-    for (const Json& value : values) html += fmt::format("<td>{}</td>", cell(value));
+    for (const Json& value : values) html += fmt::format("<td>{}</td>", figure_cell(value));
     html += "</tr>\n";
   }
   return html + "</table>\n" + inline_svg(transfer_plot(answer));
@@ -85,7 +84,7 @@ std::string noise_section(const Json& answer) {
 
 std::string sharpness_section(const Json& answer) {
   return fmt::format("<h2>Sharpness</h2>\n<p>Modulation of one half at {} cycles per pixel.</p>\n",
-                     cell(answer.value("mtf50", Json()))) +
+                     figure_cell(answer.value("mtf50", Json()))) +
          inline_svg(mtf_plot(answer));
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -125,8 +124,8 @@ std::string kind_of(const std::string& value, const CommandUsage& program) {
   if (word == "KIND") return fmt::format("words {}", fmt::join(kinds, " "));
   if (word == "KEY")
     return fmt::format("words {}", fmt::join(schema::all_keys(schema::fields_of<spec::Scene>()), " "));
-  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::find(kinds.begin(), kinds.end(), word) != kinds.end() ? "names " + word : "none";
+  const std::string kind = lower_case(word);
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end() ? "names " + kind : "none";
 }
 
 // What `_abbe_kind` is asked for: every name of an option, or the place of an argument, or of all from there

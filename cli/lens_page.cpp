@@ -9,12 +9,6 @@
 namespace abbe::cli {
 namespace {
 
-std::string cell(const Json& value) {
-  return value.is_string() ? escaped(value.get<std::string>())
-         : value.is_null() ? "\u2013"
-                           : escaped(value.dump());
-}
-
 // A table whose lists are its columns.
 std::string columns_table(const Json& table) {
   std::string html = "<table>\n<tr>";
@@ -22,7 +16,7 @@ std::string columns_table(const Json& table) {
   html += "</tr>\n";
   for (std::size_t row = 0; row < table.front().size(); ++row) {
     html += "<tr>";
-    for (const Json& values : table) html += fmt::format("<td>{}</td>", cell(values.at(row)));
+    for (const Json& values : table) html += fmt::format("<td>{}</td>", table_cell(values.at(row)));
     html += "</tr>\n";
   }
   return html + "</table>\n";
@@ -34,7 +28,7 @@ std::string rows_table(const Json& table) {
   for (const auto& [name, values] : table.items()) {
     html += fmt::format("<tr><td>{}</td>", escaped(name));
     for (const Json& value : values.is_array() ? values : Json::array({values}))
-      html += fmt::format("<td>{}</td>", cell(value));
+      html += fmt::format("<td>{}</td>", table_cell(value));
     html += "</tr>\n";
   }
   return html + "</table>\n";

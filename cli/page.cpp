@@ -26,6 +26,12 @@ std::string page_head(const std::string& title) {
       escaped(title), kStyle);
 }
 
+std::string table_cell(const Json& value) {
+  return value.is_string() ? escaped(value.get<std::string>())
+         : value.is_null() ? "\u2013"
+                           : escaped(value.dump());
+}
+
 std::string inline_svg(const std::string& document) {
   return document.substr(document.find("<svg"));
 }

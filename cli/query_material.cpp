@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,11 +9,10 @@
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
 #include "materials/interface/prism.h"
+#include "sampling/angle.h"
 
 namespace abbe::cli {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The material of that name, which must hold at all wavelengths asked for.
 NamedIndex find(const std::string& name, const std::vector<double>& at_nm) {

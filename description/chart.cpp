@@ -9,7 +9,7 @@
 namespace abbe::description {
 namespace {
 
-constexpr std::size_t kColumns = 6;
+constexpr std::size_t kChartColumns = 6;
 constexpr double kPatchShare = 0.86;  // of a cell's edge, as on a ColorChecker Classic
 constexpr double kSurround = 0.035;   // reflectance of its black plastic
 
@@ -28,13 +28,13 @@ struct Grid {
     return (static_cast<double>(cell) + (i % 2 == 1 ? margin : 1 - margin)) / n;
   }
   [[nodiscard]] Imath::V3d at(std::size_t i, std::size_t j) const {
-    return quad.corner + quad.edge_u * line(i, kColumns) + quad.edge_v * line(j, rows);
+    return quad.corner + quad.edge_u * line(i, kChartColumns) + quad.edge_v * line(j, rows);
   }
 };
 
 // The lines of the first edge of a patch, which counts row by row from the top left.
 std::pair<std::size_t, std::size_t> lines_of(std::size_t patch, std::size_t rows) {
-  return {2 * (patch % kColumns) + 1, 2 * (rows - 1 - patch / kColumns) + 1};
+  return {2 * (patch % kChartColumns) + 1, 2 * (rows - 1 - patch / kChartColumns) + 1};
 }
 
 Quad patch_quad(const Grid& grid, std::size_t patch) {
@@ -45,7 +45,7 @@ Quad patch_quad(const Grid& grid, std::size_t patch) {
 
 // All between the patches, and the cells of a last row that has no patch.
 Mesh surround_mesh(const Grid& grid, std::size_t patches) {
-  const std::size_t columns = 2 * kColumns + 2;
+  const std::size_t columns = 2 * kChartColumns + 2;
   const std::size_t rows = 2 * grid.rows + 2;
   std::vector<bool> taken(columns * rows, false);
   for (std::size_t patch = 0; patch < patches; ++patch) {
@@ -103,7 +103,8 @@ std::vector<NamedShape> build(const spec::Chart& said, const std::string& name, 
     return {};
   }
   const std::size_t patches = chart->patches.size();
-  const Grid grid{{said.corner * context.unit_m, edge_u, edge_v}, (patches + kColumns - 1) / kColumns};
+  const Grid grid{{said.corner * context.unit_m, edge_u, edge_v},
+                  (patches + kChartColumns - 1) / kChartColumns};
   std::vector<NamedShape> parts;
   for (std::size_t i = 0; i < patches; ++i) {
     const Patch& patch = chart->patches[i];

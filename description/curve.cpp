@@ -143,7 +143,7 @@ struct CurveBuilder {
   std::optional<Curve> operator()(const spec::Gaussian& bell) const {
     return gaussian(bell.center_nm, bell.fwhm_nm, bell.peak);
   }
-  std::optional<Curve> operator()(const spec::Lines& lines) const { return build(lines); }
+  std::optional<Curve> operator()(const spec::Lines& lines) const { return description::build(lines); }
   std::optional<Curve> operator()(const spec::Blackbody& body) const { return planck(body.value); }
   std::optional<Curve> operator()(const spec::Daylight& day) const { return daylight(day.value); }
   std::optional<Curve> operator()(const spec::Product& factors) const {

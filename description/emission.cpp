@@ -143,7 +143,7 @@ struct SpectrumBuilder {
   std::optional<Curve> operator()(const spec::Curve& said) const {
     return build(said, {"illuminant", spec::kPower}, context);
   }
-  std::optional<Curve> operator()(const spec::Lines& said) const { return build(said); }
+  std::optional<Curve> operator()(const spec::Lines& said) const { return description::build(said); }
 };
 
 // What is said of the spectrum alone, in one line.

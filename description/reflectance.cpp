@@ -63,7 +63,7 @@ namespace {
 // Beyond [0, 1] by this much, reflectances are taken for rounding of the file, and cut.
 constexpr double kSlight = 1e-3;
 // By less than this, for rounding of the sum.
-constexpr double kRounding = 1e-6;
+constexpr double kSumRounding = 1e-6;
 
 /// What an image is made into: channels and the spectra they weigh.
 struct Weights {
@@ -145,7 +145,7 @@ void drop_harmless(std::vector<Sample>& samples, const std::vector<float>& texel
       least += low;
       most += high;
     }
-    return excess(least) <= kRounding && excess(most) <= kRounding;
+    return excess(least) <= kSumRounding && excess(most) <= kSumRounding;
   });
 }
 
@@ -168,7 +168,7 @@ bool check_reflectances(const TextureFile& file, const Weights& weights, const s
       texel = i;
       nm = sample.nm;
     }
-  if (excess(worst) <= kRounding) return true;
+  if (excess(worst) <= kSumRounding) return true;
   const std::string what =
       fmt::format("{} reflects {:.6g} at {:g} nm", file.texel_name(texel), worst, std::round(nm));
   if (excess(worst) > kSlight) {

@@ -70,7 +70,7 @@ namespace description {
 namespace {
 
 // The relative error of a determinant summed up in double, generously.
-constexpr double kRounding = 1e-13;
+constexpr double kDeterminantRounding = 1e-13;
 
 Imath::M44d scaling(double factor) {
   return Imath::M44d().setScale(factor);
@@ -151,7 +151,7 @@ std::optional<Imath::M44d> build(const std::vector<spec::Affine>& steps, const S
                               {matrix[2][0], matrix[2][1], matrix[2][2]}};
   const double determinant = rows[0].dot(rows[1].cross(rows[2]));
   const double largest = rows[0].length() * rows[1].length() * rows[2].length();
-  if (!(std::abs(determinant) > kRounding * largest) || !std::isfinite(determinant)) {
+  if (!(std::abs(determinant) > kDeterminantRounding * largest) || !std::isfinite(determinant)) {
     context.diagnostics.error(
         where, fmt::format("transform is singular (determinant got {:g}, allowed not 0)", determinant));
     return std::nullopt;

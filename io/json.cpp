@@ -32,9 +32,9 @@ std::string unescaped(std::string_view token) {
 
 /// Receives the parser's events and grows the tree. Parsing in place makes the strings and numbers it is
 /// given point into the parsed copy of the text, which tells where they stand.
-class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
+class JsonTreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, JsonTreeBuilder> {
  public:
-  TreeBuilder(rapidjson::InsituStringStream& stream, ValueTree& tree) : stream_(stream), tree_(tree) {}
+  JsonTreeBuilder(rapidjson::InsituStringStream& stream, ValueTree& tree) : stream_(stream), tree_(tree) {}
 
   bool Null() { return tree_.add(nullptr, stream_.Tell() - std::string_view("null").size()); }
   bool Bool(bool b) { return tree_.add(b, stream_.Tell() - std::string_view(b ? "true" : "false").size()); }
@@ -154,7 +154,7 @@ std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, 
   std::string scratch = source->text;
   rapidjson::InsituStringStream stream(scratch.data());
   ValueTree tree(source, pointer, ErrorCode::scene, diagnostics);
-  TreeBuilder builder(stream, tree);
+  JsonTreeBuilder builder(stream, tree);
   rapidjson::Reader reader;
   const rapidjson::ParseResult result = reader.Parse<kFlags>(stream, builder);
   if (result.IsError() && result.Code() != rapidjson::kParseErrorTermination)

@@ -20,35 +20,35 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kMagic("\x93NUMPY", 6);
-constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 16U;
+constexpr std::size_t kMaxArrayHeaderBytes = std::size_t{1} << 16U;
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& message) {
+[[noreturn]] void refuse_array(const fs::path& path, const std::string& message) {
   throw Error(ErrorCode::input, path.string(), message);
 }
 
 // The header, a Python dictionary as text, and where the numbers begin.
-struct Header {
+struct ArrayHeader {
   std::string text;
   std::size_t end;
 };
-Header read_header(std::istream& file, const fs::path& path) {
+ArrayHeader read_array_header(std::istream& file, const fs::path& path) {
   std::array<char, 12> start{};
   file.read(start.data(), start.size());
   if (file.gcount() != std::ssize(start) || std::string_view(start.data(), kMagic.size()) != kMagic)
-    refuse(path, "not an array of NumPy's");
+    refuse_array(path, "not an array of NumPy's");
   const auto byte = [&start](std::size_t i) {
     return static_cast<std::size_t>(static_cast<unsigned char>(start.at(i)));
   };
   const std::size_t version = byte(6);
-  if (version != 1 && version != 2) refuse(path, fmt::format("format {}, allowed 1 or 2", version));
+  if (version != 1 && version != 2) refuse_array(path, fmt::format("format {}, allowed 1 or 2", version));
   const std::size_t first = version == 1 ? 10 : 12;
   std::size_t length = byte(8) + 256 * byte(9);
   if (version == 2) length += 65536 * (byte(10) + 256 * byte(11));
-  if (length > kMaxHeaderBytes) refuse(path, "damaged header");
-  Header header{std::string(length, '\0'), first + length};
+  if (length > kMaxArrayHeaderBytes) refuse_array(path, "damaged header");
+  ArrayHeader header{std::string(length, '\0'), first + length};
   file.seekg(static_cast<std::streamoff>(first));
   file.read(header.text.data(), static_cast<std::streamsize>(length));
-  if (static_cast<std::size_t>(file.gcount()) != length) refuse(path, "damaged header");
+  if (static_cast<std::size_t>(file.gcount()) != length) refuse_array(path, "damaged header");
   return header;
 }
 
@@ -56,7 +56,7 @@ Header read_header(std::istream& file, const fs::path& path) {
 std::string_view value_of(std::string_view text, std::string_view key, const fs::path& path) {
   const std::string quoted = fmt::format("'{}':", key);
   const std::size_t at = text.find(quoted);
-  if (at == std::string_view::npos) refuse(path, fmt::format("its header has no {}", key));
+  if (at == std::string_view::npos) refuse_array(path, fmt::format("its header has no {}", key));
   text.remove_prefix(at + quoted.size());
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   return text;
@@ -64,16 +64,16 @@ std::string_view value_of(std::string_view text, std::string_view key, const fs:
 
 std::vector<std::size_t> shape_of(std::string_view text, const fs::path& path) {
   std::vector<std::size_t> shape;
-  if (!text.starts_with('(')) refuse(path, "damaged header");
+  if (!text.starts_with('(')) refuse_array(path, "damaged header");
   text.remove_prefix(1);
   while (!text.starts_with(')')) {
     std::size_t length = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
-    if (error != std::errc() || shape.size() == 32) refuse(path, "damaged header");
+    if (error != std::errc() || shape.size() == 32) refuse_array(path, "damaged header");
     shape.push_back(length);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
-    if (text.empty()) refuse(path, "damaged header");
+    if (text.empty()) refuse_array(path, "damaged header");
   }
   return shape;
 }
@@ -100,24 +100,25 @@ std::vector<float> read_values(std::istream& file, std::size_t count) {
 
 NumberArray read_npy(const fs::path& path, Inputs* inputs) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(path, "cannot be read");
-  const Header header = read_header(file, path);
+  if (!file) refuse_array(path, "cannot be read");
+  const ArrayHeader header = read_array_header(file, path);
   if (value_of(header.text, "fortran_order", path).starts_with("True"))
-    refuse(path, "its order is Fortran's, allowed C's");
+    refuse_array(path, "its order is Fortran's, allowed C's");
   const std::string_view type = value_of(header.text, "descr", path);
   const bool wide = type.starts_with("'<f8'");
   if (!wide && !type.starts_with("'<f4'"))
-    refuse(path, fmt::format("its numbers are {}, allowed '<f4' or '<f8'", type.substr(0, type.find(','))));
+    refuse_array(path,
+                 fmt::format("its numbers are {}, allowed '<f4' or '<f8'", type.substr(0, type.find(','))));
   NumberArray array{shape_of(value_of(header.text, "shape", path), path), {}};
   const std::size_t count = count_of(array.shape, path);
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(path, error);  // before memory is asked for
   if (error || bytes != header.end + count * (wide ? 8 : 4))
-    refuse(path, fmt::format("is cut or too long for its {} values", count));
+    refuse_array(path, fmt::format("is cut or too long for its {} values", count));
   if (inputs) inputs->take_memory(path.string(), count * (wide ? 8 + 4 : 2 * 4));
   file.seekg(static_cast<std::streamoff>(header.end));
   array.values = wide ? read_values<double>(file, count) : read_values<float>(file, count);
-  if (!file) refuse(path, "cannot be read");
+  if (!file) refuse_array(path, "cannot be read");
   if (inputs) inputs->give_back_memory(count * (wide ? 8 : 4));  // as read
   return array;
 }

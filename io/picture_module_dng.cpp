@@ -19,16 +19,16 @@ constexpr std::array<std::uint8_t, 4> kVersion{1, 4, 0, 0};
 constexpr std::array<std::uint8_t, 4> kOldestReader{1, 1, 0, 0};
 
 // A file in memory, as libtiff asks for one.
-struct MemoryFile {
+struct MemoryTiff {
   std::string bytes;
   std::size_t at = 0;
 };
 
-MemoryFile& file_of(thandle_t handle) {
-  return *static_cast<MemoryFile*>(handle);
+MemoryTiff& file_of(thandle_t handle) {
+  return *static_cast<MemoryTiff*>(handle);
 }
 tmsize_t read_some(thandle_t handle, void* to, tmsize_t size) {
-  MemoryFile& file = file_of(handle);
+  MemoryTiff& file = file_of(handle);
   const std::size_t left = file.bytes.size() - std::min(file.at, file.bytes.size());
   const std::size_t count = std::min(static_cast<std::size_t>(size), left);
   std::memcpy(to, file.bytes.data() + file.at, count);
@@ -36,7 +36,7 @@ tmsize_t read_some(thandle_t handle, void* to, tmsize_t size) {
   return static_cast<tmsize_t>(count);
 }
 tmsize_t write_some(thandle_t handle, void* from, tmsize_t size) {
-  MemoryFile& file = file_of(handle);
+  MemoryTiff& file = file_of(handle);
   const auto count = static_cast<std::size_t>(size);
   file.bytes.resize(std::max(file.bytes.size(), file.at + count));
   std::memcpy(file.bytes.data() + file.at, from, count);
@@ -44,7 +44,7 @@ tmsize_t write_some(thandle_t handle, void* from, tmsize_t size) {
   return size;
 }
 toff_t seek(thandle_t handle, toff_t offset, int whence) {
-  MemoryFile& file = file_of(handle);
+  MemoryTiff& file = file_of(handle);
   const std::size_t from = whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.bytes.size() : 0;
   file.at = from + static_cast<std::size_t>(offset);
   return file.at;
@@ -87,7 +87,7 @@ Options quiet() {
   return options;
 }
 
-Tiff open(const std::string& path, MemoryFile& file, const char* mode) {
+Tiff open(const std::string& path, MemoryTiff& file, const char* mode) {
   teach_tags();
   file.at = 0;
   Tiff tiff(TIFFClientOpenExt(path.c_str(), mode, &file, read_some, write_some, seek, close, size_of, nullptr,
@@ -203,7 +203,7 @@ void set_names(Tags& tags, const RawPicture& raw) {
   tags.set(TIFFTAG_UNIQUECAMERAMODEL, model.c_str());
 }
 
-bool reads_back(const std::string& path, MemoryFile& file, const RawPicture& raw) {
+bool reads_back(const std::string& path, MemoryTiff& file, const RawPicture& raw) {
   const Tiff tiff = open(path, file, "rmc");  // c: the strip as it is
   std::vector<std::uint16_t> codes(raw.codes.size());
   const auto size = static_cast<tmsize_t>(codes.size() * sizeof(std::uint16_t));
@@ -303,7 +303,7 @@ RawPicture read_dng(const std::string& path) {
 }
 
 std::string encode_dng(const std::string& path, const RawPicture& raw) {
-  MemoryFile file;
+  MemoryTiff file;
   bool sound = true;
   {
     const Tiff tiff = open(path, file, "wlm");

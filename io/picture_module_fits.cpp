@@ -22,15 +22,15 @@ namespace {
 }
 
 // A file in memory, which cfitsio lets grow.
-struct MemoryFile {
+struct MemoryFits {
   void* bytes = nullptr;
   std::size_t size = 0;
   fitsfile* fits = nullptr;
 
-  MemoryFile() = default;
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() {
+  MemoryFits() = default;
+  MemoryFits(const MemoryFits&) = delete;
+  MemoryFits& operator=(const MemoryFits&) = delete;
+  ~MemoryFits() {
     int status = 0;
     if (fits != nullptr) fits_close_file(fits, &status);
     std::free(bytes);
@@ -97,7 +97,7 @@ std::vector<std::uint16_t> plane_by_plane(const RawPicture& raw) {
 
 bool reads_back(std::string& bytes, const std::vector<std::uint16_t>& codes) {
   int status = 0;
-  MemoryFile file;  // which owns none of the bytes
+  MemoryFits file;  // which owns none of the bytes
   void* data = bytes.data();
   std::size_t size = bytes.size();
   fits_open_memfile(&file.fits, "memory", READONLY, &data, &size, 0, nullptr, &status);
@@ -174,7 +174,7 @@ void read_history(fitsfile* fits, RawPicture& raw) {
 
 RawPicture read_fits(const std::string& path) {
   int status = 0;
-  MemoryFile file;
+  MemoryFits file;
   fits_open_image(&file.fits, path.c_str(), READONLY, &status);
   int type = 0;
   int axes = 0;
@@ -210,7 +210,7 @@ RawPicture read_fits(const std::string& path) {
 std::string encode_fits(const std::string& path, const RawPicture& raw) {
   constexpr std::size_t kBlock = 2880;
   int status = 0;
-  MemoryFile file;
+  MemoryFits file;
   file.bytes = std::malloc(kBlock);
   file.size = kBlock;
   fits_create_memfile(&file.fits, &file.bytes, &file.size, kBlock, std::realloc, &status);

@@ -53,9 +53,6 @@ std::string_view line_from(std::string_view text, std::size_t offset) {
   return line;
 }
 
-/// What spreadsheets write before UTF-8 text.
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 bool has_byte_order_mark(const fs::path& path) {
   std::string begin(kByteOrderMark.size(), '\0');
   std::ifstream file(path);

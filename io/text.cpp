@@ -109,7 +109,6 @@ std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagn
 // The source, if its bytes are UTF-8.
 std::shared_ptr<const SourceText> checked(const std::shared_ptr<SourceText>& source, Diagnostics& diagnostics,
                                           ErrorCode code) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (source->text.starts_with(kByteOrderMark)) source->text.erase(0, kByteOrderMark.size());
   const std::size_t valid = valid_prefix(source->text);
   if (valid == source->text.size()) return source;
@@ -221,6 +220,13 @@ std::vector<std::string> split(std::string_view text, char separator) {
     if (cut == std::string_view::npos) return pieces;
     text.remove_prefix(cut + 1);
   }
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
 }
 
 std::string base64(std::string_view bytes) {

@@ -13,6 +13,8 @@
 namespace abbe {
 
 inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
+/// What spreadsheets write before UTF-8 text.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Reads a regular file of at most `limit_bytes` of valid UTF-8 text. A missing file, a folder, a FIFO or
 /// device, an oversized file, a NUL byte or invalid UTF-8 is reported and gives nullptr.
@@ -42,6 +44,9 @@ inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
 
 /// `text` cut at every `separator`, each piece without surrounding blanks.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+
+/// `text` with the capitals of ASCII as small letters.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 /// The bytes in base64, as data URLs hold them [RFC4648, sec. 4].
 [[nodiscard]] std::string base64(std::string_view bytes);

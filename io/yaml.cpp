@@ -9,20 +9,19 @@
 
 #include <fmt/format.h>
 
+#include "io/text.h"
 #include "io/value_tree.h"
 
 namespace abbe {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // the parser does not count it
-
 /// Ends the parsing of a document that was refused.
 struct Refused {};
 
 /// Receives the parser's events and grows the tree.
-class TreeBuilder : public YAML::EventHandler {
+class YamlTreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(ValueTree& tree, std::size_t first) : tree_(tree), first_(first) {}
+  YamlTreeBuilder(ValueTree& tree, std::size_t first) : tree_(tree), first_(first) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) refuse(mark, "expected the end of the text (got another document)");
@@ -109,7 +108,8 @@ class TreeBuilder : public YAML::EventHandler {
 std::optional<JsonValue> parse_yaml(const std::shared_ptr<const SourceText>& source,
                                     Diagnostics& diagnostics) {
   ValueTree tree(source, "", ErrorCode::input, diagnostics);
-  TreeBuilder builder(tree, source->text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  // The parser does not count a byte order mark.
+  YamlTreeBuilder builder(tree, source->text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
   std::istringstream text(source->text);
   try {
     YAML::Parser parser(text);

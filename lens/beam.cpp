@@ -15,7 +15,7 @@ namespace {
 using V2d = Imath::V2d;
 using V3d = Imath::V3d;
 
-constexpr int kMaxSteps = 40;
+constexpr int kMaxAimingSteps = 40;
 constexpr int kMaxHalvings = 20;
 constexpr double kAimed = 1e-12;      // in radii of the stop: what Newton's method strives for,
 constexpr double kGoodEnough = 1e-9;  // and what is taken where rounding does not let it
@@ -79,7 +79,7 @@ bool Beam::solve(const V2d& pupil, V2d& launched) const {
   auto now = pupil_of(launched);
   if (!now) return false;
   const double h = kDifference * scale_;
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0; step < kMaxAimingSteps; ++step) {
     const double error = (*now - pupil).length();
     if (error <= kAimed) return true;
     const auto x0 = pupil_of(launched - V2d(h, 0));

@@ -8,7 +8,7 @@ namespace {
 
 using V3d = Imath::V3d;
 
-constexpr int kMaxSteps = 60;
+constexpr int kMaxNewtonSteps = 60;
 constexpr double kConverged = 1e-14;  // of the distance, or of a millimetre
 
 // The conic is c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0; of the ray's two points on it the one is taken where
@@ -59,7 +59,7 @@ std::optional<double> Profile::intersect(const Ray& ray) const {
   const auto conic_t = intersect_conic(curvature, conic, o, d);
   if (!aspheric()) return conic_t ? std::optional(nearest + *conic_t) : std::nullopt;
   double t = conic_t.value_or(d.z != 0 ? -o.z / d.z : 0);
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps; ++step) {
     const V3d p = o + t * d;
     const double r2 = p.x * p.x + p.y * p.y;
     const double towards = d.z - 2 * slope(r2) * (p.x * d.x + p.y * d.y);

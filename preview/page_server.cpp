@@ -104,24 +104,6 @@ class Connection : public httplib::Stream {
   std::size_t taken_ = 0;
 };
 
-class HttpServer : public httplib::Server {
- public:
-  // The library lets five connections wait to be accepted, and others try again after a second.
-  void let_more_wait() { (void)::listen(svr_sock_, kWaiting); }
-
- private:
-  bool process_and_close_socket(socket_t socket) override {
-    Connection connection(socket);
-    bool closed = false;
-    // Answers on one machine are not worth compressing, and whoever asks for parts is given the whole.
-    return process_request(connection, true, closed, [](httplib::Request& request) {
-      request.headers.erase("Accept-Encoding");
-      request.headers.erase("Range");
-      request.ranges.clear();
-    });
-  }
-};
-
 // Another program that listens there is to be noticed, so the port is not shared; but one that a program has
 // just left may be taken.
 void set_options(int socket) {
@@ -187,6 +169,24 @@ std::string to_text(const ServerAddress& address) {
 }
 
 struct PageServer::Listener {
+  class HttpServer : public httplib::Server {
+   public:
+    // The library lets five connections wait to be accepted, and others try again after a second.
+    void let_more_wait() { (void)::listen(svr_sock_, kWaiting); }
+
+   private:
+    bool process_and_close_socket(socket_t socket) override {
+      Connection connection(socket);
+      bool closed = false;
+      // Answers on one machine are not worth compressing, and whoever asks for parts is given the whole.
+      return process_request(connection, true, closed, [](httplib::Request& request) {
+        request.headers.erase("Accept-Encoding");
+        request.headers.erase("Range");
+        request.ranges.clear();
+      });
+    }
+  };
+
   HttpServer server = {};
   std::string host = {};
   int port = 0;
@@ -214,7 +214,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
   (void)std::signal(SIGPIPE, on_broken_pipe);
   listener_->host = address.host;
   listener_->answer = std::move(answer);
-  HttpServer& server = listener_->server;
+  Listener::HttpServer& server = listener_->server;
   server.new_task_queue = [] { return new ConnectionQueue; };  // owned by the library
   server.set_socket_options(set_options);
   server.set_default_headers(

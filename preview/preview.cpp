@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 // A page asks for the state twice a second.
 constexpr std::chrono::seconds kWatchedFor{3};
 constexpr std::chrono::seconds kLingers{2};
-constexpr double kMaxShare = 0.01;
+constexpr double kMaxEncodingShare = 0.01;
 constexpr std::chrono::milliseconds kMinPause{200};
 constexpr double kMaxStops = 30;
 
@@ -66,7 +66,7 @@ bool Preview::is_watched() const {
 bool Preview::wants_to_see() {
   if (!is_watched()) return false;
   cost_s_ += film_.take_time_spent();
-  const std::chrono::duration<double> pause(cost_s_ / threads_ / kMaxShare);
+  const std::chrono::duration<double> pause(cost_s_ / threads_ / kMaxEncodingShare);
   return Clock::now() - shown_ > std::max<std::chrono::duration<double>>(pause, kMinPause);
 }
 

@@ -19,12 +19,12 @@
 namespace abbe {
 namespace {
 
-constexpr double kMaxShare = 0.01;
+constexpr double kMaxSendingShare = 0.01;
 constexpr double kMinPause_s = 0.2;
 constexpr std::size_t kPacketFloats = std::size_t{1} << 18;
 constexpr timeval kPatience{3, 0};
 
-int connected(const ServerAddress& address) {
+int connected_socket(const ServerAddress& address) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
@@ -53,7 +53,7 @@ TevViewer::TevViewer(const Scene& scene, FilmIdentity identity, const ServerAddr
       image_(fmt::format("{} ({})", identity_.at("scene"), ::getpid())),
       threads_(threads),
       warn_(std::move(warn)),
-      socket_(connected(address)),
+      socket_(connected_socket(address)),
       sender_([this] { send_all(); }) {}
 
 TevViewer::~TevViewer() {
@@ -69,7 +69,7 @@ TevViewer::~TevViewer() {
 bool TevViewer::wants_to_see() {
   const std::scoped_lock lock(mutex_);
   if (busy_ || gone_) return false;
-  const double pause = std::max(kMinPause_s, (cost_s_ + sending_s_) / threads_ / kMaxShare);
+  const double pause = std::max(kMinPause_s, (cost_s_ + sending_s_) / threads_ / kMaxSendingShare);
   return Clock::now() - shown_ > std::chrono::duration<double>(pause);
 }
 

@@ -101,7 +101,7 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
   return {std::move(source.sensor), std::move(planes)};
 }
 
-void write(const Developed& developed, const fs::path& path) {
+void write_developed(const Developed& developed, const fs::path& path) {
   require_developed_extension(path);
   if (path.extension() == ".exr")
     return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
@@ -172,7 +172,7 @@ void add_develop(py::module_& module) {
           "in electrons where there is a read-out.")
       .def("picture", picture_array, "Returns the result as an sRGB display shows it, code values in [0, 1].")
       .def(
-          "write", write, py::arg("path"),
+          "write", write_developed, py::arg("path"),
           "Writes the codes to a 16-bit .tif or .png, or all planes to an .exr of parts. Raises OutputError.")
       .def("_repr_png_", [](const Developed& d) { return py::bytes(encoded_picture(".png", d.picture())); });
   module.def("develop", develop_film, py::arg("film"), py::kw_only(), py::arg("readout") = py::none(),

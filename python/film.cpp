@@ -63,13 +63,13 @@ py::object spectrum(const FilmHandle& film, int x, int y) {
   return film.array()[py::make_tuple(y, x)];
 }
 
-FilmHandle read(const fs::path& path) {
+FilmHandle read_film(const fs::path& path) {
   const py::gil_scoped_release released;
   if (path.extension() == kPartExtension) return FilmHandle(read_part(path));
   return FilmHandle(read_film(path));
 }
 
-void write(const FilmHandle& film, const fs::path& path) {
+void write_film(const FilmHandle& film, const fs::path& path) {
   require_extension(path, {".exr", kPartExtension, ".png", ".jpg", ".tif"});
   const bool is_part = path.extension() == kPartExtension;
   if (is_part && !film.part())
@@ -156,7 +156,7 @@ py::object stats(const FilmHandle& film) {
   return all;
 }
 
-std::string repr(const FilmHandle& film) {
+std::string repr_of_film(const FilmHandle& film) {
   return fmt::format("<abbe.Film: {} x {} pixels, {} channels>", film.image().width, film.image().height,
                      film.channels().size());
 }
@@ -233,10 +233,10 @@ void add_film(py::module_& module) {
   forbid_bare_new(film);
   add_values(film);
   film.def_static(
-          "read", read, py::arg("path"),
+          "read", read_film, py::arg("path"),
           "Reads a film: an .abbepart with its exact sums, or an .exr. Raises InputError for a file that is "
           "missing, damaged or no film.")
-      .def("write", write, py::arg("path"),
+      .def("write", write_film, py::arg("path"),
            "Writes the film: to .exr with its variance, to .abbepart with its exact sums, to .png, .jpg or "
            ".tif its "
            "display picture. The file is the one that `abbe render` writes, and appears whole or not at all. "
@@ -252,7 +252,7 @@ void add_film(py::module_& module) {
           "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
       .def_property_readonly(
           "height", [](const FilmHandle& f) { return f.image().height; }, "The film's rows of pixels.")
-      .def("__repr__", repr);
+      .def("__repr__", repr_of_film);
   add_pictures(film);
   module.def(
       "merge", merge_films, py::arg("films"), py::kw_only(), py::arg("partial") = false,

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -12,13 +11,13 @@
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/query.h"
+#include "sampling/angle.h"
 
 namespace abbe::python {
 namespace {
 
 namespace py = pybind11;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The material of that name, which must hold at all wavelengths asked for.

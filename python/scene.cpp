@@ -66,7 +66,7 @@ std::string class_text() {
   return text + "\nabbe.help(\"camera\") tells what may stand in them.";
 }
 
-std::string repr(const SceneHandle& handle) {
+std::string repr_of_scene(const SceneHandle& handle) {
   const abbe::Scene& scene = handle.scene();
   return fmt::format("<abbe.Scene {}: {} x {} pixels, {} shapes, {} lights>", handle.name().string(),
                      scene.camera.width, scene.camera.height, scene.shapes.size(), scene.lights.size());
@@ -133,7 +133,7 @@ void add_scene(py::module_& module) {
       .def_property_readonly(
           "seed", [](const SceneHandle& s) { return s.scene().render.seed; },
           "The seed of the random numbers unless `render` is told otherwise.")
-      .def("__repr__", repr);
+      .def("__repr__", repr_of_scene);
   module.def(
       "help", [](const std::string& key) { return schema::help(scene_fields(), key); }, py::arg("key") = "",
       "Returns what a key of scenes means, its range and its default, as `abbe help scene KEY` prints it.");

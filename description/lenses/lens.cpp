@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "lens/focus.h"
 #include "lens/paraxial.h"
+#include "sampling/angle.h"
 
 namespace abbe::spec {
 
@@ -215,7 +215,6 @@ void set_wavelengths(const spec::Lens& said, System& system, Diagnostics& diagno
 
 // Fields of any kind as the tracing takes them: directions of objects at infinity, heights of near ones.
 void set_fields(const spec::Lens& said, System& system, Diagnostics& diagnostics) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const lens::FirstOrder first = lens::first_order(lens::SystemAt(system, system.primary_nm()));
   if (const auto* angles = std::get_if<spec::FieldAngles>(&said.fields)) {
     system.fields = angles->value;

@@ -1,7 +1,6 @@
 #include "description/lenses/load_lens.h"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 #include "description/lenses/lens.h"
@@ -31,9 +30,7 @@ using Reader = std::optional<spec::Lens> (*)(const fs::path&, Diagnostics&);
 
 // By the extension, in any case.
 Reader reader_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(file.extension().string());
   if (extension == ".json") return read_json;
   if (extension == ".zmx") return description::read_zemax;
   if (extension == ".dat") return description::read_pbrt_table;

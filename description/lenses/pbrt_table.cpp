@@ -10,16 +10,16 @@ namespace {
 
 using lenses::Line;
 
-constexpr std::size_t kColumns = 4;
+constexpr std::size_t kRowNumbers = 4;
 
 void read_row(const Line& line, spec::Lens& lens, Diagnostics& diagnostics) {
   const std::vector<double> row = line.numbers(0);
   const bool ends = row.size() == line.words.size() || line.words[row.size()].text.starts_with('#');
-  if (!ends || row.size() != kColumns)
+  if (!ends || row.size() != kRowNumbers)
     return diagnostics.error(
         line.where(row.size()),
         fmt::format("a row is radius, thickness, index and diameter (got {} numbers, expected {})",
-                    row.size(), kColumns),
+                    row.size(), kRowNumbers),
         ErrorCode::input);
   const auto [radius, thickness, index, diameter] = std::tuple(row[0], row[1], row[2], row[3]);
   if (!(diameter > 0) || index < 0)

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "description/lenses/zemax_reader.h"
+#include "io/text.h"
 
 // The part of a `.zmx` file before its surfaces.
 namespace abbe::description::zemax {
@@ -60,12 +60,7 @@ void Reader::environment(const Line& line) {
 }
 
 void Reader::catalogues(const Line& line) {
-  for (std::size_t i = 1; i < line.words.size(); ++i) {
-    std::string maker = line.words[i].text;
-    std::transform(maker.begin(), maker.end(), maker.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    catalogues_.push_back(std::move(maker));
-  }
+  for (std::size_t i = 1; i < line.words.size(); ++i) catalogues_.push_back(lower_case(line.words[i].text));
 }
 
 void Reader::field_type(const Line& line) {

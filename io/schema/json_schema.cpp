@@ -14,9 +14,6 @@ namespace {
 using Object = JsonValue::Object;
 using Array = JsonValue::Array;
 
-JsonValue json(decltype(JsonValue::value) value) {
-  return {std::move(value), {}};
-}
 JsonValue string(std::string_view text) {
   return json(std::string(text));
 }

@@ -5,10 +5,6 @@
 namespace abbe::schema {
 namespace {
 
-JsonValue json(decltype(JsonValue::value) value) {
-  return {std::move(value), {}};
-}
-
 void write_fields(const Fields& fields, const void* thing, JsonValue::Object& into);
 
 void write_choice(const Choice& choice, const void* variant, JsonValue::Object& into) {

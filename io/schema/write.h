@@ -1,9 +1,15 @@
 #pragma once
 
+#include <utility>
+
 #include "io/schema/fields.h"
 
 namespace abbe::schema {
 
+/// A value that stands nowhere in a file.
+[[nodiscard]] inline JsonValue json(decltype(JsonValue::value) value) {
+  return {std::move(value), {}};
+}
 /// The object that reads as this thing; what is as its initialiser makes it is left out. It has no places.
 [[nodiscard]] JsonValue write(const Fields& fields, const void* thing);
 template <typename T>

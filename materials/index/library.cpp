@@ -1,7 +1,6 @@
 #include "materials/index/library.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -17,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGlass = "glass";
-constexpr const char* kFolders[] = {kGlass, "metal"};
+constexpr const char* kFolders[] = {"glass", "metal"};
+
 /// The file of `name` if that is a table of n (and perhaps k): its stem or an alias, or a user's path.
 std::optional<fs::path> table_of(const char* folder, const std::string& name) {
   Diagnostics unheard;
@@ -54,12 +53,8 @@ std::optional<NamedIndex> load_tables(const char* folder, const std::string& nam
 
 /// "maker/glass" with the maker in the catalogues' spelling.
 std::string qualified(const std::string& name) {
-  std::string spelt = name;
-  for (char& c : spelt) {
-    if (c == '/') break;
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return spelt;
+  const std::size_t maker = std::min(name.find('/'), name.size());
+  return lower_case(std::string_view(name).substr(0, maker)) + name.substr(maker);
 }
 
 /// The makers' glasses called `name` without its maker.
@@ -77,8 +72,8 @@ std::optional<NamedIndex> load_user_file(const std::string& name, const SourcePo
                                          Diagnostics& diagnostics) {
   if (is_refractiveindex_info(name))
     return is_file(name, where, diagnostics) ? read_refractiveindex_info(name, diagnostics) : std::nullopt;
-  const auto found = find_table(kGlass, name, where, diagnostics);
-  return found ? load_tables(kGlass, name, found->path, where, diagnostics) : std::nullopt;
+  const auto found = find_table("glass", name, where, diagnostics);
+  return found ? load_tables("glass", name, found->path, where, diagnostics) : std::nullopt;
 }
 
 void report_unknown(const std::string& name, const SourcePosition& where, Diagnostics& diagnostics) {

@@ -1,16 +1,12 @@
 #include "materials/interface/prism.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "materials/interface/fresnel.h"
+#include "sampling/angle.h"
 
 namespace abbe {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<PrismPassage> prism_passage(double n, double apex_deg, double incidence_deg) {
   const double sin_i = std::sin(incidence_deg * kDegree);

@@ -7,25 +7,23 @@
 namespace abbe {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 // Densities are functions of 1 - cos, which keeps its digits at the narrowest of turns; `versine` here and
 // below. Turns by an obtuse angle count theirs from the opposite direction where that is the sharper end.
 
 float density(const IsotropicPhase& /*phase*/, float /*versine*/) {
-  return 1 / (4 * kPi);
+  return 1 / (4 * std::numbers::pi_v<float>);
 }
 
 // (1 - g^2)/(4 pi (1 + g^2 - 2 g cos)^(3/2)), whose bracket is (1 - g)^2 + 2 g (1 - cos).
 float density(const HenyeyGreensteinPhase& phase, float versine) {
   const float g = std::abs(phase.g);
   const float squared = (1 - g) * (1 - g) + 2 * g * versine;
-  return (1 - g) * (1 + g) / (4 * kPi * squared * std::sqrt(squared));
+  return (1 - g) * (1 + g) / (4 * std::numbers::pi_v<float> * squared * std::sqrt(squared));
 }
 
 float density(const RayleighPhase& /*phase*/, float versine) {
   const float cosine = 1 - versine;
-  return 3 / (16 * kPi) * (1 + cosine * cosine);
+  return 3 / (16 * std::numbers::pi_v<float>)*(1 + cosine * cosine);
 }
 
 float draw_versine(const IsotropicPhase& /*phase*/, float u) {
@@ -78,7 +76,7 @@ PhaseSample sample(const PhaseFunction& phase, const Imath::V2f& u) {
   const float versine = std::visit([&u](const auto& p) { return draw_versine(p, u.x); }, phase);
   const float pdf = std::visit([versine](const auto& p) { return density(p, versine); }, phase);
   const float sine = std::sqrt(std::max(0.0F, versine * (2 - versine)));
-  const float phi = 2 * kPi * u.y;
+  const float phi = 2 * std::numbers::pi_v<float> * u.y;
   return {{sine * std::cos(phi), sine * std::sin(phi), turns_back(phase) ? versine - 1 : 1 - versine}, pdf};
 }
 

@@ -10,7 +10,6 @@
 namespace abbe {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kBelowOne = 0x1.fffffep-1F;
 
 // What is asked about; see `emission_density`.
@@ -22,12 +21,13 @@ struct Leaving {
 
 EmissionDensity density_of(const AreaLight& light, const Leaving& at) {
   const float cos_theta = at.normal.dot(at.wo);
-  const float pdf = light.two_sided ? std::abs(cos_theta) / (2 * kPi) : std::max(0.0F, cos_theta) / kPi;
+  const float pdf = light.two_sided ? std::abs(cos_theta) / (2 * std::numbers::pi_v<float>)
+                                    : std::max(0.0F, cos_theta) / std::numbers::pi_v<float>;
   return {static_cast<float>(1 / light.area), pdf};
 }
 
 EmissionDensity density_of(const PointLight& /*light*/, const Leaving& /*at*/) {
-  return {1, 1 / (4 * kPi)};
+  return {1, 1 / (4 * std::numbers::pi_v<float>)};
 }
 
 EmissionDensity density_of(const SpotLight& light, const Leaving& at) {
@@ -36,11 +36,11 @@ EmissionDensity density_of(const SpotLight& light, const Leaving& at) {
 
 // Over the disc that the scene fills, seen from there.
 float across(const Leaving& at) {
-  return 1 / (kPi * at.scene_radius_m * at.scene_radius_m);
+  return 1 / (std::numbers::pi_v<float> * at.scene_radius_m * at.scene_radius_m);
 }
 
 EmissionDensity density_of(const EnvironmentLight& light, const Leaving& at) {
-  return {across(at), light.image ? light.image->pdf(-at.wo) : 1 / (4 * kPi)};
+  return {across(at), light.image ? light.image->pdf(-at.wo) : 1 / (4 * std::numbers::pi_v<float>)};
 }
 
 EmissionDensity density_of(const DirectionalLight& /*light*/, const Leaving& at) {
@@ -63,7 +63,7 @@ EmissionDensity emission_density(const Light& light, const Imath::V3f& normal, c
 }
 
 Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u) {
-  const float phi = 2 * kPi * u.y;
+  const float phi = 2 * std::numbers::pi_v<float> * u.y;
   if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
     const bool flip = area->two_sided && u.x >= 0.5F;
     const float v = area->two_sided ? std::min(2 * (u.x - (flip ? 0.5F : 0.0F)), kBelowOne) : u.x;

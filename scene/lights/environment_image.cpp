@@ -12,8 +12,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // What a unit of each primary exposes, over all channels; a response may be negative.
 LinearRgb exposures(const std::array<Curve, 3>& primaries, std::span<const Channel> channels) {
   LinearRgb exposed{};
@@ -33,7 +31,7 @@ EnvironmentFrame environment_frame(const Imath::V3d& up, double rotate_deg) {
   const Imath::V3d ahead =
       up.cross(Imath::V3d(0, 1, 0)).length() > 1e-6 ? Imath::V3d(0, 1, 0) : Imath::V3d(1, 0, 0);
   const Imath::V3d level = (ahead - up * ahead.dot(up)).normalized();
-  const double angle = rotate_deg * kPi / 180;
+  const double angle = rotate_deg * std::numbers::pi / 180;
   return {up, level * std::cos(angle) + up.cross(level) * std::sin(angle)};
 }
 
@@ -58,7 +56,7 @@ EnvironmentImage::EnvironmentImage(int width, int height, std::vector<std::array
       for (std::size_t c = 0; c < 3; ++c) {
         const double value = static_cast<double>(texels_[i].at(c));
         columns += exposed.at(c) * value;
-        mean_.at(c) += value * solid_angle(row) / (4 * kPi);
+        mean_.at(c) += value * solid_angle(row) / (4 * std::numbers::pi);
       }
       column_cdf_[i] = columns;
     }
@@ -71,22 +69,22 @@ EnvironmentImage::EnvironmentImage(int width, int height, std::vector<std::array
 }
 
 double EnvironmentImage::row_top(std::size_t row) const {
-  return std::cos(kPi * static_cast<double>(row) / static_cast<double>(height_));
+  return std::cos(std::numbers::pi * static_cast<double>(row) / static_cast<double>(height_));
 }
 
 // Of one texel: the difference of the cosines at its edges, written as a product, times its azimuth.
 double EnvironmentImage::solid_angle(std::size_t row) const {
-  const double middle = kPi * (static_cast<double>(row) + 0.5) / static_cast<double>(height_);
-  return 2 * std::sin(middle) * std::sin(kPi / (2 * static_cast<double>(height_))) * 2 * kPi /
-         static_cast<double>(width_);
+  const double middle = std::numbers::pi * (static_cast<double>(row) + 0.5) / static_cast<double>(height_);
+  return 2 * std::sin(middle) * std::sin(std::numbers::pi / (2 * static_cast<double>(height_))) * 2 *
+         std::numbers::pi / static_cast<double>(width_);
 }
 
 std::size_t EnvironmentImage::texel_at(const Imath::V3f& wi) const {
   const Imath::V3d d = Imath::V3d(wi).normalized();
   const double across = std::hypot(d.dot(forward_), d.dot(right_));
   const double theta = std::atan2(across, d.dot(up_));
-  const double turn = std::atan2(d.dot(right_), d.dot(forward_)) / (2 * kPi) + 0.5;
-  const auto row = static_cast<std::size_t>(theta / kPi * static_cast<double>(height_));
+  const double turn = std::atan2(d.dot(right_), d.dot(forward_)) / (2 * std::numbers::pi) + 0.5;
+  const auto row = static_cast<std::size_t>(theta / std::numbers::pi * static_cast<double>(height_));
   const auto column = static_cast<std::size_t>(turn * static_cast<double>(width_));
   return std::min(row, height_ - 1) * width_ + std::min(column, width_ - 1);
 }
@@ -104,7 +102,7 @@ std::optional<Imath::V3f> EnvironmentImage::sample(Imath::V2f u) const {
   const auto column = invert_cdf(row_of(column_cdf_, row.index, width_), static_cast<double>(u.x));
   // Uniform by solid angle within the texel: in azimuth, and in the cosine.
   const double azimuth = (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
-  const double phi = 2 * kPi * (azimuth - 0.5);
+  const double phi = 2 * std::numbers::pi * (azimuth - 0.5);
   const double cosine = row_top(row.index) * (1 - row.within) + row_top(row.index + 1) * row.within;
   const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
   return Imath::V3f(forward_ * (sine * std::cos(phi)) + right_ * (sine * std::sin(phi)) + up_ * cosine);

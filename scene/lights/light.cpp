@@ -14,7 +14,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // A point of a light, with its density per solid angle where it was not drawn by area.
@@ -45,7 +44,7 @@ std::optional<double> cone_height(const Sphere& sphere, const Imath::V3d& point)
 AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& point, Imath::V2f u) {
   const double descent = static_cast<double>(u.x) * height;  // 1 - cos theta
   const double sine = std::sqrt(descent * (2 - descent));
-  const double phi = 2 * kPi * static_cast<double>(u.y);
+  const double phi = 2 * std::numbers::pi * static_cast<double>(u.y);
   const Basis<double> axes((sphere.center - point).normalized());
   const Imath::V3d direction = axes.to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - descent});
   const auto hit = intersect(sphere, BasicRay<double>{point, direction}, 0.0);
@@ -53,7 +52,8 @@ AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& po
   const Imath::V3d normal =
       hit ? hit->normal
           : (point + direction * (sphere.center - point).dot(direction) - sphere.center).normalized();
-  return {{Imath::V3f(sphere.center + normal * sphere.radius), Imath::V3f(normal)}, 1 / (2 * kPi * height)};
+  return {{Imath::V3f(sphere.center + normal * sphere.radius), Imath::V3f(normal)},
+          1 / (2 * std::numbers::pi * height)};
 }
 
 // How a point sees a light whose shape allows better than sampling by area.
@@ -127,7 +127,7 @@ std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& env
                                        Imath::V2f u) {
   if (!environment.image)
     return LightSample{sample_area(Sphere{{0, 0, 0}, 1}, u).normal, kInfinity, 1,
-                       static_cast<float>(1 / (4 * kPi)), point};
+                       static_cast<float>(1 / (4 * std::numbers::pi)), point};
   const auto wi = environment.image->sample(u);
   if (!wi) return std::nullopt;
   // Rounded, the direction may meet the next texel; then that one's density goes with that one's radiance.
@@ -160,7 +160,7 @@ struct Arrival {
 float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const Arrival& at) {
   const Imath::V3d from(at.point);
   if (const auto height = wide_cone(shapes[emitter.shape].shape, from))
-    return static_cast<float>(1 / (2 * kPi * *height));
+    return static_cast<float>(1 / (2 * std::numbers::pi * *height));
   if (const auto rectangle = wide_rectangle(emitter, from))
     return static_cast<float>(1 / rectangle->solid_angle());
   const Imath::V3d d = Imath::V3d(at.hit) - from;
@@ -173,7 +173,7 @@ float pdf_of(const SpotLight&, const std::vector<ShapeInstance>&, const Arrival&
   return 0;
 }
 float pdf_of(const EnvironmentLight& environment, const std::vector<ShapeInstance>&, const Arrival& at) {
-  return environment.image ? environment.image->pdf(at.wi) : static_cast<float>(1 / (4 * kPi));
+  return environment.image ? environment.image->pdf(at.wi) : static_cast<float>(1 / (4 * std::numbers::pi));
 }
 float pdf_of(const DirectionalLight&, const std::vector<ShapeInstance>&, const Arrival&) {
   return 0;
@@ -184,16 +184,16 @@ float pdf_of(const SunLight& sun, const std::vector<ShapeInstance>&, const Arriv
 
 // `across` is the area [m^2] that light from infinity comes through.
 double etendue_of(const AreaLight& emitter, double /*across*/) {
-  return kPi * emitter.area * (emitter.two_sided ? 2 : 1);
+  return std::numbers::pi * emitter.area * (emitter.two_sided ? 2 : 1);
 }
 double etendue_of(const PointLight& /*lamp*/, double /*across*/) {
-  return 4 * kPi;
+  return 4 * std::numbers::pi;
 }
 double etendue_of(const SpotLight& lamp, double /*across*/) {
-  return 2 * kPi * static_cast<double>(lamp.cap);
+  return 2 * std::numbers::pi * static_cast<double>(lamp.cap);
 }
 double etendue_of(const EnvironmentLight& /*environment*/, double across) {
-  return 4 * kPi * across;
+  return 4 * std::numbers::pi * across;
 }
 double etendue_of(const DirectionalLight& /*beam*/, double across) {
   return across;
@@ -227,7 +227,7 @@ void AreaLight::measure(const Shape& of) {
 
 double SunLight::projected_solid_angle() const {
   const auto height = static_cast<double>(cap);
-  return kPi * height * (2 - height);
+  return std::numbers::pi * height * (2 - height);
 }
 
 const Imath::V3f* place(const Light& light) {
@@ -275,7 +275,7 @@ EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeI
 }
 
 double etendue(const Light& light, double scene_radius_m) {
-  const double across = kPi * scene_radius_m * scene_radius_m;
+  const double across = std::numbers::pi * scene_radius_m * scene_radius_m;
   return std::visit([across](const auto& kind) { return etendue_of(kind, across); }, light.kind);
 }
 

@@ -51,12 +51,12 @@ Histogram spread_of_estimates(double f) {
   return spread;
 }
 
-struct Moments {
+struct HistogramMoments {
   double mean = 0;
   double variance = 0;
 };
-Moments moments_of(const Histogram& of) {
-  Moments m;
+HistogramMoments moments_of(const Histogram& of) {
+  HistogramMoments m;
   for (std::ptrdiff_t i = 0; i < of.size(); ++i)
     m.mean += of.share[static_cast<std::size_t>(i)] * static_cast<double>(of.first + i);
   for (std::ptrdiff_t i = 0; i < of.size(); ++i)
@@ -69,8 +69,8 @@ Moments moments_of(const Histogram& of) {
 // so that nothing is ruled out.
 Histogram first_guess(const Histogram& seen, const Histogram& spread) {
   constexpr double kEverything = 0.05;
-  const Moments all = moments_of(seen);
-  const Moments noise = moments_of(spread);
+  const HistogramMoments all = moments_of(seen);
+  const HistogramMoments noise = moments_of(spread);
   const double variance = std::max(all.variance - noise.variance, 0.25);
   Histogram guess = seen;
   for (std::ptrdiff_t i = 0; i < guess.size(); ++i)

@@ -26,7 +26,7 @@ constexpr const char* kNoLight =
 
 // Of a pair [DN, DN^2]: mean, variance from one exposure to the next, variance over the pixels without it,
 // and the squared standard error of the temporal one [DN^4].
-struct Moments {
+struct PairMoments {
   double exposure_s;
   double mean;
   double temporal;
@@ -34,7 +34,7 @@ struct Moments {
   double temporal_error2;
 };
 
-Moments moments(const FlatPair& pair) {
+PairMoments moments(const FlatPair& pair) {
   const auto n = static_cast<double>(pair.first.size());
   if (pair.first.size() < 2 || pair.first.size() != pair.second.size()) refuse("a pair of unequal frames");
   double sum = 0;
@@ -62,8 +62,8 @@ Moments moments(const FlatPair& pair) {
   return {pair.exposure_s, sum / n / 2, temporal, of_means - temporal / 2, error2};
 }
 
-std::vector<Moments> all_moments(std::span<const FlatPair> pairs) {
-  std::vector<Moments> all;
+std::vector<PairMoments> all_moments(std::span<const FlatPair> pairs) {
+  std::vector<PairMoments> all;
   std::transform(pairs.begin(), pairs.end(), std::back_inserter(all), moments);
   return all;
 }
@@ -74,13 +74,13 @@ struct Line {
   double slope;
   [[nodiscard]] double at(double x) const { return at_zero + slope * x; }
 };
-Line fitted(const std::vector<Moments>& points, double Moments::*value) {
+Line fitted(const std::vector<PairMoments>& points, double PairMoments::*value) {
   const auto n = static_cast<double>(points.size());
   double x = 0;
   double y = 0;
   double xx = 0;
   double xy = 0;
-  for (const Moments& p : points) {
+  for (const PairMoments& p : points) {
     x += p.exposure_s;
     y += p.*value;
     xx += p.exposure_s * p.exposure_s;
@@ -93,14 +93,15 @@ Line fitted(const std::vector<Moments>& points, double Moments::*value) {
 }
 
 // What the value at x of the line through the points is moved by, for each point that is moved by 1.
-std::vector<double> line_weights(const std::vector<Moments>& points, double x) {
+std::vector<double> line_weights(const std::vector<PairMoments>& points, double x) {
   const auto n = static_cast<double>(points.size());
   double middle = 0;
-  for (const Moments& p : points) middle += p.exposure_s / n;
+  for (const PairMoments& p : points) middle += p.exposure_s / n;
   double spread = 0;
-  for (const Moments& p : points) spread += (p.exposure_s - middle) * (p.exposure_s - middle);
+  for (const PairMoments& p : points) spread += (p.exposure_s - middle) * (p.exposure_s - middle);
   std::vector<double> weights;
-  for (const Moments& p : points) weights.push_back(1 / n + (x - middle) * (p.exposure_s - middle) / spread);
+  for (const PairMoments& p : points)
+    weights.push_back(1 / n + (x - middle) * (p.exposure_s - middle) / spread);
   return weights;
 }
 
@@ -109,11 +110,12 @@ struct RelativeErrors {
   double gain;
   std::optional<double> read_noise;
 };
-RelativeErrors relative_errors(const std::vector<Moments>& dark, const std::vector<Moments>& fitted_pairs,
-                               const Line& dark_mean, double products, double read_variance) {
+RelativeErrors relative_errors(const std::vector<PairMoments>& dark,
+                               const std::vector<PairMoments>& fitted_pairs, const Line& dark_mean,
+                               double products, double read_variance) {
   std::vector<double> moved(dark.size(), 0);
   double lit_part = 0;
-  for (const Moments& m : fitted_pairs) {
+  for (const PairMoments& m : fitted_pairs) {
     const double by = (m.mean - dark_mean.at(m.exposure_s)) / products;
     lit_part += by * by * m.temporal_error2;
     const std::vector<double> weights = line_weights(dark, m.exposure_s);
@@ -134,23 +136,23 @@ RelativeErrors relative_errors(const std::vector<Moments>& dark, const std::vect
 
 PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs,
                                int bits) {
-  const std::vector<Moments> dark = all_moments(dark_pairs);
-  const std::vector<Moments> lit = all_moments(lit_pairs);
+  const std::vector<PairMoments> dark = all_moments(dark_pairs);
+  const std::vector<PairMoments> lit = all_moments(lit_pairs);
   if (dark.empty() || lit.empty()) refuse("no dark or no lit pairs");
-  const Line dark_mean = fitted(dark, &Moments::mean);
-  const Line dark_variance = fitted(dark, &Moments::temporal);
-  const auto signal = [&](const Moments& m) { return m.mean - dark_mean.at(m.exposure_s); };
+  const Line dark_mean = fitted(dark, &PairMoments::mean);
+  const Line dark_variance = fitted(dark, &PairMoments::temporal);
+  const auto signal = [&](const PairMoments& m) { return m.mean - dark_mean.at(m.exposure_s); };
 
   // Saturation is where the variance is largest.
   const auto by = [](auto value) {
-    return [value](const Moments& a, const Moments& b) { return value(a) < value(b); };
+    return [value](const PairMoments& a, const PairMoments& b) { return value(a) < value(b); };
   };
-  const auto variance = [](const Moments& m) { return m.temporal; };
+  const auto variance = [](const PairMoments& m) { return m.temporal; };
   const double saturation = signal(*std::max_element(lit.begin(), lit.end(), by(variance)));
   double products = 0;
   double squares = 0;
-  std::vector<Moments> below;
-  for (const Moments& m : lit)
+  std::vector<PairMoments> below;
+  for (const PairMoments& m : lit)
     if (signal(m) <= kFitted * saturation) {
       below.push_back(m);
       products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
@@ -167,11 +169,11 @@ PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<c
   const RelativeErrors errors = relative_errors(dark, below, dark_mean, products, read_variance);
   if (errors.gain > kLeastKnown) refuse(kNoLight);
 
-  const auto from_half = [&](const Moments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
-  const Moments& half = *std::min_element(lit.begin(), lit.end(), by(from_half));
-  const Moments& shortest =
-      *std::min_element(dark.begin(), dark.end(), by([](const Moments& m) { return m.exposure_s; }));
-  const Moments& brightest = *std::max_element(lit.begin(), lit.end(), by(signal));
+  const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
+  const PairMoments& half = *std::min_element(lit.begin(), lit.end(), by(from_half));
+  const PairMoments& shortest =
+      *std::min_element(dark.begin(), dark.end(), by([](const PairMoments& m) { return m.exposure_s; }));
+  const PairMoments& brightest = *std::max_element(lit.begin(), lit.end(), by(signal));
   const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
   const double highest_code = static_cast<double>((1U << bits) - 1);
   // In a full well all pixels hold the same, so that the variance is far below that of the light.
@@ -180,7 +182,7 @@ PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<c
   std::optional<double> full_well;
   if (full && brightest.mean < highest_code - 1) full_well = (brightest.mean - dark_mean.at_zero) * gain;
   std::vector<TransferPoint> points;
-  for (const Moments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
+  for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
   return {gain,
           read_noise,

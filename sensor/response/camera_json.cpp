@@ -32,13 +32,13 @@ std::vector<std::string> channel_names(const JsonValue& main, Diagnostics& diagn
   return names;
 }
 
-struct Samples {
+struct CameraSamples {
   std::vector<double> wavelengths_nm;
   std::vector<std::vector<double>> values;  // one list a channel
 };
 
-Samples samples_of(const JsonValue& main, std::size_t channels, Diagnostics& diagnostics) {
-  Samples samples{{}, std::vector<std::vector<double>>(channels)};
+CameraSamples samples_of(const JsonValue& main, std::size_t channels, Diagnostics& diagnostics) {
+  CameraSamples samples{{}, std::vector<std::vector<double>>(channels)};
   const auto* const rows = std::get_if<JsonValue::Object>(&main.value);
   if (rows == nullptr || rows->size() < 2) {
     diagnostics.error(main.where, "expected two wavelengths or more, each with its values", ErrorCode::input);
@@ -74,7 +74,7 @@ std::optional<std::vector<Channel>> read_camera_json(const std::filesystem::path
   if (units == nullptr || index == nullptr || data == nullptr) return std::nullopt;
   static_cast<void>(read_choice(*units, "unit", {"relative"}, diagnostics));
   const std::vector<std::string> names = channel_names(*index, diagnostics);
-  const Samples samples = samples_of(*data, names.size(), diagnostics);
+  const CameraSamples samples = samples_of(*data, names.size(), diagnostics);
   if (diagnostics.all().size() != before) return std::nullopt;
   std::vector<Channel> channels;
   for (std::size_t k = 0; k < names.size(); ++k) {

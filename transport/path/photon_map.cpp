@@ -6,28 +6,25 @@
 #include <nanoflann.hpp>
 
 namespace abbe {
-namespace {
-
-// As nanoflann asks for points.
-struct Cloud {
-  std::vector<Imath::V3f> points;
-
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<int>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;  // it is to be found
-  }
-};
-
-using Index =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::uint32_t>;
-
-}  // namespace
 
 struct PhotonMap::Tree {
+  // As nanoflann asks for points.
+  struct Cloud {
+    std::vector<Imath::V3f> points;
+
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+    [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+      return points[i][static_cast<int>(axis)];
+    }
+    template <typename Box>
+    bool kdtree_get_bbox(Box& /*box*/) const {
+      return false;  // it is to be found
+    }
+  };
+
+  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3,
+                                                    std::uint32_t>;
+
   explicit Tree(std::vector<Imath::V3f> points) : cloud{std::move(points)}, index(3, cloud) {}
   Cloud cloud;
   Index index;  // of the cloud, which it refers to

@@ -23,20 +23,20 @@ Imath::Box3d bounds_where(const Scene& scene, Holds holds) {
 }
 
 // What photons from afar are sent through: a sphere around what may bend them, or around all that is near.
-struct Target {
+struct AimingSphere {
   Imath::V3d center{0};
   double radius = 1;
 };
-Target target_from_afar(const Scene& scene, bool light_only) {
+AimingSphere target_from_afar(const Scene& scene, bool light_only) {
   const Imath::Box3d box = light_only ? scene.bounds : bounds_where(scene, [](const Material& m) {
     return lobes(m).delta || encloses_medium(m);
   });
-  return box.isEmpty() ? Target{} : Target{box.center(), box.size().length() / 2};
+  return box.isEmpty() ? AimingSphere{} : AimingSphere{box.center(), box.size().length() / 2};
 }
 
 // Of the angle that rays from a far lamp to the target make with `axis` at most: that of the lamp's corners
 // as seen from the middle, and of the sphere as seen from the lamp.
-double least_cosine(const Imath::Box3d& lamp, const Imath::V3d& axis, const Target& target) {
+double least_cosine(const Imath::Box3d& lamp, const Imath::V3d& axis, const AimingSphere& target) {
   double cosine = 1;
   for (const double x : {lamp.min.x, lamp.max.x})
     for (const double y : {lamp.min.y, lamp.max.y})
@@ -47,7 +47,7 @@ double least_cosine(const Imath::Box3d& lamp, const Imath::V3d& axis, const Targ
 }
 
 // For a light that is far or at infinity; nothing for the others.
-std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const Target& target) {
+std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const AimingSphere& target) {
   const Imath::V3f center(target.center);
   if (const auto* beam = std::get_if<DirectionalLight>(&light.kind))
     return Aim::from_afar(-beam->towards, 1, center, target.radius);
@@ -61,7 +61,7 @@ std::optional<Aim> aim_from_afar(const Scene& scene, const Light& light, const T
 }
 
 // The target grows with a lamp's size, and has an end where rays run along it.
-std::optional<Error> refusal_of_lamp(const Scene& scene, const Light& light, const Target& target) {
+std::optional<Error> refusal_of_lamp(const Scene& scene, const Light& light, const AimingSphere& target) {
   constexpr double kLeastCosine = 0.1;
   const auto lamp = far_away(light, scene);
   if (!lamp || least_cosine(bounds_of(light, scene), -lamp->center.normalized(), target) >= kLeastCosine)
@@ -91,7 +91,7 @@ std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     from_afar = from_afar || (traced[i] && (scene.lights[i].at_infinity() || scene.is_far(scene.lights[i])));
   if (!from_afar) return std::nullopt;
-  const Target target = target_from_afar(scene, light_only);
+  const AimingSphere target = target_from_afar(scene, light_only);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i])
       if (auto refused = refusal_of_lamp(scene, scene.lights[i], target)) return refused;
@@ -114,7 +114,7 @@ std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced
 
 std::vector<Aim> make_aims(const Scene& scene, const std::vector<double>& traced_powers, bool light_only) {
   const Imath::Box3d box = bounds_where(scene, [](const Material& m) { return lobes(m).delta; });
-  const Target target = target_from_afar(scene, light_only);
+  const AimingSphere target = target_from_afar(scene, light_only);
   std::vector<Aim> aims(scene.lights.size());
   for (std::size_t i = 0; i < aims.size(); ++i)
     if (traced_powers[i] > 0)

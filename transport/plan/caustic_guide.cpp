@@ -14,22 +14,22 @@ namespace {
 
 using Imath::V3f;
 using Photons = std::span<const CausticPhoton>;
-using Lobes = CausticLobes::Lobes;
+using LobePacket = CausticLobes::Lobes;
 
-constexpr std::size_t kMostPhotons = 32;  // of a region,
-constexpr std::size_t kLeastPhotons = 8;  // and fewer than these tell nothing
+constexpr std::size_t kMostPhotons = 32;        // of a region,
+constexpr std::size_t kLeastRegionPhotons = 8;  // and fewer than these tell nothing
 constexpr float kLeastWidth = 1e-4F;
-constexpr float kMargin = 0.5F;  // of a region's diagonal: how far beyond its photons they are asked
+constexpr float kRegionMargin = 0.5F;  // of a region's diagonal: how far beyond its photons they are asked
 // Lobes that are no denser than this times a white surface's own are left.
 constexpr float kLeastGain = 8;
 
 // Where a lobe points to: a point, or of one that points the same way from everywhere the direction.
-struct Target {
+struct LobeTarget {
   V3f at;
   float near;  // 1, or 0
 };
 
-V3f axis_from(const V3f& point, const Target& target) {
+V3f axis_from(const V3f& point, const LobeTarget& target) {
   return (target.at - point * target.near).normalized();
 }
 
@@ -42,14 +42,14 @@ float tan2_between(const V3f& a, const V3f& b) {
 }
 
 // A point on a photon's way back, at a distance that may be infinite.
-Target target_of(const CausticPhoton& photon, float distance) {
+LobeTarget target_of(const CausticPhoton& photon, float distance) {
   if (!std::isfinite(distance)) return {photon.from, 0};
   return {photon.point + photon.from * distance, 1};
 }
 
 // The mean logarithm of the angle between each photon's way and the nearest axis of the others: how sharply
 // they predict one another.
-float log_spread(Photons photons, std::span<const Target> targets) {
+float log_spread(Photons photons, std::span<const LobeTarget> targets) {
   constexpr float kWidest = 10;  // of a tangent: beyond, they tell nothing
   float sum = 0;
   for (std::size_t i = 0; i < photons.size(); ++i) {
@@ -63,7 +63,7 @@ float log_spread(Photons photons, std::span<const Target> targets) {
 }
 
 struct Focus {
-  std::vector<Target> targets;
+  std::vector<LobeTarget> targets;
   float width;
 };
 
@@ -72,7 +72,7 @@ Focus sharpest(Photons photons) {
   Focus best;
   float least = std::numeric_limits<float>::infinity();
   for (const auto distance : {&CausticPhoton::last_distance, &CausticPhoton::whole_distance}) {
-    std::vector<Target> targets;
+    std::vector<LobeTarget> targets;
     for (const CausticPhoton& photon : photons) targets.push_back(target_of(photon, photon.*distance));
     const float spread = log_spread(photons, targets);
     if (!(spread < least)) continue;
@@ -93,12 +93,12 @@ float gain(Photons photons, const CausticLobes& lobes) {
 }
 
 // Chosen by the power of their photons.
-std::vector<Lobes> lobes_of(Photons photons, std::span<const Target> targets) {
+std::vector<LobePacket> lobes_of(Photons photons, std::span<const LobeTarget> targets) {
   float whole = 0;
   for (const CausticPhoton& photon : photons) whole += photon.power;
-  std::vector<Lobes> lobes((targets.size() + CausticLobes::kTogether - 1) / CausticLobes::kTogether);
+  std::vector<LobePacket> lobes((targets.size() + CausticLobes::kTogether - 1) / CausticLobes::kTogether);
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Lobes& some = lobes[i / CausticLobes::kTogether];
+    LobePacket& some = lobes[i / CausticLobes::kTogether];
     const std::size_t k = i % CausticLobes::kTogether;
     some.x[k] = targets[i].at.x;
     some.y[k] = targets[i].at.y;
@@ -138,9 +138,9 @@ float share_of(Photons photons) {
 }
 
 // The lobe that `u` in [0, 1) falls to; the last one if rounding leaves something over.
-Target chosen(std::span<const Lobes> lobes, float u) {
-  Target target{};
-  for (const Lobes& some : lobes)
+LobeTarget chosen(std::span<const LobePacket> lobes, float u) {
+  LobeTarget target{};
+  for (const LobePacket& some : lobes)
     for (std::size_t k = 0; k < CausticLobes::kTogether; ++k) {
       if (!(some.share[k] > 0)) continue;
       target = {{some.x[k], some.y[k], some.z[k]}, some.near[k]};
@@ -165,8 +165,8 @@ V3f CausticLobes::sample(const V3f& point, float lobe, Imath::V2f u) const {
 float CausticLobes::pdf(const V3f& point, const V3f& direction) const {
   const float a2 = width_ * width_;
   float sum = 0;
-  for (const Lobes& some : lobes_) {
-    Lobes::Numbers density;
+  for (const LobePacket& some : lobes_) {
+    LobePacket::Numbers density;
     for (std::size_t k = 0; k < kTogether; ++k) {
       const float x = some.x[k] - some.near[k] * point.x;
       const float y = some.y[k] - some.near[k] * point.y;
@@ -188,7 +188,7 @@ CausticGuide::CausticGuide(std::vector<CausticPhoton> photons, const Imath::Box3
   std::erase_if(photons, [](const CausticPhoton& photon) {
     return !(photon.power > 0 && std::isfinite(photon.power));
   });
-  if (photons.size() < kLeastPhotons) return;
+  if (photons.size() < kLeastRegionPhotons) return;
   // So placed that no cell ends on what is flat: a floor's photons would fall to either side by rounding.
   const Imath::V3d size(1.3 * scene.size()[static_cast<int>(scene.majorAxis())]);
   const V3f low(scene.min - size * 0.1057);
@@ -202,7 +202,7 @@ void CausticGuide::build(Cell cell) {
   constexpr int kDeepest = 60;  // cells of a millionth: photons that share a place are left together
   const std::size_t here = nodes_.size();
   nodes_.push_back({.region = static_cast<std::uint32_t>(regions_.size())});
-  if (cell.photons.size() >= kLeastPhotons) cell.around = cell.photons;
+  if (cell.photons.size() >= kLeastRegionPhotons) cell.around = cell.photons;
   if (cell.photons.size() <= kMostPhotons || cell.depth == kDeepest) return add_region(cell.around);
   const int axis = cell.depth % 3;
   const float at = (cell.box.min[axis] + cell.box.max[axis]) / 2;
@@ -228,10 +228,10 @@ void CausticGuide::add_region(Photons all) {
   Region region;
   region.first = static_cast<std::uint32_t>(lobes_.size());
   for (const CausticPhoton& photon : all) region.box.extendBy(photon.point);
-  const V3f margin(kMargin * region.box.size().length());
+  const V3f margin(kRegionMargin * region.box.size().length());
   region.box = {region.box.min - margin, region.box.max + margin};
   const Focus focus = sharpest(photons);
-  const std::vector<Lobes> lobes = lobes_of(photons, focus.targets);
+  const std::vector<LobePacket> lobes = lobes_of(photons, focus.targets);
   if (gain(photons, CausticLobes(lobes, focus.width, 1)) > kLeastGain) {
     region.share = share_of(all);
     region.count = static_cast<std::uint32_t>(lobes.size());

@@ -7,8 +7,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // The unit vector at the angle `turn` from `axis`, on the way to `towards`.
 Imath::V3d turned(const Imath::V3d& axis, const Imath::V3d& towards, double turn) {
   const Imath::V3d across = towards - axis * axis.dot(towards);
@@ -21,21 +19,21 @@ EmissionCone union_of(const EmissionCone& a, const EmissionCone& b) {
   const EmissionCone& wide = a.spread >= b.spread ? a : b;
   const EmissionCone& narrow = a.spread >= b.spread ? b : a;
   const double falloff = std::max(a.falloff, b.falloff);
-  if (wide.axis == narrow.axis || wide.spread >= kPi) return {wide.axis, wide.spread, falloff};
+  if (wide.axis == narrow.axis || wide.spread >= std::numbers::pi) return {wide.axis, wide.spread, falloff};
   const double between = std::acos(std::clamp(wide.axis.dot(narrow.axis), -1.0, 1.0));
   if (between + narrow.spread <= wide.spread) return {wide.axis, wide.spread, falloff};
   const double spread = (wide.spread + between + narrow.spread) / 2;
-  if (spread >= kPi) return {wide.axis, kPi, falloff};
+  if (spread >= std::numbers::pi) return {wide.axis, std::numbers::pi, falloff};
   return {turned(wide.axis, narrow.axis, spread - wide.spread), spread, falloff};
 }
 
 double measure(const EmissionCone& cone) {
-  const double rim = std::min(cone.spread + cone.falloff, kPi);
+  const double rim = std::min(cone.spread + cone.falloff, std::numbers::pi);
   const double cosine = std::cos(cone.spread);
   const double sine = std::sin(cone.spread);
   // 2 pi times the integrals of sin t to the spread and of cos(t - spread) sin t from there to the rim.
-  return 2 * kPi * (1 - cosine) +
-         kPi / 2 * (2 * (rim - cone.spread) * sine + cosine - std::cos(cone.spread - 2 * rim));
+  return 2 * std::numbers::pi * (1 - cosine) +
+         std::numbers::pi / 2 * (2 * (rim - cone.spread) * sine + cosine - std::cos(cone.spread - 2 * rim));
 }
 
 }  // namespace abbe

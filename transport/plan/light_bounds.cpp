@@ -10,8 +10,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr EmissionCone kEverywhere{{0, 0, 1}, kPi, 0};
+constexpr EmissionCone kEverywhere{{0, 0, 1}, std::numbers::pi, 0};
 
 // What an outer side shows of itself: its greatest area as seen from afar [m^2], and where its normals point.
 struct Face {
@@ -20,13 +19,13 @@ struct Face {
 };
 
 Face face_of(const Sphere& sphere, double) {
-  return {kPi * sphere.radius * sphere.radius, kEverywhere};
+  return {std::numbers::pi * sphere.radius * sphere.radius, kEverywhere};
 }
 Face face_of(const Disc& disc, double area) {
-  return {area, {disc.normal, 0, kPi / 2}};
+  return {area, {disc.normal, 0, std::numbers::pi / 2}};
 }
 Face face_of(const Quad& quad, double area) {
-  return {area, {normal_of(quad), 0, kPi / 2}};
+  return {area, {normal_of(quad), 0, std::numbers::pi / 2}};
 }
 // A flat mesh shows all of its area along its axis, a closed convex one a quarter of it in the mean.
 Face face_of(const Mesh& mesh, double area) {
@@ -37,7 +36,8 @@ Face face_of(const Mesh& mesh, double area) {
   double cosine = flatness > 0 ? 1 : -1;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     cosine = std::min(cosine, area_vector(mesh, i).normalized().dot(axis));
-  return {area * (1 + 3 * flatness) / 4, {axis, std::acos(std::clamp(cosine, -1.0, 1.0)), kPi / 2}};
+  return {area * (1 + 3 * flatness) / 4,
+          {axis, std::acos(std::clamp(cosine, -1.0, 1.0)), std::numbers::pi / 2}};
 }
 Face face_of(const PlacedShape&, double area) {
   return {area, kEverywhere};
@@ -50,7 +50,8 @@ LightBounds area_light_bounds(const AreaLight& light, const Scene& scene, double
   const Imath::Box3d box = bounds(shape);
   const auto* sphere = std::get_if<Sphere>(&shape);
   const double radius = sphere != nullptr ? sphere->radius : box.size().length() / 2;
-  const double nearest = std::sqrt(face.area / kPi);  // no irradiance is more than pi times a radiance
+  const double nearest =
+      std::sqrt(face.area / std::numbers::pi);  // no irradiance is more than pi times a radiance
   const double intensity = seen * face.area;
   return {box, radius, nearest, face.normals, intensity, intensity};
 }
@@ -76,7 +77,7 @@ LightBounds light_bounds(const Light& light, const Scene& scene, double seen) {
   if (const auto* beam = std::get_if<DirectionalLight>(&light.kind))
     return bounds_at_infinity(beam->towards, 0, seen, seen);
   if (light.is_environment()) {
-    LightBounds sky = bounds_at_infinity({0, 0, 1}, 2, seen * kPi, seen * 4 * kPi);
+    LightBounds sky = bounds_at_infinity({0, 0, 1}, 2, seen * std::numbers::pi, seen * 4 * std::numbers::pi);
     sky.box = Imath::Box3d(Imath::V3d(0));
     return sky;
   }

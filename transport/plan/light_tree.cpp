@@ -39,7 +39,7 @@ double cost(const std::optional<LightBounds>& half) {
   return half ? half->facing * half->radius * half->radius * measure(half->cone) : 0;
 }
 
-// The number of buckets in the first half of the best split.
+// The number of buckets in the first half of the best split_leaves.
 std::size_t best_split(const std::array<std::optional<LightBounds>, kBuckets>& in) {
   std::array<double, kBuckets> costs{};
   std::optional<LightBounds> sum;
@@ -56,7 +56,7 @@ std::size_t best_split(const std::array<std::optional<LightBounds>, kBuckets>& i
 }
 
 // Puts the leaves of the first half first; how many these are.
-std::size_t split(std::span<LightLeaf> leaves, int turns) {
+std::size_t split_leaves(std::span<LightLeaf> leaves, int turns) {
   const Imath::Box3d middles = box_of_middles(leaves);
   const unsigned axis = middles.majorAxis();
   const Buckets buckets{axis, middles.min[axis], middles.size()[axis]};
@@ -87,7 +87,7 @@ class Builder {
       nodes_.push_back({importance(leaves[0].bounds), 1, leaves[0].light});
       return leaves[0].bounds;
     }
-    const std::size_t first = split(leaves, turns);
+    const std::size_t first = split_leaves(leaves, turns);
     // A place is kept: what both halves reach together is known when they are.
     nodes_.push_back({importance(leaves[0].bounds), static_cast<std::uint32_t>(leaves.size()), 0});
     const LightBounds one = append(leaves.first(first), turns + 1);

@@ -92,12 +92,12 @@ std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene,
 }
 
 // Of a sample where they are gathered, so that small films are not blurred more than large ones.
-constexpr std::uint64_t kLeastPhotons = 16384;
+constexpr std::uint64_t kLeastPhotonsPerSample = 16384;
 
 // Such that one photon would lie within, were they spread evenly over the ball around the scene.
 double first_gather_radius(const Scene& scene, std::uint64_t photons) {
   if (scene.render.photons.radius_m) return *scene.render.photons.radius_m;
-  const auto many = static_cast<double>(std::max(photons, kLeastPhotons));
+  const auto many = static_cast<double>(std::max(photons, kLeastPhotonsPerSample));
   return 2 * scene_radius(scene.bounds) / std::sqrt(many);
 }
 
@@ -111,7 +111,7 @@ std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniqu
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
   return traces_photons_alone(techniques)
-             ? scene.render.photons.per_sample.value_or(std::max(pixels, kLeastPhotons))
+             ? scene.render.photons.per_sample.value_or(std::max(pixels, kLeastPhotonsPerSample))
              : pixels;
 }
 

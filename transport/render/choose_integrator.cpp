@@ -21,7 +21,7 @@ namespace {
 constexpr double kCostOfJoinedRay = 2;
 
 // By how much the pilots must prefer bidirectional path tracing.
-constexpr double kMargin = 1.5;
+constexpr double kLeastGainOfJoining = 1.5;
 
 // Pixels that pilots look at, and the rays that they may cast for each pixel of the film: about what path
 // tracing does in ten samples, so that a film's pilots cost little of it. The samples themselves do not
@@ -105,7 +105,7 @@ IntegratorChoice choose_integrator(const Scene& scene, int threads) {
   if (refusal(joining)) return {Integrator::automatic, ""};
   const std::optional<double> ratio = cost_ratio(scene, joining, threads);
   if (!ratio || !std::isfinite(*ratio)) return {Integrator::automatic, ""};  // without light nothing is told
-  if (!(*ratio > kMargin)) return {Integrator::automatic, "", ratio};
+  if (!(*ratio > kLeastGainOfJoining)) return {Integrator::automatic, "", ratio};
   return {Integrator::bdpt,
           fmt::format("pilots take it for {:.2g} times as cheap at equal error as path tracing", *ratio),
           ratio};

@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-constexpr std::uint64_t kBatch = 64;  // paths that take each step together
+constexpr std::uint64_t kStepBatch = 64;  // paths that take each step together
 
 // Calls `batch(caster, first, last)` for all paths, on that many threads, with a caster and a `Tracer` of
 // each.
@@ -23,8 +23,8 @@ void trace_all(const Plan& plan, int threads, PassCounts& counts, const Batch& b
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     Tracer tracer(plan, caster);
-    for (std::uint64_t first = kBatch * next++; first < plan.photons; first = kBatch * next++)
-      batch(tracer, first, std::min(first + kBatch, plan.photons));
+    for (std::uint64_t first = kStepBatch * next++; first < plan.photons; first = kStepBatch * next++)
+      batch(tracer, first, std::min(first + kStepBatch, plan.photons));
     const std::scoped_lock lock(mutex);
     counts.rays += caster.rays();
     counts.cut += caster.cut();
@@ -78,11 +78,11 @@ std::size_t bytes_of_light_paths(const Scene& scene) {
 
 PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, const LightNumbers& numbers,
                             int threads, PassCounts& counts) {
-  std::vector<std::vector<Photon>> batches((plan.photons + kBatch - 1) / kBatch);
-  trace_all<PhotonTracer>(plan, threads, counts,
-                          [&](PhotonTracer& tracer, std::uint64_t first, std::uint64_t last) {
-                            tracer.trace(numbers_of(numbers, first, last), packet, batches[first / kBatch]);
-                          });
+  std::vector<std::vector<Photon>> batches((plan.photons + kStepBatch - 1) / kStepBatch);
+  trace_all<PhotonTracer>(
+      plan, threads, counts, [&](PhotonTracer& tracer, std::uint64_t first, std::uint64_t last) {
+        tracer.trace(numbers_of(numbers, first, last), packet, batches[first / kStepBatch]);
+      });
   std::vector<Photon> photons;  // in the order of their paths, whichever threads traced them
   for (const std::vector<Photon>& batch : batches) photons.insert(photons.end(), batch.begin(), batch.end());
   return {std::move(photons), plan.photons, packet};
@@ -90,10 +90,10 @@ PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, const Li
 
 LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float radius,
                                const LightNumbers& numbers, int threads, PassCounts& counts) {
-  std::vector<std::vector<RecordedPath>> batches((plan.photons + kBatch - 1) / kBatch);
+  std::vector<std::vector<RecordedPath>> batches((plan.photons + kStepBatch - 1) / kStepBatch);
   trace_all<LightRecorder>(
       plan, threads, counts, [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
-        batches[first / kBatch] = std::move(recorder.record(numbers_of(numbers, first, last), packet));
+        batches[first / kStepBatch] = std::move(recorder.record(numbers_of(numbers, first, last), packet));
       });
   std::vector<RecordedPath> paths;
   paths.reserve(plan.photons);

@@ -34,14 +34,14 @@ void trace_batch(LightTracer& tracer, std::uint64_t seed, std::uint32_t stage, s
 
 std::vector<Pilot> trace_pilots(const Plan& plan, std::uint64_t seed, std::uint32_t stage, int threads) {
   constexpr std::uint32_t kPhotons = 1U << 17;
-  constexpr std::uint32_t kBatch = 1U << 9;
+  constexpr std::uint32_t kLearningBatch = 1U << 9;
   std::vector<Pilot> pilots(kPhotons);
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     LightTracer tracer(plan, caster, 1);
-    for (std::uint32_t first = kBatch * next++; first < kPhotons; first = kBatch * next++)
-      trace_batch(tracer, seed, stage, first, std::span(pilots).subspan(first, kBatch));
+    for (std::uint32_t first = kLearningBatch * next++; first < kPhotons; first = kLearningBatch * next++)
+      trace_batch(tracer, seed, stage, first, std::span(pilots).subspan(first, kLearningBatch));
   });
   return pilots;
 }

@@ -22,7 +22,7 @@ struct Sampling {
 
 using Arrivals = std::vector<CausticPhotonTracer::Arrival>;
 
-constexpr std::uint32_t kBatch = 1U << 9;
+constexpr std::uint32_t kLearningBatch = 1U << 9;
 constexpr std::uint32_t kAimStage = 3;  // of photons that aim others, which have the stages after it
 
 // So many batches of photons, in the order of these, whichever threads traced them.
@@ -36,8 +36,8 @@ std::vector<Arrivals> trace_photons(const Plan& plan, const Emissions& emissions
     std::vector<Sampler> photons;
     for (std::uint32_t batch = next++; batch < sampling.batches; batch = next++) {
       photons.clear();
-      for (std::uint32_t i = 0; i < kBatch; ++i)
-        photons.emplace_back(sampling.seed, Purpose::pilot, sampling.stage, 0, batch * kBatch + i);
+      for (std::uint32_t i = 0; i < kLearningBatch; ++i)
+        photons.emplace_back(sampling.seed, Purpose::pilot, sampling.stage, 0, batch * kLearningBatch + i);
       const auto some = tracer.trace(photons);
       arrived[batch].assign(some.begin(), some.end());
     }
@@ -117,7 +117,7 @@ void learn_caustics(Plan& plan, std::uint64_t seed, int threads) {
   for (const Arrivals& batch : arrived)
     for (const auto& [start, photon] : batch) {
       all.push_back(photon);
-      all.back().power /= static_cast<float>(arrived.size() * kBatch);
+      all.back().power /= static_cast<float>(arrived.size() * kLearningBatch);
       if (!plan.traced[start.light]) of_paths.push_back(all.back());
     }
   plan.caustics_of_paths = CausticGuide(std::move(of_paths), plan.scene.bounds);

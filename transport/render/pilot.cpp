@@ -18,15 +18,15 @@ namespace {
 constexpr std::uint64_t kPaths = 1U << 16;
 constexpr std::uint64_t kMostSamples = 16;
 
-constexpr std::uint32_t kBatches = 64;
-constexpr std::uint32_t kBatch = 256;
-constexpr double kAll = kBatches * kBatch;
+constexpr std::uint32_t kPilotBatches = 64;
+constexpr std::uint32_t kPilotBatch = 256;
+constexpr double kAll = kPilotBatches * kPilotBatch;
 
 // Pixels all over the film.
 std::vector<PixelSample> pixels_of(const Plan& plan, std::uint32_t batch) {
   const Camera& camera = plan.scene.camera;
   std::vector<PixelSample> samples;
-  for (std::uint32_t i = batch * kBatch; i < (batch + 1) * kBatch; ++i) {
+  for (std::uint32_t i = batch * kPilotBatch; i < (batch + 1) * kPilotBatch; ++i) {
     const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 0, i).group(0);
     const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
     const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
@@ -54,7 +54,7 @@ void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, Expo
 void expose_joined(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
   std::vector<PixelPair> pairs;
   for (const PixelSample& sample : pixels_of(plan, batch)) {
-    const auto i = static_cast<std::uint32_t>(batch * kBatch + pairs.size());
+    const auto i = static_cast<std::uint32_t>(batch * kPilotBatch + pairs.size());
     pairs.push_back({sample.x, sample.y, sample.sampler, {kSeedOfPilots, Purpose::light, 0, 0, i}, true});
   }
   BidirectionalTracer tracer(plan, caster);
@@ -64,7 +64,7 @@ void expose_joined(const Plan& plan, std::uint32_t batch, RayCaster& caster, Exp
 
 void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
   std::vector<Sampler> photons;
-  for (std::uint32_t i = batch * kBatch; i < (batch + 1) * kBatch; ++i)
+  for (std::uint32_t i = batch * kPilotBatch; i < (batch + 1) * kPilotBatch; ++i)
     photons.emplace_back(kSeedOfPilots, Purpose::light, 0, 0, i);
   LightTracer tracer(plan, caster, 1 / kAll);
   const std::size_t planes = plan.scene.film_planes().size();
@@ -93,12 +93,12 @@ std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop
 }
 
 void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
-  std::vector<ExposureByLight> batches(kBatches, sums);
+  std::vector<ExposureByLight> batches(kPilotBatches, sums);
   for (ExposureByLight& batch : batches) std::fill(batch.exposure.begin(), batch.exposure.end(), 0.0);
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
-    for (std::uint32_t batch = next++; batch < kBatches; batch = next++) {
+    for (std::uint32_t batch = next++; batch < kPilotBatches; batch = next++) {
       if (uses(plan.techniques, Technique::path)) expose_batch(plan, batch, caster, batches[batch]);
       if (uses(plan.techniques, Technique::light)) expose_photons(plan, batch, caster, batches[batch]);
       if (!uses(plan.techniques, Technique::path) && !uses(plan.techniques, Technique::light))

@@ -18,7 +18,7 @@ namespace abbe {
 namespace {
 
 constexpr std::uint32_t kPhotonsPerPixel = 2 * kPilotPathsPerPixel;
-constexpr std::uint32_t kBatches = 64;
+constexpr std::uint32_t kTechniqueBatches = 64;
 constexpr int kGrid = 16;  // regions along an edge of the film
 
 // What the pilots found in one region, a value being the sum of |film value| over the channels.
@@ -106,7 +106,7 @@ void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, Fi
 void try_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch, std::uint32_t photons_of_all,
                  Findings& found) {
   std::vector<Sampler> photons;
-  for (std::uint32_t i = batch; i < photons_of_all; i += kBatches)
+  for (std::uint32_t i = batch; i < photons_of_all; i += kTechniqueBatches)
     photons.emplace_back(kSeedOfPilots, Purpose::pilot, 2, 0, i);
   tracer.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
     found.add_splat(camera, at, strength(values));
@@ -142,11 +142,12 @@ Findings try_batch(const Plan& plan, std::uint32_t batch, std::uint32_t pixels) 
   RayCaster photon_caster(plan.scene);
   if (uses(plan.techniques, Technique::bdpt)) {
     BidirectionalTracer tracer(plan, path_caster);
-    for (std::uint32_t i = batch; i < pixels; i += kBatches) try_joined(tracer, plan, i, found);
+    for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches) try_joined(tracer, plan, i, found);
   }
   if (uses(plan.techniques, Technique::path)) {
     PathTracer tracer(plan, path_caster);
-    for (std::uint32_t i = batch; i < pixels; i += kBatches) try_paths(tracer, plan.scene.camera, i, found);
+    for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches)
+      try_paths(tracer, plan.scene.camera, i, found);
   }
   if (uses(plan.techniques, Technique::light)) {
     LightTracer tracer(plan, photon_caster, 1);
@@ -158,10 +159,10 @@ Findings try_batch(const Plan& plan, std::uint32_t batch, std::uint32_t pixels) 
 }
 
 Findings try_all(const Plan& plan, int threads, std::uint32_t pixels) {
-  std::vector<Findings> batches(kBatches);
+  std::vector<Findings> batches(kTechniqueBatches);
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
-    for (std::uint32_t batch = next++; batch < kBatches; batch = next++)
+    for (std::uint32_t batch = next++; batch < kTechniqueBatches; batch = next++)
       batches[batch] = try_batch(plan, batch, pixels);
   });
   Findings all;

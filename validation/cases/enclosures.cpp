@@ -10,12 +10,10 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::vector<Case> integrating_sphere_cases() {
   const double offset = 0.3;
   const double distance2 = 1 + offset * offset;
-  const double uniform = 100 / (4 * kPi);  // a lamp of 100 lm at the centre of a sphere of 1 m
+  const double uniform = 100 / (4 * std::numbers::pi);  // a lamp of 100 lm at the centre of a sphere of 1 m
   const double direct = uniform / distance2 / std::sqrt(distance2);
   const double reflectance = 0.98;
   const double port = 0.01;  // of the sphere's area, behind the disc
@@ -55,9 +53,10 @@ std::vector<Case> furnace_cases() {
     return film_case(fmt::format("T11-{}", vertices),
                      fmt::format("furnace, paths of at most {} vertices", vertices), source, "furnace.json",
                      {{"/render/max_depth", fmt::format("{}", vertices - 1)}},
-                     kPi * (1 - std::pow(0.8, vertices)), 16);
+                     std::numbers::pi * (1 - std::pow(0.8, vertices)), 16);
   };
-  return {film_case("T11", "furnace: emission 0.2, reflectance 0.8", source, "furnace.json", {}, kPi, 64),
+  return {film_case("T11", "furnace: emission 0.2, reflectance 0.8", source, "furnace.json", {},
+                    std::numbers::pi, 64),
           truncated(4), truncated(16)};
 }
 

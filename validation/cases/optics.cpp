@@ -9,6 +9,7 @@
 
 #include "io/reference_table.h"
 #include "materials/interface/fresnel.h"
+#include "sampling/angle.h"
 #include "spectral/colorimetry.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
@@ -16,8 +17,6 @@
 
 namespace abbe {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 double cosine(double degrees) {
   return degrees == 90 ? 0 : std::cos(degrees * kDegree);

@@ -12,8 +12,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Irradiance on a face of the cubic room of side `side` m, direct and interreflected, as the mean over the
 // face [lx].
 double room_irradiance(double flux_lm, double side, double reflectance) {
@@ -25,14 +23,14 @@ double room_irradiance(double flux_lm, double side, double reflectance) {
 double corner_factor(double x, double y) {
   const double a = std::sqrt(1 + x * x);
   const double b = std::sqrt(1 + y * y);
-  return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * kPi);
+  return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * std::numbers::pi);
 }
 
 // The same for a perpendicular rectangle that starts at the normal's foot: `x` wide, `y` the distance, unit
 // height.
 double perpendicular_factor(double x, double y) {
   const double c = std::sqrt(x * x + y * y);
-  return (std::atan(1 / y) - y / c * std::atan(1 / c)) / (2 * kPi);
+  return (std::atan(1 / y) - y / c * std::atan(1 / c)) / (2 * std::numbers::pi);
 }
 
 // A differential area parallel to a disc of radius r at distance h, its foot at distance a from the axis.
@@ -45,7 +43,7 @@ double disc_factor(double r, double h, double a) {
 // cos^4.
 double pinhole_exposure(double fov_deg) {
   constexpr int kSteps = 400;
-  const double half = std::tan(fov_deg / 2 * kPi / 180);
+  const double half = std::tan(fov_deg / 2 * std::numbers::pi / 180);
   double sum = 0;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
@@ -53,7 +51,7 @@ double pinhole_exposure(double fov_deg) {
       const double y = half * (2 * (j + 0.5) / kSteps - 1);
       sum += 1 / std::pow(1 + x * x + y * y, 2);
     }
-  return kPi / 4 * sum / (kSteps * kSteps);
+  return std::numbers::pi / 4 * sum / (kSteps * kSteps);
 }
 
 // Transmittance and reflectance of a plate with all internal bounces, the unpolarised reflectance chained,
@@ -63,7 +61,7 @@ struct Plate {
   double reflectance;
 };
 Plate plate(double angle_deg, double n, double internal) {
-  const double r = fresnel_dielectric(std::cos(angle_deg * kPi / 180), n).R();
+  const double r = fresnel_dielectric(std::cos(angle_deg * std::numbers::pi / 180), n).R();
   const double loop = 1 - r * r * internal * internal;
   return {(1 - r) * (1 - r) * internal / loop, r + (1 - r) * (1 - r) * r * internal * internal / loop};
 }
@@ -102,7 +100,7 @@ std::vector<Case> room_cases() {
                      "inverse square and cosine laws [Lambert1760]", "room.json",
                      {{"/materials/wall/diffuse/reflectance", "0"}, probe_at(at, "[0, 0, 1]")}, expected, 4);
   };
-  const double intensity = 10000 / (4 * kPi);
+  const double intensity = 10000 / (4 * std::numbers::pi);
   cases.push_back(direct_at("T2-centre", "the centre of a wall", "[0, 0, -2]", intensity / 4));
   cases.push_back(
       direct_at("T2-corner", "a corner", "[1.999999, 1.999999, -2]", intensity / 12 / std::sqrt(3.0)));
@@ -112,31 +110,32 @@ std::vector<Case> room_cases() {
 std::vector<Case> form_factor_cases() {
   return {
       film_case("T3-corner", "square emitter, under its corner", "configuration factor [Howell2010, B-4]",
-                "rectangle.json", {}, kPi * corner_factor(1, 1), 64),
+                "rectangle.json", {}, std::numbers::pi * corner_factor(1, 1), 64),
       film_case("T3-centre", "square emitter, under its centre", "four corner factors [Howell2010, B-4]",
-                "rectangle.json", {probe_at("[0.5, 0.5, 0]", "[0, 0, 1]")}, kPi * 4 * corner_factor(0.5, 0.5),
-                64),
+                "rectangle.json", {probe_at("[0.5, 0.5, 0]", "[0, 0, 1]")},
+                std::numbers::pi * 4 * corner_factor(0.5, 0.5), 64),
       film_case("T3-x", "square emitter facing along x", "configuration factor [Howell2010, B-4]",
                 "rectangle.json",
                 {probe_at("[0, 0, 0]", "[1, 0, 0]"),
                  {"/lights/0/quad/corner", "[1, 0, 0]"},
                  {"/lights/0/quad/edge_u", "[0, 0, 1]"},
                  {"/lights/0/quad/edge_v", "[0, 1, 0]"}},
-                kPi * corner_factor(1, 1), 64),
+                std::numbers::pi * corner_factor(1, 1), 64),
       film_case("T4", "square emitter above the receiver's horizon", "configuration factor [Howell2010, B-3]",
-                "rectangle.json", {probe_at("[0, 0, 0]", "[1, 0, 0]")}, kPi * perpendicular_factor(1, 1), 64),
+                "rectangle.json", {probe_at("[0, 0, 0]", "[1, 0, 0]")},
+                std::numbers::pi * perpendicular_factor(1, 1), 64),
       film_case("T5-axis", "disc emitter, on its axis", "configuration factor [Howell2010, B-12]",
-                "disc.json", {}, kPi * disc_factor(1, 1, 0), 64),
+                "disc.json", {}, std::numbers::pi * disc_factor(1, 1, 0), 64),
       film_case("T5-off", "disc emitter, off its axis", "configuration factor [Howell2010, B-13]",
                 "disc.json", {probe_at("[1, 0, 0]", "[0, 0, 1]"), {"/lights/0/disc/radius", "0.5"}},
-                kPi * disc_factor(0.5, 1, 1), 64),
+                std::numbers::pi * disc_factor(0.5, 1, 1), 64),
       film_case("T6-opposite", "opposite faces of a cube", "view factor [Howell2010, C-11]",
-                "cube_faces.json", {}, kPi * kOppositeFaces, 64),
+                "cube_faces.json", {}, std::numbers::pi * kOppositeFaces, 64),
       film_case("T6-adjacent", "adjacent faces of a cube", "view factors add up to 1 [Howell2010, C-14]",
                 "cube_faces.json",
                 {{"/camera/irradiance_probe/quad",
                   R"({"corner": [0, 0, 0], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]})"}},
-                kPi * (1 - kOppositeFaces) / 4, 64),
+                std::numbers::pi * (1 - kOppositeFaces) / 4, 64),
   };
 }
 
@@ -183,10 +182,11 @@ std::vector<Case> slab_cases() {
                 unit * plate(0, 1.5, std::exp(-1.0)).reflectance, 1024),
       film_case("T16-outside", "glass in diffuse light, seen from outside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json", {},
-                kPi * 0.09177796, 2048),
+                std::numbers::pi * 0.09177796, 2048),
       film_case("T16-inside", "glass in diffuse light, as seen from inside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json",
-                {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}}, kPi * 0.59634576, 64),
+                {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}},
+                std::numbers::pi * 0.59634576, 64),
   };
 }
 
@@ -194,17 +194,19 @@ std::vector<Case> slab_cases() {
 Case phase_case(double phase_deg) {
   constexpr double kDistance = 1e4;
   constexpr double kFovDeg = 0.0126;
-  const double phase = phase_deg * kPi / 180;
-  const double intensity = 2.0 / 3 / kPi * (std::sin(phase) + (kPi - phase) * std::cos(phase));
-  const double width = 2 * kDistance * std::tan(kFovDeg / 2 * kPi / 180);
-  return film_case(
-      fmt::format("T17-{}", phase_deg), fmt::format("Lambertian sphere at a phase angle of {}°", phase_deg),
-      "sin α + (π - α) cos α [Lambert1760]", "phase.json",
-      {{"/camera/pinhole/fov_deg", fmt::format("{}", kFovDeg)},
-       {"/lights/0/point/at",
-        fmt::format("[{}, 0, {}]", kDistance * std::sin(phase), kDistance * std::cos(phase))},
-       {"/lights/0/emission/luminous_flux_lm", fmt::format("{}", 4 * kPi * kDistance * kDistance)}},
-      kPi / 4 * intensity / (width * width), 64);
+  const double phase = phase_deg * std::numbers::pi / 180;
+  const double intensity =
+      2.0 / 3 / std::numbers::pi * (std::sin(phase) + (std::numbers::pi - phase) * std::cos(phase));
+  const double width = 2 * kDistance * std::tan(kFovDeg / 2 * std::numbers::pi / 180);
+  return film_case(fmt::format("T17-{}", phase_deg),
+                   fmt::format("Lambertian sphere at a phase angle of {}°", phase_deg),
+                   "sin α + (π - α) cos α [Lambert1760]", "phase.json",
+                   {{"/camera/pinhole/fov_deg", fmt::format("{}", kFovDeg)},
+                    {"/lights/0/point/at",
+                     fmt::format("[{}, 0, {}]", kDistance * std::sin(phase), kDistance * std::cos(phase))},
+                    {"/lights/0/emission/luminous_flux_lm",
+                     fmt::format("{}", 4 * std::numbers::pi * kDistance * kDistance)}},
+                   std::numbers::pi / 4 * intensity / (width * width), 64);
 }
 
 }  // namespace

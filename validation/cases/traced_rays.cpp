@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "io/reference_table.h"
 #include "materials/interface/snell.h"
+#include "sampling/angle.h"
 #include "scene/shapes/sphere.h"
 #include "transport/path/ray_trace.h"
 #include "validation/cases/figures.h"
@@ -18,7 +18,6 @@ namespace abbe {
 namespace {
 
 using V3d = Imath::V3d;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMillimetre = 1e-3;
 
 struct NamedLine {

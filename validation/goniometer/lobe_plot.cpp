@@ -6,16 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "sampling/angle.h"
 #include "validation/picture/display_color.h"
 #include "validation/plot/svg.h"
 
 namespace abbe {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kPanel = 220;  // edge of a panel [pixels]
 constexpr double kRadius = 92;
-constexpr double kTop = 40;
+constexpr double kPanelTop = 40;
 constexpr double kSwatch = 24;
 
 // A line's colour: that of its wavelength, as far as displays go.
@@ -76,7 +76,7 @@ std::string arrows(const Material& material, const GoniometerSettings& settings,
 std::string panel(const Material& material, const GoniometerSettings& settings, const GoniometerAngle& at,
                   double left) {
   const double x = left + kPanel / 2;
-  const double y = kTop + kPanel / 2;
+  const double y = kPanelTop + kPanel / 2;
   const Imath::V3f wo = incidence(settings, at.angle_deg);
   std::string all = svg_circle(x, y, kRadius, "fill=\"none\" stroke=\"#dddddd\"");
   all += svg_line(x - kRadius, y, x + kRadius, y, "stroke=\"#888888\"");
@@ -89,12 +89,12 @@ std::string panel(const Material& material, const GoniometerSettings& settings, 
       all +=
           lobe(lines.values[i], lines.most, x, y, line_color(settings.wavelengths_nm[i], settings.observer));
   all += arrows(material, settings, wo, x, y);
-  const double bottom = kTop + kPanel;
+  const double bottom = kPanelTop + kPanel;
   all += svg_rect(x - kSwatch, bottom, 2 * kSwatch, kSwatch,
                   fmt::format("fill=\"{}\" stroke=\"#888888\"",
                               css_color(display_code(linear_rgb(at.reflected_color.lab)))));
   const std::string middle = "text-anchor=\"middle\"";
-  all += svg_text(x, kTop, fmt::format("{:g}\u00b0", at.angle_deg), middle);
+  all += svg_text(x, kPanelTop, fmt::format("{:g}\u00b0", at.angle_deg), middle);
   return all + svg_text(x, bottom + kSwatch + 16,
                         lines.most > 0 ? fmt::format("largest f cos {:.3g}/sr", lines.most) : "", middle);
 }
@@ -104,7 +104,7 @@ std::string panel(const Material& material, const GoniometerSettings& settings, 
 std::string lobe_plot(const Material& material, const GoniometerSettings& settings,
                       const GoniometerReport& report, const std::string& title) {
   const double width = kPanel * static_cast<double>(report.angles.size());
-  const double height = kTop + kPanel + kSwatch + 50;
+  const double height = kPanelTop + kPanel + kSwatch + 50;
   std::string all;
   double legend = 10;
   for (const double nm : settings.wavelengths_nm) {

@@ -23,8 +23,8 @@ using V3d = Imath::V3d;
 
 constexpr double kViewWidth = 860;
 constexpr double kMaxViewHeight = 520;
-constexpr double kMargin = 30;
-constexpr double kTop = 50;
+constexpr double kLayoutMargin = 30;
+constexpr double kLayoutTop = 50;
 constexpr double kBetween = 60;
 constexpr std::size_t kMaxNames = 60;
 
@@ -55,7 +55,9 @@ struct Projection {
   double scale;  // pixels per metre
   double top;
 
-  [[nodiscard]] double x(const V3d& p) const { return kMargin + scale * (p - box.min).dot(plane.right); }
+  [[nodiscard]] double x(const V3d& p) const {
+    return kLayoutMargin + scale * (p - box.min).dot(plane.right);
+  }
   [[nodiscard]] double y(const V3d& p) const { return top + scale * (box.max - p).dot(plane.up); }
   [[nodiscard]] double height() const { return scale * box.size().dot(plane.up); }
   [[nodiscard]] SvgPoints points(const std::vector<V3d>& line) const {
@@ -163,8 +165,8 @@ std::string scale_bar(const Scene& scene, double scale, double y) {
   const double wanted = kViewWidth / 5 / (scale * scene.unit_m);
   const double power = std::pow(10, std::floor(std::log10(wanted)));
   const double length = power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1);
-  const double end = kMargin + length * scene.unit_m * scale;
-  return svg_line(kMargin, y, end, y, "class=\"scale\" stroke=\"black\" stroke-width=\"2\"") +
+  const double end = kLayoutMargin + length * scene.unit_m * scale;
+  return svg_line(kLayoutMargin, y, end, y, "class=\"scale\" stroke=\"black\" stroke-width=\"2\"") +
          svg_text(end + 8, y + 4, fmt::format("{:g} {}", length, unit_name(scene.unit_m)), "");
 }
 
@@ -172,7 +174,7 @@ std::string legend(const std::vector<DrawnRay>& rays, double y) {
   std::set<double> wavelengths;
   for (const DrawnRay& ray : rays) wavelengths.insert(ray.wavelength_nm);
   std::string elements;
-  double x = kMargin + kViewWidth / 2;
+  double x = kLayoutMargin + kViewWidth / 2;
   for (const double nm : wavelengths) {
     elements +=
         svg_line(x, y, x + 18, y, fmt::format("stroke=\"{}\" stroke-width=\"2\"", wavelength_color(nm)));
@@ -215,17 +217,17 @@ std::string layout_drawing(const Scene& scene, const std::vector<DrawnRay>& rays
   const V3d size = box.size();
   const double scale = std::min(kViewWidth / size.x, kMaxViewHeight / std::max(size.y, size.z));
   std::string elements;
-  double top = kTop;
+  double top = kLayoutTop;
   for (const View& view : kViews) {
     const Projection to{view.plane, box, scale, top + 18};
-    elements += svg_text(kMargin, top + 8, view.name, "font-weight=\"bold\"");
+    elements += svg_text(kLayoutMargin, top + 8, view.name, "font-weight=\"bold\"");
     elements += camera_elements(scene, to);
     for (const DrawnRay& ray : rays) elements += ray_elements(ray, to);
     elements += shape_elements(scene, to) + lamp_elements(scene, to);
     top += to.height() + kBetween;
   }
   elements += scale_bar(scene, scale, top) + legend(rays, top);
-  return svg_document(kViewWidth + 2 * kMargin, top + 30, title, elements);
+  return svg_document(kViewWidth + 2 * kLayoutMargin, top + 30, title, elements);
 }
 
 }  // namespace abbe

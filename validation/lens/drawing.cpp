@@ -15,10 +15,10 @@ using Imath::V3d;
 using lens::RayPath;
 using lens::SystemAt;
 
-constexpr double kWidth = 900;
+constexpr double kDrawingWidth = 900;
 constexpr double kMaxHeight = 520;
-constexpr double kMargin = 30;
-constexpr double kTop = 50;
+constexpr double kDrawingMargin = 30;
+constexpr double kDrawingTop = 50;
 constexpr int kArcPoints = 48;
 constexpr double kLess = 0.99;
 constexpr double kRoom = 1.05;       // of a surface beyond the rays on it
@@ -26,7 +26,7 @@ constexpr double kLeadShare = 0.25;  // of the lens's length, drawn of rays befo
 constexpr std::array<const char*, 6> kColors{"#2060c0", "#208040", "#c03030",
                                              "#a06000", "#8030a0", "#008080"};
 
-struct DrawnRay {
+struct LensRay {
   std::size_t field;
   std::vector<V3d> points;
 };
@@ -42,8 +42,8 @@ std::vector<V3d> points_of(const lens::Ray& ray, const RayPath& path, double lea
   return points;
 }
 
-std::vector<DrawnRay> rays_of(const LensFigures& figures, const SystemAt& at, double lead_mm) {
-  std::vector<DrawnRay> rays;
+std::vector<LensRay> rays_of(const LensFigures& figures, const SystemAt& at, double lead_mm) {
+  std::vector<LensRay> rays;
   for (std::size_t f = 0; f < figures.fields.size(); ++f) {
     const auto beam = lens::Beam::of(at, figures.fields[f].field, figures.stop_radius_mm);
     if (!beam) continue;
@@ -69,10 +69,10 @@ void part(const lens::Surface& first, const lens::Surface& second, double& first
 
 // How far from its axis each surface is drawn.
 std::vector<double> heights_of(const LensFigures& figures, const SystemAt& at,
-                               const std::vector<DrawnRay>& rays) {
+                               const std::vector<LensRay>& rays) {
   std::vector<double> heights(at.size(), figures.stop_radius_mm * 0.2);
   heights[figures.system.stop] = figures.stop_radius_mm;
-  for (const DrawnRay& ray : rays)
+  for (const LensRay& ray : rays)
     for (std::size_t i = 0; i + 1 < ray.points.size() && i < at.size(); ++i)
       heights[i] = std::max(heights[i], kRoom * std::abs(lens::local_point(at, i, ray.points[i + 1]).y));
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -95,23 +95,24 @@ std::vector<V3d> arc(const SystemAt& at, std::size_t i, double height) {
 
 class Picture {
  public:
-  Picture(const std::vector<std::vector<V3d>>& arcs, const std::vector<DrawnRay>& rays, double image_z) {
+  Picture(const std::vector<std::vector<V3d>>& arcs, const std::vector<LensRay>& rays, double image_z) {
     for (const auto& points : arcs)
       for (const V3d& p : points) box_.extendBy(Imath::V2d(p.z, p.y));
-    for (const DrawnRay& ray : rays)
+    for (const LensRay& ray : rays)
       for (const V3d& p : ray.points) box_.extendBy(Imath::V2d(p.z, p.y));
     box_.extendBy(Imath::V2d(image_z, 0));
-    scale_ = std::min((kWidth - 2 * kMargin) / box_.size().x, kMaxHeight / std::max(box_.size().y, 1e-9));
+    scale_ = std::min((kDrawingWidth - 2 * kDrawingMargin) / box_.size().x,
+                      kMaxHeight / std::max(box_.size().y, 1e-9));
   }
   [[nodiscard]] std::pair<double, double> at(const V3d& p) const {
-    return {kMargin + scale_ * (p.z - box_.min.x), kTop + scale_ * (box_.max.y - p.y)};
+    return {kDrawingMargin + scale_ * (p.z - box_.min.x), kDrawingTop + scale_ * (box_.max.y - p.y)};
   }
   [[nodiscard]] SvgPoints at(const std::vector<V3d>& points) const {
     SvgPoints all;
     for (const V3d& p : points) all.push_back(at(p));
     return all;
   }
-  [[nodiscard]] double bottom() const { return kTop + scale_ * box_.size().y; }
+  [[nodiscard]] double bottom() const { return kDrawingTop + scale_ * box_.size().y; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] double top_mm() const { return box_.max.y; }
 
@@ -132,7 +133,7 @@ std::string glass_elements(const SystemAt& at, const std::vector<std::vector<V3d
 }
 
 // The stop's edges, and the image as far as its rays reach.
-std::string plane_elements(const LensFigures& figures, const SystemAt& at, const std::vector<DrawnRay>& rays,
+std::string plane_elements(const LensFigures& figures, const SystemAt& at, const std::vector<LensRay>& rays,
                            const Picture& to) {
   const std::string black = "stroke=\"black\" stroke-width=\"2\"";
   const V3d stop = at.frames[figures.system.stop].vertex;
@@ -147,7 +148,7 @@ std::string plane_elements(const LensFigures& figures, const SystemAt& at, const
   }
   double low = -0.1 * figures.stop_radius_mm;
   double high = -low;
-  for (const DrawnRay& ray : rays)
+  for (const LensRay& ray : rays)
     if (ray.points.size() == at.size() + 2) {
       low = std::min(low, ray.points.back().y);
       high = std::max(high, ray.points.back().y);
@@ -159,14 +160,15 @@ std::string plane_elements(const LensFigures& figures, const SystemAt& at, const
 
 // The greatest of 1, 2 and 5 times a power of ten in a fifth of the picture's width.
 std::string scale_bar(const Picture& to) {
-  const double most = kWidth / 5 / to.scale();
+  const double most = kDrawingWidth / 5 / to.scale();
   const double decade = std::pow(10.0, std::floor(std::log10(most)));
   double length = decade;
   for (const double round : {2.0, 5.0})
     if (round * decade <= most) length = round * decade;
   const double y = to.bottom() + 25;
-  return svg_line(kMargin, y, kMargin + length * to.scale(), y, "stroke=\"black\" stroke-width=\"2\"") +
-         svg_text(kMargin + length * to.scale() + 8, y + 4, fmt::format("{:g} mm", length), "");
+  return svg_line(kDrawingMargin, y, kDrawingMargin + length * to.scale(), y,
+                  "stroke=\"black\" stroke-width=\"2\"") +
+         svg_text(kDrawingMargin + length * to.scale() + 8, y + 4, fmt::format("{:g} mm", length), "");
 }
 
 }  // namespace
@@ -174,25 +176,25 @@ std::string scale_bar(const Picture& to) {
 std::string lens_drawing(const LensFigures& figures) {
   const SystemAt at(figures.system, figures.system.primary_nm());
   const double lead = kLeadShare * std::max(at.vertex_z.back(), 4 * figures.stop_radius_mm);
-  const std::vector<DrawnRay> rays = rays_of(figures, at, lead);
+  const std::vector<LensRay> rays = rays_of(figures, at, lead);
   const std::vector<double> heights = heights_of(figures, at, rays);
   std::vector<std::vector<V3d>> arcs;
   for (std::size_t i = 0; i < at.size(); ++i) arcs.push_back(arc(at, i, heights[i]));
   const Picture to(arcs, rays, at.vertex_z.back());
   std::string elements = glass_elements(at, arcs, to);
   const auto [x0, axis_y] = to.at(V3d(0, 0, 0));
-  elements +=
-      svg_line(kMargin, axis_y, kWidth - kMargin, axis_y, "stroke=\"#888888\" stroke-dasharray=\"8 3 2 3\"");
-  for (const DrawnRay& ray : rays)
+  elements += svg_line(kDrawingMargin, axis_y, kDrawingWidth - kDrawingMargin, axis_y,
+                       "stroke=\"#888888\" stroke-dasharray=\"8 3 2 3\"");
+  for (const LensRay& ray : rays)
     elements += svg_polyline(
         to.at(ray.points),
         fmt::format("class=\"ray\" stroke=\"{}\" stroke-width=\"0.8\"", kColors[ray.field % kColors.size()]));
   elements += plane_elements(figures, at, rays, to) + scale_bar(to);
-  double x = kWidth / 2;
+  double x = kDrawingWidth / 2;
   for (std::size_t f = 0; f < figures.fields.size(); ++f, x += 75)
     elements += svg_text(x, to.bottom() + 29, figures.field_name(figures.fields[f].field),
                          fmt::format("fill=\"{}\"", kColors[f % kColors.size()]));
-  return svg_document(kWidth, to.bottom() + 45, figures.system.title, elements);
+  return svg_document(kDrawingWidth, to.bottom() + 45, figures.system.title, elements);
 }
 
 }  // namespace abbe

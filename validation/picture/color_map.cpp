@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "sampling/angle.h"
 
 namespace abbe {
 namespace {
@@ -30,7 +31,6 @@ double gamut_chroma(double lightness, double hue) {
 }
 
 DisplayColor computed_color(double share) {
-  constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kFirstHue = -75 * kDegree;  // blue; the turn passes red at 30 degrees
   constexpr double kLastHue = 95 * kDegree;
   constexpr double kShareOfGamut = 0.9;

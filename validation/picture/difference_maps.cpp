@@ -14,13 +14,13 @@ namespace abbe {
 namespace {
 
 constexpr int kBars = 64;
-constexpr int kBarWidth = 8;
-constexpr int kMargin = 36;
-constexpr int kTop = 12;
+constexpr int kHueWidth = 8;
+constexpr int kBarsMargin = 36;
+constexpr int kBarsTop = 12;
 constexpr int kBarsHeight = 200;
 constexpr int kScaleHeight = 40;
-constexpr int kWidth = kBars * kBarWidth + 2 * kMargin;
-constexpr int kHeight = kTop + kBarsHeight + kScaleHeight;
+constexpr int kPictureWidth = kBars * kHueWidth + 2 * kBarsMargin;
+constexpr int kPictureHeight = kBarsTop + kBarsHeight + kScaleHeight;
 
 // A white picture to draw on.
 class Canvas {
@@ -30,15 +30,16 @@ class Canvas {
       image_.channels.push_back({name, std::vector<float>(image_.pixels(), 1.0F)});
   }
   void fill(int x0, int y0, int x1, int y1, const DisplayColor& color) {
-    for (int y = std::max(y0, 0); y < std::min(y1, kHeight); ++y)
-      for (int x = std::max(x0, 0); x < std::min(x1, kWidth); ++x)
+    for (int y = std::max(y0, 0); y < std::min(y1, kPictureHeight); ++y)
+      for (int x = std::max(x0, 0); x < std::min(x1, kPictureWidth); ++x)
         for (std::size_t c = 0; c < 3; ++c)
-          image_.channels[c].values[static_cast<std::size_t>(y * kWidth + x)] = static_cast<float>(color[c]);
+          image_.channels[c].values[static_cast<std::size_t>(y * kPictureWidth + x)] =
+              static_cast<float>(color[c]);
   }
   [[nodiscard]] Image take() { return std::move(image_); }
 
  private:
-  Image image_{kWidth, kHeight, {}, {}};
+  Image image_{kPictureWidth, kPictureHeight, {}, {}};
 };
 
 constexpr DisplayColor kInk{0.12, 0.15, 0.2};
@@ -92,18 +93,18 @@ Image histogram_picture(const std::vector<double>& values, double high) {
     ++counts.at(static_cast<std::size_t>(std::clamp(value / high * kBars, 0.0, kBars - 1.0)));
   const auto most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
   Canvas canvas;
-  const int base = kTop + kBarsHeight;
+  const int base = kBarsTop + kBarsHeight;
   for (int i = 0; i < kBars; ++i) {
     const double count = static_cast<double>(counts.at(static_cast<std::size_t>(i)));
-    const int x = kMargin + i * kBarWidth;
+    const int x = kBarsMargin + i * kHueWidth;
     const DisplayColor color = map_color((i + 0.5) / kBars);
-    canvas.fill(x, base - static_cast<int>(std::lround(kBarsHeight * count / most)), x + kBarWidth - 1, base,
+    canvas.fill(x, base - static_cast<int>(std::lround(kBarsHeight * count / most)), x + kHueWidth - 1, base,
                 color);
-    canvas.fill(x, base + 4, x + kBarWidth, base + 12, color);
+    canvas.fill(x, base + 4, x + kHueWidth, base + 12, color);
   }
-  canvas.fill(kMargin, base, kWidth - kMargin, base + 1, kInk);
+  canvas.fill(kBarsMargin, base, kPictureWidth - kBarsMargin, base + 1, kInk);
   for (int tick = 0; tick <= 4; ++tick) {
-    const int x = kMargin + kBars * kBarWidth * tick / 4;
+    const int x = kBarsMargin + kBars * kHueWidth * tick / 4;
     canvas.fill(x, base, x + 1, base + 16, kInk);
     draw_number(canvas, high * tick / 4, x, base + 20);
   }

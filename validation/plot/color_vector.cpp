@@ -11,22 +11,22 @@ namespace abbe {
 namespace {
 
 constexpr double kSize = 460;
-constexpr double kTop = 40;  // below the title
+constexpr double kGraphicTop = 40;  // below the title
 constexpr double kCenterX = kSize / 2;
-constexpr double kCenterY = kTop + kSize / 2;
-constexpr double kRadius = 150;  // of the reference's circle
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kCenterY = kGraphicTop + kSize / 2;
+constexpr double kCircleRadius = 150;  // of the reference's circle
+constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr std::size_t kBins = ColorFidelity::kBins;
 
 using Point = std::pair<double, double>;
 
 // Where a colour lies whose chroma is a share of the reference's.
 Point placed(double share, double hue) {
-  return {kCenterX + kRadius * share * std::cos(hue), kCenterY - kRadius * share * std::sin(hue)};
+  return {kCenterX + kCircleRadius * share * std::cos(hue), kCenterY - kCircleRadius * share * std::sin(hue)};
 }
 
 double middle_of(std::size_t bin) {
-  return (static_cast<double>(bin) + 0.5) * kTurn / kBins;
+  return (static_cast<double>(bin) + 0.5) * kFullTurn / kBins;
 }
 
 // The reference's mean stands on the circle in the middle of its bin; the light's is shifted from there.
@@ -36,11 +36,11 @@ Point shifted(const HueBin& bin, std::size_t k) {
       std::cos(hue) + (bin.test[0] - bin.reference[0]) / std::hypot(bin.reference[0], bin.reference[1]);
   const double b =
       std::sin(hue) + (bin.test[1] - bin.reference[1]) / std::hypot(bin.reference[0], bin.reference[1]);
-  return {kCenterX + kRadius * a, kCenterY - kRadius * b};
+  return {kCenterX + kCircleRadius * a, kCenterY - kCircleRadius * b};
 }
 
 std::string hue_color(std::size_t bin) {
-  return fmt::format("hsl({:.1f}, 65%, 45%)", middle_of(bin) * 360 / kTurn);
+  return fmt::format("hsl({:.1f}, 65%, 45%)", middle_of(bin) * 360 / kFullTurn);
 }
 
 std::string arrow(const Point& from, const Point& to, const std::string& color) {
@@ -63,11 +63,11 @@ std::string arrow(const Point& from, const Point& to, const std::string& color) 
 std::string grid() {
   std::string text;
   for (const int percent : {80, 90, 100, 110, 120})
-    text += svg_circle(kCenterX, kCenterY, kRadius * percent / 100,
+    text += svg_circle(kCenterX, kCenterY, kCircleRadius * percent / 100,
                        percent == 100 ? "fill=\"none\" stroke=\"#333\" stroke-width=\"2\""
                                       : "fill=\"none\" stroke=\"#ccc\"");
   for (std::size_t k = 0; k < kBins; ++k) {
-    const double border = static_cast<double>(k) * kTurn / kBins;
+    const double border = static_cast<double>(k) * kFullTurn / kBins;
     const auto [x0, y0] = placed(0.05, border);
     const auto [x1, y1] = placed(1.3, border);
     text += svg_line(x0, y0, x1, y1, "stroke=\"#ddd\" stroke-dasharray=\"4 3\"");
@@ -88,11 +88,11 @@ std::string color_vector_graphic(const ColorFidelity& fidelity, const std::strin
   for (std::size_t k = 0; k < kBins; ++k)
     elements += arrow(placed(1, middle_of(k)), outline[k], hue_color(k));
   const auto corner = [](double x, const char* anchor, const std::string& text) {
-    return svg_text(x, kTop + 24, text, fmt::format("font-size=\"18\" text-anchor=\"{}\"", anchor));
+    return svg_text(x, kGraphicTop + 24, text, fmt::format("font-size=\"18\" text-anchor=\"{}\"", anchor));
   };
   elements += corner(12, "start", fmt::format("Rf {:.0f}", fidelity.fidelity));
   elements += corner(kSize - 12, "end", fmt::format("Rg {:.0f}", fidelity.gamut));
-  return svg_document(kSize, kTop + kSize, title, elements);
+  return svg_document(kSize, kGraphicTop + kSize, title, elements);
 }
 
 }  // namespace abbe

@@ -10,12 +10,12 @@
 namespace abbe {
 namespace {
 
-constexpr double kWidth = 860;
-constexpr double kHeight = 470;
-constexpr double kLeft = 70;
-constexpr double kRight = 570;  // the legend stands beyond
-constexpr double kTop = 46;
-constexpr double kBottom = 410;
+constexpr double kLogWidth = 860;
+constexpr double kLogHeight = 470;
+constexpr double kLogLeft = 70;
+constexpr double kLogRight = 570;  // the legend stands beyond
+constexpr double kLogTop = 46;
+constexpr double kLogBottom = 410;
 constexpr double kLegendRow = 21;
 
 // 1, 2 and 5 times the powers of ten within the axis.
@@ -33,18 +33,19 @@ std::string axes(const LogAxis& x, const LogAxis& y, const LogPlot& plot) {
   const std::string grid = "stroke=\"#dddddd\"";
   std::string all;
   for (const double value : ticks(x)) {
-    all += svg_line(x.at(value), kTop, x.at(value), kBottom, grid);
-    all +=
-        svg_text(x.at(value), kBottom + 18, fmt::format("{:g}", value), "class=\"x\" text-anchor=\"middle\"");
+    all += svg_line(x.at(value), kLogTop, x.at(value), kLogBottom, grid);
+    all += svg_text(x.at(value), kLogBottom + 18, fmt::format("{:g}", value),
+                    "class=\"x\" text-anchor=\"middle\"");
   }
   for (const double value : ticks(y)) {
-    all += svg_line(kLeft, y.at(value), kRight, y.at(value), grid);
-    all +=
-        svg_text(kLeft - 7, y.at(value) + 4, fmt::format("{:g}", value), "class=\"y\" text-anchor=\"end\"");
+    all += svg_line(kLogLeft, y.at(value), kLogRight, y.at(value), grid);
+    all += svg_text(kLogLeft - 7, y.at(value) + 4, fmt::format("{:g}", value),
+                    "class=\"y\" text-anchor=\"end\"");
   }
-  all += svg_rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "fill=\"none\" stroke=\"#444444\"");
-  const double middle = (kTop + kBottom) / 2;
-  all += svg_text((kLeft + kRight) / 2, kBottom + 42, plot.x_label, "text-anchor=\"middle\"");
+  all += svg_rect(kLogLeft, kLogTop, kLogRight - kLogLeft, kLogBottom - kLogTop,
+                  "fill=\"none\" stroke=\"#444444\"");
+  const double middle = (kLogTop + kLogBottom) / 2;
+  all += svg_text((kLogLeft + kLogRight) / 2, kLogBottom + 42, plot.x_label, "text-anchor=\"middle\"");
   return all + svg_text(18, middle, plot.y_label,
                         fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
 }
@@ -72,11 +73,11 @@ std::string drawn(const PlotSeries& series, const LogAxis& x, const LogAxis& y) 
 
 std::string legend(const std::vector<PlotSeries>& series) {
   std::string all;
-  double y = kTop + 8;
+  double y = kLogTop + 8;
   for (const PlotSeries& one : series) {
-    all += svg_line(kRight + 16, y, kRight + 46, y, stroke(one));
-    all += marker(kRight + 31, y, one, "key");
-    all += svg_text(kRight + 54, y + 4, one.name, "");
+    all += svg_line(kLogRight + 16, y, kLogRight + 46, y, stroke(one));
+    all += marker(kLogRight + 31, y, one, "key");
+    all += svg_text(kLogRight + 54, y + 4, one.name, "");
     y += kLegendRow;
   }
   return all;
@@ -109,11 +110,11 @@ std::string svg(const LogPlot& plot) {
     }
   const auto [x_low, x_high] = log_range(xs);
   const auto [y_low, y_high] = log_range(ys);
-  const LogAxis x{x_low, x_high, kLeft, kRight};
-  const LogAxis y{y_low, y_high, kBottom, kTop};
+  const LogAxis x{x_low, x_high, kLogLeft, kLogRight};
+  const LogAxis y{y_low, y_high, kLogBottom, kLogTop};
   std::string all = axes(x, y, plot);
   for (const PlotSeries& series : plot.series) all += drawn(series, x, y);
-  return svg_document(kWidth, kHeight, plot.title, all + legend(plot.series));
+  return svg_document(kLogWidth, kLogHeight, plot.title, all + legend(plot.series));
 }
 
 }  // namespace abbe

@@ -57,12 +57,12 @@ h2, h3 { break-after: avoid; }
 }
 )";
 
-constexpr double kBarWidth = 220;
-constexpr double kBarHeight = 24;
+constexpr double kMarginBarWidth = 220;
+constexpr double kMarginBarHeight = 24;
 constexpr double kReach = 1.25;  // margins from the middle of a bar to its end
 
 double bar_at(double margins) {
-  return kBarWidth / 2 * (1 + std::clamp(margins, -kReach, kReach) / kReach);
+  return kMarginBarWidth / 2 * (1 + std::clamp(margins, -kReach, kReach) / kReach);
 }
 
 // Figure number `i` in a bar: a dot by its deviation, and the interval of what is sampled as a line. Many are
@@ -77,7 +77,7 @@ std::string bar_mark(const CaseResult& result, std::size_t i) {
   const double spread = kInterval * figure.measured.standard_error / allowed;
   const bool outside = !(std::abs(share) <= 1);
   const double aside = many ? std::fmod(static_cast<double>(i) * kGolden, 1.0) - 0.5 : 0;
-  const double y = kBarHeight / 2 + aside * (kBarHeight - 10);
+  const double y = kMarginBarHeight / 2 + aside * (kMarginBarHeight - 10);
   const std::string line = spread > 0 ? svg_line(bar_at(share - spread), y, bar_at(share + spread), y,
                                                  "stroke=\"#1f4e8c\" stroke-width=\"1.6\"")
                                       : "";
@@ -89,12 +89,12 @@ std::string bar_mark(const CaseResult& result, std::size_t i) {
 
 // All figures of a case within the band of their margin.
 std::string margin_bar(const CaseResult& result) {
-  std::string all = svg_rect(bar_at(-1), 2, bar_at(1) - bar_at(-1), kBarHeight - 4, "fill=\"#e3f2ea\"");
+  std::string all = svg_rect(bar_at(-1), 2, bar_at(1) - bar_at(-1), kMarginBarHeight - 4, "fill=\"#e3f2ea\"");
   for (const double edge : {-1.0, 0.0, 1.0})
-    all += svg_line(bar_at(edge), 2, bar_at(edge), kBarHeight - 2,
+    all += svg_line(bar_at(edge), 2, bar_at(edge), kMarginBarHeight - 2,
                     edge == 0 ? "stroke=\"#9aa5b1\"" : "stroke=\"#1b7f4b\"");
   for (std::size_t i = 0; i < result.figures.size(); ++i) all += bar_mark(result, i);
-  return svg_picture(kBarWidth, kBarHeight, all);
+  return svg_picture(kMarginBarWidth, kMarginBarHeight, all);
 }
 
 std::string number(double value) {

@@ -18,6 +18,7 @@
 #include "description/doors/shared/lamps.h"
 #include "description/doors/shared/placement.h"
 #include "description/meshes/mesh_file.h"
+#include "sampling/angle.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::doors {
@@ -27,8 +28,6 @@ namespace {
 using Imath::M44d;
 using Imath::V3d;
 using spec::Quantity;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// What the nodes of the scene place.
 struct Placed {

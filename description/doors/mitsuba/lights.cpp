@@ -20,8 +20,8 @@ using Imath::M44d;
 using Imath::V3d;
 using spec::Quantity;
 
-const std::vector<std::string> kTypes{"area",  "constant",  "directional", "directionalarea", "envmap",
-                                      "point", "projector", "spot",        "sunsky"};
+const std::vector<std::string> kLightTypes{"area",  "constant",  "directional", "directionalarea", "envmap",
+                                           "point", "projector", "spot",        "sunsky"};
 
 M44d placed(const Object& light, const World& world) {
   return light.transform("to_world") * world.upright;
@@ -114,8 +114,8 @@ void add_light(const Object& light, const World& world) {
     add_sky(light, world);
   } else if (type == "envmap") {
     add_sky_image(light, world);
-  } else if (std::ranges::find(kTypes, type) == kTypes.end()) {
-    world.door.diagnostics.error(light.where(), unknown_name("emitter", type, kTypes));
+  } else if (std::ranges::find(kLightTypes, type) == kLightTypes.end()) {
+    world.door.diagnostics.error(light.where(), unknown_name("emitter", type, kLightTypes));
   } else {
     world.door.note(light.where(), fmt::format("an emitter \"{}\" has no counterpart here: dropped", type));
     return;

@@ -13,11 +13,11 @@
 namespace abbe::doors::mitsuba {
 namespace {
 
-const std::vector<std::string> kTypes{"blendbsdf",       "bumpmap",      "conductor",      "dielectric",
-                                      "diffuse",         "hair",         "mask",           "measured",
-                                      "normalmap",       "null",         "phong",          "plastic",
-                                      "pplastic",        "principled",   "principledthin", "roughconductor",
-                                      "roughdielectric", "roughplastic", "thindielectric", "twosided"};
+const std::vector<std::string> kMaterialTypes{
+    "blendbsdf",      "bumpmap",    "conductor",      "dielectric",     "diffuse",         "hair",
+    "mask",           "measured",   "normalmap",      "null",           "phong",           "plastic",
+    "pplastic",       "principled", "principledthin", "roughconductor", "roughdielectric", "roughplastic",
+    "thindielectric", "twosided"};
 
 // An index that is a number or a name.
 double index_number(const Object& bsdf, std::string_view name, std::string_view absent, const World& world) {
@@ -188,8 +188,8 @@ spec::Material Materials::converted(const Object& bsdf, const Element* inside, R
   } else if (type == "null" && inside != nullptr) {
     material.model = medium_of(Object(*inside, world_), world_);
   } else {
-    if (std::ranges::find(kTypes, type) == kTypes.end())
-      world_.door.diagnostics.error(bsdf.where(), unknown_name("bsdf", type, kTypes));
+    if (std::ranges::find(kMaterialTypes, type) == kMaterialTypes.end())
+      world_.door.diagnostics.error(bsdf.where(), unknown_name("bsdf", type, kMaterialTypes));
     else
       world_.door.note(bsdf.where(),
                        fmt::format("a material \"{}\" has no counterpart here: diffuse in its place", type));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -11,12 +10,11 @@
 #include "description/doors/mitsuba/lights.h"
 #include "description/doors/mitsuba/shapes.h"
 #include "description/doors/shared/camera.h"
+#include "sampling/angle.h"
 
 namespace abbe::doors {
 namespace mitsuba {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // A number of things, cut to what an int holds.
 int count(const Object& object, std::string_view name, int absent) {

@@ -18,9 +18,9 @@ using Imath::M44d;
 using Imath::V3d;
 using Surface = decltype(GivenShape::surface);
 
-const std::vector<std::string> kTypes{"bsplinecurve", "cube",       "cylinder", "disk",      "instance",
-                                      "linearcurve",  "obj",        "ply",      "rectangle", "sdfgrid",
-                                      "serialized",   "shapegroup", "sphere"};
+const std::vector<std::string> kShapeTypes{"bsplinecurve", "cube",       "cylinder", "disk",      "instance",
+                                           "linearcurve",  "obj",        "ply",      "rectangle", "sdfgrid",
+                                           "serialized",   "shapegroup", "sphere"};
 
 /// A surface, and what moves it before `to_world` does.
 struct Local {
@@ -87,8 +87,8 @@ std::optional<Local> surface_of(const Object& shape, const World& world) {
   if (type == "disk") return Local{spec::Disc{{0, 0, 0}, {0, 0, 1}, 1}};
   if (type == "cylinder") return cylinder(shape, world);
   if (type == "obj" || type == "ply") return mesh_file(shape, world);
-  if (std::ranges::find(kTypes, type) == kTypes.end())
-    world.door.diagnostics.error(shape.where(), unknown_name("shape", type, kTypes));
+  if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end())
+    world.door.diagnostics.error(shape.where(), unknown_name("shape", type, kShapeTypes));
   else if (type == "serialized")
     world.door.diagnostics.error(
         shape.where(), "Mitsuba's own serialized meshes are not read: write PLY or OBJ", ErrorCode::input);

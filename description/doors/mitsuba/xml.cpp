@@ -27,11 +27,11 @@ class XmlReader {
     pugi::xml_document document;
     const auto result = document.load_buffer(source->text.data(), source->text.size());
     if (!result)
-      return refuse({source, static_cast<std::size_t>(result.offset), ""},
-                    fmt::format("no XML: {}", result.description()));
+      return door_.refuse({source, static_cast<std::size_t>(result.offset), ""},
+                          fmt::format("no XML: {}", result.description()));
     const pugi::xml_node root = document.document_element();
     if (std::string_view(root.name()) != "scene")
-      return refuse(place(root, source), fmt::format("expected <scene> (got <{}>)", root.name()));
+      return door_.refuse(place(root, source), fmt::format("expected <scene> (got <{}>)", root.name()));
     if (to.tag.empty()) {
       to.tag = root.name();
       to.where = place(root, source);
@@ -40,10 +40,6 @@ class XmlReader {
   }
 
  private:
-  bool refuse(const SourcePosition& where, std::string what) {
-    door_.diagnostics.error(where, std::move(what));
-    return false;
-  }
   static SourcePosition place(const pugi::xml_node& node, const std::shared_ptr<const SourceText>& source) {
     return {source, static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)), ""};
   }
@@ -51,7 +47,8 @@ class XmlReader {
   bool add_children(const pugi::xml_node& node, const std::shared_ptr<const SourceText>& source, Element& to,
                     std::size_t depth) {
     if (depth > kMaxDepth)
-      return refuse(place(node, source), fmt::format("elements or files nested deeper than {}", kMaxDepth));
+      return door_.refuse(place(node, source),
+                          fmt::format("elements or files nested deeper than {}", kMaxDepth));
     for (const pugi::xml_node& child : node) {
       if (child.type() != pugi::node_element) continue;
       Element element{child.name(), {}, {}, place(child, source), ++count_};
@@ -91,7 +88,7 @@ class XmlReader {
             (best == nullptr || entry.first.size() > best->first.size()))
           best = &entry;
       if (best == nullptr) {
-        refuse(where, fmt::format("no <default> gives a value to \"{}\"", text.substr(at)));
+        door_.refuse(where, fmt::format("no <default> gives a value to \"{}\"", text.substr(at)));
         return std::nullopt;
       }
       text.replace(at, best->first.size() + 1, best->second);

@@ -39,8 +39,8 @@ bool Reader::active_transform(const Token& word) {
   const auto token = tokens_.next();
   const std::string name = token ? token->text : "";
   if (name != "StartTime" && name != "EndTime" && name != "All")
-    return refuse(token ? token->where : word.where,
-                  fmt::format("expected StartTime, EndTime or All (got \"{}\")", name));
+    return door_.refuse(token ? token->where : word.where,
+                        fmt::format("expected StartTime, EndTime or All (got \"{}\")", name));
   active_ = name != "EndTime";
   if (!active_) door_.note(word.where, "nothing moves during an exposure here: all stands as at its start");
   return true;
@@ -62,7 +62,7 @@ bool Reader::attribute_begin(const Token& word) {
 }
 
 bool Reader::attribute_end(const Token& word) {
-  if (pushed_.empty()) return refuse(word.where, fmt::format("{} without its beginning", word.text));
+  if (pushed_.empty()) return door_.refuse(word.where, fmt::format("{} without its beginning", word.text));
   State before = std::move(pushed_.back().first);
   pushed_.pop_back();
   if (word.text == "TransformEnd")
@@ -89,7 +89,7 @@ bool Reader::object_begin(const Token& word) {
 }
 
 bool Reader::object_end(const Token& word) {
-  if (!object_ || pushed_.empty()) return refuse(word.where, "ObjectEnd without its beginning");
+  if (!object_ || pushed_.empty()) return door_.refuse(word.where, "ObjectEnd without its beginning");
   state_ = std::move(pushed_.back().first);
   pushed_.pop_back();
   // One of nothing but what was dropped has no instances either.
@@ -115,7 +115,7 @@ bool Reader::object_instance(const Token& word) {
 }
 
 bool Reader::world_begin(const Token& word) {
-  if (in_world_) return refuse(word.where, "a second WorldBegin");
+  if (in_world_) return door_.refuse(word.where, "a second WorldBegin");
   in_world_ = true;
   active_ = true;
   set_picture(picture_, word.where, world_);
@@ -128,7 +128,7 @@ bool Reader::include(const Token& word) {
   std::vector<std::string> name;
   if (!texts(1, 1, word, name)) return false;
   if (name[0].ends_with(".gz"))
-    return refuse(word.where, fmt::format("\"{}\" is packed: unpack it first", name[0]));
+    return door_.refuse(word.where, fmt::format("\"{}\" is packed: unpack it first", name[0]));
   tokens_.include(world_.folder / name[0], word.where);
   return !tokens_.failed();
 }
@@ -229,7 +229,7 @@ bool Reader::area_light(const Token& word) {
 bool Reader::shape(const Token& word) {
   ShapeUse use;
   if (!made(word, use.made)) return false;
-  if (!in_world_) return refuse(word.where, "a shape before WorldBegin");
+  if (!in_world_) return door_.refuse(word.where, "a shape before WorldBegin");
   use.made.parameters.complete(state_.attributes["shape"]);
   const bool bare = state_.material.made.type == "interface" || state_.material.made.type.empty();
   if (bare && state_.inside.empty() && !state_.area_light) return true;  // neither matter nor surface

@@ -42,12 +42,8 @@ class Reader {
   bool texts(std::size_t least, std::size_t most, const Token& word, std::vector<std::string>& to);
   bool made(const Token& word, Made& to);
   bool named(const Token& word, std::map<std::string, Made>& to);
-  bool refuse(const SourcePosition& where, std::string what) {
-    door_.diagnostics.error(where, std::move(what));
-    return false;
-  }
   bool outside_object(const Token& word) {
-    return object_ ? refuse(word.where, fmt::format("{} within an object", word.text)) : true;
+    return object_ ? door_.refuse(word.where, fmt::format("{} within an object", word.text)) : true;
   }
 
   bool transform(const Token& word);

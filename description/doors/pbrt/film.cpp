@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "description/doors/pbrt/named_spectra.h"
 #include "description/doors/shared/camera.h"
 #include "description/doors/shared/placement.h"
+#include "sampling/angle.h"
 
 namespace abbe::doors::pbrt {
 namespace {
@@ -91,7 +91,6 @@ void set_view(const Picture& picture, World& world) {
     return;
   }
   const Parameters& p = camera.parameters;
-  constexpr double kDegree = std::numbers::pi / 180;
   const double half =
       std::tan(p.number("fov", 90, door) * kDegree / 2) * window_half(camera, given.resolution, door);
   given.fov_deg = 2 * std::atan(half) / kDegree;

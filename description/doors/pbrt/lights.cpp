@@ -19,7 +19,8 @@ namespace {
 
 using spec::Quantity;
 
-const std::vector<std::string> kTypes{"distant", "goniometric", "infinite", "point", "projection", "spot"};
+const std::vector<std::string> kLightTypes{"distant", "goniometric", "infinite",
+                                           "point",   "projection",  "spot"};
 const LinearRgb kWhite{1, 1, 1};
 
 // The lamp of a spectrum, which counts there by its shape times "scale".
@@ -131,8 +132,8 @@ void add_light(const Made& light, const Imath::M44d& to_world, World& world) {
     add_distant(light, to_world, world);
   } else if (light.type == "infinite") {
     add_infinite(light, world);
-  } else if (std::ranges::find(kTypes, light.type) == kTypes.end()) {
-    world.door.diagnostics.error(light.where, unknown_name("light", light.type, kTypes));
+  } else if (std::ranges::find(kLightTypes, light.type) == kLightTypes.end()) {
+    world.door.diagnostics.error(light.where, unknown_name("light", light.type, kLightTypes));
   } else {
     world.door.note(light.where, fmt::format("a light \"{}\" has no counterpart here: dropped", light.type));
     return;

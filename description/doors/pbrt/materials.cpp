@@ -15,7 +15,7 @@
 namespace abbe::doors::pbrt {
 namespace {
 
-const std::vector<std::string> kTypes{
+const std::vector<std::string> kMaterialTypes{
     "coatedconductor",     "coateddiffuse", "conductor", "dielectric", "diffuse",
     "diffusetransmission", "hair",          "interface", "measured",   "mix",
     "subsurface",          "thindielectric"};
@@ -149,8 +149,8 @@ spec::Material Materials::converted(const MaterialUse& use) {
   } else if ((type == "interface" || type.empty()) && !use.inside.empty()) {
     material.model = medium_of(use.inside, made.where, world_);
   } else {
-    if (std::ranges::find(kTypes, type) == kTypes.end())
-      world_.door.diagnostics.error(made.where, unknown_name("material", type, kTypes));
+    if (std::ranges::find(kMaterialTypes, type) == kMaterialTypes.end())
+      world_.door.diagnostics.error(made.where, unknown_name("material", type, kMaterialTypes));
     material.model = replacement(made, world_);
   }
   return material;

@@ -19,32 +19,32 @@ struct Type {
   Values values;
   std::size_t multiple;  // of which as many values are there
 };
-constexpr std::array<Type, 17> kTypes{{{"float", Values::numbers, 1},
-                                       {"integer", Values::integers, 1},
-                                       {"point2", Values::numbers, 2},
-                                       {"vector2", Values::numbers, 2},
-                                       {"point3", Values::numbers, 3},
-                                       {"point", Values::numbers, 3},
-                                       {"vector3", Values::numbers, 3},
-                                       {"vector", Values::numbers, 3},
-                                       {"normal3", Values::numbers, 3},
-                                       {"normal", Values::numbers, 3},
-                                       {"bool", Values::truths, 1},
-                                       {"string", Values::texts, 1},
-                                       {"texture", Values::texts, 1},
-                                       {"rgb", Values::numbers, 3},
-                                       {"color", Values::numbers, 3},
-                                       {"blackbody", Values::numbers, 1},
-                                       {"spectrum", Values::either, 1}}};
+constexpr std::array<Type, 17> kParameterTypes{{{"float", Values::numbers, 1},
+                                                {"integer", Values::integers, 1},
+                                                {"point2", Values::numbers, 2},
+                                                {"vector2", Values::numbers, 2},
+                                                {"point3", Values::numbers, 3},
+                                                {"point", Values::numbers, 3},
+                                                {"vector3", Values::numbers, 3},
+                                                {"vector", Values::numbers, 3},
+                                                {"normal3", Values::numbers, 3},
+                                                {"normal", Values::numbers, 3},
+                                                {"bool", Values::truths, 1},
+                                                {"string", Values::texts, 1},
+                                                {"texture", Values::texts, 1},
+                                                {"rgb", Values::numbers, 3},
+                                                {"color", Values::numbers, 3},
+                                                {"blackbody", Values::numbers, 1},
+                                                {"spectrum", Values::either, 1}}};
 
 const Type* type_of(const std::string& name) {
-  const auto* type = std::ranges::find_if(kTypes, [&](const Type& t) { return name == t.name; });
-  return type == kTypes.end() ? nullptr : type;
+  const auto* type = std::ranges::find_if(kParameterTypes, [&](const Type& t) { return name == t.name; });
+  return type == kParameterTypes.end() ? nullptr : type;
 }
 
 std::vector<std::string> type_names() {
   std::vector<std::string> names;
-  for (const Type& type : kTypes) names.emplace_back(type.name);
+  for (const Type& type : kParameterTypes) names.emplace_back(type.name);
   return names;
 }
 
@@ -81,24 +81,19 @@ bool add(const Token& token, Values values, Parameter& parameter) {
   return true;
 }
 
-bool refuse(const SourcePosition& where, std::string what, Door& door) {
-  door.diagnostics.error(where, std::move(what));
-  return false;
-}
-
 // "type name" without the values.
 bool read_head(const Token& token, Parameter& parameter, Door& door) {
   const auto gap = token.text.find_first_of(" \t");
   const auto name = gap == std::string::npos ? gap : token.text.find_first_not_of(" \t", gap);
   if (name == std::string::npos)
-    return refuse(token.where, fmt::format("expected a parameter as \"type name\" (got \"{}\")", token.text),
-                  door);
+    return door.refuse(token.where,
+                       fmt::format("expected a parameter as \"type name\" (got \"{}\")", token.text));
   parameter.type = token.text.substr(0, gap);
   parameter.name = token.text.substr(name);
   while (parameter.name.ends_with(' ')) parameter.name.pop_back();
   parameter.where = token.where;
   if (type_of(parameter.type) != nullptr) return true;
-  return refuse(token.where, unknown_name("type of parameter", parameter.type, type_names()), door);
+  return door.refuse(token.where, unknown_name("type of parameter", parameter.type, type_names()));
 }
 
 bool read_values(Tokens& tokens, Parameter& parameter, Door& door) {
@@ -106,13 +101,11 @@ bool read_values(Tokens& tokens, Parameter& parameter, Door& door) {
   const auto take = [&](const std::optional<Token>& token) {
     if (!token)
       return tokens.failed() ||
-             refuse(tokens.end(), fmt::format("the file ends before a value of \"{}\"", parameter.name),
-                    door);
+             door.refuse(tokens.end(), fmt::format("the file ends before a value of \"{}\"", parameter.name));
     return add(*token, type.values, parameter) ||
-           refuse(token->where,
-                  fmt::format("expected {} of \"{} {}\" (got \"{}\")", expected(type.values), parameter.type,
-                              parameter.name, token->text),
-                  door);
+           door.refuse(token->where,
+                       fmt::format("expected {} of \"{} {}\" (got \"{}\")", expected(type.values),
+                                   parameter.type, parameter.name, token->text));
   };
   std::optional<Token> token = tokens.next();
   if (!token || !token->is("[")) {
@@ -121,15 +114,13 @@ bool read_values(Tokens& tokens, Parameter& parameter, Door& door) {
     for (token = tokens.next(); token && !token->is("]"); token = tokens.next())
       if (!take(token)) return false;
     if (!token)
-      return refuse(parameter.where, fmt::format("the values of \"{}\" have no closing ]", parameter.name),
-                    door);
+      return door.refuse(parameter.where,
+                         fmt::format("the values of \"{}\" have no closing ]", parameter.name));
   }
   const std::size_t count = parameter.numbers.size() + parameter.texts.size();
   if (tokens.failed() || (count > 0 && count % type.multiple == 0)) return !tokens.failed();
-  return refuse(parameter.where,
-                fmt::format("\"{} {}\" takes multiples of {} values (got {})", parameter.type, parameter.name,
-                            type.multiple, count),
-                door);
+  return door.refuse(parameter.where, fmt::format("\"{} {}\" takes multiples of {} values (got {})",
+                                                  parameter.type, parameter.name, type.multiple, count));
 }
 
 }  // namespace

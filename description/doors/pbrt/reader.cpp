@@ -58,14 +58,14 @@ bool Reader::read() {
     if (known == directives().end()) {
       std::vector<std::string> names;
       for (const auto& [name, directive] : directives()) names.push_back(name);
-      return refuse(word->where, unknown_name("directive", word->text, names));
+      return door_.refuse(word->where, unknown_name("directive", word->text, names));
     }
     if (!(this->*known->second)(*word)) return false;
   }
   if (tokens_.failed()) return false;
-  if (!pushed_.empty()) return refuse(pushed_.back().second, "begins here and does not end");
-  if (object_) return refuse(object_->where, "an object begins here and does not end");
-  if (!in_world_) return refuse(tokens_.end(), "the file ends before WorldBegin");
+  if (!pushed_.empty()) return door_.refuse(pushed_.back().second, "begins here and does not end");
+  if (object_) return door_.refuse(object_->where, "an object begins here and does not end");
+  if (!in_world_) return door_.refuse(tokens_.end(), "the file ends before WorldBegin");
   return !door_.diagnostics.has_errors();
 }
 
@@ -73,9 +73,9 @@ bool Reader::texts(std::size_t least, std::size_t most, const Token& word, std::
   while (to.size() < most && tokens_.peek() && tokens_.peek()->quoted) to.push_back(tokens_.next()->text);
   if (to.size() >= least || tokens_.failed()) return !tokens_.failed();
   const auto& next = tokens_.peek();
-  return refuse(next ? next->where : tokens_.end(),
-                fmt::format("expected a quoted name after {} (got {})", word.text,
-                            next ? fmt::format("\"{}\"", next->text) : "the end of the file"));
+  return door_.refuse(next ? next->where : tokens_.end(),
+                      fmt::format("expected a quoted name after {} (got {})", word.text,
+                                  next ? fmt::format("\"{}\"", next->text) : "the end of the file"));
 }
 
 bool Reader::made(const Token& word, Made& to) {

@@ -73,11 +73,6 @@ constexpr std::array<Directive, 7> kDirectives{{{"Identity", 0, identity, true},
                                                 {"Transform", 16, matrix, true},
                                                 {"ConcatTransform", 16, matrix, false}}};
 
-bool refuse(const SourcePosition& where, std::string what, Door& door) {
-  door.diagnostics.error(where, std::move(what));
-  return false;
-}
-
 }  // namespace
 
 bool read_numbers(std::size_t count, const Token& word, Tokens& tokens, std::vector<double>& to, Door& door) {
@@ -86,17 +81,13 @@ bool read_numbers(std::size_t count, const Token& word, Tokens& tokens, std::vec
   for (std::size_t i = 0; i < count + (bracketed ? 1 : 0); ++i) {
     const auto token = tokens.next();
     if (!token)
-      return !tokens.failed() &&
-             refuse(tokens.end(), fmt::format("the file ends within {}", word.text), door);
+      return !tokens.failed() && door.refuse(tokens.end(), fmt::format("the file ends within {}", word.text));
     if (i == count)
-      return token->is("]") ||
-             refuse(token->where, fmt::format("expected ] (got \"{}\")", token->text), door);
+      return token->is("]") || door.refuse(token->where, fmt::format("expected ] (got \"{}\")", token->text));
     const auto number = token->quoted ? std::nullopt : parse_number(token->text);
     if (!number)
-      return refuse(
-          token->where,
-          fmt::format("expected number {} of {} of {} (got \"{}\")", i + 1, count, word.text, token->text),
-          door);
+      return door.refuse(token->where, fmt::format("expected number {} of {} of {} (got \"{}\")", i + 1,
+                                                   count, word.text, token->text));
     to.push_back(*number);
   }
   return true;
@@ -108,7 +99,7 @@ bool apply_transform(const Token& word, Tokens& tokens, M44d& to_world, Door& do
     std::vector<double> numbers;
     if (!read_numbers(directive.count, word, tokens, numbers, door)) return false;
     const Step step = directive.step(numbers);
-    if (!step.matrix) return refuse(word.where, step.fault, door);
+    if (!step.matrix) return door.refuse(word.where, step.fault);
     to_world = directive.afresh ? *step.matrix : *step.matrix * to_world;
     return true;
   }

@@ -21,6 +21,11 @@ void Door::note(const SourcePosition& where, const std::string& text) {
     ++known->count;
 }
 
+bool Door::refuse(const SourcePosition& where, std::string what) {
+  diagnostics.error(where, std::move(what));
+  return false;
+}
+
 std::string Door::name_of(const fs::path& file) const {
   const fs::path beside = fs::absolute(file).lexically_normal().lexically_proximate(
       fs::absolute(folder.empty() ? "." : folder).lexically_normal());

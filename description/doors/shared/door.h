@@ -30,6 +30,8 @@ struct Door {
 
   /// Remembers that something was approximated or dropped; the same text is kept once, and counted.
   void note(const SourcePosition& where, const std::string& text);
+  /// Reports what is wrong at `where`, and gives false.
+  bool refuse(const SourcePosition& where, std::string what);
   /// The name by which the scene to be written finds a file: as from its folder, but for what is named from
   /// the root and lies elsewhere.
   [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;

@@ -18,7 +18,6 @@ namespace abbe {
 namespace {
 
 namespace fs = std::filesystem;
-using soak::Outcome;
 
 constexpr rlim_t kMostSeconds = 600;
 constexpr std::uint64_t kMostFailures =
@@ -29,7 +28,7 @@ void require(bool good, const char* what) {
   if (!good) throw Error(ErrorCode::resource, "soak", fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
-Outcome checked(std::uint64_t seed, const fs::path& folder) {
+soak::Outcome checked(std::uint64_t seed, const fs::path& folder) {
   try {
     return soak::check(soak::draw_scene(seed, folder));
   } catch (const std::exception& error) {
@@ -38,7 +37,7 @@ Outcome checked(std::uint64_t seed, const fs::path& folder) {
 }
 
 // Two numbers and a text, through a pipe.
-void write_outcome(int pipe, const Outcome& outcome) {
+void write_outcome(int pipe, const soak::Outcome& outcome) {
   const std::string text = fmt::format("{} {} {}", outcome.paths, outcome.rays, outcome.failure);
   if (::write(pipe, text.data(), text.size()) < 0) ::_exit(1);
 }
@@ -51,10 +50,10 @@ std::string read_all(int pipe) {
   return text;
 }
 
-Outcome outcome_of(const std::string& text, int status) {
+soak::Outcome outcome_of(const std::string& text, int status) {
   if (WIFSIGNALED(status))
     return {0, 0, fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
-  Outcome outcome;
+  soak::Outcome outcome;
   std::size_t first = 0;
   std::size_t second = 0;
   if (WEXITSTATUS(status) != 0 || text.empty()) return {0, 0, "ended without an answer"};
@@ -65,7 +64,7 @@ Outcome outcome_of(const std::string& text, int status) {
 }
 
 // In a process of its own, so that a crash is told as any failure.
-Outcome checked_apart(std::uint64_t seed, const fs::path& folder) {
+soak::Outcome checked_apart(std::uint64_t seed, const fs::path& folder) {
   std::array<int, 2> ends;
   require(::pipe(ends.data()) == 0, "no pipe");
   const pid_t child = ::fork();
@@ -92,7 +91,7 @@ SoakResult run_soak(const SoakSettings& settings) {
        ++seed) {
     const fs::path folder = settings.folder / fmt::format("soak_{}", seed);
     fs::create_directories(folder);
-    const Outcome outcome = checked_apart(seed, folder);
+    const soak::Outcome outcome = checked_apart(seed, folder);
     ++result.scenes;
     result.paths += outcome.paths;
     result.rays += outcome.rays;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <numbers>
+
+namespace abbe {
+
+/// A degree in radians.
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+}  // namespace abbe
