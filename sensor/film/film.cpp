@@ -56,7 +56,7 @@ double mean_of(std::span<const std::uint64_t> samples, SumOf sum_of) {
 }
 
 template <typename SumOf>
-double variance_of(std::span<const std::uint64_t> samples, SumOf sum_of) {
+double sample_variance(std::span<const std::uint64_t> samples, SumOf sum_of) {
   const double center = mean_of(samples, sum_of);
   const auto count = static_cast<double>(std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
   double spread = 0;
@@ -163,6 +163,28 @@ void Film::add(const Film& other) {
   }
 }
 
+Film Film::only(std::span<const int> replicates) const {
+  FilmShape shape = shape_;
+  shape.replicates = static_cast<int>(replicates.size());
+  Film some(shape);
+  auto to = some.sums_.begin();
+  const std::ptrdiff_t pixel = std::ptrdiff_t{shape_.replicates} * shape_.channels;
+  for (auto from = sums_.begin(); from != sums_.end(); from += pixel)
+    for (const int r : replicates)
+      to = std::copy_n(from + std::ptrdiff_t{r} * shape_.channels, shape_.channels, to);
+  return some;
+}
+
+void Film::put_back(std::span<const int> replicates, const Film& kept) {
+  auto from = kept.sums_.begin();
+  const std::ptrdiff_t pixel = std::ptrdiff_t{shape_.replicates} * shape_.channels;
+  for (auto to = sums_.begin(); to != sums_.end(); to += pixel)
+    for (const int r : replicates) {
+      std::copy_n(from, shape_.channels, to + std::ptrdiff_t{r} * shape_.channels);
+      from += shape_.channels;
+    }
+}
+
 std::string_view Film::bytes() const {
   return {reinterpret_cast<const char*>(sums_.data()), memory_bytes()};
 }
@@ -195,7 +217,7 @@ double Film::mean(std::size_t pixel, int channel) const {
 }
 
 double Film::variance(std::size_t pixel, int channel) const {
-  return has(pixel) ? variance_of(samples_, [&](int r) { return value(pixel, r, channel); }) : 0;
+  return has(pixel) ? sample_variance(samples_, [&](int r) { return value(pixel, r, channel); }) : 0;
 }
 
 Film::Average Film::average(int channel) const {
@@ -220,7 +242,7 @@ Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
   const double pixels = static_cast<double>(x1 - x0) * (y1 - y0);
   const double f = filled_replicates() - 1;
   if (shape_.photons > 0) {
-    variances = variance_of(samples_, sum_of);
+    variances = sample_variance(samples_, sum_of);
     squares = variances * variances;
   }
   // The sum's variance squared is to that of its estimate as half its degrees are to 1; an estimate of f
@@ -248,7 +270,7 @@ void Film::develop(Image& image, const Crop& area, std::span<const std::uint64_t
         const std::size_t pixel = pixel_at(x, y);
         const auto sum_of = [&](int r) { return value(pixel, r, channel); };
         means[pixel] = static_cast<float>(mean_of(samples, sum_of));
-        variances[pixel] = static_cast<float>(variance_of(samples, sum_of));
+        variances[pixel] = static_cast<float>(sample_variance(samples, sum_of));
       }
   }
 }

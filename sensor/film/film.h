@@ -67,6 +67,9 @@ class Film {
   /// Adds the sums of a film that differs in its crop at most, of the pixels that both have; its samples are
   /// for the caller to add.
   void add(const Film& other);
+  /// A copy of some replicates, in that order; and they put back, in place of what is there.
+  [[nodiscard]] Film only(std::span<const int> replicates) const;
+  void put_back(std::span<const int> replicates, const Film& kept);
   /// The sums themselves, for processes that add theirs up.
   [[nodiscard]] std::span<Int128> sums() { return sums_; }
   /// The sums as bytes, 16 a sum, little-endian two's complement, in an order of their own; and the film that

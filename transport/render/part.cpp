@@ -166,16 +166,14 @@ std::string of_pixels(const Crop& pixels, const FilmShape& shape) {
 }
 
 // Of a checkpoint saved amid a pass: the pixels of its tiles that are done have its samples too, and a film
-// that has no others is one of these pixels.
+// that has no others is one of these pixels. With photons, which may fall on any pixel, none has them.
 void count_done_tiles(const fs::path& path, ParsedHeader& parsed) {
   if (!parsed.unfinished) return;
   PartHeader& header = parsed.header;
-  if (header.shape.photons > 0)
-    throw Error(ErrorCode::input, path.string(),
-                "was saved amid the photons of a sample, which render --resume completes");
   if (parsed.samples.empty()) header.areas.clear();
-  for (const Crop& tiles : tiles_done(header.shape, parsed.unfinished->items))
-    (void)add(header.areas, {tiles, {parsed.unfinished->samples}});
+  if (header.shape.photons == 0)
+    for (const Crop& tiles : tiles_done(header.shape, parsed.unfinished->items))
+      (void)add(header.areas, {tiles, {parsed.unfinished->samples}});
   if (header.areas.empty()) throw Error(ErrorCode::input, path.string(), "holds no sample of any pixel yet");
   set_crop(header, bounds(header.areas));
 }
@@ -206,8 +204,19 @@ struct ParsedPart {
 ParsedPart read_sums(const fs::path& path) {
   PartFile file = read_part_file(path);
   auto parsed = parse_header(std::move(file.header));
-  auto films = parsed ? films_of(parsed->header.identity, parsed->header.shape, file.bytes) : std::nullopt;
+  if (!parsed) refuse_contents(path);
+  const PartHeader& header = parsed->header;
+  const std::string_view bytes = file.bytes;
+  const std::size_t own = std::min(bytes_of_sums(header), bytes.size());
+  auto films = films_of(header.identity, header.shape, bytes.substr(0, own));
   if (!films) refuse_contents(path);
+  if (parsed->unfinished && header.shape.photons > 0) {
+    auto before = read_replicates(*films, parsed->unfinished->samples, bytes.substr(own));
+    if (!before) refuse_contents(path);
+    films->before_pass = std::make_shared<const std::vector<Film>>(*std::move(before));
+  } else if (bytes.size() > own) {
+    refuse_contents(path);
+  }
   films->stats = parsed->stats;
   return {*std::move(parsed), *std::move(films)};
 }
@@ -243,7 +252,10 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
       fmt::format("{} {} {} {}", stats.paths, stats.rays, stats.nonfinite_samples, stats.cut.paths);
   header[kCutSum] = fmt::format("{} {}", static_cast<std::uint64_t>(stats.cut.sum >> 64),
                                 static_cast<std::uint64_t>(stats.cut.sum));
-  write_part_file(path, header, sums_of(result));
+  std::vector<std::string_view> sums = sums_of(result);
+  if (result.unfinished && result.before_pass)
+    for (const Film& film : *result.before_pass) sums.push_back(film.bytes());
+  write_part_file(path, header, sums);
 }
 
 RenderPart read_checkpoint(const fs::path& path) {
@@ -257,6 +269,8 @@ RenderPart read_checkpoint(const fs::path& path) {
 RenderPart read_part(const fs::path& path) {
   auto [parsed, result] = read_sums(path);
   count_done_tiles(path, parsed);
+  if (const auto before = std::exchange(result.before_pass, nullptr))
+    put_back(result, *before, parsed.unfinished->samples);
   crop_films(parsed.header.shape, result);
   RenderPart part{std::move(parsed.header.identity), std::move(result)};
   set_areas(part, std::move(parsed.header.areas));

@@ -48,9 +48,9 @@ struct PartHeader {
 void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result,
                 const SampledAreas& areas = {});
 
-/// Throws Error{input} for a file that is missing, torn, damaged, no part, or saved amid a pass of a film
-/// with photons. Of one saved amid another pass the pixels whose tiles were done have its samples too; where
-/// no pass was done before, its film is that of these pixels.
+/// Throws Error{input} for a file that is missing, torn, damaged, no part, or without a sample of any pixel
+/// yet. Of one saved amid a pass without photons the pixels whose tiles were done have its samples too; where
+/// no pass was done before, its film is that of these pixels. With photons, the film is that before the pass.
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
 /// Reads a part for a render to go on with, as `read_part` does, with what there is of a pass that was not
 /// finished.

@@ -1,5 +1,6 @@
 #include "transport/render/part_films.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "io/text.h"
@@ -18,6 +19,23 @@ std::optional<FilmShape> shape_of_layers(const FilmIdentity& identity, const Fil
   const auto told = identity.find(kLayersKey);
   if (told == identity.end()) return std::nullopt;
   return layered(shape, parse_layers(told->second).size());
+}
+
+// Calls `function` for a part's own film, that of its layers and that of its features.
+template <typename Films, typename Function>
+void for_each_film(Films& films, const Function& function) {
+  function(films.film);
+  if (films.layers) function(*films.layers);
+  if (films.features) function(films.features->sums());
+}
+
+// The replicates that samples of a range belong to, in the order of the samples.
+std::vector<int> touched(const SampleRange& samples, const Film& film) {
+  const auto all = static_cast<std::uint64_t>(film.replicates());
+  std::vector<int> some;
+  for (std::uint64_t s = samples.first; s < std::min(samples.last, samples.first + all); ++s)
+    some.push_back(static_cast<int>(s % all));
+  return some;
 }
 
 }  // namespace
@@ -58,30 +76,51 @@ std::optional<RenderResult> films_of(const FilmIdentity& identity, const FilmSha
 }
 
 std::vector<std::string_view> sums_of(const RenderResult& films) {
-  std::vector<std::string_view> bytes{films.film.bytes()};
-  if (films.layers) bytes.push_back(films.layers->bytes());
-  if (films.features) bytes.push_back(films.features->sums().bytes());
+  std::vector<std::string_view> bytes;
+  for_each_film(films, [&bytes](const Film& film) { bytes.push_back(film.bytes()); });
   return bytes;
 }
 
 void crop_films(const FilmShape& shape, RenderResult& films) {
   if (shape == films.film.shape()) return;
-  const auto crop = [&shape](Film& film) {
+  for_each_film(films, [&shape](Film& film) {
     FilmShape of = film.shape();
     of.crop = shape.crop;
     Film cropped(of);
     cropped.add(film);
     film = std::move(cropped);
-  };
-  crop(films.film);
-  if (films.layers) crop(*films.layers);
-  if (films.features) crop(films.features->sums());
+  });
 }
 
 void add_films(RenderResult& sum, const RenderResult& films) {
   sum.film.add(films.film);
   if (sum.layers) sum.layers->add(*films.layers);
   if (sum.features) sum.features->sums().add(films.features->sums());
+}
+
+std::vector<Film> copy_of_replicates(const RenderResult& films, const SampleRange& samples) {
+  std::vector<Film> kept;
+  for_each_film(films, [&](const Film& film) { kept.push_back(film.only(touched(samples, film))); });
+  return kept;
+}
+
+std::optional<std::vector<Film>> read_replicates(const RenderResult& films, const SampleRange& samples,
+                                                 std::string_view bytes) {
+  std::vector<Film> kept;
+  for_each_film(films, [&](const Film& film) {
+    FilmShape shape = film.shape();
+    shape.replicates = static_cast<int>(touched(samples, film).size());
+    const std::string_view own = bytes.substr(0, bytes_of_sums(shape));
+    if (auto read = Film::from_bytes(shape, own)) kept.push_back(*std::move(read));
+    bytes.remove_prefix(own.size());
+  });
+  const bool all = kept.size() == sums_of(films).size() && bytes.empty();
+  return all ? std::optional(std::move(kept)) : std::nullopt;
+}
+
+void put_back(RenderResult& films, const std::vector<Film>& kept, const SampleRange& samples) {
+  auto next = kept.begin();
+  for_each_film(films, [&](Film& film) { film.put_back(touched(samples, film), *next++); });
 }
 
 void set_samples(RenderResult& films, const SampleRanges& samples) {

@@ -25,6 +25,14 @@ namespace abbe {
 void crop_films(const FilmShape& shape, RenderResult& films);
 /// Adds to films all that others have.
 void add_films(RenderResult& sum, const RenderResult& films);
+/// A copy of what samples of this range add to: of each film the replicates they belong to. The films that
+/// have these bytes, one after another; nothing if there are more or fewer. And they put back, as if the
+/// samples had never been.
+[[nodiscard]] std::vector<Film> copy_of_replicates(const RenderResult& films, const SampleRange& samples);
+[[nodiscard]] std::optional<std::vector<Film>> read_replicates(const RenderResult& films,
+                                                               const SampleRange& samples,
+                                                               std::string_view bytes);
+void put_back(RenderResult& films, const std::vector<Film>& kept, const SampleRange& samples);
 /// Sets the samples of all pixels that have variances.
 void set_samples(RenderResult& films, const SampleRanges& samples);
 

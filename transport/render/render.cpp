@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -122,6 +123,7 @@ class Rendering {
     const auto own = static_cast<std::size_t>(options_.crew.rank);
     if (own < round.size()) trace(round[own]);
     result_.unfinished.reset();
+    result_.before_pass.reset();
     for (const SampleRange& range : round)
       if (!add(result_.samples, range)) throw Error(ErrorCode::internal, "render", "a pass was done twice");
     result_.stats.samples_per_pixel = count(result_.samples);
@@ -172,6 +174,8 @@ class Rendering {
   // A pass may be long, so checkpoints interrupt it, but for those of a crew.
   void trace(const SampleRange& range) {
     RenderStats& stats = result_.stats;
+    if (options_.checkpoint && alone() && result_.film.shape().photons > 0 && !result_.before_pass)
+      result_.before_pass = std::make_shared<const std::vector<Film>>(copy_of_replicates(result_, range));
     Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0,
               scene_.render.seed, beside());
     while (!pass.finished()) {

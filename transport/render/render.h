@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -81,8 +82,11 @@ struct RenderResult {
   SampleRanges samples;
   RenderStats stats;
   std::optional<UnfinishedPass> unfinished = {};  ///< Only in what a checkpoint gets.
-  std::optional<Film> layers = {};                ///< Their planes one after another, if some were asked for.
-  std::optional<FeatureFilm> features = {};       ///< If some were asked for.
+  /// What the replicates that an unfinished pass adds to held before it, of a film with photons: until all of
+  /// a sample's are there, no pixel has the sample.
+  std::shared_ptr<const std::vector<Film>> before_pass = {};
+  std::optional<Film> layers = {};           ///< Their planes one after another, if some were asked for.
+  std::optional<FeatureFilm> features = {};  ///< If some were asked for.
 };
 
 /// Renders the scene, or those of its samples that `start` does not have. For fixed samples the film is a
