@@ -97,6 +97,14 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
   return result;
 }
 
+bool choose_correction(CharacterisationOptions& options, std::string_view name) {
+  const auto known = std::find(kCorrectionNames.begin(), kCorrectionNames.end(), name);
+  options.choose = name == "auto";
+  if (known != kCorrectionNames.end())
+    options.fit.model = static_cast<CorrectionModel>(known - kCorrectionNames.begin());
+  return options.choose || known != kCorrectionNames.end();
+}
+
 CameraCalibration calibrate_camera(const CalibrationSetup& setup, const CharacterisationOptions& options) {
   require_setup(setup);
   const bool is_linear = setup.planted_response.empty();

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibration/chart/exposure_series.h"
@@ -46,6 +47,10 @@ struct CharacterisationOptions {
   bool choose = false;    ///< Take the model that shows unseen patches best instead of that of `fit`.
   BootstrapOptions bootstrap;
 };
+
+/// Fits the model of that name, or, for "auto", the one that shows unseen patches best. False, and nothing
+/// done, for another name.
+[[nodiscard]] bool choose_correction(CharacterisationOptions& options, std::string_view name);
 
 /// A camera, calibrated under one light.
 struct CameraCalibration {

@@ -1,15 +1,11 @@
 #include "cli/calibrate.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "calibration/chart/measured_patches.h"
-#include "calibration/chart/photographed_series.h"
-#include "calibration/fit/balance.h"
 #include "calibration/output/ocio.h"
 #include "calibration/output/sensitivities.h"
 #include "cli/bench_plots.h"
@@ -20,7 +16,6 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "spectral/library.h"
-#include "spectral/sources.h"
 
 namespace abbe::cli {
 namespace {
@@ -49,117 +44,13 @@ void require_named_once(const std::string& illuminants) {
       throw Error(ErrorCode::usage, "--illuminant", fmt::format("{} is named twice", illuminant));
 }
 
-// "400-500": the two wavelengths of an ideal filter.
-Curve box_filter(const std::string& text) {
-  const std::vector<std::string> ends = split(text, '-');
-  const auto end = [&](std::size_t i) { return ends.size() == 2 ? parse_number(ends[i]).value_or(-1) : -1; };
-  if (!(kMinWavelengthNm <= end(0) && end(0) < end(1) && end(1) <= kMaxWavelengthNm))
-    throw Error(ErrorCode::usage, "--camera",
-                fmt::format("expected bands low-high in nm within [{}, {}] (got {})", kMinWavelengthNm,
-                            kMaxWavelengthNm, text));
-  return band(end(0), end(1));
-}
-
-// "400-500,500-600,600-700": ideal filters from B to R, in the order R, G, B.
-std::vector<Channel> box_channels(const std::string& bands) {
-  const std::vector<std::string> pieces = split(bands, ',');
-  if (pieces.size() != 3)
-    throw Error(ErrorCode::usage, "--camera", fmt::format("expected three bands (got {})", pieces.size()));
-  return {energy_channel("R", box_filter(pieces[2])), energy_channel("G", box_filter(pieces[1])),
-          energy_channel("B", box_filter(pieces[0]))};
-}
-
-std::optional<std::vector<Channel>> camera_channels(const std::string& camera, Diagnostics& diagnostics) {
-  constexpr std::string_view kBox = "box:";
-  if (camera.starts_with(kBox)) return box_channels(camera.substr(kBox.size()));
-  if (camera == "observer:1931") return observer_channels(Observer::cie1931);
-  if (camera == "observer:1964") return observer_channels(Observer::cie1964);
-  return load_camera(camera, {}, diagnostics);
-}
-
-// All patches of several tables of reflectances.
-Chart load_training(const CalibrateOptions& options, Diagnostics& diagnostics) {
-  Chart all{options.training, {}};
-  if (options.training.empty()) return all;
-  for (const std::string& name : split(options.training, ',')) {
-    if (name == options.chart)
-      throw Error(
-          ErrorCode::usage, "--training",
-          fmt::format("got {}, the chart itself, which is shown by a fit that has not seen it", name));
-    auto chart = load_chart(name, {}, diagnostics);
-    if (chart) std::move(chart->patches.begin(), chart->patches.end(), std::back_inserter(all.patches));
-  }
-  return all;
-}
-
-CalibrationCase simulate(const CalibrateOptions& options, const std::string& illuminant) {
-  Diagnostics diagnostics;
-  const auto channels = camera_channels(options.camera, diagnostics);
-  const auto light = load_illuminant(illuminant, {}, diagnostics);
-  const auto chart = load_chart(options.chart, {}, diagnostics);
-  const auto test = options.test.empty() ? Chart{} : load_chart(options.test, {}, diagnostics);
-  const Chart training = load_training(options, diagnostics);
-  check(diagnostics);
-  CalibrationCase made{options.camera, options.chart, options.planted_response, options.bits, {}, {}};
-  made.result = calibrate_camera({options.camera, illuminant, options.planted_response, options.bits,
-                                  *channels, light->curve, *chart, training},
-                                 options.how);
-  if (!options.test.empty())
-    made.test = patch_errors(integrate(*test, *channels, light->curve), made.result.correction.correction);
-  return made;
-}
-
-struct RecoveredResponses {
-  std::vector<ChannelResponse> channels;
-  std::optional<double> full_scale_dn;  // of which they are, where the series tells
-};
-
-RecoveredResponses recover(const CalibrateOptions& options) {
-  Diagnostics diagnostics;
-  Inputs inputs(options.max_memory_bytes);
-  const auto photographs = accepted(read_series(options.series, diagnostics, &inputs), diagnostics);
-  require_distinct(output_files(options), inputs.files());
-  RecoveredResponses recovered{{}, photographs.full_scale_dn};
-  for (std::size_t k = 0; k < photographs.channels.size(); ++k)
-    recovered.channels.push_back({photographs.channels[k], recover_response(photographs.series[k]), {}});
-  return recovered;
-}
-
-// Code values to linear ones.
-void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
-  if (responses.size() != 3)
-    throw Error(ErrorCode::input, "--series",
-                fmt::format("expected three channels (got {})", responses.size()));
-  for (Raw& value : patches.values)
-    for (std::size_t k = 0; k < 3; ++k) value[k] = linearise(responses[k].fit.linear, value[k]);
-}
-
-CalibrationCase measure(const CalibrateOptions& options, const std::string& illuminant) {
-  Diagnostics diagnostics;
-  const auto light = load_illuminant(illuminant, {}, diagnostics);
-  const auto chart = light ? load_chart_targets(options.chart, light->curve, {}, diagnostics) : std::nullopt;
-  auto patches = load_measured_patches(options.measured, diagnostics);
-  const Chart training = load_training(options, diagnostics);
-  std::optional<std::vector<Channel>> channels;
-  if (!training.patches.empty()) channels = camera_channels(options.camera, diagnostics);
-  check(diagnostics);
-  MeasuredCamera camera{options.measured.stem().string(), illuminant, {}, {}, {}};
-  if (!options.series.empty()) {
-    RecoveredResponses recovered = recover(options);
-    camera.responses = std::move(recovered.channels);
-    scale_to_codes(*patches, recovered.full_scale_dn, options.measured);
-    linearise_all(*patches, camera.responses);
-  }
-  const BalancedPatches balanced = balance(*chart, *patches);
-  camera.colors = balanced.colors;
-  camera.gains = balanced.gains;
-  camera.deviations = balanced.deviations;
-  if (channels) camera.training = integrate(training, *channels, light->curve);
-  return {camera.name, options.chart, "", 0, calibrate_measured(camera, options.how), {}};
-}
-
 int calibrate_response(const CalibrateOptions& options) {
-  const std::vector<ChannelResponse> responses = recover(options).channels;
+  Inputs inputs(options.max_memory_bytes);
+  Diagnostics diagnostics;
+  const std::vector<ChannelResponse> responses =
+      recover_responses(options.series, inputs, diagnostics).channels;
+  check(diagnostics);
+  require_distinct(output_files(options), inputs.files());
   Json report{{"series", options.series.string()}, {"responses", Json::array()}};
   for (const ChannelResponse& r : responses) report["responses"].push_back(json_of(r));
   if (!options.output.empty()) {
@@ -195,8 +86,8 @@ BenchAnswers read_bench(const CalibrateOptions& options) {
   return bench;
 }
 
-void write_all(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases,
-               const BenchAnswers& bench, Json& report) {
+void write_calibrations(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases,
+                        const BenchAnswers& bench, Json& report) {
   std::vector<CameraProfile> profiles;
   for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
   const WrittenConfig written = write_ocio_config(options.output, profiles);
@@ -249,12 +140,18 @@ int calibrate(const CalibrateOptions& options) {
   const BenchAnswers bench = read_bench(options);
   if (options.all_cameras) return calibrate_all(options);
   if (is_real && options.measured.empty()) return calibrate_response(options);
+  Inputs photographs(options.max_memory_bytes);
   std::vector<CalibrationCase> cases;
-  for (const std::string& illuminant : split(options.illuminants, ','))
-    cases.push_back(is_real ? measure(options, illuminant) : simulate(options, illuminant));
+  for (const std::string& illuminant : split(options.illuminants, ',')) {
+    Diagnostics diagnostics;
+    cases.push_back(is_real ? measured_calibration(options, illuminant, photographs, diagnostics)
+                            : simulated_calibration(options, illuminant, diagnostics));
+    check(diagnostics);
+  }
+  require_distinct(output_files(options), photographs.files());
   Json report{{"calibrations", Json::array()}};
   for (const CalibrationCase& one : cases) report["calibrations"].push_back(json_of(one));
-  if (!options.output.empty()) write_all(options, cases, bench, report);
+  if (!options.output.empty()) write_calibrations(options, cases, bench, report);
   if (options.json)
     print(one_or_all(report["calibrations"]), true);
   else

@@ -4,25 +4,15 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/camera_calibration.h"
+#include "calibration/calibration_case.h"
 #include "io/inputs.h"
 
 namespace abbe::cli {
 
 /// What `abbe calibrate` was asked for.
-struct CalibrateOptions {
-  std::string camera;  ///< A camera of `data/camera` or a file, "box:a-b,c-d,e-f" [nm] for ideal filters, or
-                       ///< "observer:1931" / "observer:1964".
+struct CalibrateOptions : CalibrationSource {
   bool all_cameras = false;
-  std::filesystem::path measured;   ///< Values of a real camera's photograph of the chart.
-  std::filesystem::path series;     ///< Photographs of a real camera with their exposure times.
-  std::string illuminants = "D65";  ///< One name, or for `camera` several with commas between them.
-  std::string chart = "colorchecker24_babelcolor_average";
-  std::string test;      ///< Another chart that the fitted correction is tried on.
-  std::string training;  ///< Reflectances that the correction is fitted to instead, with commas between.
-  std::string planted_response;  ///< "linear", "gamma:G" or "s-curve"; empty: linear, and known to be.
-  int bits = 12;
-  CharacterisationOptions how;
+  std::string illuminants = "D65";   ///< One name, or for `camera` several with commas between them.
   std::filesystem::path transfer{};  ///< What `abbe transfer --json` and
   std::filesystem::path mtf{};       ///< `abbe mtf --json` have answered, for the page; empty: nothing.
   std::filesystem::path

@@ -22,9 +22,7 @@ Json json_of(const Matrix3& m) {
 }
 
 const char* name_of(CorrectionModel model) {
-  return model == CorrectionModel::linear              ? "matrix"
-         : model == CorrectionModel::root_polynomial_2 ? "root-polynomial-2"
-                                                       : "root-polynomial-3";
+  return kCorrectionNames.at(static_cast<std::size_t>(model));
 }
 
 Json correction_json(const CameraCalibration& c) {
@@ -116,9 +114,8 @@ std::string csv_of(const std::vector<ChannelResponse>& responses, const std::str
   for (std::size_t i = 0; i < size; ++i) {
     text += fmt::format("\n{}", static_cast<double>(i) / static_cast<double>(size - 1));
     for (const ChannelResponse& r : responses) {
-      const double factor = std::exp(1.96 * r.fit.log_deviation[i]);
-      text += fmt::format(",{:.8g},{:.8g},{:.8g}", r.fit.linear[i], r.fit.linear[i] / factor,
-                          r.fit.linear[i] * factor);
+      const auto [low, high] = bounds_95(r.fit, i);
+      text += fmt::format(",{:.8g},{:.8g},{:.8g}", r.fit.linear[i], low, high);
     }
   }
   return text + "\n";

@@ -1,24 +1,13 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "calibration/camera_calibration.h"
+#include "calibration/calibration_case.h"
 #include "calibration/characterisation.h"
 #include "cli/answer.h"
 
 namespace abbe::cli {
-
-/// One calibration and what was asked of it.
-struct CalibrationCase {
-  std::string camera;
-  std::string chart;
-  std::string response;  ///< The planted one; empty for a measured camera.
-  int bits = 0;
-  CameraCalibration result;
-  std::optional<PatchErrors> test;  ///< Of another chart.
-};
 
 [[nodiscard]] Json json_of(const ChannelResponse& response);
 /// A line for each channel, under its headings.

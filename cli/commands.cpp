@@ -188,14 +188,13 @@ void add_convert(CLI::App& app, Command& command) {
 
 // How `calibrate` fits and judges colours.
 void add_characterisation(CLI::App& options, CharacterisationOptions& how) {
-  const std::vector<std::string> models{"matrix", "root-polynomial-2", "root-polynomial-3", "auto"};
+  std::vector<std::string> models(kCorrectionNames.begin(), kCorrectionNames.end());
+  models.emplace_back("auto");
   options
       .add_option_function<std::string>(
           "--correction",
           [&how, models](const std::string& text) {
-            const std::size_t which = parse_choice("--correction", text, models);
-            how.choose = which + 1 == models.size();
-            if (!how.choose) how.fit.model = static_cast<CorrectionModel>(which);
+            (void)choose_correction(how, models[parse_choice("--correction", text, models)]);
           },
           "From camera values to colour, auto taking what shows unseen patches best (default matrix)")
       ->type_name(fmt::format("{}", fmt::join(models, "|")));

@@ -1,14 +1,20 @@
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
-#include "calibration/camera_calibration.h"
+#include "calibration/calibration_case.h"
 #include "python/develop.h"
 #include "python/errors.h"
-#include "spectral/library.h"
 
 namespace abbe::python {
 namespace {
 
+namespace fs = std::filesystem;
 namespace py = pybind11;
 
 py::array_t<double> matrix_of(const CameraProfile& profile) {
@@ -19,6 +25,25 @@ py::array_t<double> matrix_of(const CameraProfile& profile) {
   return rows;
 }
 
+// Of each channel, over codes as shares of the largest, exposure and the bounds of its 95 % interval.
+py::dict curves_of(const std::vector<ChannelResponse>& responses) {
+  py::dict curves;
+  for (const ChannelResponse& response : responses) {
+    const std::vector<double>& linear = response.fit.linear;
+    py::array_t<double> rows({linear.size(), std::size_t{4}});
+    auto row = rows.mutable_unchecked<2>();
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+      const auto [low, high] = bounds_95(response.fit, i);
+      const std::array<double, 4> values{static_cast<double>(i) / static_cast<double>(linear.size() - 1),
+                                         linear[i], low, high};
+      for (std::size_t k = 0; k < 4; ++k)
+        row(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k)) = values[k];
+    }
+    curves[py::str(response.channel)] = rows;
+  }
+  return curves;
+}
+
 py::dict told_of(const CameraCalibration& made) {
   py::dict told;
   told["patches"] = made.patches;
@@ -26,45 +51,88 @@ py::dict told_of(const CameraCalibration& made) {
   told["dE00_mean"] = made.correction.errors.mean;
   told["dE00_max"] = made.correction.errors.max;
   told["dE00_unseen_mean"] = made.unseen.mean;
-  told["to_xyz_d65"] = matrix_of(made.profile);
+  if (made.profile.correction.model == CorrectionModel::linear) told["to_xyz_d65"] = matrix_of(made.profile);
+  told["gains"] = made.profile.gains;
   py::dict errors;
   for (const ChannelResponse& response : made.responses)
     errors[py::str(response.channel)] = response.max_error;
   told["response_max_error"] = errors;
+  told["responses"] = curves_of(made.responses);
   return told;
 }
 
 py::dict calibrate(const std::string& camera, const std::string& illuminant, const std::string& chart,
-                   const std::string& response, int bits) {
+                   const std::string& response, int bits, const std::optional<fs::path>& measured,
+                   const std::optional<fs::path>& series, const std::string& training,
+                   const std::string& correction) {
+  if (measured && !response.empty())
+    throw py::value_error("response: is planted into a simulated camera, not into a measured one");
+  if (series && !measured)
+    throw py::value_error("series: needs measured (its curves alone are those of recover_response)");
+  if (camera.empty() && (!measured || !training.empty()))
+    throw py::value_error("camera: is needed, unless measured is given without training");
+  CalibrationSource source{
+      camera, measured.value_or(""), series.value_or(""), chart, "", training, response, bits, {}};
+  if (!choose_correction(source.how, correction))
+    throw py::value_error(fmt::format("correction: expected {} or auto (got {})",
+                                      fmt::join(kCorrectionNames, ", "), correction));
+  std::optional<CalibrationCase> made;
   Diagnostics diagnostics;
-  const auto channels = load_camera(camera, {}, diagnostics);
-  const auto light = load_illuminant(illuminant, {}, diagnostics);
-  const auto patches = load_chart(chart, {}, diagnostics);
-  check(diagnostics);
-  std::optional<CameraCalibration> made;
   {
     const py::gil_scoped_release released;
-    made = calibrate_camera({camera, illuminant, response, bits, *channels, light->curve, *patches});
+    Inputs photographs(default_memory_limit());
+    made = measured ? measured_calibration(source, illuminant, photographs, diagnostics)
+                    : simulated_calibration(source, illuminant, diagnostics);
   }
-  return told_of(*made);
+  check(diagnostics);
+  return told_of(made->result);
+}
+
+py::dict responses_of(const fs::path& series) {
+  RecoveredResponses recovered;
+  Diagnostics diagnostics;
+  {
+    const py::gil_scoped_release released;
+    Inputs photographs(default_memory_limit());
+    recovered = recover_responses(series, photographs, diagnostics);
+  }
+  check(diagnostics);
+  return curves_of(recovered.channels);
 }
 
 }  // namespace
 
 void add_calibrate(py::module_& module) {
   module.def(
-      "calibrate", calibrate, py::arg("camera"), py::arg("illuminant") = "D65", py::kw_only(),
+      "calibrate", calibrate, py::arg("camera") = "", py::arg("illuminant") = "D65", py::kw_only(),
       py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "", py::arg("bits") = 12,
-      "Calibrates a measured camera on a chart under an illuminant, as `abbe calibrate` does: the chart is "
-      "photographed at so many bits by a linear camera, or through a planted response (\"linear\", "
-      "\"gamma:G\" "
-      "or \"s-curve\") that is recovered without knowing it, and the white-preserving matrix with the least "
-      "mean "
-      "CIEDE2000 "
-      "is fitted.\n\nReturns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches "
-      "that "
-      "the fit has not seen, the largest error of each recovered response as a share of full scale, and the "
-      "matrix from linear camera values to XYZ relative to D65. Raises InputError for an unknown name.");
+      py::arg("measured") = py::none(), py::arg("series") = py::none(), py::arg("training") = "",
+      py::arg("correction") = "matrix",
+      "Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving "
+      "correction with the least mean CIEDE2000 is fitted.\n\n`camera` is a camera whose curves are known: "
+      "the "
+      "chart is photographed at so many bits by a linear camera, or through a planted response (\"linear\", "
+      "\"gamma:G\" or \"s-curve\") that is recovered without knowing it. Or `measured` is a table of a real "
+      "camera's values of the chart, and `series` its photographs at known exposure times, by whose curves "
+      "these "
+      "are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` "
+      "is "
+      "\"matrix\", \"root-polynomial-2\", \"root-polynomial-3\" or \"auto\".\n\nReturns a dict: CIEDE2000 of "
+      "each "
+      "patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance "
+      "white, "
+      "of a matrix that from linear camera values to XYZ relative to D65, and of each "
+      "recovered response its curve, as `recover_response` has it, and the largest error where it was "
+      "planted, as a "
+      "share of full scale. Raises InputError for an unknown name and for files that cannot be used.");
+  module.def(
+      "recover_response", responses_of, py::arg("series"),
+      "Recovers the response of a real camera's channels from photographs at known exposure times, as `abbe "
+      "calibrate --series` does.\n\nReturns a dict by channel of arrays with four columns: code, as a share "
+      "of "
+      "the largest; exposure, 1 at full scale; and the bounds of its 95 % interval. Raises InputError for "
+      "files "
+      "that cannot be read, and for a series that determines no curve.");
 }
 
 }  // namespace abbe::python

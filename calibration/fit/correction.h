@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -16,6 +17,9 @@ enum class CorrectionModel {
   root_polynomial_2,  ///< With the square roots of RG, GB, RB [Finlayson2015].
   root_polynomial_3,  ///< With the cube roots of RG^2, GB^2, RB^2, GR^2, BG^2, BR^2 and RGB too.
 };
+
+/// Their names, in that order.
+inline constexpr std::array kCorrectionNames{"matrix", "root-polynomial-2", "root-polynomial-3"};
 
 /// How many terms a model has.
 [[nodiscard]] constexpr std::size_t term_count(CorrectionModel model) {

@@ -31,6 +31,7 @@ constexpr double kLeastDeviation = 2e-5;  // of a code: what even exact values a
 constexpr double kSlopeDrift =
     0.01;  // weight of first differences, which carry the slope on where no sample lies
 constexpr std::size_t kMinSamples = 32;
+constexpr double kDeviationsOf95 = 1.96;  // of a normal law, to both sides
 
 struct SampleResidual {
   ResponseSample sample;
@@ -372,8 +373,13 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   return fit;
 }
 
+std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i) {
+  const double factor = std::exp(kDeviationsOf95 * fit.log_deviation[i]);
+  return {fit.linear[i] / factor, fit.linear[i] * factor};
+}
+
 double half_width_95(const ResponseFit& fit, double code) {
-  return 1.96 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
+  return kDeviationsOf95 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
 }
 
 double largest_uncertainty(const ResponseFit& fit) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibration/chart/exposure_series.h"
@@ -44,6 +45,9 @@ struct ResponseOptions {
 /// by code. Throws Error{input} when times and codes contradict one another (`require_usable_times`), when
 /// the series does not determine the curve (`require_determined`), and when the solver does not converge.
 [[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options = {});
+
+/// The 95 % interval of the exposure of entry i of the curve.
+[[nodiscard]] std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i);
 
 /// Half the width of the 95 % interval of the exposure of a code in [0, 1], as a share of full scale.
 [[nodiscard]] double half_width_95(const ResponseFit& fit, double code);

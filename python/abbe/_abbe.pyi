@@ -171,10 +171,12 @@ class Scene:
         """The seed of the random numbers unless `render` is told otherwise."""
 
 
-def calibrate(camera: str, illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: int = 12) -> dict:
-    """Calibrates a measured camera on a chart under an illuminant, as `abbe calibrate` does: the chart is photographed at so many bits by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it, and the white-preserving matrix with the least mean CIEDE2000 is fitted.
+def calibrate(camera: str = '', illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: int = 12, measured: typing.Optional[str | os.PathLike[str]] = None, series: typing.Optional[str | os.PathLike[str]] = None, training: str = '', correction: str = 'matrix') -> dict:
+    """Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving correction with the least mean CIEDE2000 is fitted.
 
-    Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the largest error of each recovered response as a share of full scale, and the matrix from linear camera values to XYZ relative to D65. Raises InputError for an unknown name."""
+    `camera` is a camera whose curves are known: the chart is photographed at so many bits by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it. Or `measured` is a table of a real camera's values of the chart, and `series` its photographs at known exposure times, by whose curves these are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` is "matrix", "root-polynomial-2", "root-polynomial-3" or "auto".
+
+    Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance white, of a matrix that from linear camera values to XYZ relative to D65, and of each recovered response its curve, as `recover_response` has it, and the largest error where it was planted, as a share of full scale. Raises InputError for an unknown name and for files that cannot be used."""
 
 
 def camera(name: str, wavelengths_nm: ArrayLike) -> dict:
@@ -245,6 +247,12 @@ def observer(name: str = '1931', *, wavelengths_nm: ArrayLike) -> dict:
 
 def prism_deviation(name: str, wavelengths_nm: ArrayLike, apex_deg: float = 60.0, incidence_deg: typing.Optional[float] = None) -> typing.Any:
     """Returns by how many degrees a prism in air deviates light: the least deviation, or that at one angle of incidence; NaN where the light is totally reflected. Raises as `ior` does."""
+
+
+def recover_response(series: str | os.PathLike[str]) -> dict:
+    """Recovers the response of a real camera's channels from photographs at known exposure times, as `abbe calibrate --series` does.
+
+    Returns a dict by channel of arrays with four columns: code, as a share of the largest; exposure, 1 at full scale; and the bounds of its 95 % interval. Raises InputError for files that cannot be read, and for a series that determines no curve."""
 
 
 def reflectance(name: str, wavelengths_nm: ArrayLike, angle_deg: ArrayLike = 0.0, coating: typing.List[typing.Tuple[str, float]] = []) -> tuple:

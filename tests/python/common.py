@@ -5,7 +5,8 @@ import subprocess
 import tempfile
 import unittest
 
-SCENES = pathlib.Path(os.environ["ABBE_DATA"]) / "scenes"
+DATA = pathlib.Path(os.environ["ABBE_DATA"])
+SCENES = DATA / "scenes"
 CORNELL = SCENES / "cornell.json"
 
 

@@ -3,9 +3,10 @@ import json
 import unittest
 
 import numpy
+import OpenImageIO
 
 import abbe
-from common import SCENES, Test, box
+from common import DATA, SCENES, Test, box
 
 CHART = SCENES / "validation" / "colorchecker.json"
 
@@ -79,6 +80,64 @@ class Develops(Test):
         self.assertEqual(made["to_xyz_d65"].tolist(), told["to_xyz_d65"])
         self.assertEqual(made["dE00"].tolist(), [patch["dE00"] for patch in told["patches"]])
         self.assertEqual(list(made["response_max_error"].values()), [response["max_error"] for response in told["responses"]])
+
+    def write_photographs_of_gamma_2(self):
+        """Grey steps, and the raw values of a chart, as a camera of that response photographs them."""
+        exposures = []
+        for stop in range(-6, 2):
+            steps = numpy.sqrt(numpy.minimum(1, numpy.arange(1, 49) / 48 * 2.0**stop))
+            pixels = numpy.ascontiguousarray(numpy.repeat(steps.astype(numpy.float32), 3))
+            picture = OpenImageIO.ImageOutput.create("s.tif")
+            self.assertTrue(picture.open(str(self.scratch / f"s{stop}.tif"), OpenImageIO.ImageSpec(48, 1, 3, "float")))
+            picture.write_image(pixels.reshape(1, 48, 3))
+            picture.close()
+            exposures.append({"file": f"s{stop}.tif", "exposure_s": 2.0**stop})
+        series = self.scratch / "series.json"
+        series.write_text(json.dumps({"exposures": exposures}))
+        lines = (DATA / "reference" / "camera_raw_colorchecker.csv").read_text().splitlines()
+        rows = [line.split(",") for line in lines if line.startswith("Nikon_D5100,A,colorchecker24_ohta1997,")]
+        self.assertEqual(len(rows), 25)
+        measured = self.scratch / "measured.csv"
+        measured.write_text("# unit: code values\npatch,R,G,B\n" + "".join(
+            ",".join([row[4], *(str((float(value) / 1.1) ** 0.5) for value in row[5:])]) + "\n" for row in rows))
+        return measured, series
+
+    def test_real_cameras_are_calibrated_as_by_the_command(self):
+        measured, series = self.write_photographs_of_gamma_2()
+        how = {"chart": "colorchecker24_ohta1997", "measured": measured, "series": series}
+        for correction in ("matrix", "root-polynomial-2", "auto"):
+            made = abbe.calibrate(illuminant="A", correction=correction, **how)
+            told = json.loads(self.command("calibrate", "--illuminant", "A", "--chart", how["chart"], "--measured", measured, "--series", series,
+                                           "--correction", correction, "--json"))
+            self.assertEqual(made["dE00"].tolist(), [patch["dE00"] for patch in told["patches"]])
+            self.assertEqual(made["dE00_unseen_mean"], told["unseen_dE00_mean"])
+            self.assertEqual(list(made["gains"]), told["gains"])
+            self.assertEqual("to_xyz_d65" in made, "to_xyz_d65" in told)
+        matrix = abbe.calibrate(illuminant="A", **how)
+        simulated = abbe.calibrate("Nikon_D5100", "A", chart=how["chart"], bits=0)
+        numpy.testing.assert_allclose(matrix["dE00_mean"], simulated["dE00_mean"], atol=0.02)
+        trained = abbe.calibrate("Nikon_D5100", "A", training="rawtoaces_190_patches", **how)
+        self.assertGreater(trained["dE00_mean"], matrix["dE00_mean"])
+        curves = abbe.recover_response(series)
+        self.assertEqual(list(curves), ["R", "G", "B"])
+        for channel, curve in curves.items():
+            code, exposure, low, high = curve.T
+            middle = (code > 0.1) & (code < 0.95)
+            numpy.testing.assert_allclose(exposure[middle], code[middle] ** 2, atol=0.002)
+            self.assertTrue(((low <= exposure) & (exposure <= high)).all())
+            numpy.testing.assert_array_equal(curve, matrix["responses"][channel])
+
+    def test_calibrations_of_nothing_are_refused(self):
+        measured, series = self.write_photographs_of_gamma_2()
+        for words, arguments in (("camera: is needed", {}), ("camera: is needed", {"measured": measured, "training": "rawtoaces_190_patches"}),
+                                 ("series: needs measured", {"camera": "Nikon_D5100", "series": series}),
+                                 ("response: is planted", {"measured": measured, "response": "linear"}),
+                                 ("correction: expected matrix, root-polynomial-2, root-polynomial-3 or auto .got cubic",
+                                  {"camera": "Nikon_D5100", "correction": "cubic"})):
+            with self.assertRaisesRegex(ValueError, words):
+                abbe.calibrate(**arguments)
+        with self.assertRaisesRegex(abbe.InputError, "none.json"):
+            abbe.recover_response(self.scratch / "none.json")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,126 @@
+#include "calibration/calibration_case.h"
+
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/measured_patches.h"
+#include "calibration/chart/photographed_series.h"
+#include "calibration/fit/balance.h"
+#include "io/error.h"
+#include "io/invalid_input.h"
+#include "io/text.h"
+#include "spectral/library.h"
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "400-500": the two wavelengths of an ideal filter.
+Curve box_filter(const std::string& text) {
+  const std::vector<std::string> ends = split(text, '-');
+  const auto end = [&](std::size_t i) { return ends.size() == 2 ? parse_number(ends[i]).value_or(-1) : -1; };
+  if (!(kMinWavelengthNm <= end(0) && end(0) < end(1) && end(1) <= kMaxWavelengthNm))
+    throw Error(ErrorCode::usage, "--camera",
+                fmt::format("expected bands low-high in nm within [{}, {}] (got {})", kMinWavelengthNm,
+                            kMaxWavelengthNm, text));
+  return band(end(0), end(1));
+}
+
+// "400-500,500-600,600-700": ideal filters from B to R, in the order R, G, B.
+std::vector<Channel> box_channels(const std::string& bands) {
+  const std::vector<std::string> pieces = split(bands, ',');
+  if (pieces.size() != 3)
+    throw Error(ErrorCode::usage, "--camera", fmt::format("expected three bands (got {})", pieces.size()));
+  return {energy_channel("R", box_filter(pieces[2])), energy_channel("G", box_filter(pieces[1])),
+          energy_channel("B", box_filter(pieces[0]))};
+}
+
+// All patches of several tables of reflectances.
+Chart load_training(const CalibrationSource& source, Diagnostics& diagnostics) {
+  Chart all{source.training, {}};
+  if (source.training.empty()) return all;
+  for (const std::string& name : split(source.training, ',')) {
+    if (name == source.chart)
+      throw Error(
+          ErrorCode::usage, "--training",
+          fmt::format("got {}, the chart itself, which is shown by a fit that has not seen it", name));
+    auto chart = load_chart(name, {}, diagnostics);
+    if (chart) std::move(chart->patches.begin(), chart->patches.end(), std::back_inserter(all.patches));
+  }
+  return all;
+}
+
+// Code values to linear ones.
+void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
+  if (responses.size() != 3)
+    throw Error(ErrorCode::input, "--series",
+                fmt::format("expected three channels (got {})", responses.size()));
+  for (Raw& value : patches.values)
+    for (std::size_t k = 0; k < 3; ++k) value[k] = linearise(responses[k].fit.linear, value[k]);
+}
+
+}  // namespace
+
+std::optional<std::vector<Channel>> camera_channels(const std::string& camera, Diagnostics& diagnostics) {
+  constexpr std::string_view kBox = "box:";
+  if (camera.starts_with(kBox)) return box_channels(camera.substr(kBox.size()));
+  if (camera == "observer:1931") return observer_channels(Observer::cie1931);
+  if (camera == "observer:1964") return observer_channels(Observer::cie1964);
+  return load_camera(camera, {}, diagnostics);
+}
+
+CalibrationCase simulated_calibration(const CalibrationSource& source, const std::string& illuminant,
+                                      Diagnostics& diagnostics) {
+  const auto channels = camera_channels(source.camera, diagnostics);
+  const auto light = load_illuminant(illuminant, {}, diagnostics);
+  const auto chart = load_chart(source.chart, {}, diagnostics);
+  const auto test = source.test.empty() ? Chart{} : load_chart(source.test, {}, diagnostics);
+  const Chart training = load_training(source, diagnostics);
+  require_sound(diagnostics);
+  CalibrationCase made{source.camera, source.chart, source.planted_response, source.bits, {}, {}};
+  made.result = calibrate_camera({source.camera, illuminant, source.planted_response, source.bits, *channels,
+                                  light->curve, *chart, training},
+                                 source.how);
+  if (!source.test.empty())
+    made.test = patch_errors(integrate(*test, *channels, light->curve), made.result.correction.correction);
+  return made;
+}
+
+RecoveredResponses recover_responses(const fs::path& series, Inputs& inputs, Diagnostics& diagnostics) {
+  const auto photographs = read_series(series, diagnostics, &inputs);
+  require_sound(diagnostics);
+  RecoveredResponses recovered{{}, photographs->full_scale_dn};
+  for (std::size_t k = 0; k < photographs->channels.size(); ++k)
+    recovered.channels.push_back({photographs->channels[k], recover_response(photographs->series[k]), {}});
+  return recovered;
+}
+
+CalibrationCase measured_calibration(const CalibrationSource& source, const std::string& illuminant,
+                                     Inputs& inputs, Diagnostics& diagnostics) {
+  const auto light = load_illuminant(illuminant, {}, diagnostics);
+  const auto chart = light ? load_chart_targets(source.chart, light->curve, {}, diagnostics) : std::nullopt;
+  auto patches = load_measured_patches(source.measured, diagnostics);
+  const Chart training = load_training(source, diagnostics);
+  std::optional<std::vector<Channel>> channels;
+  if (!training.patches.empty()) channels = camera_channels(source.camera, diagnostics);
+  require_sound(diagnostics);
+  MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}, {}};
+  if (!source.series.empty()) {
+    RecoveredResponses recovered = recover_responses(source.series, inputs, diagnostics);
+    camera.responses = std::move(recovered.channels);
+    scale_to_codes(*patches, recovered.full_scale_dn, source.measured);
+    linearise_all(*patches, camera.responses);
+  }
+  const BalancedPatches balanced = balance(*chart, *patches);
+  camera.colors = balanced.colors;
+  camera.gains = balanced.gains;
+  camera.deviations = balanced.deviations;
+  if (channels) camera.training = integrate(training, *channels, light->curve);
+  return {camera.name, source.chart, "", 0, calibrate_measured(camera, source.how), {}};
+}
+
+}  // namespace abbe
