@@ -41,7 +41,8 @@ Fields fields(Tag<Body<Surface, Material, Emission>>) {
   using B = Body<Surface, Material, Emission>;
   Field surface;
   if constexpr (std::is_same_v<Surface, Mesh>)
-    surface = field("mesh", &B::surface, mesh(), "A PLY, OBJ, glTF 2.0 or GLB file, or triangles.");
+    surface = field("mesh", &B::surface, mesh(),
+                    "A PLY (as .ply.gz too), OBJ, glTF 2.0 or GLB file, or triangles.");
   else
     surface = field(fields_of<Surface>().name, &B::surface);
   return describe(

@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "description/meshes/gzip.h"
 #include "description/meshes/mesh_formats.h"
+#include "io/text.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe {
@@ -19,10 +21,11 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
 
 std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
+  return lower_case(path.extension().string());
+}
+
+bool is_packed_ply(const std::filesystem::path& path) {
+  return extension_of(path) == ".gz" && extension_of(path.stem()) == ".ply";
 }
 
 bool read_format(std::string&& bytes, MeshReading& reading) {
@@ -61,7 +64,7 @@ void complete_normals(Mesh& mesh) {
 }
 
 bool known_format(const std::filesystem::path& path) {
-  return brings_materials(path) || extension_of(path) == ".ply";
+  return brings_materials(path) || extension_of(path) == ".ply" || is_packed_ply(path);
 }
 
 }  // namespace
@@ -77,6 +80,7 @@ std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, st
   if (!std::filesystem::is_regular_file(path, error)) return error ? "no such file" : "not a regular file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size > kMaxFileBytes) return "file too large";
+  if (is_packed_ply(path)) return read_gzip_bytes(path, kMaxFileBytes, bytes, held);
   held.take_more(path.string(), static_cast<std::size_t>(size));
   std::ifstream stream(path, std::ios::binary);
   bytes.resize(static_cast<std::size_t>(size));
@@ -110,7 +114,7 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
   std::string bytes;
   if (const auto fault = read_mesh_bytes(path, bytes, reading.held)) return refuse(*fault);
   if (!known_format(path))
-    return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .obj, .gltf, .glb)",
+    return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .ply.gz, .obj, .gltf, .glb)",
                               path.extension().string()));
   if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
   if (reading.file.submeshes.empty()) return refuse("no faces");

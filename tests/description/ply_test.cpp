@@ -1,13 +1,18 @@
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <locale>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
+#include "description/meshes/gzip.h"
 #include "mesh_files.h"
 
 namespace abbe {
@@ -49,6 +54,48 @@ TEST_F(PlyTest, ReadsPlyWhateverTheLocale) {
   const double half = area(shape(R"("mesh": "half.ply")"));
   std::locale::global(before);
   EXPECT_DOUBLE_EQ(half, 0.125);
+}
+
+// As pbrt's scenes have them.
+TEST_F(PlyTest, ReadsWhatIsPacked) {
+  const auto packed = [this](const std::string& bytes) {
+    write(folder_ / "packed.ply", bytes);
+    EXPECT_EQ(std::system(fmt::format("gzip -f '{}'", (folder_ / "packed.ply").string()).c_str()), 0);
+    std::ifstream file(folder_ / "packed.ply.gz", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string good = packed(testing::binary_ply());
+  EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "packed.ply.gz")")), 2);
+  write(folder_ / "packed.PLY.GZ", good);
+  EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "packed.PLY.GZ")")), 2);
+  std::string other = good;
+  other[other.size() - 6] ^= 1;  // of the checksum
+  const std::vector<std::pair<std::string, const char*>> faults{
+      {good.substr(0, good.size() - 9), "torn: it ends amid what it packs"},
+      {good.substr(0, good.size() - 1), "torn"},
+      {other, "damaged ("},
+      {"", "is not packed by gzip"},
+      {testing::binary_ply(), "is not packed by gzip"},
+      {packed("solid\n"), "malformed PLY header"}};
+  for (const auto& [bytes, message] : faults) {
+    write(folder_ / "packed.ply.gz", bytes);
+    const Loaded loaded = load(shaped(R"("mesh": "packed.ply.gz")"));
+    EXPECT_EQ(loaded.diagnostics.code(), ErrorCode::input);
+    EXPECT_NE(loaded.text().find(message), std::string::npos) << message << ": " << loaded.text();
+  }
+  write(folder_ / "packed.ply.gz", good);
+  const std::size_t size = testing::binary_ply().size();
+  for (const std::size_t limit : {size, size - 1}) {
+    HeldMemory held(nullptr, 0);
+    std::string bytes;
+    const auto fault = read_gzip_bytes(folder_ / "packed.ply.gz", limit, bytes, held);
+    EXPECT_EQ(fault.has_value(), limit < size) << fault.value_or("");
+  }
+  Inputs inputs(std::size_t{1} << 19);
+  Diagnostics diagnostics;
+  EXPECT_THROW((void)load_mesh_file(folder_ / "packed.ply.gz", FileMaterials::ignored, {}, diagnostics,
+                                    FileCoordinates::ignored, &inputs),
+               Error);
 }
 
 TEST_F(PlyTest, RefusesBadPly) {

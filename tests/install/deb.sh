@@ -9,7 +9,7 @@ for field in Package=abbe Architecture=amd64 Section=graphics; do
   equal "${field%=*}" "$(dpkg-deb -f "$package" "${field%=*}")" "${field#*=}"
 done
 depends=$(dpkg-deb -f "$package" Depends)
-for library in libc6 libembree3-3 libopenexr-3-1-30 libopenimageio2.4 libopencolorio2.1 libpugixml1v5 libtinygltf2d libtinyobjloader2rc10 libfmt9 libssl3; do
+for library in libc6 libembree3-3 libopenexr-3-1-30 libopenimageio2.4 libopencolorio2.1 libpugixml1v5 libtinygltf2d libtinyobjloader2rc10 libfmt9 libssl3 zlib1g; do
   contains "Depends" ", $depends" ", $library"
 done
 files=$(dpkg-deb -c "$package" | awk '{print $6}')

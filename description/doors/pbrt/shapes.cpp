@@ -18,8 +18,8 @@ namespace {
 
 using Surface = decltype(GivenShape::surface);
 
-const std::vector<std::string> kTypes{"bilinearmesh", "curve",   "cylinder", "disk",
-                                      "loopsubdiv",   "plymesh", "sphere",   "trianglemesh"};
+const std::vector<std::string> kShapeTypes{"bilinearmesh", "curve",   "cylinder", "disk",
+                                           "loopsubdiv",   "plymesh", "sphere",   "trianglemesh"};
 
 void report_missing(const Made& made, std::string_view name, World& world) {
   world.door.diagnostics.error(made.where, fmt::format("a shape \"{}\" needs \"{}\"", made.type, name));
@@ -119,12 +119,6 @@ std::optional<Surface> ply_mesh(const Made& made, World& world) {
   }
   const auto path = world.folder / name->texts.front();
   if (!world.door.take_file(path, name->where)) return std::nullopt;
-  if (path.extension() != ".ply") {
-    world.door.diagnostics.error(
-        name->where, fmt::format("expected a file .ply (got \"{}\"): unpack it first", name->texts.front()),
-        ErrorCode::input);
-    return std::nullopt;
-  }
   // Read once to say here what is wrong with it.
   if (!load_mesh_file(path, FileMaterials::ignored, name->where, world.door.diagnostics,
                       FileCoordinates::ignored, world.door.inputs))
@@ -174,8 +168,8 @@ std::optional<Surface> surface_of(const Made& made, World& world) {
   if (type == "sphere") return sphere(made, world);
   if (type == "disk") return disk(made, world);
   if (type == "cylinder") return cylinder(made, world);
-  if (std::ranges::find(kTypes, type) == kTypes.end()) {
-    world.door.diagnostics.error(made.where, unknown_name("shape", type, kTypes));
+  if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end()) {
+    world.door.diagnostics.error(made.where, unknown_name("shape", type, kShapeTypes));
     return std::nullopt;
   }
   world.door.note(made.where, fmt::format("a shape \"{}\" has no counterpart here: dropped", type));
