@@ -138,7 +138,7 @@ TEST_F(ObjTest, RefusesBadFiles) {
   write(folder_ / "bad.stl", "solid");
   EXPECT_NE(load(shaped(R"("mesh": "bad.stl")"))
                 .text()
-                .find("unknown format (got \".stl\", allowed .ply, .obj, .gltf, .glb)"),
+                .find("unknown format (got \".stl\", allowed .ply, .ply.gz, .obj, .gltf, .glb)"),
             std::string::npos);
 }
 

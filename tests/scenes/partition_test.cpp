@@ -293,7 +293,7 @@ class SavedAmidPhotons : public testing::TestWithParam<const char*> {
  protected:
   const Scene scene_ = test::load(
       "cornell.json",
-      {{"/sensor/resolution", "[256, 128]"}, {"/render/samples", "9"}, {"/render/integrator", GetParam()}});
+      {{"/sensor/resolution", "[256, 128]"}, {"/render/samples", "12"}, {"/render/integrator", GetParam()}});
   const FilmIdentity identity_{{"sensor_channels", "X,Y,Z"}, {kFeaturesKey, "depth"}};
   const std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) /
                                       ("abbe_photons_" + std::to_string(::getpid()) + ".abbepart");
