@@ -12,6 +12,7 @@ foreach(module mpi charts)  # each a package of its own
   endif()
 endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${ABBE_DATA_INSTALL_DIR}" COMPONENT tool)
+install(FILES python/blender/abbe_export.py DESTINATION "${CMAKE_INSTALL_DATADIR}/abbe/blender" COMPONENT tool)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
 install(FILES CITATION.cff cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)
 

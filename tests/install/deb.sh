@@ -13,7 +13,7 @@ for library in libc6 libembree3-3 libopenexr-3-1-30 libopenimageio2.4 libopencol
   contains "Depends" ", $depends" ", $library"
 done
 files=$(dpkg-deb -c "$package" | awk '{print $6}')
-for file in bin/abbe lib/abbe/abbe_pictures- share/abbe/data/glass/dielectrics.csv share/man/man1/abbe.1.gz share/bash-completion/completions/abbe share/doc/abbe/copyright; do
+for file in bin/abbe lib/abbe/abbe_pictures- share/abbe/data/glass/dielectrics.csv share/abbe/blender/abbe_export.py share/man/man1/abbe.1.gz share/bash-completion/completions/abbe share/doc/abbe/copyright; do
   contains "files" "$files" "./usr/$file"
 done
 others=$(grep -vE '^\./(usr/((bin|share)/.*|lib/(abbe/.*)?)?)?$' <<<"$files" || true)
