@@ -435,7 +435,7 @@ class Exporter:
     def parts_of(self, mesh, slots, where):
         """Material, format of the file and surface of each slot that has triangles."""
         parts = []
-        self.notes.add(where, "points and lines have no surface: dropped", len(mesh.polygons) == 0)
+        self.notes.add(where, "points and lines have no surface: dropped", len(mesh.vertices) > 0 and len(mesh.polygons) == 0)
         for slot, (positions, normals, uv), smooth in surfaces_of(mesh):
             name = self.shading.add(slots[min(slot, len(slots) - 1)])
             if name is None:

@@ -157,7 +157,7 @@ class Placed(Exported):
         header, _, body = (self.folder / name).read_bytes().partition(b"end_header\n")
         counts = {line.split()[1]: int(line.split()[2]) for line in header.decode().splitlines() if line.startswith("element")}
         width = header.decode().count("property double")
-        points = np.frombuffer(body, "<f8", counts["vertex"] * width).reshape(-1, width)[:, :3]
+        points = np.frombuffer(body, "<f8", counts["vertex"] * width).reshape(-1, width)
         faces = np.frombuffer(body, [("count", "u1"), ("corners", "<i4", 3)], counts["face"], points.shape[0] * width * 8)
         return points[faces["corners"]]
 
@@ -170,7 +170,7 @@ class Placed(Exported):
                 meshes = [part["mesh"] for part in scene["objects"][shape["instance"]["of"]]["shapes"]]
                 matrix = np.array(shape["instance"]["transform"]["matrix"]).reshape(3, 4)
             for mesh in meshes:
-                corners = self.triangles(mesh) @ matrix[:, :3].T + matrix[:, 3]
+                corners = self.triangles(mesh)[..., :3] @ matrix[:, :3].T + matrix[:, 3]
                 normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
                 volume = (corners[:, 0] * normals).sum() / 3 * (-1 if np.linalg.det(matrix[:, :3]) < 0 else 1)  # an instance's front stays its front
                 found.setdefault(shape["name"], []).append((np.linalg.norm(normals, axis=1).sum(), volume, corners.min((0, 1)), corners.max((0, 1))))
@@ -187,9 +187,18 @@ class Placed(Exported):
         for name in ("soft", "text"):
             np.testing.assert_allclose(found[name][0][0], self.facts[name]["area"], rtol=1e-4)
 
+    def test_normals_stay_normal(self):
+        corners, linear = self.triangles("placed_files/oblique.ply"), np.array(self.facts["oblique"])
+        points, normals = corners[..., :3] - [0, 40, 0], corners[..., 3:]
+        known = points @ np.linalg.inv(linear @ linear.T)  # of the ellipsoid
+        cosines = (normals * known).sum(axis=-1) / np.linalg.norm(known, axis=-1)
+        self.assertGreater(cosines.min(), 0.995)
+        flat = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+        self.assertTrue(((flat[:, None] * normals).sum(axis=-1) > 0).all())
+
     def test_a_linked_mesh_is_written_once(self):
         self.assertEqual(sorted(path.name for path in (self.folder / "placed_files").iterdir()),
-                         ["array.ply", "first.ply", "slots_grey.ply", "slots_red.ply", "soft.ply", "text.ply"])
+                         ["array.ply", "first.ply", "oblique.ply", "slots_grey.ply", "slots_red.ply", "soft.ply", "text.ply"])
 
 
 class Glass(Exported):

@@ -180,7 +180,7 @@ def panorama():
 
 
 def placed():
-    """A cube placed four times, mirrored and in a collection too, one with two materials, arrays, a subdivided one, and a text."""
+    """A cube placed four times, mirrored and in a collection too, one with two materials, arrays, a subdivided one, a ball that is stretched, turned and mirrored, and a text."""
     empty()
     camera()
     shared, grey, red = cube("shared"), nodes("grey"), nodes("red", Base_Color=(0.8, 0.1, 0.1, 1))
@@ -199,9 +199,12 @@ def placed():
     array.count, array.relative_offset_displace = 3, (2, 0, 0)
     soft = add("soft", cube("soft", grey), location=(0, 20, 0)).modifiers.new("soft", "SUBSURF")
     soft.levels, soft.render_levels = 0, 3
+    oblique = Matrix.Rotation(0.7, 3, (1, 2, 3)) @ Matrix.Diagonal((-1, 2, 0.5))
+    add("oblique", ball("oblique", 32, grey), Matrix.Translation((0, 40, 0)) @ oblique.to_4x4())
     add("text", bpy.data.curves.new("text", "FONT"), location=(0, 30, 0)).data.body = "Abbe"
     export("placed")
     soft.levels = 3
+    facts["oblique"] = [list(row) for row in oblique]
     evaluated = bpy.context.evaluated_depsgraph_get()
     for name in ("soft", "text"):
         whole = bpy.data.objects[name].evaluated_get(evaluated).to_mesh()
