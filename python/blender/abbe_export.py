@@ -125,10 +125,12 @@ class Shading:
         name = material.name_full if material else "default"
         if name not in self.emissions:
             self.where = f'material "{name}"'
-            parts, self.emissions[name] = self.surface_of(material)
             said = self.said_by_user(material)
+            nodes = self if said is None else Shading(self.folder, self.scale, Notes())  # of which only what shines counts then
+            nodes.where = self.where
+            parts, self.emissions[name] = nodes.surface_of(material)
             if said is not None or parts is not None:
-                self.materials[name] = said or self.joined(parts, name)
+                self.materials[name] = self.joined(parts, name) if said is None else said
             self.note("what has no surface, such as a volume, has no counterpart here: dropped", name not in self.materials)
         return name if name in self.materials else None
 
@@ -150,7 +152,7 @@ class Shading:
         if any(is_matter(part) for _, part in parts):
             self.note("what light enters is not mixed here: the part with the most weight")
             return max(parts, key=lambda part: part[0])[1]
-        names = [free_name(f"{name} part", self.materials) + f" {number}" for number in range(1, len(parts) + 1)]
+        names = [free_name(f"{name} part {number}", self.materials) for number in range(1, len(parts) + 1)]
         self.materials.update({part_name: part for part_name, (_, part) in zip(names, parts)})
         return {"mixture": [{"material": part_name, "weight": tidy(weight)} for part_name, (weight, _) in zip(names, parts)]}
 

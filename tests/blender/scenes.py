@@ -272,7 +272,7 @@ def kinds():
     volume = tinted.node_tree.nodes.new("ShaderNodeVolumeAbsorption")
     volume.inputs["Color"].default_value, volume.inputs["Density"].default_value = (0.5, 0.5, 0.5, 1), 4
     tinted.node_tree.links.new(volume.outputs[0], tinted.node_tree.nodes["Material Output"].inputs["Volume"])
-    metal = nodes("metal")
+    metal = nodes("metal", Anisotropic=0.5)
     metal["abbe"] = '{"conductor": {"ior": "Al_Rakic"}}'
     made = [relief, mixed, tinted, metal, nodes("mirror", "ShaderNodeBsdfGlossy", Color=(0.9, 0.9, 0.9, 1), Roughness=0),
             nodes("glossy", "ShaderNodeBsdfGlossy", Color=(0.5, 0.5, 0.5, 1), Roughness=0.5), nodes("clay", "ShaderNodeBsdfDiffuse", Roughness=0.5),
