@@ -291,9 +291,10 @@ TEST_F(SavedAmidAPass, AFilmWithoutAWholePassIsThatOfItsTiles) {
 // Photons fall on all pixels, so what is begun counts for none of them until it is whole.
 class SavedAmidPhotons : public testing::TestWithParam<const char*> {
  protected:
-  const Scene scene_ = test::load(
-      "cornell.json",
-      {{"/sensor/resolution", "[256, 128]"}, {"/render/samples", "12"}, {"/render/integrator", GetParam()}});
+  const Scene scene_ = test::load("cornell.json", {{"/sensor/resolution", "[256, 128]"},
+                                                   {"/render/samples", "12"},
+                                                   {"/render/max_depth", "1"},
+                                                   {"/render/integrator", GetParam()}});
   const FilmIdentity identity_{{"sensor_channels", "X,Y,Z"}, {kFeaturesKey, "depth"}};
   const std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) /
                                       ("abbe_photons_" + std::to_string(::getpid()) + ".abbepart");
