@@ -63,7 +63,7 @@ py::object spectrum(const FilmHandle& film, int x, int y) {
   return film.array()[py::make_tuple(y, x)];
 }
 
-FilmHandle read_film(const fs::path& path) {
+FilmHandle film_of_file(const fs::path& path) {
   const py::gil_scoped_release released;
   if (path.extension() == kPartExtension) return FilmHandle(read_part(path));
   return FilmHandle(read_film(path));
@@ -233,7 +233,7 @@ void add_film(py::module_& module) {
   forbid_bare_new(film);
   add_values(film);
   film.def_static(
-          "read", read_film, py::arg("path"),
+          "read", film_of_file, py::arg("path"),
           "Reads a film: an .abbepart with its exact sums, or an .exr. Raises InputError for a file that is "
           "missing, damaged or no film.")
       .def("write", write_film, py::arg("path"),
