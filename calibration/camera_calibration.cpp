@@ -99,10 +99,11 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
 
 bool choose_correction(CharacterisationOptions& options, std::string_view name) {
   const auto known = std::find(kCorrectionNames.begin(), kCorrectionNames.end(), name);
-  options.choose = name == "auto";
-  if (known != kCorrectionNames.end())
-    options.fit.model = static_cast<CorrectionModel>(known - kCorrectionNames.begin());
-  return options.choose || known != kCorrectionNames.end();
+  const bool is_model = known != kCorrectionNames.end();
+  if (!is_model && name != "auto") return false;
+  options.choose = !is_model;
+  if (is_model) options.fit.model = static_cast<CorrectionModel>(known - kCorrectionNames.begin());
+  return true;
 }
 
 CameraCalibration calibrate_camera(const CalibrationSetup& setup, const CharacterisationOptions& options) {

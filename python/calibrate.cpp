@@ -80,7 +80,7 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
   Diagnostics diagnostics;
   {
     const py::gil_scoped_release released;
-    Inputs photographs(default_memory_limit());
+    Inputs photographs;
     made = measured ? measured_calibration(source, illuminant, photographs, diagnostics)
                     : simulated_calibration(source, illuminant, diagnostics);
   }
@@ -93,7 +93,7 @@ py::dict responses_of(const fs::path& series) {
   Diagnostics diagnostics;
   {
     const py::gil_scoped_release released;
-    Inputs photographs(default_memory_limit());
+    Inputs photographs;
     recovered = recover_responses(series, photographs, diagnostics);
   }
   check(diagnostics);

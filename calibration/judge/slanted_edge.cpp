@@ -16,7 +16,6 @@ constexpr int kLeastEdge = 16;  // pixels on a side
 constexpr int kBinsPerPixel = 4;
 constexpr double kLeastAngle = 1;  // degrees
 constexpr double kMostAngle = 40;
-constexpr double kWholeTurn = 2 * std::numbers::pi;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::input, "slanted edge", what);
@@ -48,7 +47,7 @@ double contrast(const Plane& plane) {
 }
 
 double hamming(double x, double half_width) {
-  return std::abs(x) < half_width ? 0.54 + 0.46 * std::cos(kWholeTurn / 2 * x / half_width) : 0;
+  return std::abs(x) < half_width ? 0.54 + 0.46 * std::cos(std::numbers::pi * x / half_width) : 0;
 }
 
 // x = at_top + slope y.
@@ -174,7 +173,7 @@ std::vector<double> modulation(const std::vector<double>& edge) {
     std::complex<double> sum = 0;
     const double frequency = static_cast<double>(k) / static_cast<double>(edge.size());
     for (std::size_t i = 0; i < spread.size(); ++i)
-      sum += spread[i] * std::polar(1.0, -kWholeTurn * frequency * static_cast<double>(i));
+      sum += spread[i] * std::polar(1.0, -2 * std::numbers::pi * frequency * static_cast<double>(i));
     mtf.push_back(std::abs(sum) / kept(frequency));
   }
   const double whole = mtf.front();
@@ -197,7 +196,7 @@ EdgeResponse slanted_edge(std::span<const double> values, int width, int height)
   const double whole = plane.width;
   EdgeLine line = edge_line(plane, {whole / 2, 0}, whole);
   for (const double half_width : {whole / 2, whole / 4}) line = edge_line(plane, line, half_width);
-  response.angle_deg = std::atan(line.slope) * 360 / kWholeTurn;
+  response.angle_deg = std::atan(line.slope) * 180 / std::numbers::pi;
   const double angle = std::abs(response.angle_deg);
   if (angle < kLeastAngle || angle > kMostAngle)
     refuse(fmt::format("the edge is slanted by {:.2f} degrees (allowed {} to {})", angle, kLeastAngle,

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGlass = "glass";
-
 /// "maker/glass" of "specs/maker/.../glass.yml"; nothing for the path of another kind of material.
 std::optional<std::string> glass_at(const std::string& db_path) {
   const fs::path path = db_path;
@@ -33,7 +31,7 @@ class CatalogueCache {
   const Catalogue* get(Diagnostics& diagnostics) {
     const std::lock_guard lock(mutex_);
     if (!catalogue_) {
-      auto table = read_table(data_directory() / kGlass / file_, TableOrigin::shipped, diagnostics);
+      auto table = read_table(data_directory() / kGlassFolder / file_, TableOrigin::shipped, diagnostics);
       if (!table) return nullptr;
       catalogue_.emplace(*std::move(table), with_extinction_);
     }
@@ -75,10 +73,10 @@ std::optional<NamedIndex> Catalogue::load(std::size_t row, const std::string& na
     return std::nullopt;
   }
   std::optional<Curve> k;
-  const fs::path absorption = data_directory() / kGlass / (id + "_k.csv");
+  const fs::path absorption = data_directory() / kGlassFolder / (id + "_k.csv");
   if (with_extinction_ && fs::exists(absorption)) {
     const auto loaded =
-        load_curve(kGlass, absorption.stem().string() + ":k", {}, diagnostics, kAnyWavelength);
+        load_curve(kGlassFolder, absorption.stem().string() + ":k", {}, diagnostics, kAnyWavelength);
     if (!loaded) return std::nullopt;
     k = loaded->curve;
   }

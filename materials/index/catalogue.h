@@ -9,6 +9,9 @@
 
 namespace abbe {
 
+/// The folder of data with what is transparent.
+inline constexpr const char* kGlassFolder = "glass";
+
 /// A table of `data/glass` with a dispersion formula per row: columns id, formula, c1, c2, ...,
 /// lambda_min_um, lambda_max_um, db_path, perhaps source, name and index_relative_to.
 class Catalogue {

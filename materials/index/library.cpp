@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolders[] = {"glass", "metal"};
+constexpr const char* kFolders[] = {kGlassFolder, "metal"};
 
 /// The file of `name` if that is a table of n (and perhaps k): its stem or an alias, or a user's path.
 std::optional<fs::path> table_of(const char* folder, const std::string& name) {
@@ -72,8 +72,8 @@ std::optional<NamedIndex> load_user_file(const std::string& name, const SourcePo
                                          Diagnostics& diagnostics) {
   if (is_refractiveindex_info(name))
     return is_file(name, where, diagnostics) ? read_refractiveindex_info(name, diagnostics) : std::nullopt;
-  const auto found = find_table("glass", name, where, diagnostics);
-  return found ? load_tables("glass", name, found->path, where, diagnostics) : std::nullopt;
+  const auto found = find_table(kGlassFolder, name, where, diagnostics);
+  return found ? load_tables(kGlassFolder, name, found->path, where, diagnostics) : std::nullopt;
 }
 
 void report_unknown(const std::string& name, const SourcePosition& where, Diagnostics& diagnostics) {

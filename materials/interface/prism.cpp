@@ -6,7 +6,6 @@
 #include "sampling/angle.h"
 
 namespace abbe {
-namespace {}  // namespace
 
 std::optional<PrismPassage> prism_passage(double n, double apex_deg, double incidence_deg) {
   const double sin_i = std::sin(incidence_deg * kDegree);
