@@ -2,7 +2,10 @@
 import json
 import os
 import pathlib
+import re
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -117,23 +120,27 @@ class Renders(Test):
         self.assertLess(memory_kb() - early, 4000)
 
     def test_a_render_costs_what_the_command_costs(self):
-        stats = self.scratch / "stats.json"
-        scene = abbe.Scene(CORNELL)
+        scene = self.scratch / "box.json"
+        scene.write_text(json.dumps(box(abbe=1)))
 
-        def of_command():
-            self.command("render", CORNELL, "--spp", 32, "--quiet", "--threads", 1, "-o", self.scratch / "c.exr", "--stats", stats)
-            return json.loads(stats.read_text())["cpu_s"]
+        def instructions(*command):
+            counted = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", *map(str, command)],
+                                     check=True, capture_output=True, text=True, cwd=self.scratch, env=os.environ | {"PYTHONHASHSEED": "0"})
+            return int(re.search(r"I +refs: +([\d,]+)", counted.stderr)[1].replace(",", ""))
 
-        def of_module():
-            begin = time.process_time()
-            abbe.render(scene, spp=32, threads=1).array
-            return time.process_time() - begin
+        def of_command(spp):
+            return instructions(os.environ["ABBE_BINARY"], "render", scene, "--spp", spp, "--quiet", "--threads", 1, "-o", "c.exr")
 
-        # The least of several, alternating, since the machine does other things as well.
-        pairs = [(of_module(), of_command()) for _ in range(5)]
-        own, command = (min(costs) for costs in zip(*pairs))
-        print(f"CPU seconds of a render: {own:.3f} in Python, {command:.3f} by the command: {own / command:.3f}")
+        def of_module(spp):
+            return instructions(sys.executable, "-B", "-c", f"import abbe; abbe.render(abbe.Scene({str(scene)!r}), spp={spp}, threads=1).array")
+
+        # What the samples cost, of which both begin with as much as they need to start; counts, since times of the same program differ by more from
+        # one start of it to the next, as memory has it.
+        own, command = (cost(2080) - cost(32) for cost in (of_module, of_command))
+        paths = 2048 * 8 * 6
+        print(f"Instructions of a path: {own / paths:.0f} in Python, {command / paths:.0f} by the command: {own / command:.4f}")
         self.assertLess(own, 1.02 * command)
+        self.assertGreater(own, 0.98 * command)
 
 
 if __name__ == "__main__":
