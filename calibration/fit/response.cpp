@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -14,8 +13,9 @@
 #include <glog/logging.h>
 
 #include "calibration/fit/median.h"
-#include "calibration/fit/response_model.h"
 #include "calibration/fit/response_noise.h"
+#include "calibration/fit/response_problem.h"
+#include "calibration/fit/response_roughness.h"
 #include "calibration/fit/response_samples.h"
 #include "calibration/fit/series_checks.h"
 
@@ -28,46 +28,12 @@ constexpr double kFirstScale =
 constexpr double kFirstRoughness = 1;
 constexpr double kCauchy = 2.385;         // in deviations: 95 % efficient for Gaussian errors [Holland1977]
 constexpr double kLeastDeviation = 2e-5;  // of a code: what even exact values are taken to be uncertain by
-constexpr double kSlopeDrift =
-    0.01;  // weight of first differences, which carry the slope on where no sample lies
 constexpr std::size_t kMinSamples = 32;
 constexpr double kDeviationsOf95 = 1.96;  // of a normal law, to both sides
 
-struct SampleResidual {
-  ResponseSample sample;
-  double weight;
-
-  template <typename T>
-  bool operator()(const T* theta, const T* log_exposure, T* residual) const {
-    residual[0] = weight * (ResponseModel<T>(theta)(sample.code) - log_exposure[0] - sample.log_time);
-    return true;
-  }
-};
-
-struct Smoothness {
-  double roughness;
-
-  template <typename T>
-  bool operator()(const T* theta, T* residual) const {
-    for (std::size_t k = 0; k + 2 < kCoefficients; ++k)
-      residual[k] = roughness * (theta[k] - 2.0 * theta[k + 1] + theta[k + 2]);
-    for (std::size_t k = 0; k + 1 < kCoefficients; ++k)
-      residual[kCoefficients - 2 + k] = kSlopeDrift * (theta[k + 1] - theta[k]);
-    return true;
-  }
-};
-constexpr int kSmoothnessTerms = static_cast<int>(2 * kCoefficients - 3);
-
-struct Unknowns {
-  std::array<double, kCoefficients> theta{};
-  std::vector<double> log_exposure;  // one per patch
-
-  [[nodiscard]] ResponseModel<double> model() const { return ResponseModel<double>(theta.data()); }
-};
-
 // A straight line in the curve's coordinate, and the patches where it puts them.
-Unknowns start(const std::vector<ResponseSample>& samples, std::size_t patches) {
-  Unknowns unknowns;
+ResponseUnknowns start(const std::vector<ResponseSample>& samples, std::size_t patches) {
+  ResponseUnknowns unknowns;
   unknowns.log_exposure.assign(patches, 0.0);
   std::vector<int> counts(patches, 0);
   const ResponseModel<double> model = unknowns.model();
@@ -77,34 +43,6 @@ Unknowns start(const std::vector<ResponseSample>& samples, std::size_t patches) 
   }
   for (std::size_t i = 0; i < patches; ++i) unknowns.log_exposure[i] /= std::max(1, counts[i]);
   return unknowns;
-}
-
-// Samples with what their residuals are multiplied by, so that their deviation is 1.
-struct Weighted {
-  std::vector<ResponseSample> samples;
-  std::vector<double> weights;
-  double loss = 0;  // width of the Cauchy loss
-};
-
-std::unique_ptr<ceres::Problem> data_terms(const Weighted& data, Unknowns& unknowns) {
-  auto problem = std::make_unique<ceres::Problem>();
-  for (std::size_t i = 0; i < data.samples.size(); ++i) {
-    auto residual = std::make_unique<SampleResidual>(SampleResidual{data.samples[i], data.weights[i]});
-    problem->AddResidualBlock(
-        new ceres::AutoDiffCostFunction<SampleResidual, 1, kCoefficients, 1>(residual.release()),
-        new ceres::CauchyLoss(data.loss), unknowns.theta.data(),
-        &unknowns.log_exposure[data.samples[i].patch]);
-  }
-  return problem;
-}
-
-std::unique_ptr<ceres::Problem> all_terms(const Weighted& data, double roughness, Unknowns& unknowns) {
-  auto problem = data_terms(data, unknowns);
-  auto smoothness = std::make_unique<Smoothness>(Smoothness{roughness});
-  problem->AddResidualBlock(
-      new ceres::AutoDiffCostFunction<Smoothness, kSmoothnessTerms, kCoefficients>(smoothness.release()),
-      nullptr, unknowns.theta.data());
-  return problem;
 }
 
 /// Keeps Ceres from printing what an error is about to say.
@@ -117,12 +55,12 @@ struct QuietLibrary {
   ~QuietLibrary() { FLAGS_minloglevel = before; }
 };
 
-ceres::Solver::Summary converge(const Weighted& data, double roughness, int max_iterations,
-                                Unknowns& unknowns) {
+ceres::Solver::Summary converge(const WeightedSamples& data, double roughness, int max_iterations,
+                                ResponseUnknowns& unknowns) {
   const auto problem = all_terms(data, roughness, unknowns);
   const QuietLibrary quiet;
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-10;
@@ -142,7 +80,8 @@ ceres::Solver::Summary converge(const Weighted& data, double roughness, int max_
 }
 
 // Errors of the code values, absolute.
-std::vector<double> code_errors(const std::vector<ResponseSample>& samples, const Unknowns& unknowns) {
+std::vector<double> code_errors(const std::vector<ResponseSample>& samples,
+                                const ResponseUnknowns& unknowns) {
   const ResponseModel<double> model = unknowns.model();
   std::vector<double> sizes;
   for (const ResponseSample& s : samples)
@@ -152,7 +91,7 @@ std::vector<double> code_errors(const std::vector<ResponseSample>& samples, cons
 }
 
 // Where on the curve the patch's exposure is, by bisection.
-double predicted_code(const Unknowns& unknowns, const ResponseSample& s) {
+double predicted_code(const ResponseUnknowns& unknowns, const ResponseSample& s) {
   const ResponseModel<double> model = unknowns.model();
   const double target = unknowns.log_exposure[s.patch] + s.log_time;
   double low = 0;
@@ -165,7 +104,7 @@ double predicted_code(const Unknowns& unknowns, const ResponseSample& s) {
 }
 
 // How much larger errors are than their stated deviations; few outliers do not tell.
-double noise_scale(const std::vector<ResponseSample>& samples, const Unknowns& unknowns,
+double noise_scale(const std::vector<ResponseSample>& samples, const ResponseUnknowns& unknowns,
                    std::size_t unknown_count) {
   std::vector<double> sizes = code_errors(samples, unknowns);
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] /= samples[i].deviation;
@@ -175,15 +114,17 @@ double noise_scale(const std::vector<ResponseSample>& samples, const Unknowns& u
 }
 
 // Gives samples of which nothing is known the deviations that the residuals of codes like theirs have.
-void learn_deviations(std::vector<ResponseSample>& samples, Weighted& fitted, const Unknowns& unknowns) {
+void learn_deviations(std::vector<ResponseSample>& samples, WeightedSamples& fitted,
+                      const ResponseUnknowns& unknowns) {
   const NoiseByCode noise(fitted.samples, code_errors(fitted.samples, unknowns));
   for (std::vector<ResponseSample>* const list : {&samples, &fitted.samples})
     for (ResponseSample& s : *list)
       s.deviation = std::max(kLeastDeviation, noise.deviation(predicted_code(unknowns, s)));
 }
 
-Weighted weigh(const std::vector<ResponseSample>& all, const Unknowns& unknowns, double scale) {
-  Weighted data{{}, {}, kCauchy};
+WeightedSamples weigh(const std::vector<ResponseSample>& all, const ResponseUnknowns& unknowns,
+                      double scale) {
+  WeightedSamples data{{}, {}, kCauchy};
   const ResponseModel<double> model = unknowns.model();
   for (const ResponseSample& s : all) {
     const double deviation = std::max(kLeastDeviation, scale * s.deviation);
@@ -196,96 +137,8 @@ Weighted weigh(const std::vector<ResponseSample>& all, const Unknowns& unknowns,
   return data;
 }
 
-Eigen::MatrixXd dense(const ceres::CRSMatrix& sparse) {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-  for (int row = 0; row < sparse.num_rows; ++row)
-    for (int k = sparse.rows[static_cast<std::size_t>(row)];
-         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k)
-      matrix(row, sparse.cols[static_cast<std::size_t>(k)]) = sparse.values[static_cast<std::size_t>(k)];
-  return matrix;
-}
-
-// J'J and J'r of the smoothness at these unknowns.
-struct Normal {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd gradient;
-};
-Normal smoothness_normal(double roughness, const Unknowns& unknowns, Eigen::Index size) {
-  const ceres::AutoDiffCostFunction<Smoothness, kSmoothnessTerms, kCoefficients> cost(
-      new Smoothness{roughness});
-  Eigen::Matrix<double, kSmoothnessTerms, static_cast<int>(kCoefficients), Eigen::RowMajor> jacobian;
-  Eigen::Matrix<double, kSmoothnessTerms, 1> residuals;
-  const double* parameters = unknowns.theta.data();
-  double* jacobians = jacobian.data();
-  cost.Evaluate(&parameters, residuals.data(), &jacobians);
-  Normal normal{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-  constexpr auto kSize = static_cast<Eigen::Index>(kCoefficients);
-  normal.matrix.topLeftCorner(kSize, kSize) = jacobian.transpose() * jacobian;
-  normal.gradient.head(kSize) = jacobian.transpose() * residuals;
-  return normal;
-}
-
-// Rows of the samples of each exposure time.
-std::vector<std::vector<Eigen::Index>> exposures_of(const Weighted& data) {
-  std::map<double, std::vector<Eigen::Index>> rows;
-  for (std::size_t i = 0; i < data.samples.size(); ++i)
-    rows[data.samples[i].log_time].push_back(static_cast<Eigen::Index>(i));
-  std::vector<std::vector<Eigen::Index>> exposures;
-  for (auto& [time, list] : rows) exposures.push_back(std::move(list));
-  return exposures;
-}
-
-// Squared residuals of each exposure under the fit to all others. The fit is linear, so leaving out is exact
-// and needs no other fit: residuals r with the block H of the hat matrix become (I - H)^-1 r.
-double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures,
-                      const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& influence,
-                      const Eigen::VectorXd& residuals) {
-  constexpr double kAlone = 1e-6;  // for a patch that no other exposure shows
-  double score = 0;
-  for (const std::vector<Eigen::Index>& rows : exposures) {
-    const auto count = static_cast<Eigen::Index>(rows.size());
-    const Eigen::MatrixXd hat = jacobian(rows, Eigen::all) * influence(Eigen::all, rows);
-    const Eigen::MatrixXd rest = (1 + kAlone) * Eigen::MatrixXd::Identity(count, count) - hat;
-    score += rest.ldlt().solve(Eigen::VectorXd(residuals(rows))).squaredNorm();
-  }
-  return score;
-}
-
-// The roughness under which exposures left out one at a time are predicted best, the problem being linearised
-// at the unknowns. Whole exposures, since the samples of one share the error of its time, and patches that
-// look alike share their rounding.
-double choose_roughness(const Weighted& data, Unknowns& unknowns) {
-  const auto problem = data_terms(data, unknowns);
-  std::vector<double> residual_values;
-  ceres::CRSMatrix sparse;
-  ceres::Problem::EvaluateOptions options;
-  options.parameter_blocks = {unknowns.theta.data()};
-  for (double& e : unknowns.log_exposure)
-    if (problem->HasParameterBlock(&e)) options.parameter_blocks.push_back(&e);
-  problem->Evaluate(options, nullptr, &residual_values, nullptr, &sparse);
-  const Eigen::MatrixXd jacobian = dense(sparse);
-  const Eigen::Map<const Eigen::VectorXd> residuals(residual_values.data(), jacobian.rows());
-  const Eigen::MatrixXd data_matrix = jacobian.transpose() * jacobian;
-  const Eigen::VectorXd data_gradient = jacobian.transpose() * residuals;
-  const std::vector<std::vector<Eigen::Index>> exposures = exposures_of(data);
-  double best = kFirstRoughness;
-  double least = std::numeric_limits<double>::infinity();
-  for (double roughness = 1; roughness < 5000; roughness *= 2) {
-    const Normal smooth = smoothness_normal(roughness, unknowns, jacobian.cols());
-    const Eigen::LDLT<Eigen::MatrixXd> solver(data_matrix + smooth.matrix);
-    const Eigen::VectorXd moved = residuals - jacobian * solver.solve(data_gradient + smooth.gradient);
-    const Eigen::MatrixXd influence = solver.solve(jacobian.transpose());
-    const double score = left_out_score(exposures, jacobian, influence, moved);
-    if (score < least) {
-      least = score;
-      best = roughness;
-    }
-  }
-  return best;
-}
-
 // Deviation of ln of the linear exposure relative to the gauge, from the covariance of the coefficients.
-std::vector<double> log_deviations(const Weighted& data, double roughness, Unknowns& unknowns,
+std::vector<double> log_deviations(const WeightedSamples& data, double roughness, ResponseUnknowns& unknowns,
                                    std::size_t size) {
   const auto problem = all_terms(data, roughness, unknowns);
   const QuietLibrary quiet;
@@ -313,7 +166,7 @@ std::vector<double> log_deviations(const Weighted& data, double roughness, Unkno
   return deviations;
 }
 
-std::vector<double> tabulate(const Unknowns& unknowns, std::size_t size) {
+std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size) {
   const ResponseModel<double> model = unknowns.model();
   const double full_scale = model(1.0);
   std::vector<double> table(size, 0.0);
@@ -329,8 +182,8 @@ void require_samples(const std::vector<ResponseSample>& samples) {
 }
 
 // The first pass knows neither slopes nor the size of errors.
-Weighted first_weights(const std::vector<ResponseSample>& samples) {
-  Weighted data{samples, {}, 1};
+WeightedSamples first_weights(const std::vector<ResponseSample>& samples) {
+  WeightedSamples data{samples, {}, 1};
   for (const ResponseSample& s : samples)
     data.weights.push_back(ResponseModel<double>::sensitivity(s.code) / kFirstScale);
   return data;
@@ -341,9 +194,9 @@ Weighted first_weights(const std::vector<ResponseSample>& samples) {
 ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options) {
   require_usable_times(series);
   std::vector<ResponseSample> samples = usable_samples(series, false);
-  Weighted data = first_weights(usable_samples(series, true));
+  WeightedSamples data = first_weights(usable_samples(series, true));
   require_samples(data.samples);
-  Unknowns unknowns = start(data.samples, series.codes.size());
+  ResponseUnknowns unknowns = start(data.samples, series.codes.size());
   ceres::Solver::Summary summary = converge(data, kFirstRoughness, options.max_iterations, unknowns);
   ResponseFit fit;
   fit.iterations = static_cast<int>(summary.iterations.size());

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <ceres/ceres.h>
+
+#include "calibration/fit/response_model.h"
+#include "calibration/fit/response_samples.h"
+
+namespace abbe {
+
+/// What the fit of a response looks for.
+struct ResponseUnknowns {
+  std::array<double, ResponseModel<double>::kCoefficients> theta{};
+  std::vector<double> log_exposure;  ///< One per patch.
+
+  [[nodiscard]] ResponseModel<double> model() const { return ResponseModel<double>(theta.data()); }
+};
+
+/// Samples with what their residuals are multiplied by, so that their deviation is 1.
+struct WeightedSamples {
+  std::vector<ResponseSample> samples;
+  std::vector<double> weights;
+  double loss = 0;  ///< Width of the Cauchy loss.
+};
+
+/// Second differences of the coefficients times `roughness`, and first ones weighted so lightly that they
+/// only carry the slope on where no sample lies.
+struct ResponseSmoothness {
+  static constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
+  static constexpr int kTerms = static_cast<int>(2 * kCoefficients - 3);
+  static constexpr double kSlopeDrift = 0.01;
+
+  double roughness;
+
+  template <typename T>
+  bool operator()(const T* theta, T* residual) const {
+    for (std::size_t k = 0; k + 2 < kCoefficients; ++k)
+      residual[k] = roughness * (theta[k] - 2.0 * theta[k + 1] + theta[k + 2]);
+    for (std::size_t k = 0; k + 1 < kCoefficients; ++k)
+      residual[kCoefficients - 2 + k] = kSlopeDrift * (theta[k + 1] - theta[k]);
+    return true;
+  }
+};
+using SmoothnessCost = ceres::AutoDiffCostFunction<ResponseSmoothness, ResponseSmoothness::kTerms,
+                                                   static_cast<int>(ResponseSmoothness::kCoefficients)>;
+
+/// The residuals of the samples at these unknowns.
+[[nodiscard]] std::unique_ptr<ceres::Problem> data_terms(const WeightedSamples& data,
+                                                         ResponseUnknowns& unknowns);
+
+/// These and the smoothness.
+[[nodiscard]] std::unique_ptr<ceres::Problem> all_terms(const WeightedSamples& data, double roughness,
+                                                        ResponseUnknowns& unknowns);
+
+}  // namespace abbe

@@ -1,0 +1,136 @@
+#include "calibration/fit/response_roughness.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace abbe {
+namespace {
+
+// The problem linearised at the unknowns, the exposures of the patches eliminated: what is left of the
+// residuals and of their derivatives by the curve where each patch lies best. The hat matrix of the exposures
+// alone is share share' between samples of one patch and 0 between others.
+struct Eliminated {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residuals;
+  Eigen::VectorXd share;            // Of a sample in the exposure of its patch, its square root.
+  std::vector<Eigen::Index> patch;  // Of each sample.
+};
+Eliminated eliminate_exposures(const WeightedSamples& data, ResponseUnknowns& unknowns) {
+  const auto problem = data_terms(data, unknowns);
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {unknowns.theta.data()};
+  for (double& e : unknowns.log_exposure)
+    if (problem->HasParameterBlock(&e)) options.parameter_blocks.push_back(&e);
+  std::vector<double> residuals;
+  ceres::CRSMatrix sparse;
+  problem->Evaluate(options, nullptr, &residuals, nullptr, &sparse);
+  constexpr auto kCurve = static_cast<Eigen::Index>(ResponseSmoothness::kCoefficients);
+  // Columns: the curve's, the residual's. Rows have one more derivative each, by their patch's exposure.
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(sparse.num_rows, kCurve + 1);
+  Eigen::VectorXd by_exposure = Eigen::VectorXd::Zero(sparse.num_rows);
+  std::vector<Eigen::Index> patch(static_cast<std::size_t>(sparse.num_rows));
+  for (Eigen::Index row = 0; row < sparse.num_rows; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    rows(row, kCurve) = residuals[i];
+    for (auto k = static_cast<std::size_t>(sparse.rows[i]); k < static_cast<std::size_t>(sparse.rows[i + 1]);
+         ++k) {
+      if (sparse.cols[k] < kCurve) {
+        rows(row, sparse.cols[k]) = sparse.values[k];
+      } else {
+        by_exposure[row] = sparse.values[k];
+        patch[i] = sparse.cols[k] - kCurve;
+      }
+    }
+  }
+  const Eigen::Index patches = sparse.num_cols - kCurve;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(patches);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(patches, kCurve + 1);
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    weights[patch[static_cast<std::size_t>(row)]] += by_exposure[row] * by_exposure[row];
+    sums.row(patch[static_cast<std::size_t>(row)]) += by_exposure[row] * rows.row(row);
+  }
+  Eigen::VectorXd share(rows.rows());
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    const Eigen::Index at = patch[static_cast<std::size_t>(row)];
+    share[row] = by_exposure[row] / std::sqrt(weights[at]);
+    rows.row(row) -= by_exposure[row] / weights[at] * sums.row(at);
+  }
+  return {rows.leftCols(kCurve), rows.col(kCurve), std::move(share), std::move(patch)};
+}
+
+// J'J and J'r of the smoothness at these unknowns.
+struct Normal {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd gradient;
+};
+Normal smoothness_normal(double roughness, const ResponseUnknowns& unknowns) {
+  const SmoothnessCost cost(new ResponseSmoothness{roughness});
+  Eigen::Matrix<double, ResponseSmoothness::kTerms, static_cast<int>(ResponseSmoothness::kCoefficients),
+                Eigen::RowMajor>
+      jacobian;
+  Eigen::Matrix<double, ResponseSmoothness::kTerms, 1> residuals;
+  const double* parameters = unknowns.theta.data();
+  double* jacobians = jacobian.data();
+  cost.Evaluate(&parameters, residuals.data(), &jacobians);
+  return {jacobian.transpose() * jacobian, jacobian.transpose() * residuals};
+}
+
+// Rows of the samples of each exposure time.
+std::vector<std::vector<Eigen::Index>> exposures_of(const WeightedSamples& data) {
+  std::map<double, std::vector<Eigen::Index>> rows;
+  for (std::size_t i = 0; i < data.samples.size(); ++i)
+    rows[data.samples[i].log_time].push_back(static_cast<Eigen::Index>(i));
+  std::vector<std::vector<Eigen::Index>> exposures;
+  for (auto& [time, list] : rows) exposures.push_back(std::move(list));
+  return exposures;
+}
+
+// Squared residuals of each exposure under the fit to all others. The fit is linear, so leaving out is exact
+// and needs no other fit: residuals r with the block H of the hat matrix become (I - H)^-1 r.
+double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures, const Eliminated& problem,
+                      const Eigen::LDLT<Eigen::MatrixXd>& solver, const Eigen::VectorXd& residuals) {
+  constexpr double kAlone = 1e-6;  // for a patch that no other exposure shows
+  const auto of_one_patch = [&problem](Eigen::Index a, Eigen::Index b) {
+    return problem.patch[static_cast<std::size_t>(a)] == problem.patch[static_cast<std::size_t>(b)];
+  };
+  double score = 0;
+  for (const std::vector<Eigen::Index>& rows : exposures) {
+    const Eigen::MatrixXd jacobian = problem.jacobian(rows, Eigen::all);
+    Eigen::MatrixXd rest = -jacobian * solver.solve(jacobian.transpose());
+    rest.diagonal().array() += 1 + kAlone;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < rows.size(); ++j)
+        if (of_one_patch(rows[i], rows[j]))
+          rest(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) -=
+              problem.share[rows[i]] * problem.share[rows[j]];
+    score += rest.ldlt().solve(Eigen::VectorXd(residuals(rows))).squaredNorm();
+  }
+  return score;
+}
+
+}  // namespace
+
+double choose_roughness(const WeightedSamples& data, ResponseUnknowns& unknowns) {
+  const Eliminated problem = eliminate_exposures(data, unknowns);
+  const Eigen::MatrixXd data_matrix = problem.jacobian.transpose() * problem.jacobian;
+  const Eigen::VectorXd data_gradient = problem.jacobian.transpose() * problem.residuals;
+  const std::vector<std::vector<Eigen::Index>> exposures = exposures_of(data);
+  double best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (double roughness = 1; roughness < 5000; roughness *= 2) {
+    const Normal smooth = smoothness_normal(roughness, unknowns);
+    const Eigen::LDLT<Eigen::MatrixXd> solver(data_matrix + smooth.matrix);
+    const Eigen::VectorXd moved =
+        problem.residuals - problem.jacobian * solver.solve(data_gradient + smooth.gradient);
+    const double score = left_out_score(exposures, problem, solver, moved);
+    if (score < least) {
+      least = score;
+      best = roughness;
+    }
+  }
+  return best;
+}
+
+}  // namespace abbe
