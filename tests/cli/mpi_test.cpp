@@ -30,8 +30,10 @@ class Mpi : public testing::Test {
   }
 };
 
-std::string scene(const std::string& name) {
-  return (data_directory() / "scenes" / (name + ".json")).string();
+/// A scene of so many pixels each way.
+std::string scene(const std::string& name, int pixels = 64) {
+  return fmt::format("{} --set /sensor/resolution=[{},{}]",
+                     (data_directory() / "scenes" / (name + ".json")).string(), pixels, pixels);
 }
 
 void expect_same_bits(const std::string& arguments, std::initializer_list<int> counts) {
@@ -57,7 +59,7 @@ TEST_F(Mpi, AnyNumberOfProcessesGivesTheSameBits) {
 TEST_F(Mpi, StatsAreOfAllProcesses) {
   const auto film = scratch() / "film.abbepart";
   const std::string arguments =
-      fmt::format("{} --spp 4096 --threads 1 --quiet -o {} --stats -", scene("furnace"), film.string());
+      fmt::format("{} --spp 1024 --threads 1 --quiet -o {} --stats -", scene("furnace", 16), film.string());
   const nlohmann::json alone = abbe("render " + arguments).json();
   const nlohmann::json crew = together(3, arguments).json();
   EXPECT_EQ(alone["processes"], 1);
@@ -69,12 +71,12 @@ TEST_F(Mpi, StatsAreOfAllProcesses) {
 }
 
 TEST_F(Mpi, AnErrorAskedForEndsAtTheSameSample) {
-  expect_same_bits(scene("cornell") + " --error 12%", {2, 3});
+  expect_same_bits(scene("cornell") + " --error 24%", {2, 3});
 }
 
 TEST_F(Mpi, ALostProcessEndsAllAndLosesNoCheckpoint) {
   const std::string save = (scratch() / "at.abbepart").string();
-  const std::string whole = scene("cornell") + " --spp 40 --threads 1 --quiet";
+  const std::string whole = scene("cornell") + " --spp 200 --threads 1 --quiet";
   const std::string saving = fmt::format("{} --checkpoint {} --checkpoint-every 0.1s", whole, save);
   const Outcome lost = shell(fmt::format(kRun, 2, saving + " -o " + (scratch() / "lost.exr").string()) +
                              " & pid=$!; while [ ! -e " + save +
