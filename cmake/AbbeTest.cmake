@@ -4,11 +4,13 @@ include(GoogleTest)
 add_custom_target(unit_tests)
 add_dependencies(unit_tests abbe)
 
-# abbe_test(<name> SOURCES ... LINKS ... [LABEL unit|scenes|nightly] [TIMEOUT seconds])
+# abbe_test(<name> SOURCES ... LINKS ... [LABEL unit|scenes|nightly] [TIMEOUT seconds] [NIGHTLY seconds])
 #
-# One GoogleTest executable, each of its tests registered with CTest under the tier's label.
+# One GoogleTest executable, each of its tests registered with CTest under the tier's label; all of them once more for the night where NIGHTLY
+# says how long they may then take, with ABBE_NIGHTLY in their environment, by which tests do more (tests/tier.h). Tests whose names begin with
+# Nightly are for the night alone.
 function(abbe_test name)
-  cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "" "LABEL;TIMEOUT;NIGHTLY" "SOURCES;LINKS" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
   endif()
@@ -25,8 +27,15 @@ function(abbe_test name)
   endif()
   gtest_discover_tests(test_${name}
     TEST_PREFIX ${name}.
+    TEST_FILTER -Nightly*
     DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data")
+  if(TEST_NIGHTLY)
+    gtest_discover_tests(test_${name}
+      TEST_PREFIX ${name}_nightly.
+      DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS nightly TIMEOUT ${TEST_NIGHTLY} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data;ABBE_NIGHTLY=1")
+  endif()
 endfunction()
 
 # abbe_python_tests(<module> PREFIX name CASES classes... TIMEOUT seconds [PATH folder] [NIGHTLY]): classes of Debian's Python and its unittest

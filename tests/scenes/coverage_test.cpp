@@ -9,18 +9,14 @@
 
 #include "io/exr.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 
 namespace abbe {
 namespace {
 
-#ifdef ABBE_NIGHTLY
-constexpr int kSeeds = 200;
-constexpr std::optional<double> kMostCovered =
-    0.975;  // more is too wide: pixels that share photons, taken as independent, give 98.5 %
-#else
-constexpr int kSeeds = 32;
-constexpr std::optional<double> kMostCovered;  // so few do not tell
-#endif
+const int kSeeds = test::nightly() ? 200 : 32;
+// More is too wide: pixels that share photons, taken as independent, give 98.5 %. Few seeds do not tell.
+const std::optional<double> kMostCovered = test::nightly() ? std::optional(0.975) : std::nullopt;
 constexpr double kNominal = 0.95;
 constexpr double kSignificance = 1e-6;  // of a test: over about a hundred figures, by Sidak's correction
 

@@ -3,6 +3,7 @@
 
 #include "scene/unreached.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 #include "transport/render/render.h"
 
 namespace abbe {
@@ -81,9 +82,10 @@ TEST(Photons, MergingFindsCausticsSeenThroughGlassAsBruteForceDoes) {
   const Film brute = film_of({"adjoint-brute", 16384}, scene);
   // The film positions of progressive photon mapping are few: those of a replicate, whatever its samples.
   const std::vector<Override> finer{{"/sensor/resolution", "[64, 64]"}, {"/sensor/pixel_pitch_um", "400"}};
-  for (const Rendered& how :
-       {Rendered{"path", 1024}, Rendered{"sppm", 256}, Rendered{"ppm", 256, finer},
-        Rendered{"vcm", 256, {{"/sensor/resolution", "[32, 32]"}, {"/sensor/pixel_pitch_um", "800"}}}}) {
+  std::vector<Rendered> merging{
+      {"vcm", 256, {{"/sensor/resolution", "[32, 32]"}, {"/sensor/pixel_pitch_um", "800"}}}};
+  if (test::nightly()) merging.insert(merging.end(), {{"path", 1024}, {"sppm", 256}, {"ppm", 256, finer}});
+  for (const Rendered& how : merging) {
     SCOPED_TRACE(how.integrator);
     expect_alike(brute, film_of(how, scene), 0.01, 0.03);
   }
@@ -115,10 +117,13 @@ TEST(Photons, GatheringFindsTheLightOfPathTracing) {
     const char* scene;
     const char* radius;
     double within;
+    bool by_day = false;
   };
-  for (const auto& [scene, radius, within] :
-       {Compared{"cornell.json", "4", 0.01}, Compared{"materials/smoke.json", "0.02", 0.02},
-        Compared{"materials/textures.json", "0.03", 0.01}, Compared{"materials/nested.json", "0.3", 0.02}}) {
+  for (const auto& [scene, radius, within, by_day] :
+       {Compared{"cornell.json", "4", 0.01}, Compared{"materials/smoke.json", "0.02", 0.02, true},
+        Compared{"materials/textures.json", "0.03", 0.01, true},
+        Compared{"materials/nested.json", "0.3", 0.02}}) {
+    if (!by_day && !test::nightly()) continue;
     const auto film = [&, name = scene, r = radius](const char* integrator, int samples) {
       return render(test::load(name, {{"/render/integrator", integrator},
                                       {"/render/samples", std::to_string(samples)},

@@ -66,7 +66,7 @@ TEST(Prism, FraunhoferLinesFallWhereTheSellmeierFormulaPutsThem) {
     const std::string emission = "{\"lines\": [{\"nm\": " + std::to_string(line.nm) +
                                  ", \"width_nm\": 0.01, \"power\": 1}], \"radiant_flux_W\": 1}";
     const Scene scene =
-        test::load("prism.json", {{"/lights/0/emission", emission}, {"/render/samples", "8"}});
+        test::load("prism.json", {{"/lights/0/emission", emission}, {"/render/samples", "3"}});
     const int channel = line.nm > 600 ? 0 : line.nm > 500 ? 1 : 2;
     const double expected = chief_column(scene, line.nm);
     const auto middle = static_cast<int>(expected);
@@ -87,7 +87,7 @@ TEST(Prism, FraunhoferLinesOfAParallelSunbeamFallThereToo) {
           R"({"directional": {"towards": [-238.555886, 0, -155.936158]}, "emission": {"lines": [{"nm": )" +
               std::to_string(line.nm) + R"(, "width_nm": 0.01, "power": 1}], "irradiance": 1}})"},
          {"/sensor/observer", "\"1931\""},
-         {"/render/samples", "4"}});
+         {"/render/samples", "2"}});
     const double expected = chief_column(scene, line.nm);
     const auto middle = static_cast<int>(expected);
     const Film film = render(scene, {}).film;
@@ -98,7 +98,7 @@ TEST(Prism, FraunhoferLinesOfAParallelSunbeamFallThereToo) {
 }
 
 TEST(Prism, BandpassBlocksEndWhereTheirBandsEnd) {
-  const Scene scene = test::load("prism.json", {{"/render/samples", "32"}});
+  const Scene scene = test::load("prism.json", {{"/render/samples", "12"}});
   const Film film = render(scene, {}).film;
   // Where the column means of two neighbouring blocks cross, against the chief ray of the limit they share;
   // the image of the slit blurs both edges over its width.
@@ -125,7 +125,7 @@ TEST(Prism, BandpassBlocksEndWhereTheirBandsEnd) {
 }
 
 TEST(Prism, ColoursStandInOrder) {
-  const Scene scene = test::load("prism.json", {{"/render/samples", "8"}});
+  const Scene scene = test::load("prism.json", {{"/render/samples", "2"}});
   const Film film = render(scene, {}).film;
   const double red = centroid(film, 0);
   const double green = centroid(film, 1);

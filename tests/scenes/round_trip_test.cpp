@@ -47,7 +47,7 @@ std::string written(const std::string& text) {
 
 // Few samples of few pixels, or of the scene's own where these are few: a row of a spectrograph is.
 std::vector<Override> small(const Scene& scene) {
-  std::vector<Override> settings{{"/render/samples", "64"}};
+  std::vector<Override> settings{{"/render/samples", "8"}};
   if (scene.camera.width * scene.camera.height > 4096) settings.push_back({"/sensor/resolution", "[32, 18]"});
   return settings;
 }

@@ -7,12 +7,10 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "tests/scenes/scene_fixture.h"
-#include "tests/stress/effort.h"
+#include "tests/tier.h"
 
 namespace abbe {
 namespace {
-
-using test::kEffort;
 
 constexpr int kGrid = 8;
 
@@ -77,9 +75,9 @@ double distance_from_uniform(std::vector<double> values) {
 
 // Stress 34: with and without roulette, over the tiles of a picture.
 TEST(Stress, RouletteLeavesWelchsProbabilitiesUniform) {
-  constexpr int kRenders = 16 * (kEffort > 1 ? 8 : 1);
-  const auto with = tiles(1, kRenders, 2);
-  const auto without = tiles(1001, kRenders, -1);
+  const int renders = test::nightly() ? 128 : 16;
+  const auto with = tiles(1, renders, 2);
+  const auto without = tiles(1001, renders, -1);
   std::vector<double> p;
   for (std::size_t tile = 0; tile < with.size(); ++tile) p.push_back(welch(with[tile], without[tile]));
   EXPECT_LT(distance_from_uniform(p), 2.23);  // 1 in 10 000 is further

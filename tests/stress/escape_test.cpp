@@ -2,16 +2,18 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/scenes.h"
-#include "tests/stress/effort.h"
+#include "tests/tier.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using test::kEffort;
 using testing::Random;
 using testing::scene_of;
+
+// How many times as much the night does.
+const int kEffort = test::nightly() ? 100 : 1;
 
 // A box with corners of its own for no face, and outward triangles.
 Mesh box(const V3d& half) {
