@@ -3,9 +3,11 @@
 namespace abbe {
 
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
-                     const SampledSpectrum& wavelengths_nm, float time) {
+                     const SampledSpectrum& wavelengths_nm, int hero, float time) {
   return std::visit(
-      [&](const auto& kind) { return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, time); },
+      [&](const auto& kind) {
+        return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, hero, time);
+      },
       camera.kind);
 }
 
@@ -44,7 +46,8 @@ void translate(Camera& camera, const Imath::V3d& by) {
 
 double central_weight(const Camera& camera, Imath::V2f film) {
   constexpr float kMiddleNm = 550;
-  return static_cast<double>(sample_ray(camera, film, {0.5F, 0.5F}, SampledSpectrum(kMiddleNm), 0).weight[0]);
+  return static_cast<double>(
+      sample_ray(camera, film, {0.5F, 0.5F}, SampledSpectrum(kMiddleNm), 0, 0).weight[0]);
 }
 
 }  // namespace abbe

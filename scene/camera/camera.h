@@ -24,7 +24,7 @@ struct Camera {
 
 // What `CameraModel` says of each.
 [[nodiscard]] CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
-                                   const SampledSpectrum& wavelengths_nm, float time);
+                                   const SampledSpectrum& wavelengths_nm, int hero, float time);
 [[nodiscard]] std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point,
                                                              Imath::V2f lens,
                                                              const SampledSpectrum& wavelengths_nm,

@@ -30,7 +30,8 @@ Imath::V2f film_at(const IrradianceProbe& probe, const FilmGrid& grid, const Ima
 }  // namespace
 
 CameraRay IrradianceProbe::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
-                                      const SampledSpectrum& /*wavelengths_nm*/, float time) const {
+                                      const SampledSpectrum& /*wavelengths_nm*/, int /*hero*/,
+                                      float time) const {
   const Imath::V3d point = corner + edge_u * (static_cast<double>(film.x) / grid.width) +
                            edge_v * (static_cast<double>(film.y) / grid.height);
   const Imath::V3f local = cosine_hemisphere(direction);

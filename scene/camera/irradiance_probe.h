@@ -13,7 +13,7 @@ struct IrradianceProbe {
   Imath::V3d normal{0, 0, 1};
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
-                                     const SampledSpectrum& wavelengths_nm, float time) const;
+                                     const SampledSpectrum& wavelengths_nm, int hero, float time) const;
   [[nodiscard]] std::optional<CameraConnection> sample_towards(const FilmGrid& grid, const Imath::V3f& point,
                                                                Imath::V2f lens,
                                                                const SampledSpectrum& wavelengths_nm,

@@ -17,12 +17,23 @@ struct FilmGrid {
   double pixel_pitch = 1;  ///< [m]
 };
 
+/// What each lane of a packet has of its own behind a dispersive lens, before which all of them share one
+/// ray. A lane that does not come to the film has the position of another one that does.
+struct LaneImages {
+  SampledSpectrum x;         ///< Film position,
+  SampledSpectrum y;         ///< likewise.
+  SampledSpectrum cos_film;  ///< Of the angle of incidence on the film.
+};
+
 /// A ray into the scene, at the time asked for. Radiance L along it adds `weight` L to the spectral
-/// irradiance at its film position.
+/// irradiance at its film position, balanced over the lanes: each would have drawn the ray with a density of
+/// its own.
 struct CameraRay {
   Ray ray;
-  SampledSpectrum weight;  ///< [sr], lane by lane.
+  SampledSpectrum weight;  ///< [sr], lane by lane; 0 where the lens lets nothing through.
   float cos_film;          ///< Cosine of the angle of incidence on the film, for responses that depend on it.
+  SampledSpectrum lane_pdf{1.0F};         ///< Density of the ray, were the lane the hero, over the hero's.
+  std::optional<LaneImages> images = {};  ///< Where the lens displaces lanes.
 };
 
 /// A connection from a scene point through the lens to the film. Intensity I [W/sr] leaving the point towards
@@ -32,6 +43,8 @@ struct CameraConnection {
   Imath::V3f lens_point;
   SampledSpectrum weight;  ///< [1/m^2], lane by lane.
   float cos_film;
+  std::optional<LaneImages> images =
+      {};  ///< Where the lens displaces lanes; `film` is then that of one of them.
 };
 
 /// What a camera sees along a ray that leaves it at an angle theta with its axis or normal, and how densely
@@ -47,6 +60,8 @@ struct CameraDensity {
   SampledSpectrum pdf_direction;  ///< Of its direction from there [1/sr].
   float cos_theta;
   float cos_film;  ///< Of the angle of incidence on the film.
+  std::optional<LaneImages> images =
+      {};  ///< Where the lens displaces lanes; `film` is then that of one of them.
 };
 
 /// What light comes in through, or falls on: the points center + a u + b v, of a round one with a^2 + b^2 <=
@@ -66,6 +81,9 @@ struct CameraTraits {
   /// Rays leave an opening all over, so that a lens point has to be drawn, and what is out of focus is
   /// blurred.
   bool depth_of_field = false;
+  /// Wavelengths of a ray of the scene fall on film positions of their own, which rays, connections and
+  /// densities then tell.
+  bool displaces_lanes = false;
   std::optional<double> image_distance = {};  ///< Film behind a lens, to it [m].
   std::optional<double> f_number = {};        ///< Of the opening, without the losses of the lens.
   std::optional<Imath::V3d> axis = {};        ///< Unit direction in which a lens looks.
@@ -80,9 +98,9 @@ struct CameraTraits {
 /// share of the exposure that has gone by; see `BasicRay`.
 template <typename Model>
 concept CameraModel = requires(const Model& camera, Model& movable, const FilmGrid& film, Imath::V2f u,
-                               const Ray& ray, const SampledSpectrum& wavelengths_nm, float time) {
-  /// The ray of a film position.
-  { camera.sample_ray(film, u, u, wavelengths_nm, time) } -> std::same_as<CameraRay>;
+                               const Ray& ray, const SampledSpectrum& wavelengths_nm, int hero, float time) {
+  /// The ray of a film position, which it is at the hero's wavelength.
+  { camera.sample_ray(film, u, u, wavelengths_nm, hero, time) } -> std::same_as<CameraRay>;
   /// From a point to the film; nothing if the point is behind the lens or its image beyond the film.
   {
     camera.sample_towards(film, ray.origin, u, wavelengths_nm, time)

@@ -18,7 +18,7 @@ LensCrossing crossing(const PlanePoint& tangent) {
 }  // namespace
 
 CameraRay Pinhole::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f /*lens*/,
-                              const SampledSpectrum& /*wavelengths_nm*/, float time) const {
+                              const SampledSpectrum& /*wavelengths_nm*/, int /*hero*/, float time) const {
   return ray_through(view_of(*this), crossing(film_plane(grid, film) / image_distance), time);
 }
 

@@ -13,7 +13,7 @@ struct Pinhole {
   double transmittance = 1;    ///< Share of the light that passes, at all wavelengths.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
-                                     const SampledSpectrum& wavelengths_nm, float time) const;
+                                     const SampledSpectrum& wavelengths_nm, int hero, float time) const;
   [[nodiscard]] std::optional<CameraConnection> sample_towards(const FilmGrid& grid, const Imath::V3f& point,
                                                                Imath::V2f lens,
                                                                const SampledSpectrum& wavelengths_nm,

@@ -34,7 +34,7 @@ LensCrossing crossing(const ThinLens& camera, const PlanePoint& film, const Plan
 }  // namespace
 
 CameraRay ThinLens::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
-                               const SampledSpectrum& /*wavelengths_nm*/, float time) const {
+                               const SampledSpectrum& /*wavelengths_nm*/, int /*hero*/, float time) const {
   const PlanePoint on_film = film_plane(grid, film);
   const PlanePoint on_lens = lens_plane(*this, lens);
   return ray_through(view_of(*this), crossing(*this, on_film, on_lens, tangent_from(*this, on_film, on_lens)),

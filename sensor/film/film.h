@@ -30,7 +30,8 @@ struct FilmShape {
   int channels;
   int replicates;
   int unit_exponent;  ///< Sums are multiples of 2^unit_exponent.
-  /// Of each sample. One may add to many pixels, so that these are not independent; 0 where none are traced.
+  /// Of each sample, camera paths among them whose lanes a lens takes to several pixels. One may add to many
+  /// pixels, so that these are not independent; 0 where none are traced.
   std::uint64_t photons = 0;
   std::uint32_t path_interval = 1;  ///< A pixel has a camera path in one of so many samples.
   std::optional<Crop> crop = {};    ///< Whose pixels alone have sums, the others being 0; absent for all.

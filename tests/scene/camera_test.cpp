@@ -41,7 +41,7 @@ Camera point_meter() {
 
 const SampledSpectrum kWavelengths(550);
 CameraRay ray_of(const Camera& camera, V2f film, V2f u) {
-  return sample_ray(camera, film, u, kWavelengths, 0.25F);
+  return sample_ray(camera, film, u, kWavelengths, 0, 0.25F);
 }
 std::optional<CameraConnection> connection(const Camera& camera, const V3f& point, V2f u) {
   return sample_towards(camera, point, u, kWavelengths, 0.25F);

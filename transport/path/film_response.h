@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -31,6 +32,7 @@ struct FilmPoint {
   int y = 0;
   float cos_film = 1;
   float time = 0;
+  const LaneImages* images = nullptr;  ///< Where each lane falls, behind a lens that displaces them.
 };
 
 /// By which way light came: from which light of the scene, and by how many events between it and the camera,
@@ -63,6 +65,17 @@ class FilmResponse {
   /// Whether the values depend on the angle of incidence.
   [[nodiscard]] bool angular() const { return angular_; }
 
+  /// Tells `deposit` of each pixel on which lanes of a contribution fall, and of the values that these expose
+  /// there, which `values` then holds, as many as `planes`: once in any case, where no lane has anything.
+  template <typename DepositAt>
+  void expose(const FilmPoint& at, const SampledWavelengths& wavelengths, const SampledSpectrum& contribution,
+              std::span<double> values, DepositAt deposit) const {
+    if (at.images != nullptr) return expose_apart(at, wavelengths, contribution, values, deposit);
+    std::fill(values.begin(), values.end(), 0.0);
+    add(at, wavelengths, contribution, values);
+    deposit(at, values);
+  }
+
   /// Adds to `values`, as many as `planes`, what `contribution` exposes, already divided by its balance over
   /// lanes and techniques.
   void add(const FilmPoint& at, const SampledWavelengths& wavelengths, const SampledSpectrum& contribution,
@@ -74,6 +87,38 @@ class FilmResponse {
   }
 
  private:
+  // Lanes of one pixel, and of one angle where that matters, expose it together.
+  template <typename DepositAt>
+  [[gnu::noinline]] void expose_apart(const FilmPoint& at, const SampledWavelengths& wavelengths,
+                                      const SampledSpectrum& contribution, std::span<double> values,
+                                      DepositAt deposit) const {
+    std::array<bool, kLanes> done{};
+    bool any = false;
+    for (int first = 0; first < kLanes; ++first) {
+      if (done[static_cast<std::size_t>(first)] || contribution[first] == 0) continue;
+      const FilmPoint pixel = image_of(at, first);
+      SampledSpectrum::Values falling{};
+      for (int lane = first; lane < kLanes; ++lane) {
+        const FilmPoint other = image_of(at, lane);
+        if (other.x != pixel.x || other.y != pixel.y || (angular_ && other.cos_film != pixel.cos_film))
+          continue;
+        falling[static_cast<std::size_t>(lane)] = contribution[lane];
+        done[static_cast<std::size_t>(lane)] = true;
+      }
+      std::fill(values.begin(), values.end(), 0.0);
+      add(pixel, wavelengths, SampledSpectrum(falling), values);
+      deposit(pixel, values);
+      any = true;
+    }
+    if (any) return;
+    std::fill(values.begin(), values.end(), 0.0);
+    deposit(FilmPoint{at.x, at.y, at.cos_film, at.time}, values);
+  }
+  [[nodiscard]] static FilmPoint image_of(const FilmPoint& at, int lane) {
+    return {static_cast<int>(at.images->x[lane]), static_cast<int>(at.images->y[lane]),
+            at.images->cos_film[lane], at.time};
+  }
+
   [[nodiscard]] SampledSpectrum weight(const Channel& channel, const FilmPoint& at,
                                        const SampledSpectrum& wavelengths_nm) const {
     return angular_ ? weight_by_angle(channel, at.cos_film, wavelengths_nm) : channel.weight(wavelengths_nm);

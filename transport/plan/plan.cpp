@@ -85,7 +85,7 @@ WavelengthDistribution make_wavelengths(const Scene& scene, std::span<const Curv
 std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene,
                                                          std::span<const Curve> emissions) {
   std::vector<WavelengthDistribution> own;
-  if (scene.mosaic)
+  if (scene.mosaic && !traits(scene.camera).displaces_lanes)
     for (const Channel& channel : scene.channels)
       own.emplace_back(emissions, std::span(&envelope(channel), 1));
   return own;
@@ -165,6 +165,11 @@ std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) 
 
 std::uint64_t photons_of_sample(const Scene& scene) {
   return photons_of(scene, chosen_techniques(scene));
+}
+
+std::uint64_t paths_to_any_pixel(const Plan& plan) {
+  const bool any = starts_at_lights(plan.techniques) || traits(plan.scene.camera).displaces_lanes;
+  return any ? plan.photons : 0;
 }
 
 std::optional<Error> refusal(const Scene& scene) {

@@ -30,10 +30,11 @@ struct Plan {
   std::uint64_t photons;              ///< Of a sample.
   std::uint32_t path_interval;        ///< A pixel has a camera path in one of so many samples.
   double nominal_value;               ///< Order of magnitude of a film value.
-  std::vector<WavelengthDistribution> own_wavelengths;  ///< Per channel, for the pixels of a mosaic.
-  MediumStack camera_inside;                            ///< Where camera paths start,
-  std::vector<MediumStack> light_inside;                ///< and photons, likewise.
-  float gather_radius = 0;                              ///< Of the first sample [m].
+  /// Per channel, for the pixels of a mosaic; none where lanes of a path fall on several pixels.
+  std::vector<WavelengthDistribution> own_wavelengths;
+  MediumStack camera_inside;              ///< Where camera paths start,
+  std::vector<MediumStack> light_inside;  ///< and photons, likewise.
+  float gather_radius = 0;                ///< Of the first sample [m].
   /// Those at points that camera paths connect to along matter that scatters.
   PowerLightSampler lights_along{std::vector<double>()};
   /// Where camera paths look for the caustics of lights that photons are not traced from,
@@ -51,6 +52,10 @@ struct Plan {
 
 /// How many photons the scene asks for in a sample.
 [[nodiscard]] std::uint64_t photons_of_sample(const Scene& scene);
+
+/// How many paths of a sample may expose any pixel: the photons, or where there are none the camera paths
+/// through a lens that displaces lanes; 0 where each pixel has its own alone.
+[[nodiscard]] std::uint64_t paths_to_any_pixel(const Plan& plan);
 
 /// Why a scene cannot be rendered, as Error{scene}; nothing where a plan can be made. Photons cannot light it
 /// though it would have them, since a shape that light from afar meets is too large or too far for them, or a

@@ -74,7 +74,7 @@ bool sees_specular(const Scene& scene) {
     const int column = i % kGrid;
     const Imath::V2f film(cell.x * (static_cast<float>(column) + 0.5F),
                           cell.y * (static_cast<float>(row) + 0.5F));
-    const auto hit = scene.intersect(sample_ray(scene.camera, film, {0.5F, 0.5F}, any, 0).ray);
+    const auto hit = scene.intersect(sample_ray(scene.camera, film, {0.5F, 0.5F}, any, 0, 0).ray);
     if (hit && lobes(scene.materials[scene.shapes[hit->shape].material]).delta) return true;
   }
   return false;

@@ -52,6 +52,7 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
       film_(film),
       beside_(beside),
       crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
+      displaces_lanes_(traits(plan.scene.camera).displaces_lanes),
       first_(samples.first),
       last_(samples.last),
       seed_(seed),
@@ -188,22 +189,24 @@ std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t p
   return at / path_interval_;
 }
 
-// Of the pixels of a tile, the sample that `path_of` says of each, by its number.
+// Of the pixels of a tile within a crop, the sample that `path_of` says of each, by its number.
 template <typename PathOf>
-void Pass::take_pixels(const Tile& tile, std::uint64_t sample, PathOf path_of, Worker& worker) const {
+void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
+                       Worker& worker) const {
   constexpr int kEdge = kTile;
   worker.pixels.clear();
-  for (int y = std::max(tile.y0, crop_.y0); y < std::min(tile.y0 + kEdge, crop_.y1); ++y)
-    for (int x = std::max(tile.x0, crop_.x0); x < std::min(tile.x0 + kEdge, crop_.x1); ++x)
+  for (int y = std::max(tile.y0, within.y0); y < std::min(tile.y0 + kEdge, within.y1); ++y)
+    for (int x = std::max(tile.x0, within.x0); x < std::min(tile.x0 + kEdge, within.x1); ++x)
       if (const std::optional<std::uint32_t> path = path_of(number_of(x, y)))
         worker.pixels.push_back(
             {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), *path)});
 }
 
-// One sample of each pixel of a tile.
+// One sample of each pixel of a tile: of all, where some of its lanes may fall on others that are asked for.
 void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
+  const Crop within = displaces_lanes_ ? Crop{0, 0, film_.width(), film_.height()} : crop_;
   take_pixels(
-      tile, sample, [&](std::uint32_t pixel) { return path_of(sample, pixel); }, worker);
+      tile, within, sample, [&](std::uint32_t pixel) { return path_of(sample, pixel); }, worker);
   worker.counts.paths += worker.pixels.size();
 }
 
@@ -215,7 +218,7 @@ void Pass::take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) co
     for (int x = tile.x0; x < std::min(tile.x0 + kEdge, film_.width()); ++x)
       worker.pairs.push_back(
           {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), index(sample)),
-           photon_sampler(sample, number_of(x, y)), is_asked_for(x, y)});
+           photon_sampler(sample, number_of(x, y)), is_sampled(x, y)});
 }
 
 // Those from `first` to `last` of a sample.
@@ -234,6 +237,7 @@ Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
 
 Deposit Pass::pixels_deposit(std::uint64_t sample, Worker& worker) {
   return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+    if (!is_asked_for(at.x, at.y)) return;
     worker.values.assign(values.begin(), values.end());
     for (double& value : worker.values) value *= path_interval_;
     if (keeps(worker.values, worker))
@@ -266,7 +270,7 @@ Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
 void Pass::look(const Tile& tile, std::uint64_t sample, Worker& worker) {
   if (beside_.features == nullptr) return;
   take_pixels(
-      tile, sample, [&](std::uint32_t) { return std::optional(index(sample)); }, worker);
+      tile, crop_, sample, [&](std::uint32_t) { return std::optional(index(sample)); }, worker);
   worker.feature_tracer->trace(worker.pixels, sample == 0,
                                [this](const PixelSample& at, std::span<const double> values) {
                                  beside_.features->add(number_of(at.x, at.y), values);

@@ -128,7 +128,8 @@ class Pass {
 
   [[nodiscard]] Tile tile(std::uint32_t number) const;
   template <typename PathOf>
-  void take_pixels(const Tile& tile, std::uint64_t sample, PathOf path_of, Worker& worker) const;
+  void take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
+                   Worker& worker) const;
   void take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
@@ -138,6 +139,8 @@ class Pass {
   [[nodiscard]] ContributionDeposit layers_deposit(std::uint64_t sample, std::uint32_t factor,
                                                    Worker& worker);
   [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
+  // Whether the pixel is asked for, or another one's light may fall on it.
+  [[nodiscard]] bool is_sampled(int x, int y) const { return displaces_lanes_ || is_asked_for(x, y); }
   [[nodiscard]] bool is_asked_for(int x, int y) const {
     return x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1;
   }
@@ -154,6 +157,7 @@ class Pass {
   Film& film_;
   BesideFilms beside_;
   Crop crop_;
+  bool displaces_lanes_;  // the camera
   std::uint64_t first_;
   std::uint64_t last_;
   std::uint64_t seed_;

@@ -56,12 +56,11 @@ class Rendering {
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
         step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
                                                        static_cast<std::uint64_t>(scene.camera.height)))),
-        result_{
-            Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
-                 replicate_count(scene, options), plan_.nominal_value,
-                 starts_at_lights(plan_.techniques) ? plan_.photons : 0, plan_.path_interval, options.crop),
-            {},
-            {}} {
+        result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
+                     replicate_count(scene, options), plan_.nominal_value, paths_to_any_pixel(plan_),
+                     plan_.path_interval, options.crop),
+                {},
+                {}} {
     if (options.layers) result_.layers.emplace(layered(result_.film.shape(), options.layers->names.size()));
     if (!options.features.empty())
       result_.features.emplace(options.features, result_.film.shape(), scene.film_planes());

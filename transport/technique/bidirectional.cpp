@@ -87,6 +87,7 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
   from_camera_.paths().clear();
   from_light_.paths().clear();
   at_.assign(samples.size(), {});
+  images_.resize(samples.size());
   found_.assign(samples.size(), SampledSpectrum());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     const PixelPair& sample = samples[i];
@@ -99,7 +100,7 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
     } else {
       eye.packet = from_lights_->packet;
     }
-    if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, eye);
+    if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, eye, images_[i]);
   }
   from_camera_.run();
   from_light_.run();
@@ -171,7 +172,8 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   set_joined(i, 0, photon, s);
   joined_.z.insert(joined_.z.begin(), &lens);
   joined_.t = 1;
-  add_joined(i, {static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, from.time});
+  add_joined(i, {static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, from.time,
+                 seen->images ? &*seen->images : nullptr});
 }
 
 void BidirectionalTracer::merge(std::uint32_t i, std::size_t t) {
@@ -246,26 +248,29 @@ FilmPoint BidirectionalTracer::film_point(std::uint32_t i, std::size_t t, const 
 
 void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_t light,
                               const SampledSpectrum& contribution) {
-  const bool own = at.x == at_[i].x && at.y == at_[i].y && at.cos_film == at_[i].cos_film;
+  const bool own =
+      at.x == at_[i].x && at.y == at_[i].y && at.cos_film == at_[i].cos_film && at.images == at_[i].images;
   if (own)
     found_[i] += contribution;
   else
     expose(i, at, contribution);
   if (!apart_) return;
-  set_values(i, at, contribution);
-  apart_(at, {light, static_cast<int>(joined_.z.size()) - 2}, values_);
+  const LightHistory of{light, static_cast<int>(joined_.z.size()) - 2};
+  expose(i, at, contribution,
+         [&](const FilmPoint& pixel, std::span<const double> values) { apart_(pixel, of, values); });
 }
 
 void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution) {
-  set_values(i, at, contribution);
-  (*deposit_)(first_ + i, at, values_);
+  expose(i, at, contribution, [&](const FilmPoint& pixel, std::span<const double> values) {
+    (*deposit_)(first_ + i, pixel, values);
+  });
 }
 
-void BidirectionalTracer::set_values(std::uint32_t i, const FilmPoint& at,
-                                     const SampledSpectrum& contribution) {
+template <typename DepositAt>
+void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution,
+                                 DepositAt deposit) {
   const SampledWavelengths& wavelengths = from_camera_.paths()[i].packet.wavelengths;
-  std::fill(values_.begin(), values_.end(), 0.0);
-  response_.add(at, wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_);
+  response_.expose(at, wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_, deposit);
 }
 
 }  // namespace abbe

@@ -80,7 +80,8 @@ class BidirectionalTracer {
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
   void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution);
   void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);
-  void set_values(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);
+  template <typename DepositAt>
+  void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution, DepositAt deposit);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -96,6 +97,7 @@ class BidirectionalTracer {
   std::span<const PixelPair> samples_;  // under way
   std::uint32_t first_ = 0;             // number of the first of the samples under way
   std::vector<FilmPoint> at_;           // where each exposes the film,
+  std::vector<LaneImages> images_;      // and its lanes, behind a lens that displaces them,
   std::vector<SampledSpectrum> found_;  // and with what
   StrategyWeights weights_;
   JoinedPath joined_;

@@ -77,11 +77,11 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
                              path.around, path.lambda_nm(), static_cast<float>(*distance));
   if (!through) return;
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
-                     path.ray.time};
-  std::fill(values_.begin(), values_.end(), 0.0);
-  response_.add(at, path.packet.wavelengths,
-                path.packet.throughput * seen->importance * through->transmittance * scale_, values_);
-  (*deposit_)(path.path, at, values_);
+                     path.ray.time, seen->images ? &*seen->images : nullptr};
+  response_.expose(
+      at, path.packet.wavelengths,
+      path.packet.throughput * seen->importance * through->transmittance * scale_, values_,
+      [&](const FilmPoint& pixel, std::span<const double> values) { (*deposit_)(path.path, pixel, values); });
 }
 
 AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
@@ -97,22 +97,23 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
   std::vector<RecordedPath>& paths = walks_.paths();
   paths.clear();
   at_.resize(samples.size());
+  images_.resize(samples.size());
   found_.assign(samples.size(), SampledSpectrum());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     RecordedPath& path = paths.emplace_back(samples[i].sampler, i);
     path.packet =
         draw_packet(plan_.wavelengths_at(samples[i].x, samples[i].y), path.sampler.group(kFilmGroup)[2]);
-    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path);
+    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path, images_[i]);
     keep_hero(path.packet);
     path.carried_at_start = path.packet.carried();
     walks_.going().push_back(i);
   }
   walks_.run(*this);
   for (const RecordedPath& path : paths) {
-    std::fill(values_.begin(), values_.end(), 0.0);
-    response_.add(at_[path.path], path.packet.wavelengths,
-                  found_[path.path] * static_cast<float>(scene_.exposure_s), values_);
-    deposit(path.path, at_[path.path], values_);
+    response_.expose(
+        at_[path.path], path.packet.wavelengths, found_[path.path] * static_cast<float>(scene_.exposure_s),
+        values_,
+        [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
   }
 }
 

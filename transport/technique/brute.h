@@ -104,6 +104,7 @@ class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
   FilmResponse response_;
   RandomWalks<AdjointBruteTracer> walks_;
   std::vector<FilmPoint> at_;           // where each path exposes the film,
+  std::vector<LaneImages> images_;      // and its lanes, behind a lens that displaces them,
   std::vector<SampledSpectrum> found_;  // and with what
   std::vector<double> values_;          // of one deposit
 };

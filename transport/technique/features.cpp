@@ -86,7 +86,7 @@ Walk FeatureTracer::start(const PixelSample& sample) const {
   walk.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
   walk.ray = sample_ray(scene_.camera,
                         {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                        {lens[0], lens[1]}, walk.lambda_nm(), film[kTimeNumber])
+                        {lens[0], lens[1]}, walk.lambda_nm(), walk.packet.hero, film[kTimeNumber])
                  .ray;
   if (!plan_.camera_inside.empty()) walk.around.enter(scene_, plan_.camera_inside, walk.lambda_nm());
   return walk;

@@ -79,6 +79,7 @@ void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens
        path.events + 1,
        contribution,
        {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
+  if (lens.images) images_.push_back(*lens.images);
   ways_.push_back(way);
 }
 
@@ -87,13 +88,16 @@ void LightTracer::resolve_connections() {
   if (!walks_.has_free_paths()) caster_.occluded(ways_, blocked_);
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (blocked_[i] != 0) continue;
-    const auto& [path, events, contribution, at] = connections_[i];
-    std::fill(values_.begin(), values_.end(), 0.0);
-    response_.add(at, walks_.paths()[path].packet.wavelengths, contribution * scale_, values_);
-    (*deposit_)(path, at, values_);
-    if (apart_) apart_(at, {starts_[path].light, events}, values_);
+    auto& [path, events, contribution, place] = connections_[i];
+    if (!images_.empty()) place.images = &images_[i];
+    response_.expose(place, walks_.paths()[path].packet.wavelengths, contribution * scale_, values_,
+                     [&](const FilmPoint& at, std::span<const double> values) {
+                       (*deposit_)(path, at, values);
+                       if (apart_) apart_(at, {starts_[path].light, events}, values);
+                     });
   }
   connections_.clear();
+  images_.clear();
   ways_.clear();
 }
 

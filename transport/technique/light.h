@@ -90,6 +90,7 @@ class LightTracer {
   ContributionDeposit apart_;  // if it is told
   std::vector<PhotonStart> starts_;
   std::vector<Connection> connections_;  // of the step under way,
+  std::vector<LaneImages> images_;       // where their lanes fall, behind a lens that displaces these,
   std::vector<BasicRay<double>> ways_;   // their ways to the lens,
   std::vector<std::uint8_t> blocked_;    // and whether something stands on them
   std::vector<double> values_;           // of one deposit

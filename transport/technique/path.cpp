@@ -46,17 +46,18 @@ void PathTracer::trace(std::span<const PixelSample> samples, const Deposit& depo
 void PathTracer::trace_together(std::span<const PixelSample> samples) {
   std::vector<CameraPath>& paths = walks_.paths();
   paths.clear();
+  if (camera_.displaces_lanes) images_.resize(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     paths.emplace_back(samples[i].sampler, i);
     if (start(samples[i], paths.back())) walks_.going().push_back(i);
   }
   resolve_connections();
   walks_.run(*this);
-  for (const CameraPath& path : paths) {
-    std::fill(values_.begin(), values_.end(), 0.0);
-    response_.add(path.at, path.packet.wavelengths, path.found * path.scale, values_);
-    (*deposit_)(first_ + path.path, path.at, values_);
-  }
+  for (const CameraPath& path : paths)
+    response_.expose(path.at, path.packet.wavelengths, path.found * path.scale, values_,
+                     [&](const FilmPoint& at, std::span<const double> values) {
+                       (*deposit_)(first_ + path.path, at, values);
+                     });
 }
 
 bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
@@ -67,17 +68,28 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
   const CameraRay ray =
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                 {lens[0], lens[1]}, path.lambda_nm(), film[kTimeNumber]);
+                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, film[kTimeNumber]);
   path.ray = ray.ray;
   path.at = {sample.x, sample.y, ray.cos_film, ray.ray.time};
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s);
   if (!plan_.camera_inside.empty()) path.around.enter(scene_, plan_.camera_inside, path.lambda_nm());
+  if (camera_.displaces_lanes && !part_lanes(ray, path)) return false;
   if (!camera_.surface_normal) return true;
   const Imath::V3f normal(*camera_.surface_normal);
   path.events = kMeterEvent;
   const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(path.ray.origin, normal));
   path.at.cos_film = path.ray.direction.dot(normal);
   return leaves;
+}
+
+// Each lane falls where the lens takes it, balanced with the others that would have drawn the ray. Whether
+// any light comes through at all.
+[[gnu::noinline]] bool PathTracer::part_lanes(const CameraRay& ray, CameraPath& path) {
+  if (ray.weight.is_zero()) return false;
+  images_[path.path] = *ray.images;
+  path.at.images = &images_[path.path];
+  path.packet.lane_pdf = ray.lane_pdf;
+  return true;
 }
 
 // Whether photons bring what a light that the path has met sends along it.
@@ -306,11 +318,13 @@ void PathTracer::add(CameraPath& path, const LightHistory& of, const SampledSpec
   const bool with_others = !response_.angular() || cos_film == path.at.cos_film;
   if (with_others) path.found += contribution;
   if (with_others && !apart_) return;
-  const FilmPoint at{path.at.x, path.at.y, cos_film, path.at.time};
-  std::fill(values_.begin(), values_.end(), 0.0);
-  response_.add(at, path.packet.wavelengths, contribution * path.scale, values_);
-  if (apart_) apart_(at, of, values_);
-  if (!with_others) (*deposit_)(first_ + path.path, at, values_);
+  FilmPoint at = path.at;
+  at.cos_film = cos_film;
+  response_.expose(at, path.packet.wavelengths, contribution * path.scale, values_,
+                   [&](const FilmPoint& pixel, std::span<const double> values) {
+                     if (apart_) apart_(pixel, of, values);
+                     if (!with_others) (*deposit_)(first_ + path.path, pixel, values);
+                   });
 }
 
 }  // namespace abbe

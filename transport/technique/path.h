@@ -99,6 +99,7 @@ class PathTracer {
                                                                 BsdfRandom u);
   // Whether there is more to find than what a meter sees directly.
   bool start(const PixelSample& sample, CameraPath& path);
+  bool part_lanes(const CameraRay& ray, CameraPath& path);
   [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
                                                         const std::array<float, 4>& u) const;
   [[nodiscard]] float pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const;
@@ -118,6 +119,7 @@ class PathTracer {
   RandomWalks<PathTracer> walks_;
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;              // number of the first of the paths under way
+  std::vector<LaneImages> images_;       // of each, behind a lens that displaces lanes
   ContributionDeposit apart_;            // if it is told
   std::vector<Connection> connections_;  // of the step under way,
   std::vector<BasicRay<double>> ways_;   // their ways to the light,

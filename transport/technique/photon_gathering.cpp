@@ -47,10 +47,11 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
   std::vector<GatherPath>& paths = walks_.paths();
   paths.clear();
   at_.resize(samples.size());
+  images_.resize(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     GatherPath& path = paths.emplace_back(samples[i].sampler, i);
     path.packet = cloud_->packet;
-    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path);
+    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path, images_[i]);
     if (path.vertices.empty()) continue;
     if (meter_) connect_meter(path);
     walks_.going().push_back(i);
@@ -141,9 +142,10 @@ void PhotonGatherer::connect_meter(GatherPath& path) {
 
 void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at,
                              const SampledSpectrum& contribution) {
-  std::fill(values_.begin(), values_.end(), 0.0);
-  response_.add(at, path.packet.wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_);
-  (*deposit_)(first_ + path.path, at, values_);
+  response_.expose(at, path.packet.wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_,
+                   [&](const FilmPoint& pixel, std::span<const double> values) {
+                     (*deposit_)(first_ + path.path, pixel, values);
+                   });
 }
 
 bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {

@@ -97,6 +97,7 @@ class PhotonGatherer {
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;          // number of the first of the samples under way
   std::vector<FilmPoint> at_;        // where each exposes the film
+  std::vector<LaneImages> images_;   // and its lanes, behind a lens that displaces them
   std::vector<std::uint32_t> near_;  // photons, at one place
   std::vector<double> values_;       // of one deposit
 };

@@ -75,16 +75,17 @@ PathVertex& first_vertex(RecordedPath& path) {
 
 }  // namespace
 
-FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path) {
+FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path, LaneImages& images) {
   const Scene& scene = plan.scene;
   const std::array<float, 4> film = path.sampler.group(kFilmGroup);
   const std::array<float, 4> lens = path.sampler.group(kLensGroup);
   const CameraRay start =
       sample_ray(scene.camera, {static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]},
-                 {lens[0], lens[1]}, path.lambda_nm(), film[kTimeNumber]);
+                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, film[kTimeNumber]);
   path.ray = start.ray;
   if (!plan.camera_inside.empty()) path.around.enter(scene, plan.camera_inside, path.lambda_nm());
-  const std::optional<CameraDensity> of = density(scene.camera, start.ray, path.lambda_nm());
+  const std::optional<CameraDensity> of =
+      start.weight.is_zero() ? std::nullopt : density(scene.camera, start.ray, path.lambda_nm());
   if (of) {
     PathVertex& lens_point = first_vertex(path);
     lens_point.at = CameraVertex{start.ray.origin};
@@ -92,9 +93,10 @@ FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path) 
     lens_point.pdf_forward = SampledSpectrum(of->pdf_position);
     path.direction_pdf = of->pdf_direction;
   }
-  path.packet.throughput *= start.weight;
+  advance(path.packet, start.weight, start.lane_pdf);
   path.carried_at_start = path.packet.carried();
-  return {x, y, start.cos_film, start.ray.time};
+  if (start.images) images = *start.images;
+  return {x, y, start.cos_film, start.ray.time, start.images ? &images : nullptr};
 }
 
 void start_from_light(const Plan& plan, RayCaster& caster, RecordedPath& path) {

@@ -8,8 +8,8 @@
 namespace abbe {
 
 /// Sets a path out from the camera through pixel (x, y), with its packet and by its own numbers. Returns
-/// where it exposes the film.
-FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path);
+/// where it exposes the film; behind a lens that displaces lanes, `images` keeps that of each of them.
+FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path, LaneImages& images);
 
 /// Sets a path out from one of the plan's traced lights, with its packet and by its own numbers, as the light
 /// emits by itself. Light from infinity comes in through the disc that the scene fills, seen from there.

@@ -143,7 +143,7 @@ std::string camera_elements(const Scene& scene, const Projection& to) {
   const double reach = to.box.size().length();
   for (const Imath::V2f& film : {Imath::V2f(0, height / 2), Imath::V2f(width, height / 2),
                                  Imath::V2f(width / 2, 0), Imath::V2f(width / 2, height)}) {
-    const CameraRay ray = sample_ray(camera, film, {0.5F, 0.5F}, SampledSpectrum(550.0F), 0);
+    const CameraRay ray = sample_ray(camera, film, {0.5F, 0.5F}, SampledSpectrum(550.0F), 0, 0);
     const auto line = clipped(at, at + reach * V3d(ray.ray.direction).normalized(), to.box);
     if (!line.empty())
       elements +=

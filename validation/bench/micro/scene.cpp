@@ -19,7 +19,7 @@ void sample_camera_ray(benchmark::State& state) {
   const Camera camera = pinhole();
   micro::Stream u;
   for (auto _ : state)
-    benchmark::DoNotOptimize(sample_ray(camera, u.pair() * 256.0F, {0, 0}, SampledSpectrum(550), 0));
+    benchmark::DoNotOptimize(sample_ray(camera, u.pair() * 256.0F, {0, 0}, SampledSpectrum(550), 0, 0));
 }
 BENCHMARK(sample_camera_ray);
 
