@@ -7,7 +7,7 @@
 #include "cli/answer.h"
 #include "cli/lens_answer.h"
 #include "cli/output_files.h"
-#include "description/lenses/load_lens.h"
+#include "description/load_lens.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "validation/lens/drawing.h"

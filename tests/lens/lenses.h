@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "description/lenses/load_lens.h"
+#include "description/load_lens.h"
 #include "io/error.h"
 
 namespace abbe::testing {

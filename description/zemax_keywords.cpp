@@ -1,4 +1,4 @@
-#include "description/lenses/zemax_keywords.h"
+#include "description/zemax_keywords.h"
 
 #include <algorithm>
 #include <array>

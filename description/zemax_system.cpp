@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "description/lenses/zemax_reader.h"
+#include "description/zemax_reader.h"
 #include "io/text.h"
 
 // The part of a `.zmx` file before its surfaces.

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "description/lenses/zemax_reader.h"
+#include "description/zemax_reader.h"
 #include "materials/index/library.h"
 
 // The surfaces of a `.zmx` file.

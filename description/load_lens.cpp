@@ -1,12 +1,12 @@
-#include "description/lenses/load_lens.h"
+#include "description/load_lens.h"
 
 #include <algorithm>
 #include <system_error>
 
-#include "description/lenses/lens.h"
-#include "description/lenses/pbrt_table.h"
-#include "description/lenses/short_form.h"
-#include "description/lenses/zemax.h"
+#include "description/lens.h"
+#include "description/pbrt_table.h"
+#include "description/short_form.h"
+#include "description/zemax.h"
 #include "io/data_directory.h"
 #include "io/schema/read.h"
 #include "io/text.h"
@@ -48,12 +48,13 @@ std::vector<std::string> lens_names() {
   return names;
 }
 
-std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics, Inputs* inputs) {
+std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics, Inputs* inputs,
+                                      const SourcePosition& where) {
   fs::path file = name;
   if (reader_of(file) == nullptr) {
     const std::vector<std::string> names = lens_names();
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      diagnostics.error({}, unknown_name("lens", name, names) + "; files end in .json, .zmx or .dat",
+      diagnostics.error(where, unknown_name("lens", name, names) + "; files end in .json, .zmx or .dat",
                         ErrorCode::input);
       return std::nullopt;
     }

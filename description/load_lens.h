@@ -12,9 +12,11 @@ namespace abbe {
 
 /// Reads a lens: a file of `data/lens` by its name, a prescription as `.json`, a sequential lens of Zemax as
 /// `.zmx`, or a table of radius, thickness, index and diameter as pbrt reads it, as `.dat`. What is wrong is
-/// reported, at its place in the file; nothing then. `inputs` learns of every file that is read.
+/// reported, at its place in the file, and a name that is none at `where`, if it has been told anywhere;
+/// nothing then. `inputs` learns of every file that is read.
 [[nodiscard]] std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics,
-                                                    Inputs* inputs = nullptr);
+                                                    Inputs* inputs = nullptr,
+                                                    const SourcePosition& where = {});
 
 /// The lenses of `data/lens`, sorted.
 [[nodiscard]] std::vector<std::string> lens_names();

@@ -1,4 +1,4 @@
-#include "description/lenses/lines.h"
+#include "description/lines.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "description/lenses/lens.h"
+#include "description/lens.h"
 
 namespace abbe::description {
 

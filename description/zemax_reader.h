@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "description/lenses/lens.h"
-#include "description/lenses/lines.h"
+#include "description/lens.h"
+#include "description/lines.h"
 
 namespace abbe::description::zemax {
 

@@ -1,4 +1,4 @@
-#include "description/lenses/short_form.h"
+#include "description/short_form.h"
 
 #include <algorithm>
 #include <array>

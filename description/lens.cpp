@@ -1,4 +1,4 @@
-#include "description/lenses/lens.h"
+#include "description/lens.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "description/lenses/zemax.h"
+#include "description/zemax.h"
 
 #include <fmt/format.h>
 
-#include "description/lenses/zemax_keywords.h"
-#include "description/lenses/zemax_reader.h"
+#include "description/zemax_keywords.h"
+#include "description/zemax_reader.h"
 #include "io/text.h"
 
 namespace abbe::description {

@@ -1,8 +1,8 @@
-#include "description/lenses/pbrt_table.h"
+#include "description/pbrt_table.h"
 
 #include <fmt/format.h>
 
-#include "description/lenses/lines.h"
+#include "description/lines.h"
 #include "io/text.h"
 
 namespace abbe::description {
