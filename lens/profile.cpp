@@ -28,7 +28,9 @@ std::optional<double> intersect_conic(double c, double k, const V3d& o, const V3
 }  // namespace
 
 bool Profile::aspheric() const {
-  return std::any_of(even.begin(), even.end(), [](double a) { return a != 0; });
+  double sizes = 0;
+  for (const double a : even) sizes += std::abs(a);
+  return sizes != 0;
 }
 
 double Profile::sag(double r2) const {

@@ -41,8 +41,10 @@ SystemAt::SystemAt(const System& of, double wavelength)
     absorption_per_mm.push_back(surface.behind ? surface.behind->index.absorption_per_m(wavelength) * 1e-3
                                                : 0);
     const M33d to_world = tilted(surface.tilt_deg);
-    frames.push_back(
-        {{surface.decenter_mm.x, surface.decenter_mm.y, vertex_z.back()}, to_world, to_world.transposed()});
+    frames.push_back({{surface.decenter_mm.x, surface.decenter_mm.y, vertex_z.back()},
+                      to_world,
+                      to_world.transposed(),
+                      surface.tilt_deg != Imath::V2d(0, 0)});
     vertex_z.push_back(vertex_z.back() + surface.thickness_mm);
   }
 }

@@ -79,6 +79,7 @@ struct SystemAt {
     Imath::V3d vertex;
     Imath::M33d to_world;  ///< For row vectors.
     Imath::M33d to_local;
+    bool tilted;  ///< Both are more than the identity.
   };
   std::vector<Frame> frames;
 

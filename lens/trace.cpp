@@ -11,26 +11,56 @@ namespace {
 
 using V3d = Imath::V3d;
 
-// One surface: its hit, or why there is none.
-RayEnd pass(const SystemAt& at, std::size_t i, Apertures apertures, const Ray& ray, RayHit& hit) {
-  const Surface& surface = at.surface(i);
-  const SystemAt::Frame& frame = at.frames[i];
-  const Ray local{(ray.origin - frame.vertex) * frame.to_local, ray.direction * frame.to_local};
-  const auto t = surface.profile.intersect(local);
+// What stops a ray at a surface, to which `along` leads towards +z; its point, normal and length go to `hit`,
+// in the surface's own coordinates.
+RayEnd meet(const SurfaceBetween& at, Apertures apertures, const Ray& along, RayHit& hit) {
+  const auto t = at.surface.profile.intersect(along);
   if (!t) return RayEnd::missed;
-  const V3d point = local.origin + *t * local.direction;
-  if (apertures == Apertures::obeyed && surface.semi_aperture_mm &&
-      std::hypot(point.x, point.y) > *surface.semi_aperture_mm)
+  hit.point = along.origin + *t * along.direction;
+  hit.length_mm = *t;
+  const double r2 = hit.point.x * hit.point.x + hit.point.y * hit.point.y;
+  if (const auto& aperture = at.surface.semi_aperture_mm;
+      apertures == Apertures::obeyed && aperture && r2 > *aperture * *aperture)
     return RayEnd::stopped;
-  const V3d normal = surface.profile.normal(point);
-  const auto onwards = refract<double>(-local.direction, -normal, at.n[i + 1] / at.n[i]);
-  if (!onwards) return RayEnd::total_reflection;
-  hit = {point * frame.to_world + frame.vertex, normal * frame.to_world,
-         (*onwards * frame.to_world).normalized(), *t};
+  hit.normal = at.surface.profile.normal(hit.point);
   return RayEnd::image;
 }
 
+Ray to_local(const SystemAt::Frame& frame, const Ray& ray) {
+  if (!frame.tilted) return {ray.origin - frame.vertex, ray.direction};
+  return {(ray.origin - frame.vertex) * frame.to_local, ray.direction * frame.to_local};
+}
+
+void to_world(const SystemAt::Frame& frame, const V3d& direction, RayHit& hit) {
+  hit.point = (frame.tilted ? hit.point * frame.to_world : hit.point) + frame.vertex;
+  if (frame.tilted) hit.normal = hit.normal * frame.to_world;
+  hit.direction = (frame.tilted ? direction * frame.to_world : direction).normalized();
+}
+
+SurfaceBetween surface_between(const SystemAt& at, std::size_t i) {
+  return {at.surface(i), at.frames[i], at.n[i], at.n[i + 1]};
+}
+
 }  // namespace
+
+RayEnd cross(const SurfaceBetween& at, Apertures apertures, const Ray& ray, RayHit& hit) {
+  const Ray local = to_local(at.frame, ray);
+  if (const RayEnd end = meet(at, apertures, local, hit); end != RayEnd::image) return end;
+  const auto onwards = refract<double>(-local.direction, -hit.normal, at.n_behind / at.n_before);
+  if (!onwards) return RayEnd::total_reflection;
+  to_world(at.frame, *onwards, hit);
+  return RayEnd::image;
+}
+
+RayEnd cross_back(const SurfaceBetween& at, Apertures apertures, const Ray& ray, RayHit& hit) {
+  const Ray local = to_local(at.frame, ray);
+  const Ray reversed{local.origin, -local.direction};
+  if (const RayEnd end = meet(at, apertures, reversed, hit); end != RayEnd::image) return end;
+  const auto onwards = refract<double>(reversed.direction, hit.normal, at.n_before / at.n_behind);
+  if (!onwards) return RayEnd::total_reflection;
+  to_world(at.frame, *onwards, hit);
+  return RayEnd::image;
+}
 
 RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures, std::size_t surfaces) {
   RayPath path;
@@ -38,7 +68,7 @@ RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures, std::size
   path.hits.reserve(surfaces);
   for (std::size_t i = 0; i < surfaces; ++i) {
     RayHit hit{};
-    path.end = pass(at, i, apertures, path.last, hit);
+    path.end = cross(surface_between(at, i), apertures, path.last, hit);
     path.at = i;
     if (!path.reached()) return path;
     path.hits.push_back(hit);
@@ -66,40 +96,45 @@ V3d local_point(const SystemAt& at, std::size_t surface, const V3d& point) {
 namespace {
 
 // The surface of the denser side's glass, seen from where the light comes.
-FresnelPower<double> surface_power(const SystemAt& at, std::size_t i, double cos_i) {
-  const Surface& surface = at.surface(i);
-  const bool leaving = !surface.behind && i > 0;
-  return leaving ? coated_power(surface.coating, at.wavelength_nm, at.n[i], 0, cos_i, true, at.n[i + 1])
-                 : coated_power(surface.coating, at.wavelength_nm, at.n[i + 1], 0, cos_i, false, at.n[i]);
-}
-
-// The field behind the surface, s and p of it weakened each by its own amplitude.
-V3d weakened(const V3d& field, const V3d& from, const RayHit& hit, const FresnelPower<double>& power) {
-  const V3d across = from.cross(hit.normal);
-  const V3d s = across.length2() > 0 ? across.normalized() : hit.normal.cross(field).normalized();
-  const V3d p_before = s.cross(from);
-  const V3d p_behind = s.cross(hit.direction);
-  return std::sqrt(power.Ts) * field.dot(s) * s + std::sqrt(power.Tp) * field.dot(p_before) * p_behind;
+FresnelPower<double> surface_power(const SurfaceBetween& at, double wavelength_nm, double cos_i) {
+  const bool leaving = !at.surface.behind;
+  return leaving ? coated_power(at.surface.coating, wavelength_nm, at.n_before, 0, cos_i, true, at.n_behind)
+                 : coated_power(at.surface.coating, wavelength_nm, at.n_behind, 0, cos_i, false, at.n_before);
 }
 
 }  // namespace
 
+WeakenedLight::WeakenedLight(const V3d& direction) {
+  const V3d aside = std::abs(direction.x) < 0.5 ? V3d(1, 0, 0) : V3d(0, 1, 0);
+  first_ = direction.cross(aside).normalized();
+  second_ = direction.cross(first_);
+}
+
+void WeakenedLight::cross(const SurfaceBetween& at, double wavelength_nm, const V3d& from,
+                          const RayHit& hit) {
+  if (at.n_before == at.n_behind && at.surface.coating.layers.empty()) return;  // as at a stop
+  const auto power = surface_power(at, wavelength_nm, std::min(1.0, from.dot(hit.normal)));
+  const V3d across = from.cross(hit.normal);
+  const V3d s = across.length2() > 0 ? across.normalized() : hit.normal.cross(first_).normalized();
+  const V3d p_before = s.cross(from);
+  const V3d s_behind = std::sqrt(power.Ts) * s;
+  const V3d p_behind = std::sqrt(power.Tp) * s.cross(hit.direction);
+  first_ = first_.dot(s) * s_behind + first_.dot(p_before) * p_behind;
+  second_ = second_.dot(s) * s_behind + second_.dot(p_before) * p_behind;
+}
+
 double transmittance(const SystemAt& at, const Ray& start, const RayPath& path) {
   V3d from = start.direction;
-  const V3d aside = std::abs(from.x) < 0.5 ? V3d(1, 0, 0) : V3d(0, 1, 0);
-  V3d first = from.cross(aside).normalized();
-  V3d second = from.cross(first);
+  WeakenedLight light(from);
   double depth = 0;
   for (std::size_t i = 0; i < path.hits.size(); ++i) {
     const RayHit& hit = path.hits[i];
-    const auto power = surface_power(at, i, std::min(1.0, from.dot(hit.normal)));
-    first = weakened(first, from, hit, power);
-    second = weakened(second, from, hit, power);
+    light.cross(surface_between(at, i), at.wavelength_nm, from, hit);
     if (i > 0) depth += at.absorption_per_mm[i] * hit.length_mm;
     from = hit.direction;
   }
   depth += at.absorption_per_mm.back() * path.last_length_mm;
-  return (first.length2() + second.length2()) / 2 * std::exp(-depth);
+  return light.power() * std::exp(-depth);
 }
 
 std::string reason(const RayPath& path) {

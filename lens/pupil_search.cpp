@@ -1,0 +1,165 @@
+#include "lens/pupil_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "lens/paraxial.h"
+
+namespace abbe::lens {
+namespace {
+
+using Box = Imath::Box2d;
+using V2d = Imath::V2d;
+using V3d = Imath::V3d;
+
+constexpr int kGridSide = 24;
+constexpr int kMostGrids = 40;
+constexpr int kRimDirections = 64;
+constexpr int kBisections = 12;
+
+// Rays from a point of the image by where they pass the tangent plane of the last vertex.
+struct PupilRays {
+  const SpectralSystem& system;
+  V2d image;
+  double wavelength_nm;
+
+  [[nodiscard]] Ray through(const V2d& point) const {
+    const V3d from(image.x, image.y, system.image_z());
+    return {from, (V3d(point.x, point.y, system.last_z()) - from).normalized()};
+  }
+  [[nodiscard]] std::optional<Ray> leaving(const V2d& point) const {
+    return system.to_object(through(point), wavelength_nm);
+  }
+  // In radii of the stop.
+  [[nodiscard]] double off_axis(const V2d& point) const {
+    const auto there = system.at_stop(through(point), wavelength_nm);
+    return there ? there->length() : std::numeric_limits<double>::infinity();
+  }
+};
+
+// A square around where paraxial optics has the exit pupil.
+Box first_guess(const PupilRays& rays) {
+  const SpectralSystem& system = rays.system;
+  const FirstOrder first = first_order(SystemAt(system.system(), rays.wavelength_nm));
+  const double film = system.image_z() - system.last_z();
+  V2d center = rays.image;
+  double half = film / 2;
+  if (const double to_pupil = film - first.exit_pupil_mm; std::isfinite(to_pupil) && to_pupil != 0) {
+    center = rays.image * (1 - film / to_pupil);
+    half = 1.5 * std::abs(system.stop_radius_mm() * first.exit_magnification * film / to_pupil);
+  }
+  return {center - V2d(half), center + V2d(half)};
+}
+
+struct Grid {
+  Box box;
+  [[nodiscard]] V2d cell() const { return box.size() / kGridSide; }
+  [[nodiscard]] V2d middle(int i, int j) const {
+    return box.min + V2d((i + 0.5) * cell().x, (j + 0.5) * cell().y);
+  }
+};
+
+// The box of the cells whose middles pass; empty where none does.
+Box passing_cells(const PupilRays& rays, const Grid& grid) {
+  Box passing;
+  for (int j = 0; j < kGridSide; ++j)
+    for (int i = 0; i < kGridSide; ++i)
+      if (const V2d at = grid.middle(i, j); rays.leaving(at)) passing.extendBy(at);
+  return passing;
+}
+
+// Around the cell whose ray comes next to the middle of the stop; a larger box where none comes there.
+Box towards_stop(const PupilRays& rays, const Grid& grid) {
+  double nearest = std::numeric_limits<double>::infinity();
+  V2d there = grid.box.center();
+  for (int j = 0; j < kGridSide; ++j)
+    for (int i = 0; i < kGridSide; ++i)
+      if (const double off = rays.off_axis(grid.middle(i, j)); off < nearest) {
+        nearest = off;
+        there = grid.middle(i, j);
+      }
+  const V2d half = std::isfinite(nearest) ? 3.0 * grid.cell() : grid.box.size();
+  return {there - half, there + half};
+}
+
+bool touches_edge(const Grid& grid, const Box& passing) {
+  const V2d c = grid.cell();
+  return passing.min.x < grid.box.min.x + c.x || passing.min.y < grid.box.min.y + c.y ||
+         passing.max.x > grid.box.max.x - c.x || passing.max.y > grid.box.max.y - c.y;
+}
+
+// A box that fills a good part of the grid, so that cells tell its rim from afar.
+bool is_fine(const Grid& grid, const Box& passing) {
+  constexpr double kShare = 0.3;
+  return passing.size().x > kShare * grid.box.size().x && passing.size().y > kShare * grid.box.size().y;
+}
+
+// The grid that holds all that passes; nothing where nothing does.
+std::optional<Grid> holding_grid(const PupilRays& rays) {
+  Grid grid{first_guess(rays)};
+  bool passes = false;
+  for (int tried = 0; tried < kMostGrids; ++tried) {
+    const Box passing = passing_cells(rays, grid);
+    if (passing.isEmpty()) {
+      if (tried > kMostGrids / 4) return std::nullopt;
+      grid.box = towards_stop(rays, grid);
+      continue;
+    }
+    passes = true;
+    const bool outside = touches_edge(grid, passing);
+    if (!outside && is_fine(grid, passing)) return grid;
+    const V2d room = outside ? V2d(0.4 * passing.size() + 3.0 * grid.cell()) : V2d(1.5 * grid.cell());
+    grid.box = {passing.min - room, passing.max + room};
+  }
+  if (!passes) return std::nullopt;
+  throw Error(ErrorCode::scene, rays.system.system().title,
+              fmt::format("there is no end to what the lens lets through to ({:g}, {:g}) mm of its image: it "
+                          "needs clear apertures",
+                          rays.image.x, rays.image.y));
+}
+
+// The farthest point that passes from an inner one in a direction, no farther than `far`.
+V2d rim_towards(const PupilRays& rays, const V2d& inner, const V2d& direction, double far) {
+  double within = 0;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (within + far) / 2;
+    (rays.leaving(inner + middle * direction) ? within : far) = middle;
+  }
+  return inner + far * direction;
+}
+
+}  // namespace
+
+SeenPupil search_pupil(const SpectralSystem& system, const V2d& image, double wavelength_nm) {
+  const PupilRays rays{system, image, wavelength_nm};
+  const std::optional<Grid> grid = holding_grid(rays);
+  SeenPupil seen;
+  if (!grid) return seen;
+  const auto add = [&](const V2d& point, const Ray& ray) {
+    seen.points.push_back(point);
+    seen.leaving.push_back(ray);
+  };
+  V2d middle(0, 0);
+  for (int j = 0; j < kGridSide; ++j)
+    for (int i = 0; i < kGridSide; ++i)
+      if (const auto ray = rays.leaving(grid->middle(i, j))) {
+        add(grid->middle(i, j), *ray);
+        middle += grid->middle(i, j);
+      }
+  middle /= static_cast<double>(seen.points.size());
+  for (int i = 0; i < kRimDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kRimDirections;
+    const V2d rim = rim_towards(rays, middle, {std::cos(angle), std::sin(angle)}, grid->box.size().length());
+    seen.points.push_back(rim);
+    if (const auto ray = rays.leaving(middle + 0.999 * (rim - middle))) seen.leaving.push_back(*ray);
+  }
+  return seen;
+}
+
+}  // namespace abbe::lens

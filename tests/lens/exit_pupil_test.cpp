@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "lens/beam.h"
+#include "lens/exit_pupil.h"
+#include "lens/paraxial.h"
+#include "lenses.h"
+
+// Rays of a camera that looks through a lens: the same as those of the bench, reversible, and none of them
+// lost by where they are looked for.
+
+namespace abbe::lens {
+namespace {
+
+using Imath::V2d;
+using Imath::V3d;
+
+class ShippedLens : public ::testing::TestWithParam<std::string> {
+ protected:
+  System lens = abbe::testing::lens_named(GetParam());
+  SpectralSystem system{lens, stop_radius(lens)};
+  // As high as the image of the widest field but one, or of 12 degrees.
+  double image_height = std::abs(first_order(SystemAt(lens, lens.primary_nm())).focal_length_mm) * 0.21;
+  std::mt19937 numbers{7};
+  double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(numbers); }
+};
+
+TEST_P(ShippedLens, IsTracedAsOnTheBench) {
+  int passed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double nm = uniform(400, 700);
+    const SystemAt at(system.system(), nm);
+    const double angle = uniform(-0.2, 0.2);
+    const Ray ray{
+        {uniform(-0.5, 0.5) * system.stop_radius_mm(), uniform(-1, 1) * system.stop_radius_mm(), -5},
+        {0, std::sin(angle), std::cos(angle)}};
+    const RayPath path = trace(at, ray, Apertures::obeyed);
+    const auto there = system.to_image(ray, nm);
+    ASSERT_EQ(path.reached(), there.has_value());
+    if (!there) continue;
+    ++passed;
+    EXPECT_LT((there->point - V2d(path.last.origin.x, path.last.origin.y)).length(), 1e-4);
+    EXPECT_NEAR(there->transmittance / transmittance(at, ray, path), 1, 1e-6);
+    const Ray back{{there->point.x, there->point.y, system.image_z()}, -there->direction};
+    const auto out = system.to_object(back, nm);
+    ASSERT_TRUE(out);
+    EXPECT_LT((out->direction + ray.direction).length(), 1e-9) << "the way back";
+    EXPECT_LT((out->origin - ray.origin).cross(ray.direction).length(), 1e-9 * (1 + image_height));
+  }
+  EXPECT_GT(passed, 200);
+}
+
+// Whether a surface ends somewhere, so that no ray passes where it and its neighbour have crossed long
+// before.
+bool has_clear_apertures(const System& lens) {
+  return std::all_of(lens.surfaces.begin(), lens.surfaces.end(),
+                     [](const Surface& surface) { return surface.semi_aperture_mm.has_value(); });
+}
+
+// Rays all over the last element and beyond, from all over the image, at wavelengths between those that the
+// bounds are found at; of lenses without clear apertures those a little beyond the bounds.
+TEST_P(ShippedLens, LosesNothingByTheBoundsOfItsExitPupil) {
+  const V2d half(image_height, 0.7 * image_height);
+  const ExitPupil pupil(system, half, 400, 700);
+  const double depth = system.image_z() - system.last_z();
+  const PupilBound axial = pupil.bound({0, 0});
+  const double reach = std::max({axial.semi.x, pupil.bound(half).center.length() + axial.semi.x, depth / 4});
+  const bool whole = has_clear_apertures(system.system());
+  int passed = 0;
+  int inside = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const V2d image = half * V2d(uniform(-1, 1), uniform(-1, 1));
+    const V2d point = whole ? V2d(uniform(-reach, reach), uniform(-reach, reach))
+                            : pupil.bound(image).point({uniform(-1.3, 1.3), uniform(-1.3, 1.3)});
+    const double nm = uniform(400, 700);
+    const V3d from(image.x, image.y, system.image_z());
+    const auto out =
+        system.to_object({from, (V3d(point.x, point.y, system.last_z()) - from).normalized()}, nm);
+    const bool bound = pupil.bound(image).contains(point);
+    inside += bound;
+    if (!out) continue;
+    ++passed;
+    ASSERT_TRUE(bound) << point << " of the image at " << image << ", " << nm << " nm";
+    const EntranceDisc& disc = pupil.entrance();
+    const V3d in = out->origin + (disc.z - out->origin.z) / out->direction.z * out->direction;
+    ASSERT_LT(std::hypot(in.x, in.y), disc.radius) << "comes in beside the disc";
+    EXPECT_GT(depth / std::hypot(depth, (point - image).length()), pupil.least_cosine());
+  }
+  std::printf("%s: %d of %d rays within the bounds pass\n", GetParam().c_str(), passed, inside);
+  EXPECT_GT(passed, 300);
+  EXPECT_GT(passed, 0.6 * inside) << "the bounds are not wide";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedLens,
+                         ::testing::Values("landscape", "achromat", "cooke_triplet", "tessar", "double_gauss",
+                                           "fisheye"));
+
+// A wedge before the lens and one element aside: nothing is round then.
+TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
+  System lens = abbe::testing::lens_named("cooke_triplet");
+  lens.surfaces[0].tilt_deg = {1.5, -0.7};
+  lens.surfaces[3].decenter_mm = {0.3, 0.4};
+  const SpectralSystem system(lens, stop_radius(lens));
+  const V2d half(10, 7);
+  const ExitPupil pupil(system, half, 450, 650);
+  std::mt19937 numbers(3);
+  const auto uniform = [&](double reach) { return std::uniform_real_distribution(-reach, reach)(numbers); };
+  int passed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const V2d image(uniform(half.x), uniform(half.y));
+    const V2d point = pupil.bound(image).point({uniform(1.3), uniform(1.3)});
+    const V3d from(image.x, image.y, system.image_z());
+    if (!system.to_object({from, (V3d(point.x, point.y, system.last_z()) - from).normalized()}, 550))
+      continue;
+    ++passed;
+    ASSERT_TRUE(pupil.bound(image).contains(point)) << point << " of the image at " << image;
+  }
+  EXPECT_GT(passed, 1000);
+}
+
+}  // namespace
+}  // namespace abbe::lens
