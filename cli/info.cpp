@@ -11,6 +11,8 @@
 #include "description/load.h"
 #include "film/rendered_film.h"
 #include "film/white.h"
+#include "lens/paraxial.h"
+#include "scene/camera/lens_optics.h"
 #include "scene/unreached.h"
 #include "transport/render/collect.h"
 #include "transport/render/learn_aims.h"
@@ -52,6 +54,25 @@ PlannedRender planned(const Scene& scene) {
   return render;
 }
 
+// What the bench says of a camera's lens at its primary wavelength; null of other cameras.
+Json lens_answer(const Camera& camera) {
+  const auto* kind = std::get_if<LensSystem>(&camera.kind);
+  if (kind == nullptr) return nullptr;
+  const lens::SpectralSystem& system = kind->optics->system;
+  const lens::SystemAt at(system.system(), system.system().primary_nm());
+  Json answer{{"title", system.system().title},
+              {"wavelength_nm", at.wavelength_nm},
+              {"focal_length_mm", lens::first_order(at).focal_length_mm},
+              {"stop_radius_mm", system.stop_radius_mm()},
+              {"image_mm", system.system().surfaces.back().thickness_mm}};
+  if (const auto& speed = kind->optics->speed)
+    answer.update({{"f_number", speed->f_number},
+                   {"working_f_number", speed->working_f_number},
+                   {"t_stop", speed->t_stop},
+                   {"airy_radius_um", speed->airy_radius_um}});
+  return answer;
+}
+
 Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   const PlannedRender render = planned(scene);
   Json answer;
@@ -73,6 +94,7 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   for (const Technique technique : render.techniques)
     if (!bias_of(technique).empty()) answer["bias"] = bias_of(technique);
   answer["shares"] = render.shares;
+  answer["lens"] = lens_answer(scene.camera);
   answer["unreached"] = unreached(scene, scene.needs, uses(render.techniques, Technique::light));
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
   if (scene.output.white)
@@ -102,6 +124,17 @@ std::string shares_line(const Json& shares) {
       cost("camera_paths"), cost("photons"));
 }
 
+std::string lens_line(const Json& lens) {
+  std::string line = fmt::format("lens         {}: focal length {:.5g} mm, film {:.5g} mm behind it",
+                                 lens["title"].get<std::string>(), lens["focal_length_mm"].get<double>(),
+                                 lens["image_mm"].get<double>());
+  if (lens.contains("f_number"))
+    line += fmt::format(", f/{:.4g} (T/{:.4g}), Airy radius {:.3g} um at {:g} nm, which no picture shows",
+                        lens["f_number"].get<double>(), lens["t_stop"].get<double>(),
+                        lens["airy_radius_um"].get<double>(), lens["wavelength_nm"].get<double>());
+  return line + "\n";
+}
+
 }  // namespace
 
 std::string describe(const Scene& scene, const IntegratorChoice& choice) {
@@ -112,7 +145,9 @@ std::string describe(const Scene& scene, const IntegratorChoice& choice) {
       answer["materials"].get<int>(), scene.camera.width, scene.camera.height);
   for (const Channel& channel : scene.channels) lines += channel.name + " ";
   if (scene.mosaic) lines += fmt::format("in a mosaic {}", pattern(scene));
-  lines += fmt::format("\nneeds\n");
+  lines += "\n";
+  if (!answer["lens"].is_null()) lines += lens_line(answer["lens"]);
+  lines += "needs\n";
   for (const NeedName& need : need_names())
     if (scene.needs.*need.member)
       lines += fmt::format("  {:<21} {} ({})\n", need.key, need.meaning, scene.needs.because.at(need.key));

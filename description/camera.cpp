@@ -39,15 +39,11 @@ static Fields fields(Tag<Pinhole>) {
 }
 
 static Fields fields(Tag<ThinLens>) {
-  using Focus = std::variant<double, Far>;
   return describe(
       "thin_lens", "A camera with an ideal lens.",
       {field("focal_length", &ThinLens::focal_length, kLength, "The focal length."),
        lent(&ThinLens::aperture),
        field("focus_distance", &ThinLens::focus_distance,
-             forms<Focus>("", "a distance, or \"infinity\"",
-                          form<Far>(Json::text, word<Far>("distance", {"infinity"})),
-                          form<double>(Json::number, kLength)),
              "Distance from the lens to the plane in focus, beyond the focal length; that from `from` to "
              "`to` when absent.")},
       {"f_number", "t_stop"});
@@ -85,9 +81,10 @@ static Fields fields(Tag<IrradianceProbe>) {
 }
 
 Fields fields(Tag<Camera>) {
-  return describe("camera", "What looks at the scene.",
-                  {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"),
-                          beside<ThinLensCamera>("thin_lens"), under<IrradianceProbe>("irradiance_probe"))});
+  return describe(
+      "camera", "What looks at the scene.",
+      {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
+              beside<LensSystemCamera>("lens_system"), under<IrradianceProbe>("irradiance_probe"))});
 }
 
 }  // namespace abbe::spec
@@ -182,6 +179,12 @@ std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePo
                   aperture->transmittance};
 }
 
+std::optional<LensSystem> build(const spec::LensSystemCamera& camera, const SourcePosition& where,
+                                const Sensor& sensor, LoadContext& context) {
+  const auto placed = build(camera.view, where, context);
+  return placed ? build(camera.lens, placed->frame, sensor, context) : std::nullopt;
+}
+
 std::optional<IrradianceProbe> build(const spec::IrradianceProbe& probe, const LoadContext& context) {
   if (const auto* point = std::get_if<spec::PointProbe>(&probe.surface))
     return IrradianceProbe{point->at * context.unit_m, Imath::V3d(0), Imath::V3d(0),
@@ -194,12 +197,14 @@ std::optional<IrradianceProbe> build(const spec::IrradianceProbe& probe, const L
 
 }  // namespace
 
-std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, const LoadContext& context) {
+std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, LoadContext& context) {
   std::optional<decltype(Camera::kind)> kind;
   if (const auto* pinhole = std::get_if<spec::PinholeCamera>(&camera.kind))
     kind = build(*pinhole, camera.where, sensor, context);
   else if (const auto* lens = std::get_if<spec::ThinLensCamera>(&camera.kind))
     kind = build(*lens, camera.where, context);
+  else if (const auto* system = std::get_if<spec::LensSystemCamera>(&camera.kind))
+    kind = build(*system, camera.where, sensor, context);
   else
     kind = build(std::get<spec::IrradianceProbe>(camera.kind), context);
   if (!kind) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <variant>
 
+#include "description/lens_system.h"
 #include "description/load_context.h"
 #include "description/sensor.h"
 #include "description/surface.h"
@@ -22,11 +23,10 @@ struct Pinhole {
   std::variant<std::monostate, FocalLength, FieldOfView> view;
   Aperture aperture;
 };
-enum class Far { infinity };
 struct ThinLens {
   double focal_length = 0;
   Aperture aperture;
-  std::optional<std::variant<double, Far>> focus_distance;  ///< Of what the camera looks at when absent.
+  std::optional<FocusDistance> focus_distance;  ///< Of what the camera looks at when absent.
   SourcePosition where;
 };
 /// Where a camera stands and what it looks at.
@@ -44,6 +44,7 @@ struct Sighted {
 };
 using PinholeCamera = Sighted<Pinhole>;
 using ThinLensCamera = Sighted<ThinLens>;
+using LensSystemCamera = Sighted<LensSystem>;
 struct PointProbe {
   Imath::V3d at{0, 0, 0};
   Imath::V3d normal{0, 0, 0};
@@ -52,7 +53,7 @@ struct IrradianceProbe {
   std::variant<std::monostate, PointProbe, Quad> surface;
 };
 struct Camera {
-  std::variant<std::monostate, PinholeCamera, ThinLensCamera, IrradianceProbe> kind;
+  std::variant<std::monostate, PinholeCamera, ThinLensCamera, LensSystemCamera, IrradianceProbe> kind;
   SourcePosition where;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Camera>);
@@ -67,6 +68,6 @@ inline constexpr double kDefaultFNumber = 4;
 /// The camera before the sensor's film. Reports what no table can say: a T-stop faster than its f-number, a
 /// view of no direction, a lens that cannot focus; nothing after an error.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
-                                          const LoadContext& context);
+                                          LoadContext& context);
 
 }  // namespace abbe::description

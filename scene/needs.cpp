@@ -80,8 +80,10 @@ std::optional<Imath::V3d> flat_normal(const Shape& shape) {
 bool seen_along_normals(const Scene& scene) {
   constexpr double kSteepest = 10 * std::numbers::pi / 180;
   constexpr double kParallel = 1 - 1e-9;
-  const std::optional<Imath::V3d> axis = traits(scene.camera).axis;
-  if (!axis) return false;
+  const CameraTraits camera = traits(scene.camera);
+  const std::optional<Imath::V3d>& axis = camera.axis;
+  // Behind a real lens the angles at the film are others than those in the scene.
+  if (!axis || camera.displaces_lanes) return false;
   std::optional<Imath::V3d> common;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);

@@ -6,6 +6,7 @@
 #include <ImathVec.h>
 
 #include "scene/camera/irradiance_probe.h"
+#include "scene/camera/lens_system.h"
 #include "scene/camera/model.h"
 #include "scene/camera/pinhole.h"
 #include "scene/camera/thin_lens.h"
@@ -14,7 +15,7 @@ namespace abbe {
 
 /// What turns film positions into rays: the closed list of kinds, each a `CameraModel`, and the pixels.
 struct Camera {
-  std::variant<Pinhole, ThinLens, IrradianceProbe> kind;
+  std::variant<Pinhole, ThinLens, IrradianceProbe, LensSystem> kind;
   int width = 1;
   int height = 1;
   double pixel_pitch = 1;  ///< [m]

@@ -151,7 +151,7 @@ TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
   };
   const std::vector<Fault> faults{
       {"14 no camera", R"({"camera": {}})", ErrorCode::scene,
-       "expected exactly one key (got none, allowed pinhole, thin_lens, irradiance_probe)"},
+       "expected exactly one key (got none, allowed pinhole, thin_lens, lens_system, irradiance_probe)"},
       {"16 no pitch", sensed(pixel + R"("observer": 1931, "pixel_pitch_um": 0)"), ErrorCode::scene,
        "/sensor/pixel_pitch_um: error: expected a number (got 0, allowed (0, 1000000])"},
       {"16 no area", sensed(pixel + R"("observer": 1931, "fill_factor": 0)"), ErrorCode::scene,

@@ -1,0 +1,147 @@
+#include "description/lens_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "description/kinds.h"
+#include "description/load_lens.h"
+#include "io/error.h"
+#include "lens/beam.h"
+#include "lens/field.h"
+#include "lens/focus.h"
+#include "lens/paraxial.h"
+#include "scene/camera/lens_optics.h"
+
+namespace abbe::spec {
+
+using namespace schema;
+
+Kind kind(Tag<FocusDistance>) {
+  return forms<FocusDistance>("", "a distance, or \"infinity\"",
+                              form<Far>(Json::text, word<Far>("distance", {"infinity"})),
+                              form<double>(Json::number, kLength));
+}
+
+Fields fields(Tag<LensSystem>) {
+  return describe(
+      "lens_system", "A camera with a real lens, traced surface by surface; the film is at its image.",
+      {field("prescription", &LensSystem::prescription,
+             "A lens by its name in `data/lens`, or a file of one (`.json`, `.zmx`, `.dat`)."),
+       field("focus_distance", &LensSystem::focus_distance,
+             "Distance from the first surface to the plane in focus, which moves the film; where the "
+             "prescription has its image when absent."),
+       defaulted(
+           "focus", &LensSystem::focus, word<FilmPlane>("focus", {"paraxial", "best"}),
+           "Where the film is moved for `focus_distance`: to the paraxial focus, or where the spot on the "
+           "axis is least, of the prescription's wavelengths together."),
+       field("f_number", &LensSystem::f_number, Range{0, 1e6, true, false},
+             "Focal length over the diameter of the beam on the axis, to which the stop is closed; as wide "
+             "as the prescription says when absent.")});
+}
+
+}  // namespace abbe::spec
+
+namespace abbe::description {
+namespace {
+
+constexpr double kMmPerM = 1000;
+
+std::optional<lens::System> load_prescription(const spec::LensSystem& said, LoadContext& context) {
+  std::string name = said.prescription.value;
+  if (std::filesystem::path(name).has_extension()) {
+    const auto file = context.file(name, said.prescription.where);
+    if (!file) return std::nullopt;
+    name = file->string();
+  }
+  return load_lens(name, context.diagnostics, context.inputs, said.prescription.where);
+}
+
+// The radius of the stop [mm]; nothing where it would have to be wider than the prescription has it.
+std::optional<double> closed_stop(const spec::LensSystem& said, const lens::System& lens,
+                                  LoadContext& context) {
+  const double widest = lens::stop_radius(lens);
+  if (!said.f_number) return widest;
+  lens::System closed = lens;
+  closed.aperture = {lens::ApertureKind::f_number, said.f_number->value};
+  constexpr double kRounding = 1e-3;  // of nominal f-numbers
+  const double radius = lens::stop_radius(closed);
+  if (radius <= widest * (1 + kRounding)) return std::min(radius, widest);
+  constexpr int kCells = 16;
+  const auto speed = lens::speed(lens::SystemAt(lens, lens.primary_nm()), widest, kCells);
+  context.diagnostics.error(
+      said.f_number->where,
+      fmt::format("the lens does not open so far (got f/{:g}, allowed {} or more)", said.f_number->value,
+                  speed ? fmt::format("f/{:.4g}", speed->f_number) : "what its prescription says"));
+  return std::nullopt;
+}
+
+// Moves the film to the image of what is that far from the first surface.
+bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius, LoadContext& context) {
+  const auto* distance = std::get_if<double>(&*said.focus_distance);
+  lens.object_distance_mm =
+      distance != nullptr ? std::optional(*distance * context.unit_m * kMmPerM) : std::nullopt;
+  lens.fields = {0};
+  lens.aperture = {lens::ApertureKind::stop, stop_radius};
+  double& film = lens.surfaces.back().thickness_mm;
+  film = lens::first_order(lens::SystemAt(lens, lens.primary_nm())).image_distance_mm;
+  if (film > 0 && std::isfinite(film)) {
+    if (said.focus == spec::FilmPlane::best) film += lens::best_focus(lens);
+    if (film > 0) return true;
+  }
+  context.diagnostics.error(
+      said.where,
+      fmt::format("the lens has no image behind it of what is there to be in focus (got {:.4g} mm "
+                  "from its last surface, allowed (0, inf) mm)",
+                  film));
+  return false;
+}
+
+// The ends of the wavelengths that a sensor counts [nm].
+std::array<double, 2> counted_range(const Sensor& sensor) {
+  std::array<double, 2> range{kMaxWavelengthNm, kMinWavelengthNm};
+  for (const Channel& channel : sensor.channels)
+    for (int nm = kMinWavelengthNm; nm < kMaxWavelengthNm; ++nm)
+      if (const Curve& weight = envelope(channel); weight(nm) != 0 || weight(nm + 1) != 0) {
+        range[0] = std::min<double>(range[0], nm);
+        range[1] = std::max<double>(range[1], nm + 1);
+      }
+  if (range[0] > range[1]) return {kMinWavelengthNm, kMaxWavelengthNm};
+  return range;
+}
+
+bool is_in_air(const spec::LensSystem& said, const lens::System& lens, LoadContext& context) {
+  if (!lens.surfaces.back().behind) return true;
+  context.diagnostics.error(said.prescription.where,
+                            fmt::format("the film of a camera stands in air (got {} behind the last surface)",
+                                        lens.surfaces.back().behind->name));
+  return false;
+}
+
+}  // namespace
+
+std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame& frame, const Sensor& sensor,
+                                LoadContext& context) {
+  auto lens = load_prescription(said, context);
+  if (!lens || !is_in_air(said, *lens, context)) return std::nullopt;
+  if (sensor.spectral) {
+    context.diagnostics.error(
+        said.where,
+        "a spectral sensor keeps radiances, which a lens that takes wavelengths to other "
+        "pixels does not give: it needs a thin lens or a pinhole");
+    return std::nullopt;
+  }
+  try {
+    const std::optional<double> stop = closed_stop(said, *lens, context);
+    if (!stop || (said.focus_distance && !focus(said, *lens, *stop, context))) return std::nullopt;
+    const auto [low_nm, high_nm] = counted_range(sensor);
+    const FilmGrid grid{sensor.width, sensor.height, sensor.pixel_pitch};
+    return LensSystem{frame, std::make_shared<LensOptics>(*std::move(lens), *stop, grid, low_nm, high_nm)};
+  } catch (const Error& error) {
+    context.diagnostics.error(said.where, error.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace abbe::description

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "description/load_context.h"
+#include "description/sensor.h"
+#include "io/schema/fields.h"
+#include "scene/camera/frame.h"
+#include "scene/camera/lens_system.h"
+
+namespace abbe::spec {
+
+enum class Far { infinity };
+/// Of what lies in the plane in focus, or of nothing nearer than infinity.
+using FocusDistance = std::variant<double, Far>;
+[[nodiscard]] schema::Kind kind(schema::Tag<FocusDistance>);
+
+enum class FilmPlane { paraxial, best };
+/// A lens of a prescription.
+struct LensSystem {
+  schema::Located<std::string> prescription;
+  std::optional<FocusDistance>
+      focus_distance;  ///< The image stays where the prescription has it when absent.
+  FilmPlane focus = FilmPlane::best;
+  std::optional<schema::Located<double>> f_number;
+  SourcePosition where;
+};
+[[nodiscard]] schema::Fields fields(schema::Tag<LensSystem>);
+
+}  // namespace abbe::spec
+
+namespace abbe::description {
+
+/// The lens in front of the sensor's film. Reports what its prescription says that is wrong, in its own file,
+/// a lens that cannot be in focus there or cannot be opened so far, and a film that it does not light;
+/// nothing then.
+[[nodiscard]] std::optional<LensSystem> build(const spec::LensSystem& lens, const CameraFrame& frame,
+                                              const Sensor& sensor, LoadContext& context);
+
+}  // namespace abbe::description

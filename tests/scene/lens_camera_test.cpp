@@ -1,0 +1,311 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "description/load_lens.h"
+#include "lens/beam.h"
+#include "lens/field.h"
+#include "lens/paraxial.h"
+#include "lens/spot.h"
+#include "scene/camera/lens_optics.h"
+#include "scenes.h"
+
+// A real lens before the film sees what the bench says that it does.
+
+namespace abbe {
+namespace {
+
+using Imath::V2d;
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+using testing::Random;
+
+constexpr double kPi = std::numbers::pi;
+
+lens::System shipped(const std::string& name) {
+  Diagnostics diagnostics;
+  return load_lens(name, diagnostics).value();
+}
+
+// Looking along -y from (1, 2, 3), up is z; the film reaches 15 degrees from its middle to its sides.
+Camera looking_through(const lens::System& lens, double stop_radius, int side = 400) {
+  const lens::FirstOrder first = lens::first_order(lens::SystemAt(lens, lens.primary_nm()));
+  const FilmGrid grid{side, side, first.focal_length_mm * 1e-3 * std::tan(15 * kPi / 180) * 2 / side};
+  return {LensSystem{{{1, 2, 3}, {-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                     std::make_shared<LensOptics>(lens, stop_radius, grid, 400, 700)},
+          grid.width, grid.height, grid.pixel_pitch};
+}
+
+// In mm above the middle of the picture, where an object that is below the axis has its image.
+double height_mm(const Camera& camera, float film_y) {
+  return (camera.height / 2.0 - static_cast<double>(film_y)) * camera.pixel_pitch * 1e3;
+}
+double across_mm(const Camera& camera, float film_x) {
+  return (static_cast<double>(film_x) - camera.width / 2.0) * camera.pixel_pitch * 1e3;
+}
+
+// Eight wavelengths that glass tells well apart.
+SampledSpectrum spread_wavelengths() {
+  SampledSpectrum::Values nm;
+  for (std::size_t j = 0; j < kLanes; ++j) nm[j] = 420.0F + 35 * static_cast<float>(j);
+  return SampledSpectrum(nm);
+}
+
+TEST(LensCamera, TellsTheSameOfARayFromBothEnds) {
+  const lens::System lens = shipped("double_gauss");
+  const Camera camera = looking_through(lens, lens::stop_radius(lens));
+  const SampledSpectrum wavelengths = spread_wavelengths();
+  Random random(2);
+  int passed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const V2f film(400 * random.uniform(), 400 * random.uniform());
+    const int hero = i % kLanes;
+    const CameraRay start = sample_ray(camera, film, random.pair(), wavelengths, hero, 0.25F);
+    if (start.weight.is_zero()) continue;
+    ++passed;
+    ASSERT_TRUE(start.images);
+    EXPECT_NEAR(start.images->x[hero], film.x, 0.01) << "floats tell a ray's direction to 6e-8";
+    EXPECT_NEAR(start.images->y[hero], film.y, 0.01);
+    EXPECT_EQ(start.lane_pdf[hero], 1);
+    EXPECT_EQ(start.ray.time, 0.25F);
+    const auto of = density(camera, start.ray, wavelengths);
+    ASSERT_TRUE(of);
+    const double flux = static_cast<double>(of->cos_theta / of->pdf_position / of->pdf_direction[hero]);
+    for (int j = 0; j < kLanes; ++j) {
+      EXPECT_NEAR(flux * static_cast<double>(of->importance[j]), static_cast<double>(start.weight[j]),
+                  1e-5 * static_cast<double>(start.weight[hero]));
+      EXPECT_NEAR(of->pdf_direction[j] / of->pdf_direction[hero], start.lane_pdf[j], 1e-5);
+      EXPECT_EQ(of->images->x[j], start.images->x[j]);
+      EXPECT_EQ(of->images->y[j], start.images->y[j]);
+    }
+  }
+  EXPECT_GT(passed, 1500);
+}
+
+TEST(LensCamera, ImageIsUpright) {
+  const lens::System lens = shipped("tessar");
+  const Camera camera = looking_through(lens, lens::stop_radius(lens));
+  const V3f right = sample_ray(camera, {390, 200}, {0.5F, 0.5F}, SampledSpectrum(550), 0, 0).ray.direction;
+  EXPECT_LT(right.x, -0.02F) << "to the right, which is -x";
+  const V3f top = sample_ray(camera, {200, 10}, {0.5F, 0.5F}, SampledSpectrum(550), 0, 0).ray.direction;
+  EXPECT_GT(top.z, 0.02F) << "upwards";
+}
+
+// Irradiance of cells of the film by a patch of radiance 1, lane by lane, from the film and from the patch.
+struct CellEstimate {
+  static constexpr int kCells = 4;
+  std::array<std::array<double, kCells * kCells>, kLanes> mean{};
+  std::array<std::array<double, kCells * kCells>, kLanes> square{};
+  void add(const Camera& camera, const LaneImages& images, const SampledSpectrum& values) {
+    for (int j = 0; j < kLanes; ++j) {
+      if (values[j] == 0) continue;
+      const auto cell = [&](float at, int size) {
+        return static_cast<std::size_t>(at) * kCells / static_cast<std::size_t>(size);
+      };
+      const std::size_t c = cell(images.y[j], camera.height) * kCells + cell(images.x[j], camera.width);
+      mean[static_cast<std::size_t>(j)][c] += static_cast<double>(values[j]);
+      square[static_cast<std::size_t>(j)][c] +=
+          static_cast<double>(values[j]) * static_cast<double>(values[j]);
+    }
+  }
+};
+
+TEST(LensCamera, BothWaysCollectTheSameEnergyInEveryLane) {
+  const lens::System lens = shipped("landscape");  // which parts the lanes most
+  const Camera camera = looking_through(lens, lens::stop_radius(lens), 300);
+  const Disc patch{{1.04, 1.4, 2.98}, V3d(0.1, 1, 0.2).normalized(), 0.1};
+  const SampledSpectrum wavelengths = spread_wavelengths();
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  constexpr int kCount = 200000;
+  CellEstimate from_film;
+  CellEstimate from_patch;
+  Random random(4);
+  for (int i = 0; i < kCount; ++i) {
+    const V2f film(300 * random.uniform(), 300 * random.uniform());
+    const CameraRay start = sample_ray(camera, film, random.pair(), wavelengths, i % kLanes, 0);
+    if (!start.weight.is_zero() && intersect<float>(patch, start.ray, 0))
+      from_film.add(camera, *start.images,
+                    start.weight * (static_cast<float>(kLanes * pixels) / start.lane_pdf.sum()));
+    const SurfacePoint at = sample_area(patch, {}, random.pair());
+    const auto back = sample_towards(camera, at.point, random.pair(), wavelengths, 0);
+    if (!back) continue;
+    const float cosine = std::max(0.0F, at.normal.dot((back->lens_point - at.point).normalized()));
+    from_patch.add(camera, *back->images, back->weight * (cosine * static_cast<float>(area(patch))));
+  }
+  int lit = 0;
+  double sums[2] = {0, 0};
+  for (std::size_t j = 0; j < kLanes; ++j)
+    for (std::size_t c = 0; c < from_film.mean[j].size(); ++c) {
+      const double a = from_film.mean[j][c] / kCount;
+      const double b = from_patch.mean[j][c] / kCount;
+      const double variance = (from_film.square[j][c] + from_patch.square[j][c]) / kCount / kCount;
+      EXPECT_NEAR(a, b, 5 * std::sqrt(variance) + 1e-12) << "lane " << j << ", cell " << c;
+      lit += b > 0;
+      sums[0] += a;
+      sums[1] += b;
+    }
+  EXPECT_GE(lit, 5 * kLanes);
+  EXPECT_NEAR(sums[0] / sums[1], 1, 0.01);
+}
+
+// The mean weight of rays to a film position, from jittered places of the pupil: its irradiance by an evenly
+// bright world.
+double irradiance(const Camera& camera, const V2f& film, float nm, int side) {
+  Random random(9);
+  double sum = 0;
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) {
+      const V2f u =
+          (V2f(static_cast<float>(i), static_cast<float>(j)) + random.pair()) / static_cast<float>(side);
+      sum += static_cast<double>(sample_ray(camera, film, u, SampledSpectrum(nm), 0, 0).weight[0]);
+    }
+  return sum / side / side;
+}
+
+// The sine of the angle under which the middle of the image sees the rim of the stop through what is behind
+// it.
+double sine_of_rim(const lens::SpectralSystem& system, double nm) {
+  const double depth = system.image_z() - system.last_z();
+  double within = 0;
+  double far = depth;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (within + far) / 2;
+    const lens::Ray ray{{0, 0, system.image_z()}, V3d(0, middle, -depth).normalized()};
+    const auto at_stop = system.at_stop(ray, nm);
+    (at_stop && at_stop->length() < 1 ? within : far) = middle;
+  }
+  return within / std::hypot(within, depth);
+}
+
+// E = pi tau sin^2 U' of radiance 1: pi/4 over the square of the T-stop, measured where the film is.
+TEST(LensCamera, ExposesByItsStop) {
+  for (const char* name : {"double_gauss", "cooke_triplet", "tessar", "achromat"}) {
+    const lens::System lens = shipped(name);
+    const double full = lens::stop_radius(lens);
+    for (const double share : {1.0, 0.4}) {
+      const lens::SystemAt at(lens, 550);
+      const auto speed = lens::speed(at, share * full, 128);
+      ASSERT_TRUE(speed);
+      const Camera camera = looking_through(lens, share * full);
+      const auto& system = std::get<LensSystem>(camera.kind).optics->system;
+      const double t_stop = 1 / (2 * sine_of_rim(system, 550) * std::sqrt(speed->transmittance));
+      EXPECT_NEAR(irradiance(camera, {200, 200}, 550, 160) * 4 * t_stop * t_stop / kPi, 1, 0.001)
+          << name << ", " << share;
+      EXPECT_NEAR(1 / (2 * sine_of_rim(system, 550)) / speed->working_f_number, 1, 0.01) << name;
+    }
+  }
+}
+
+TEST(LensCamera, DarkensTowardsTheCornersAsOnTheBench) {
+  for (const char* name : {"double_gauss", "cooke_triplet", "tessar"}) {
+    const lens::System lens = shipped(name);
+    const double stop = lens::stop_radius(lens);
+    const lens::SystemAt at(lens, 550);
+    const Camera camera = looking_through(lens, stop, 1200);
+    const double axis = irradiance(camera, {600, 600}, 550, 120);
+    const auto spot_at = [&](double field) {
+      return lens::spot(*lens::Beam::of(at, field, stop), field, 160);
+    };
+    const lens::Spot on_axis = spot_at(0);
+    for (const double field : {5.0, 10.0, 14.0}) {
+      const auto chief = lens::chief_ray(at, field, stop);
+      const auto expected = lens::relative_illumination(at, field, stop, spot_at(field), on_axis);
+      ASSERT_TRUE(chief && expected);
+      const auto y = static_cast<float>(600 + chief->height_mm * 1e-3 / camera.pixel_pitch);
+      if (!(y < 1200)) continue;
+      EXPECT_NEAR(irradiance(camera, {600, y}, 550, 120) / axis / *expected, 1, 0.005)
+          << name << ", " << field << " degrees";
+    }
+  }
+}
+
+// The image of a far point, through points all over the front of the lens.
+struct PointImage {
+  V2d centroid{0, 0};
+  double rms = 0;
+};
+PointImage image_of_far_point(const Camera& camera, double angle_deg, int lane) {
+  const double angle = angle_deg * kPi / 180;
+  const V3d towards(0, -std::cos(angle), std::sin(angle));
+  const V3f point(V3d(1, 2, 3) + 1e5 * towards);  // above the axis: light goes down, the picture is up
+  Random random(11);
+  double sum = 0;
+  V2d first(0, 0);
+  double second = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto seen = sample_towards(camera, point, random.pair(), spread_wavelengths(), 0);
+    if (!seen || !(seen->weight[lane] > 0)) continue;
+    const auto w = static_cast<double>(seen->weight[lane]);
+    const V2d at(across_mm(camera, seen->images->x[lane]), height_mm(camera, seen->images->y[lane]));
+    sum += w;
+    first += w * at;
+    second += w * at.length2();
+  }
+  const V2d centroid = first / sum;
+  return {centroid, std::sqrt(second / sum - centroid.length2())};
+}
+
+TEST(LensCamera, ImagesAPointAsTheTracedSpot) {
+  for (const char* name : {"landscape", "double_gauss"}) {
+    const lens::System lens = shipped(name);
+    const double stop = lens::stop_radius(lens);
+    const Camera camera = looking_through(lens, stop, 1200);
+    for (const double field : {0.0, 8.0})
+      for (const int lane : {0, 4, 7}) {
+        const lens::SystemAt at(lens, static_cast<double>(spread_wavelengths()[lane]));
+        // Light from above the axis goes downwards.
+        const lens::Spot spot = lens::spot(*lens::Beam::of(at, -field, stop), -field, 128);
+        const auto size = lens::size_of({&spot, 1});
+        ASSERT_TRUE(size);
+        const PointImage image = image_of_far_point(camera, field, lane);
+        // The picture is turned; 1/sqrt(20000) of the spot is the noise of the centroid, 4 of it the margin.
+        EXPECT_NEAR(image.centroid.y, -size->centroid.y, 0.03 * size->rms_mm + 2e-4)
+            << name << ", " << field << " degrees, lane " << lane;
+        EXPECT_NEAR(image.centroid.x, 0, 0.03 * size->rms_mm + 2e-4);
+        EXPECT_NEAR(image.rms / size->rms_mm, 1, 0.02) << name << ", " << field << " degrees, lane " << lane;
+      }
+  }
+}
+
+TEST(LensCamera, DistortsAndPartsColoursAsItsChiefRays) {
+  const lens::System lens = shipped("landscape");
+  const double stop = lens::stop_radius(lens) / 20;  // so that the centroid is the chief ray's
+  const Camera camera = looking_through(lens, stop, 1600);
+  for (const double field : {4.0, 8.0, 12.0}) {
+    std::array<double, 2> seen{};
+    std::array<double, 2> traced{};
+    for (const int end : {0, 1}) {
+      const int lane = end * (kLanes - 1);
+      const lens::SystemAt at(lens, static_cast<double>(spread_wavelengths()[lane]));
+      const auto chief = lens::chief_ray(at, -field, stop);
+      ASSERT_TRUE(chief);
+      seen[static_cast<std::size_t>(end)] = image_of_far_point(camera, field, lane).centroid.y;
+      traced[static_cast<std::size_t>(end)] = -chief->height_mm;
+      EXPECT_NEAR(seen[static_cast<std::size_t>(end)], traced[static_cast<std::size_t>(end)],
+                  0.1 * camera.pixel_pitch * 1e3)
+          << "a tenth of a pixel, " << field << " degrees";
+    }
+    const double lateral = traced[1] - traced[0];
+    EXPECT_GT(std::abs(lateral), 0.003);
+    EXPECT_NEAR((seen[1] - seen[0]) / lateral, 1, 0.05) << "lateral colour, " << field << " degrees";
+  }
+}
+
+TEST(LensCamera, TellsOfItself) {
+  const lens::System lens = shipped("double_gauss");
+  const Camera camera = looking_through(lens, lens::stop_radius(lens));
+  EXPECT_NEAR(*traits(camera).f_number, 2, 0.01);
+  EXPECT_NEAR(*traits(camera).image_distance, 0.1, 0.001);
+  EXPECT_TRUE(traits(camera).displaces_lanes);
+  EXPECT_FALSE(traits(Camera{}).displaces_lanes);
+  EXPECT_FALSE(sample_towards(camera, {1, 3, 3}, {0.5F, 0.5F}, SampledSpectrum(550), 0)) << "behind";
+  Ray back = sample_ray(camera, {200, 200}, {0.5F, 0.5F}, SampledSpectrum(550), 0, 0).ray;
+  EXPECT_TRUE(density(camera, back, SampledSpectrum(550)));
+  back.direction = -back.direction;
+  EXPECT_FALSE(density(camera, back, SampledSpectrum(550)));
+}
+
+}  // namespace
+}  // namespace abbe

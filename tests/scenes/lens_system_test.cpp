@@ -1,0 +1,177 @@
+#include <cmath>
+#include <cstdio>
+
+#include "lens/paraxial.h"
+#include "lens/spot.h"
+#include "scene/camera/lens_optics.h"
+#include "tests/scenes/scene_fixture.h"
+
+// Pictures through real lenses: every technique makes the same, whatever part of it is asked for.
+
+namespace abbe {
+namespace {
+
+using test::Region;
+
+// A single meniscus, which parts the colours, in front of matte and glossy matter under lamps of several
+// colours.
+constexpr const char* kStill = R"({
+  "abbe": 1,
+  "camera": {"lens_system": {"prescription": "landscape", "focus_distance": 0.4}, "from": [0, -1.2, 0.5], "to": [0, 0, 0.2], "up": [0, 0, 1]},
+  "sensor": {"resolution": [32, 32], "pixel_pitch_um": 200, "observer": "1931"},
+  "materials": {"red": {"diffuse": {"reflectance": "cornell_box_walls:red"}}, "white": {"diffuse": {"reflectance": 0.7}},
+                "copper": {"conductor": {"ior": "Cu_Johnson", "roughness": 0.4}}},
+  "lights": [
+    {"disc": {"center": [-0.6, 0, 1], "normal": [1, 0, -0.8], "radius": 0.2}, "emission": {"illuminant": "FL11", "luminance": 300}},
+    {"quad": {"corner": [0.4, 0.4, 1], "edge_u": [0, 0.3, 0], "edge_v": [0.3, 0.05, 0]}, "emission": {"illuminant": "A", "luminance": 400}},
+    {"sphere": {"center": [0.5, -0.3, 0.9], "radius": 0.1}, "emission": {"daylight_K": 6504, "luminance": 300}}
+  ],
+  "shapes": [
+    {"quad": {"corner": [-1.5, -1.5, 0], "edge_u": [3, 0, 0], "edge_v": [0, 3, 0]}, "material": "white"},
+    {"sphere": {"center": [-0.15, 0, 0.2], "radius": 0.2}, "material": "red"},
+    {"sphere": {"center": [0.2, 0.1, 0.12], "radius": 0.12}, "material": "copper"}
+  ],
+  "render": {"max_depth": 6}
+})";
+
+Film still_by(const char* integrator, int samples) {
+  Scene scene = test::load_text(
+      kStill, {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}});
+  scene.needs.light_tracing = true;
+  scene.needs.light_is_traced.assign(scene.lights.size(), true);
+  RenderResult result = render(scene, {});
+  EXPECT_EQ(result.stats.nonfinite_samples, 0U);
+  return std::move(result.film);
+}
+
+TEST(LensSystemScene, EveryTechniqueMakesTheSamePicture) {
+  const Film path = still_by("path", 384);
+  const struct {
+    const char* integrator;
+    int samples;
+  } others[] = {{"light", 1024}, {"bdpt", 128}, {"vcm", 48}};
+  for (const auto& [integrator, samples] : others) {
+    const test::Comparison c = test::compare_regions(path, still_by(integrator, samples), 4);
+    std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
+    EXPECT_LT(c.largest_z, 5.5) << integrator;  // 1e-6 over 3 channels x 16 regions x 3 techniques
+    EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
+  }
+}
+
+// A small white disc 60 mm above the axis and 300 mm before the lens, in the beam of a spotlight.
+constexpr const char* kSpeck = R"({
+  "abbe": 1, "units": "mm",
+  "camera": {"lens_system": {"prescription": "landscape", "focus_distance": 300}, "from": [0, 0, 0], "to": [0, 300, 0], "up": [0, 0, 1]},
+  "sensor": {"resolution": [64, 640], "pixel_pitch_um": 8, "channels": {"B": {"band": [445, 455]}, "G": {"band": [545, 555]}, "R": {"band": [645, 655]}}},
+  "materials": {"white": {"diffuse": {"reflectance": 0.8}}},
+  "lights": [{"spot": {"at": [0, 200, 60], "direction": [0, 1, 0], "half_angle_deg": 0.2}, "emission": {"illuminant": "E", "luminous_intensity": 1000}}],
+  "shapes": [{"disc": {"center": [0, 300, 60], "normal": [0, -1, 0], "radius": 0.2618}, "material": "white"}],
+  "render": {"integrator": "light", "samples": 32}
+})";
+
+struct Blur {
+  double x, y, rms;  // of the picture's right and up [mm]
+};
+Blur blur_of(const Film& film, int channel, double pitch_mm) {
+  double sum = 0, x = 0, y = 0, square = 0;
+  for (int j = 0; j < film.height(); ++j)
+    for (int i = 0; i < film.width(); ++i) {
+      const double value = film.mean(static_cast<std::size_t>(j * film.width() + i), channel);
+      const double at_x = (i + 0.5 - film.width() / 2.0) * pitch_mm;
+      const double at_y = (film.height() / 2.0 - j - 0.5) * pitch_mm;
+      sum += value;
+      x += value * at_x;
+      y += value * at_y;
+      square += value * (at_x * at_x + at_y * at_y);
+    }
+  x /= sum;
+  y /= sum;
+  return {x, y, std::sqrt(square / sum - x * x - y * y)};
+}
+
+TEST(LensSystemScene, ASpeckIsTheTracedSpotInEveryColour) {
+  const Scene scene = test::load_text(kSpeck);
+  const LensOptics& optics = *std::get<LensSystem>(scene.camera.kind).optics;
+  const double pitch_mm = scene.camera.pixel_pitch * 1e3;
+  const Film film = render(scene, {}).film;
+  std::array<double, 3> seen{};
+  std::array<double, 3> traced{};
+  for (const int channel : {0, 1, 2}) {
+    const lens::SystemAt at(optics.system.system(), 450 + 100 * channel);
+    const lens::Spot spot = lens::spot(*lens::Beam::of(at, 60, optics.system.stop_radius_mm()), 60, 96);
+    const auto size = lens::size_of({&spot, 1});
+    const Blur blur = blur_of(film, channel, pitch_mm);
+    // The disc, evenly lit, and the pixels blur the spot further.
+    const double disc = 0.2618 * lens::first_order(at).magnification;
+    const double rms = std::sqrt(size->rms_mm * size->rms_mm + disc * disc / 2 + pitch_mm * pitch_mm / 6);
+    seen[static_cast<std::size_t>(channel)] = blur.y;
+    traced[static_cast<std::size_t>(channel)] = -size->centroid.y;
+    std::printf("channel %d: at %.5f, traced %.5f mm; rms %.2f, traced %.2f um\n", channel, blur.y,
+                -size->centroid.y, 1e3 * blur.rms, 1e3 * rms);
+    EXPECT_NEAR(blur.x, 0, 0.1 * pitch_mm);
+    EXPECT_NEAR(blur.y, -size->centroid.y, 0.1 * pitch_mm) << "channel " << channel;
+    EXPECT_NEAR(blur.rms / rms, 1, 0.02) << "channel " << channel;
+  }
+  EXPECT_GT(std::abs(traced[2] - traced[0]), pitch_mm / 4);
+  EXPECT_NEAR((seen[2] - seen[0]) / (traced[2] - traced[0]), 1, 0.1) << "lateral colour";
+}
+
+bool same_bits(const Film& a, const Film& b, const Crop& within) {
+  for (int y = within.y0; y < within.y1; ++y)
+    for (int x = within.x0; x < within.x1; ++x)
+      for (int channel = 0; channel < a.channels(); ++channel) {
+        const auto pixel = static_cast<std::size_t>(y * a.width() + x);
+        if (a.mean(pixel, channel) != b.mean(pixel, channel) ||
+            a.variance(pixel, channel) != b.variance(pixel, channel))
+          return false;
+      }
+  return true;
+}
+
+// What falls on a pixel may have been drawn for another one.
+TEST(LensSystemScene, ACropHasTheBitsOfTheWhole) {
+  for (const char* integrator : {"path", "bdpt", "sppm"}) {
+    const Scene scene =
+        test::load_text(kStill, {{"/render/integrator", integrator}, {"/render/samples", "8"}});
+    const Film whole = render(scene, {.threads = 2}).film;
+    ASSERT_GT(frame_mean_error(whole), 0);
+    EXPECT_TRUE(same_bits(whole, render(scene, {.threads = 1}).film, {0, 0, 32, 32})) << integrator;
+    const Crop crop{9, 13, 20, 22};
+    EXPECT_TRUE(same_bits(whole, render(scene, {.crop = crop}).film, crop)) << integrator;
+  }
+}
+
+TEST(LensSystemScene, PartsAddUpToTheWhole) {
+  const Scene scene = test::load_text(kStill, {{"/render/integrator", "path"}, {"/render/samples", "8"}});
+  const Film whole = render(scene, {.samples = SampleRange{0, 8}}).film;
+  Film sum = render(scene, {.samples = SampleRange{0, 3}}).film;
+  sum.add(render(scene, {.samples = SampleRange{3, 8}}).film);
+  EXPECT_EQ(sum.bytes(), whole.bytes());
+}
+
+// A mosaic's pixels look at colours that were drawn for their neighbours.
+TEST(LensSystemScene, AMosaicSeesWhatItsChannelsSee) {
+  const std::vector<Override> rgb{
+      {"/sensor",
+       R"({"resolution": [32, 32], "pixel_pitch_um": 200, "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}}})"},
+      {"/render/integrator", "path"},
+      {"/render/samples", "256"}};
+  std::vector<Override> mosaic = rgb;
+  mosaic[0].value.insert(1, R"("mosaic": [["R", "G"], ["G", "B"]], )");
+  const Film all = render(test::load_text(kStill, rgb), {}).film;
+  const Scene scene = test::load_text(kStill, mosaic);
+  const Film one = render(scene, {}).film;
+  std::array<double, 3> seen{};
+  std::array<double, 3> expected{};
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) {
+      const auto pixel = static_cast<std::size_t>(y * 32 + x);
+      const int channel = scene.mosaic->at(x, y);
+      seen[static_cast<std::size_t>(channel)] += one.mean(pixel, 0);
+      expected[static_cast<std::size_t>(channel)] += all.mean(pixel, channel);
+    }
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k] / expected[k], 1, 0.02) << "channel " << k;
+}
+
+}  // namespace
+}  // namespace abbe
