@@ -84,7 +84,8 @@ Fields fields(Tag<Camera>) {
   return describe(
       "camera", "What looks at the scene.",
       {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
-              beside<LensSystemCamera>("lens_system"), under<IrradianceProbe>("irradiance_probe"))});
+              beside<LensSystemCamera>("lens_system"), under<IrradianceProbe>("irradiance_probe")),
+       field("motion", &Camera::motion, "How it moves, from where it is described; a probe does not.")});
 }
 
 }  // namespace abbe::spec
@@ -209,6 +210,23 @@ std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, Lo
     kind = build(std::get<spec::IrradianceProbe>(camera.kind), context);
   if (!kind) return std::nullopt;
   return Camera{*kind, sensor.width, sensor.height, sensor.pixel_pitch};
+}
+
+void set_moving(const spec::Motion& said, Camera& camera, LoadContext& context) {
+  const Moving moving = build(std::optional(said), context);
+  const auto bring = [&](auto& kind) {
+    if constexpr (requires { kind.frame; }) {
+      kind.frame.position *= moving.opening;
+      for (Imath::V3d* axis : {&kind.frame.right, &kind.frame.up, &kind.frame.forward}) {
+        const Imath::V3d before = *axis;
+        moving.opening.multDirMatrix(before, *axis);
+      }
+    } else {
+      context.diagnostics.error(said.where, "a meter of irradiance does not move");
+    }
+  };
+  std::visit(bring, camera.kind);
+  camera.motion = moving.motion;
 }
 
 }  // namespace abbe::description

@@ -5,6 +5,7 @@
 
 #include "description/lens_system.h"
 #include "description/load_context.h"
+#include "description/motion.h"
 #include "description/sensor.h"
 #include "description/surface.h"
 #include "io/schema/fields.h"
@@ -55,6 +56,7 @@ struct IrradianceProbe {
 struct Camera {
   std::variant<std::monostate, PinholeCamera, ThinLensCamera, LensSystemCamera, IrradianceProbe> kind;
   SourcePosition where;
+  std::optional<Motion> motion = {};
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Camera>);
 
@@ -69,5 +71,7 @@ inline constexpr double kDefaultFNumber = 4;
 /// view of no direction, a lens that cannot focus; nothing after an error.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
                                           LoadContext& context);
+/// Lets a camera move from where it is described. Reports a probe, which does not.
+void set_moving(const spec::Motion& said, Camera& camera, LoadContext& context);
 
 }  // namespace abbe::description

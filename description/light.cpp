@@ -106,7 +106,9 @@ Fields fields(Tag<Light>) {
       {field("name", &Light::name, "For messages, and to name it as a white."),
        one_of(&Light::kind, beside<AreaLamp<Quad>>("quad"), beside<AreaLamp<Sphere>>("sphere"),
               beside<AreaLamp<Disc>>("disc"), beside<PointLamp>("point"), beside<SpotLamp>("spot"),
-              beside<BeamLamp>("directional"), beside<SunLamp>("sun"), beside<SkyLamp>("environment"))});
+              beside<BeamLamp>("directional"), beside<SunLamp>("sun"), beside<SkyLamp>("environment")),
+       field("motion", &Light::motion,
+             "How it moves, from where it is described; light from infinity does not.")});
 }
 
 }  // namespace abbe::spec
@@ -163,13 +165,13 @@ std::string name_of(const spec::Light& light, std::size_t i) {
 
 // Adds the surface of a lamp, which it tells the number of; nothing after an error.
 template <typename Surface>
-std::optional<std::uint32_t> add_surface(const spec::AreaLamp<Surface>& said, const std::string& name,
-                                         LoadContext& context, Scene& scene) {
+std::optional<std::uint32_t> add_surface(const spec::AreaLamp<Surface>& said, const Moving& moving,
+                                         const std::string& name, LoadContext& context, Scene& scene) {
   const std::optional surface = build(said.surface, context);
   const auto material =
       said.material ? find_material(*said.material, context, scene) : black_material(context, scene);
   if (!surface || !material) return std::nullopt;
-  scene.shapes.push_back({name, *surface, *material});
+  scene.shapes.push_back({name, in_motion(*surface, moving, context), *material});
   return static_cast<std::uint32_t>(scene.shapes.size() - 1);
 }
 
@@ -178,6 +180,7 @@ struct LightBuilder {
   const SourcePosition& where;
   std::string name;
   std::optional<std::uint32_t> surface;  ///< Its shape, if it has one.
+  const std::optional<spec::Motion>& motion;
   LoadContext& context;
   Scene& scene;
 
@@ -185,8 +188,20 @@ struct LightBuilder {
     if (auto curve = build(emission, lamp, context))
       scene.lights.push_back({std::move(name), std::move(kind), *std::move(curve)});
   }
-  [[nodiscard]] Imath::V3f position(const Imath::V3d& at) const {
-    return Imath::V3f(at * context.unit_m - scene.origin_m);
+  // Of a lamp at a point, in a scene that has been recentred.
+  [[nodiscard]] Moving moving_point() const {
+    const std::size_t before = context.motions.size();
+    Moving moving = build(motion, context);
+    if (context.motions.size() > before) context.motions.back()->recentre(scene.origin_m);
+    return moving;
+  }
+  [[nodiscard]] Imath::V3f position(const Imath::V3d& at, const Moving& moving) const {
+    return Imath::V3f(at * context.unit_m * moving.opening - scene.origin_m);
+  }
+  // Whether light from infinity is asked to move.
+  [[nodiscard]] bool refuse_to_move() const {
+    if (motion) context.diagnostics.error(motion->where, "light from infinity does not move");
+    return motion.has_value();
   }
 
   void operator()(std::monostate) const {}
@@ -195,19 +210,24 @@ struct LightBuilder {
     if (surface) add_area_light(said.emission, said.two_sided, *surface, context, scene);
   }
   void operator()(const spec::PointLamp& said) {
-    add(PointLight{position(said.source.at)}, said.emission,
+    const Moving moving = moving_point();
+    add(PointLight{position(said.source.at, moving), moving.motion}, said.emission,
         {schema::fields_of<spec::PointEmission>, 4 * std::numbers::pi, inverse_square});
   }
   void operator()(const spec::SpotLamp& said) {
     const double sine = std::sin(said.source.half_angle_deg * std::numbers::pi / 360);
-    const SpotLight spot{position(said.source.at), Imath::V3f(said.source.direction.normalized()),
-                         static_cast<float>(2 * sine * sine)};
+    const Moving moving = moving_point();
+    Imath::V3d axis;
+    moving.opening.multDirMatrix(said.source.direction.normalized(), axis);
+    const SpotLight spot{position(said.source.at, moving), Imath::V3f(axis),
+                         static_cast<float>(2 * sine * sine), moving.motion};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
     add(spot, said.emission, {schema::fields_of<spec::PointEmission>, solid_angle, inverse_square});
   }
   // A light from infinity may say its strength itself, by daylight, without an emission beside it.
   void add_from_infinity(decltype(Light::kind) kind, const spec::DaylightStrength& strength,
                          const spec::Emission* emission, const LampKind& lamp) {
+    if (refuse_to_move()) return;
     const auto* irradiance = std::get_if<spec::DaylightIrradiance>(&strength);
     const auto* illuminance = std::get_if<spec::DaylightIlluminance>(&strength);
     const SourcePosition& own = irradiance ? irradiance->where : illuminance ? illuminance->where : where;
@@ -232,6 +252,7 @@ struct LightBuilder {
                       {schema::fields_of<spec::SunEmission>, 0, [of_unit](double) { return of_unit; }});
   }
   void operator()(const spec::SkyLamp& said) {
+    if (refuse_to_move()) return;
     auto sky = build(said.source, context);
     for (const Light& light : scene.lights)
       if (light.is_environment())
@@ -268,7 +289,8 @@ LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadCon
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const auto add = [&](const auto& kind) {
       if constexpr (requires { kind.surface; })
-        surfaces[i] = add_surface(kind, name_of(lights[i], i), context, scene);
+        surfaces[i] =
+            add_surface(kind, build(lights[i].motion, context), name_of(lights[i], i), context, scene);
     };
     std::visit(add, lights[i].kind);
     context.shape_places.resize(scene.shapes.size(), lights[i].where);
@@ -279,8 +301,9 @@ LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadCon
 void build_lights(const std::vector<spec::Light>& lights, const LampSurfaces& surfaces, LoadContext& context,
                   Scene& scene) {
   for (std::size_t i = 0; i < lights.size(); ++i)
-    std::visit(LightBuilder{lights[i].where, name_of(lights[i], i), surfaces[i], context, scene},
-               lights[i].kind);
+    std::visit(
+        LightBuilder{lights[i].where, name_of(lights[i], i), surfaces[i], lights[i].motion, context, scene},
+        lights[i].kind);
 }
 
 }  // namespace abbe::description

@@ -9,6 +9,7 @@
 
 #include "description/emission.h"
 #include "description/load_context.h"
+#include "description/motion.h"
 #include "description/surface.h"
 #include "scene/lights/environment_image.h"
 #include "scene/scene.h"
@@ -71,6 +72,7 @@ struct Light {
                BeamLamp, SunLamp, SkyLamp>
       kind;
   SourcePosition where;
+  std::optional<Motion> motion = {};
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Light>);
 

@@ -51,7 +51,10 @@ struct LoadContext {
   std::map<std::string, Object> objects{};
   std::unordered_map<std::string, LampSpectrum> lamp_spectra{};  ///< By the words that name them.
   std::unordered_map<std::string, std::uint32_t> materials{};    ///< Numbers by name.
-  std::vector<std::shared_ptr<Placement>> placements{};  ///< Of each instance, until the scene is recentred.
+  std::vector<std::shared_ptr<Placement>> placements{};  ///< Of each instance, until the scene is recentred,
+  std::vector<std::shared_ptr<Motion>> motions{};        ///< and of all that moves.
+  double open_s = 0;                                     ///< When the shutter opens,
+  double span_s = 1;                                     ///< and how long until it has closed for all rows.
 
   /// A file named by the scene, remembered for the hash; a URL is reported.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,

@@ -16,6 +16,8 @@ void build_object_shape(const spec::Shape& shape, const std::string& name, LoadC
     return context.diagnostics.error(chart->chart.where, "an object holds shapes, not charts");
   if (const spec::Emission* emission = emission_of(shape))
     context.diagnostics.error(emission->where, "a shape of an object cannot emit");
+  if (shape.motion)
+    context.diagnostics.error(shape.motion->where, "a shape of an object does not move: its instances may");
   for (NamedShape& part : build_parts(shape, name, context, scene)) parts.push_back(std::move(part));
 }
 
@@ -45,8 +47,8 @@ void build_objects(const std::vector<schema::Named<spec::Object>>& objects, Load
   }
 }
 
-void add_instance(const spec::Instance& instance, const std::string& name, LoadContext& context,
-                  Scene& scene) {
+void add_instance(const spec::Instance& instance, const Moving& moving, const std::string& name,
+                  LoadContext& context, Scene& scene) {
   const auto matrix = build(instance.transform.value, instance.transform.where, context);
   if (!matrix) return;
   const auto found = context.objects.find(instance.of.value);
@@ -57,8 +59,9 @@ void add_instance(const spec::Instance& instance, const std::string& name, LoadC
     return;
   }
   const Object& object = found->second;
-  const auto at =
-      std::make_shared<Placement>(placement(Imath::M44d().setTranslation(object.center) * *matrix));
+  const auto at = std::make_shared<Placement>(
+      placement(Imath::M44d().setTranslation(object.center) * *matrix * moving.opening));
+  at->motion = moving.motion;
   context.placements.push_back(at);
   for (const Object::Member& member : object.parts)
     scene.shapes.push_back({object.parts.size() == 1 ? name : name + "/" + member.name,

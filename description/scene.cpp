@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include <fmt/format.h>
+
 #include "description/checks.h"
 #include "io/schema/write.h"
 #include "scene/colors.h"
@@ -67,16 +69,38 @@ void build_sensor(const spec::Scene& said, LoadContext& context, Scene& scene) {
   if (said.sensor) {
     sensor = build(*said.sensor, probe, context);
     scene.sensor_text = to_text(schema::write(*said.sensor));
+    if (said.sensor->shutter) context.open_s = said.sensor->shutter->open_s;
+    context.span_s = sensor.exposure_s * sensor.shutter.span();
   }
   if (said.camera)
     if (const auto camera = build(*said.camera, sensor, context)) scene.camera = *camera;
+  if (said.camera && said.camera->motion) set_moving(*said.camera->motion, scene.camera, context);
   scene.exposure_s = sensor.exposure_s;
+  scene.shutter = sensor.shutter;
   scene.readout = sensor.readout;
   scene.fill_factor = sensor.fill_factor;
   scene.mosaic = std::move(sensor.mosaic);
   scene.spectral = sensor.spectral;
   scene.channels = std::move(sensor.channels);
   for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
+}
+
+// Exposures of channels that follow each other see what moves at different times.
+void check_exposures(const spec::Scene& said, const LoadContext& context, const Scene& scene) {
+  if (context.motions.empty()) return;
+  for (const Channel& channel : scene.channels)
+    if (channel.exposure_ratio != 1)
+      context.diagnostics.error(
+          said.sensor->where,
+          fmt::format("where something moves all channels have one exposure time (got {} s of "
+                      "channel \"{}\", allowed {} s)",
+                      channel.exposure_ratio * scene.exposure_s, channel.name, scene.exposure_s));
+}
+
+void set_placement(Placement& at, const Imath::M44d& to_world) {
+  const auto motion = at.motion;
+  at = placement(to_world);
+  at.motion = motion;
 }
 
 // Moves what there is so that (0, 0, 0), where floats are finest, is where they are to be; everything up to
@@ -86,7 +110,8 @@ void recentre(Scene& scene, const LoadContext& context) {
   for (ShapeInstance& instance : scene.shapes)
     std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
   for (const auto& at : context.placements)
-    *at = placement(at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+    set_placement(*at, at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+  for (const auto& motion : context.motions) motion->recentre(scene.origin_m);
   for (Material& material : scene.materials)
     if (auto* medium = std::get_if<MediumMaterial>(&material.model); medium && medium->filling.grid) {
       medium->filling.grid->from -= scene.origin_m;
@@ -111,6 +136,7 @@ Scene build(const spec::Scene& said, LoadContext& context) {
   build_lights(said.lights, surfaces, context, scene);
   if (said.render) scene.render = build(*said.render, context.unit_m, context.diagnostics);
   if (said.output) scene.output = build(*said.output, context, scene);
+  check_exposures(said, context, scene);
   if (context.diagnostics.has_errors()) return scene;
   check_validity(said.materials, context, scene);
   check_lamps(context, scene);

@@ -79,6 +79,8 @@ Fields fields(Tag<Sensor>) {
              "absent."),
        defaulted("pixel_pitch_um", &Sensor::pixel_pitch_um, kPitch, "Distance between pixels."),
        defaulted("exposure_s", &Sensor::exposure_s, kExposure, "Exposure time."),
+       field("shutter", &Sensor::shutter,
+             "When its rows are open; all at once for the exposure time when absent."),
        defaulted("fill_factor", &Sensor::fill_factor, kFill, "Share of a pixel that takes light."),
        at_most_one(
            &Sensor::counts, "a sensor counts by one of channels, camera, observer and spectral",
@@ -215,6 +217,7 @@ Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
   build_resolution(said, probe, sensor, context);
   sensor.pixel_pitch = said.pixel_pitch_um * 1e-6;
   sensor.exposure_s = said.exposure_s;
+  if (said.shutter) sensor.shutter = build(*said.shutter, sensor.exposure_s, sensor.height, context);
   sensor.fill_factor = said.fill_factor;
   build_channels(said, sensor, context);
   scale_to_sensitivity(said, sensor, context);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "description/curve.h"
+#include "description/shutter.h"
 #include "scene/scene.h"
 #include "sensor/readout/readout_json.h"
 #include "spectral/colorimetry.h"
@@ -44,6 +45,7 @@ struct Sensor {
   std::optional<schema::Located<std::array<std::int64_t, 2>>> resolution;
   double pixel_pitch_um = 4.5;
   double exposure_s = 1;
+  std::optional<Shutter> shutter;
   double fill_factor = 1;
   std::variant<std::monostate, Channels, MeasuredCamera, StandardObserver, Bins> counts;
   std::optional<schema::Located<ResponseKind>> response;
@@ -70,6 +72,7 @@ struct Sensor {
   double pixel_pitch = 4.5e-6;  ///< [m]
   double fill_factor = 1;
   double exposure_s = 1;
+  Shutter shutter;
   std::vector<Channel> channels;
   std::optional<Readout> readout;
   std::optional<Mosaic> mosaic;

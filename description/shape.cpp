@@ -85,7 +85,8 @@ Fields fields(Tag<Shape>) {
       {field("name", &Shape::name, "For messages, and to name it as a white if it emits."),
        one_of(&Shape::kind, beside<MeshBody>("mesh"), beside<PlainBody<Sphere>>("sphere"),
               beside<PlainBody<Disc>>("disc"), beside<PlainBody<Quad>>("quad"), beside<PrismBody>("prism"),
-              beside<ChartShape>("chart"), under<Instance>("instance"))});
+              beside<ChartShape>("chart"), under<Instance>("instance")),
+       field("motion", &Shape::motion, "How it moves, from where it is described; a chart does not.")});
 }
 
 Fields fields(Tag<Object>) {
@@ -263,8 +264,11 @@ bool emits_from_both_sides(const spec::Shape& shape) {
 
 void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& context, Scene& scene) {
   if (const auto* instance = std::get_if<spec::Instance>(&shape.kind))
-    return add_instance(*instance, name, context, scene);
+    return add_instance(*instance, build(shape.motion, context), name, context, scene);
   std::vector<NamedShape> parts = build_parts(shape, name, context, scene);
+  if (shape.motion && std::holds_alternative<spec::ChartShape>(shape.kind))
+    context.diagnostics.error(shape.motion->where, "a chart does not move");
+  const Moving moving = build(shape.motion, context);
   if (std::holds_alternative<spec::ChartShape>(shape.kind) && !parts.empty())
     scene.charts.push_back({name, static_cast<std::uint32_t>(scene.shapes.size()),
                             static_cast<std::uint32_t>(parts.size() - 1)});
@@ -273,9 +277,8 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
   if (emission && mesh && !mesh->material)
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
   for (NamedShape& part : parts) {
-    scene.shapes.push_back({std::move(part.name),
-                            std::visit([](auto& s) { return Shape(std::move(s)); }, part.shape),
-                            part.material});
+    scene.shapes.push_back(
+        {std::move(part.name), in_motion(std::move(part.shape), moving, context), part.material});
     if (emission)
       add_area_light(*emission, emits_from_both_sides(shape),
                      static_cast<std::uint32_t>(scene.shapes.size() - 1), context, scene);
@@ -283,6 +286,22 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
 }
 
 }  // namespace
+
+// What moves is a prototype around its middle, where floats are finest.
+abbe::Shape in_motion(PlainShape shape, const Moving& moving, LoadContext& context) {
+  if (!moving.motion) {
+    if (moving.opening != Imath::M44d())
+      std::visit([&](auto& s) { move(s, Transform{moving.opening}); }, shape);
+    return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);
+  }
+  const Imath::V3d center = std::visit([](const auto& s) { return bounds(s); }, shape).center();
+  std::visit([&](auto& s) { shift(s, -center); }, shape);
+  const auto at =
+      std::make_shared<Placement>(placement(Imath::M44d().setTranslation(center) * moving.opening));
+  at->motion = moving.motion;
+  context.placements.push_back(at);
+  return PlacedShape{make_prototype(std::move(shape)), at};
+}
 
 void shift(Mesh& mesh, const Imath::V3d& by) {
   for (Imath::V3d& vertex : mesh.vertices) vertex += by;

@@ -8,6 +8,7 @@
 #include "description/curve.h"
 #include "description/emission.h"
 #include "description/load_context.h"
+#include "description/motion.h"
 #include "description/surface.h"
 #include "description/transform.h"
 #include "scene/scene.h"
@@ -60,6 +61,7 @@ struct Shape {
                ChartShape, Instance>
       kind;
   SourcePosition where;
+  std::optional<Motion> motion = {};
 };
 /// Shapes for instances to place.
 struct Object {
@@ -97,9 +99,11 @@ void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& mat
 void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, Scene& scene);
 void build_objects(const std::vector<schema::Named<spec::Object>>& objects, LoadContext& context,
                    Scene& scene);
-/// Adds the shapes of an object, placed.
-void add_instance(const spec::Instance& instance, const std::string& name, LoadContext& context,
-                  Scene& scene);
+/// Adds the shapes of an object, placed, in motion.
+void add_instance(const spec::Instance& instance, const Moving& moving, const std::string& name,
+                  LoadContext& context, Scene& scene);
+/// The shape where it is when the shutter opens; one that moves is the only instance of a prototype.
+[[nodiscard]] abbe::Shape in_motion(PlainShape shape, const Moving& moving, LoadContext& context);
 
 void shift(Mesh& mesh, const Imath::V3d& by);
 void shift(Sphere& sphere, const Imath::V3d& by);

@@ -32,7 +32,7 @@ Field scale(std::optional<std::variant<double, Imath::V3d>> Stretch::*member) {
 
 }  // namespace
 
-static Fields fields(Tag<Rotation>) {
+Fields fields(Tag<Rotation>) {
   return describe("rotation", "A right-handed rotation about an axis through the origin.",
                   {field("axis", &Rotation::axis, direction(), "Direction of the axis."),
                    field("deg", &Rotation::deg, kAngle, "Angle.")});

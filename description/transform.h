@@ -16,6 +16,7 @@ struct Rotation {
   Imath::V3d axis{0, 0, 0};
   double deg = 0;
 };
+[[nodiscard]] schema::Fields fields(schema::Tag<Rotation>);
 /// A step that scales, then rotates, then translates.
 template <typename Scale>
 struct Step {

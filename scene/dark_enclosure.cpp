@@ -40,11 +40,12 @@ bool lit(const Scene& scene, std::uint32_t enclosure) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
     const auto* area = std::get_if<AreaLight>(&light.kind);
     if (area != nullptr && area->shape == enclosure) return area->two_sided;
+    if (motion_of(light, scene.shapes) != nullptr) return true;  // it may come in
     if (area == nullptr && !std::holds_alternative<PointLight>(light.kind) &&
         !std::holds_alternative<SpotLight>(light.kind))
       return false;  // infinitely far
     return std::ranges::any_of(kSpreadOverLight, [&](const std::array<float, 2>& u) {
-      const EmissionPoint from = sample_emission_point(light, scene.shapes, {u[0], u[1]});
+      const EmissionPoint from = sample_emission_point(light, scene.shapes, {u[0], u[1]}, 0);
       return encloses(scene.shapes[enclosure].shape, Imath::V3d(from.point));
     });
   });
@@ -54,10 +55,11 @@ bool lit(const Scene& scene, std::uint32_t enclosure) {
 
 std::optional<std::uint32_t> dark_enclosure(const Scene& scene) {
   const Imath::V3d camera = middle(scene.camera);
+  if (scene.camera.motion) return std::nullopt;
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];
-    if (opaque(scene.materials[instance.material]) && encloses(instance.shape, camera) && !lit(scene, i) &&
-        !has_openings(instance.shape))
+    if (motion_of(instance.shape) == nullptr && opaque(scene.materials[instance.material]) &&
+        encloses(instance.shape, camera) && !lit(scene, i) && !has_openings(instance.shape))
       return i;
   }
   return std::nullopt;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "scene/embree_query.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/placed.h"
@@ -13,27 +15,39 @@
 namespace abbe {
 namespace {
 
-// Where the instance stands that a ray is within; nullptr in the world.
+// Where the instance stands that a ray is within, of one that moves at time 0; nullptr in the world.
 const Placement* placement_of(const RTCIntersectContext* context) {
   const std::uint32_t instance = context->instID[0];
   if (instance == RTC_INVALID_GEOMETRY_ID) return nullptr;
   return std::get<SceneInstance>(static_cast<const ExactContext*>(context)->attached[instance]).at.get();
 }
 
-template <typename S>
-std::optional<ShapeHit<double>> intersection(const S& shape, const Placement* at,
-                                             const BasicRay<double>& ray) {
-  return at == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *at, ray, 0.0);
+// Where it stands at the ray's time.
+const Placement* placement_now(const Placement* at, const BasicRay<double>& ray,
+                               std::optional<Placement>& moved) {
+  if (at == nullptr || !at->motion) return at;
+  return &moved.emplace(placement_at(*at, static_cast<double>(ray.time)));
 }
 
 template <typename S>
-void user_bounds(const RTCBoundsFunctionArguments* args) {
-  const Imath::Box3d box = bounds(*static_cast<const S*>(args->geometryUserPtr));
+std::optional<ShapeHit<double>> intersection(const S& shape, const Placement* at,
+                                             const BasicRay<double>& ray) {
+  std::optional<Placement> moved;
+  const Placement* now = placement_now(at, ray, moved);
+  return now == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *now, ray, 0.0);
+}
+
+void set_bounds(const RTCBoundsFunctionArguments* args, const Imath::Box3d& box) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const auto below = [](double x) { return std::nextafter(static_cast<float>(x), -kInfinity); };
   const auto above = [](double x) { return std::nextafter(static_cast<float>(x), kInfinity); };
   *args->bounds_o = {below(box.min.x), below(box.min.y), below(box.min.z), 0,
                      above(box.max.x), above(box.max.y), above(box.max.z), 0};
+}
+
+template <typename S>
+void user_bounds(const RTCBoundsFunctionArguments* args) {
+  set_bounds(args, bounds(*static_cast<const S*>(args->geometryUserPtr)));
 }
 
 // What one ray of a packet meets becomes its hit, or goes to `all`.
@@ -89,6 +103,78 @@ void set_user_callbacks(RTCGeometryTy* geometry) {
   rtcSetGeometryOccludedFunction(geometry, user_occluded<S>);
 }
 
+// The box of a slice of time.
+void moving_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
+  set_bounds(args, moving.at->motion->sweep(corners(*moving.of->prototype, *moving.at),
+                                            static_cast<double>(args->primID) / kTimeSlices,
+                                            static_cast<double>(args->primID + 1) / kTimeSlices));
+}
+
+unsigned slice_of(float time) {
+  return std::min(static_cast<unsigned>(time * static_cast<float>(kTimeSlices)), kTimeSlices - 1);
+}
+
+// The ray as the scene of a prototype takes it, where the instance stands at the ray's time.
+RTCRay ray_within(const SceneInstance& moving, const BasicRay<double>& ray, float t_max, unsigned mask,
+                  std::size_t id) {
+  std::optional<Placement> moved;
+  RTCRay within = embree_ray(to_prototype(*placement_now(moving.at.get(), ray, moved), ray));
+  within.tfar = t_max;
+  within.mask = mask;
+  within.id = static_cast<unsigned>(id);
+  return within;
+}
+
+// Makes what is met within an instance known as such, for as long as it lives.
+class WithinInstance {
+ public:
+  WithinInstance(RTCIntersectContext* context, unsigned instance) : context_(context) {
+    context_->instID[0] = instance;
+  }
+  ~WithinInstance() { context_->instID[0] = RTC_INVALID_GEOMETRY_ID; }
+  WithinInstance(const WithinInstance&) = delete;
+  WithinInstance& operator=(const WithinInstance&) = delete;
+
+ private:
+  RTCIntersectContext* context_;
+};
+
+void moving_intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
+  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  const WithinInstance within(args->context, args->geomID);
+  for (unsigned i = 0; i < args->N; ++i) {
+    const std::size_t id = RTCRayN_id(rays, args->N, i);
+    if (args->valid[i] == 0 || slice_of(context.rays[id].time) != args->primID) continue;
+    RTCRayHit query{ray_within(moving, context.rays[id], RTCRayN_tfar(rays, args->N, i),
+                               RTCRayN_mask(rays, args->N, i), id),
+                    {}};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(moving.of->scene.get(), args->context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+    RTCRayN_tfar(rays, args->N, i) = query.ray.tfar;
+    rtcCopyHitToHitN(hits, &query.hit, args->N, i);
+  }
+}
+
+void moving_occluded(const RTCOccludedFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
+  const WithinInstance within(args->context, args->geomID);
+  for (unsigned i = 0; i < args->N; ++i) {
+    const std::size_t id = RTCRayN_id(args->ray, args->N, i);
+    if (args->valid[i] == 0 || slice_of(context.rays[id].time) != args->primID) continue;
+    RTCRay query = ray_within(moving, context.rays[id], RTCRayN_tfar(args->ray, args->N, i),
+                              RTCRayN_mask(args->ray, args->N, i), id);
+    rtcOccluded1(moving.of->scene.get(), args->context, &query);
+    if (query.tfar < 0) RTCRayN_tfar(args->ray, args->N, i) = query.tfar;
+  }
+}
+
 SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape, std::uint32_t primitive) {
   return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape, primitive};
 }
@@ -98,13 +184,13 @@ constexpr float kNearEdge = 0.01F;
 
 // How the point at t is to be moved to be as far from the edges of its triangle as rays start from the
 // surface.
-Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const SceneInstance* instance,
+Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const Placement* instance,
                           const BasicRay<double>& local, double t, const Imath::V3f& point) {
   const Imath::V3f axis(1, 0, 0);
   const double distance = 0.5 * static_cast<double>((offset_point(point, axis, axis) - point).x);
   Imath::V3d shift = shift_off_edges(set, hit.primID, local.origin + local.direction * t,
                                      distance * local.direction.length());
-  if (instance != nullptr) instance->at->to_world.multDirMatrix(shift, shift);
+  if (instance != nullptr) instance->to_world.multDirMatrix(shift, shift);
   return shift;
 }
 
@@ -118,7 +204,9 @@ void reject_behind(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const BasicRay<double>& ray = context.rays[RTCRayN_id(args->ray, args->N, i)];
     const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, i);
-    const double t = plane_crossing(set, triangle, at == nullptr ? ray : to_prototype(*at, ray));
+    std::optional<Placement> moved;
+    const Placement* now = placement_now(at, ray, moved);
+    const double t = plane_crossing(set, triangle, now == nullptr ? ray : to_prototype(*now, ray));
     if (!(t > 0 && t < ray.t_max)) args->valid[i] = 0;
   }
 }
@@ -140,6 +228,12 @@ void set_callbacks(RTCGeometryTy* geometry, const Sphere& /*sphere*/) {
 void set_callbacks(RTCGeometryTy* geometry, const Disc& /*disc*/) {
   set_user_callbacks<Disc>(geometry);
 }
+void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
+  rtcSetGeometryBoundsFunction(
+      geometry, [](const RTCBoundsFunctionArguments* args) { moving_bounds(args); }, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, moving_intersect);
+  rtcSetGeometryOccludedFunction(geometry, moving_occluded);
+}
 
 std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context, std::size_t number) {
   const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -150,16 +244,18 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
                                         : std::get_if<TriangleSet>(&instance->of->geometry);
   if (set == nullptr) return surface_hit(context.nearest[number], shape, 0);
   const BasicRay<double>& ray = context.rays[number];
-  const BasicRay<double> local = instance == nullptr ? ray : to_prototype(*instance->at, ray);
+  std::optional<Placement> moved;
+  const Placement* now = instance == nullptr ? nullptr : placement_now(instance->at.get(), ray, moved);
+  const BasicRay<double> local = now == nullptr ? ray : to_prototype(*now, ray);
   const double t = plane_crossing(*set, hit.primID, local);
   if (!(t > 0 && t < ray.t_max)) return std::nullopt;
   Imath::V3d point = ray.origin + ray.direction * t;
   if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
-    point += shift_in_world(*set, hit, instance, local, t, Imath::V3f(point));
+    point += shift_in_world(*set, hit, now, local, t, Imath::V3f(point));
   if (instance == nullptr)
     return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
   const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
-  return surface_hit({t, point, normal_to_world(*instance->at, normal)}, shape, hit.primID);
+  return surface_hit({t, point, normal_to_world(*now, normal)}, shape, hit.primID);
 }
 
 }  // namespace abbe

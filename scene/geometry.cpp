@@ -62,7 +62,15 @@ RTCGeometry geometry_of(RTCDevice device, Sphere& sphere) {
 RTCGeometry geometry_of(RTCDevice device, Disc& disc) {
   return user_geometry(device, disc);
 }
+RTCGeometry moving_geometry(RTCDevice device, const SceneInstance& moving) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, kTimeSlices);
+  rtcSetGeometryUserData(geometry, const_cast<SceneInstance*>(&moving));  // NOLINT: Embree only hands it back
+  set_callbacks(geometry, moving);
+  return geometry;
+}
 RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
+  if (placed.at->motion) return moving_geometry(device, placed);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, placed.of->scene.get());
   const Imath::M44d& m = placed.at->to_world;  // its rows are the columns Embree asks for
@@ -249,7 +257,7 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
   std::vector<SurfaceHit> all;
   ExactContext context(attached_);
-  context.rays[0] = {origin, direction, static_cast<double>(hit.t) + reach - start};
+  context.rays[0] = {origin, direction, static_cast<double>(hit.t) + reach - start, ray.time};
   context.all = &all;
   context.filter = collect;
   RTCRayHit query = embree_query(context.rays[0]);

@@ -31,12 +31,15 @@ struct SceneInstance {
   const InstancedScene* of;
   std::shared_ptr<const Placement> at;
 };
+/// How many boxes one that moves is in Embree's hands, each around all of a slice of time: Embree's own
+/// motion blur misses hits of packets whose rays have different times.
+inline constexpr unsigned kTimeSlices = 16;
 using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 
 /// The shapes in Embree's hands. Embree finds the primitive in float; where it is met, and whether it is met
 /// at all rather than left, is then decided in double by the shape's own formula, for instances in the
 /// coordinates of their prototype. A ray that starts on the right side of a surface never meets that surface
-/// again at once.
+/// again at once. What moves is asked where it stands at the ray's time, in double.
 class Geometry {
  public:
   /// Throws Error{resource} when there is no memory, Error{internal} when Embree refuses.

@@ -23,7 +23,7 @@ const Material& material_of(const Scene& scene, const ShapeInstance& instance) {
   return scene.materials[instance.material];
 }
 
-constexpr std::array<NeedName, 14> kNeeds{{
+constexpr std::array<NeedName, 15> kNeeds{{
     {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
     {"media", &Needs::media, "matter absorbs along the path"},
     {"scattering", &Needs::scattering, "matter scatters light within"},
@@ -41,6 +41,7 @@ constexpr std::array<NeedName, 14> kNeeds{{
      "interfaces may follow each other at oblique angles"},
     {"depth_of_field", &Needs::depth_of_field, "a lens of finite aperture"},
     {"angular_response", &Needs::angular_response, "a filter shifts with the angle of incidence on the film"},
+    {"motion", &Needs::motion, "a shape, a light or the camera moves while the film is exposed"},
 }};
 
 // Remembers the first thing that asks for a need.
@@ -67,8 +68,9 @@ bool is_ideal_mirror(const Material& material) {
   return true;
 }
 
-// The normal of what is flat.
+// The normal of what is flat and stands still.
 std::optional<Imath::V3d> flat_normal(const Shape& shape) {
+  if (motion_of(shape) != nullptr) return std::nullopt;
   if (const auto* quad = plain<Quad>(shape)) return normal_of(*quad);
   if (const auto* disc = plain<Disc>(shape)) return disc->normal;
   return std::nullopt;
@@ -83,7 +85,7 @@ bool seen_along_normals(const Scene& scene) {
   const CameraTraits camera = traits(scene.camera);
   const std::optional<Imath::V3d>& axis = camera.axis;
   // Behind a real lens the angles at the film are others than those in the scene.
-  if (!axis || camera.displaces_lanes) return false;
+  if (!axis || camera.displaces_lanes || scene.camera.motion) return false;
   std::optional<Imath::V3d> common;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);
@@ -192,6 +194,14 @@ void analyse_lights(const Scene& scene, Needs& needs) {
   }
 }
 
+void analyse_motion(const Scene& scene, Needs& needs) {
+  for (const ShapeInstance& instance : scene.shapes)
+    require(needs, &Needs::motion, motion_of(instance.shape) != nullptr, "shape", instance.name);
+  for (const Light& light : scene.lights)
+    require(needs, &Needs::motion, motion_of(light, scene.shapes) != nullptr, "light", light.name);
+  require(needs, &Needs::motion, scene.camera.motion != nullptr, "camera", "");
+}
+
 // Distance from the peak at knot `i` to where the curve first falls to `level`, walking by `step`; infinite
 // if that is beyond `reach`.
 double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t step, double level,
@@ -237,6 +247,7 @@ Needs analyse(const Scene& scene) {
     require(needs, &Needs::narrow_bands, has_narrow_feature(channel.weight), "channel", channel.name);
     require(needs, &Needs::angular_response, channel.angular.has_value(), "channel", channel.name);
   }
+  analyse_motion(scene, needs);
   require(needs, &Needs::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return needs;
 }

@@ -57,7 +57,7 @@ bool Scene::occluded(const Imath::V3f& from, const Imath::V3f& to) const {
 
 bool Scene::occluded(const Ray& ray) const {
   return geometry_->occluded(
-      {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max)});
+      {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time});
 }
 
 void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const {
@@ -107,6 +107,7 @@ void Scene::commit() {
   }
   geometry_ = std::make_shared<const Geometry>(shapes, materials);
   needs = analyse(*this);
+  if (!needs.motion) shutter = shutter.where_nothing_moves();
 }
 
 std::size_t Scene::triangle_count() const {

@@ -21,6 +21,7 @@
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
 #include "scene/shapes/shape_instance.h"
+#include "scene/shutter.h"
 #include "scene/white.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/readout/readout.h"
@@ -125,6 +126,7 @@ class Scene {
   std::vector<Channel> channels;
   std::optional<Mosaic> mosaic;  ///< Which channel each pixel has; without one every pixel has them all.
   double exposure_s = 1;
+  Shutter shutter;         ///< Which `commit` makes plain where nothing moves.
   double fill_factor = 1;  ///< Share of a pixel that takes light: a pixel counts its film value times
                            ///< pixel pitch^2 times this.
   /// What makes digital numbers of the film, if the scene says.
@@ -147,8 +149,8 @@ class Scene {
 
   /// Nearest hit at t in (0, ray.t_max). Rays start where `spawn` put them, so no epsilon is needed.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
-  /// The surfaces that touch where `ray` meets the scene at `hit`, which is the first of them: parallel to it
-  /// and within `touch_distance`. Of a shape, each side once.
+  /// The surfaces that touch, at the ray's time, where `ray` meets the scene at `hit`, which is the first of
+  /// them: parallel to it and within `touch_distance`. Of a shape, each side once.
   [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit) const;
   /// Around `point`, surfaces of the two shapes that are closer than this [m] count as one: floats of the
   /// size of the point, and of the vertices, hardly tell them apart.

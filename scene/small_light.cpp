@@ -4,7 +4,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/shapes/placed.h"
+
 namespace abbe {
+namespace {
+
+// Of the box around the shape, of one that moves where it is at time 0 [m].
+double half_size_of(const Shape& shape) {
+  if (motion_of(shape) == nullptr) return bounds(shape).size().length() / 2;
+  const auto& placed = std::get<PlacedShape>(shape);
+  Imath::Box3d box;
+  for (const Imath::V3d& corner : corners(*placed.of, *placed.at)) box.extendBy(corner);
+  return box.size().length() / 2;
+}
+
+}  // namespace
 
 bool emits(const Light& light) {
   return light.emission.max() > 0;
@@ -26,9 +40,12 @@ bool looks_smaller(const Scene& scene, const Light& light, std::span<const Specu
     return 2 * std::numbers::pi * static_cast<double>(sun->cap) < limit_sr;
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr) return light.is_delta();
-  const Imath::Box3d box = bounds(scene.shapes[emitter->shape].shape);
+  const Shape& shape = scene.shapes[emitter->shape].shape;
+  const Imath::Box3d box = bounds(shape);
+  const double half_size = half_size_of(shape);
   const double cosine = 1 - limit_sr / (2 * std::numbers::pi);
-  const double reach = box.size().length() / 2 / std::sqrt((1 - cosine) * (1 + cosine));
+  const double reach =
+      half_size / std::sqrt((1 - cosine) * (1 + cosine)) + box.size().length() / 2 - half_size;
   auto near = std::lower_bound(centers.begin(), centers.end(), box.center().x - reach,
                                [](const SpecularCenter& c, double x) { return c.at.x < x; });
   for (; near != centers.end() && near->at.x <= box.center().x + reach; ++near)

@@ -25,15 +25,15 @@ Imath::V3d turned(const BumpMap& map, const SurfaceCoordinates& at, const Imath:
 
 }  // namespace
 
-SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit) {
+SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit, float time) {
   const ShapeInstance& instance = scene.shapes[hit.shape];
   const Material& material = scene.materials[instance.material];
   const Imath::V3d point(hit.point);
-  const auto smooth = interpolated_normal(instance.shape, point, hit.primitive, Imath::V3d(hit.normal));
+  const auto smooth = interpolated_normal(instance.shape, point, hit.primitive, Imath::V3d(hit.normal), time);
   const Imath::V3f normal = smooth ? Imath::V3f(*smooth) : hit.normal;
   const bool relief = smooth || material.relief;
   if (!needs_coordinates(material)) return {Basis<float>(normal), {0, 0}, relief};
-  const SurfaceCoordinates at = coordinates(instance.shape, point, hit.primitive);
+  const SurfaceCoordinates at = coordinates(instance.shape, point, hit.primitive, time);
   const Imath::V3f along(at.dp_du.normalized());
   if (!material.relief) return {Basis<float>(normal, along), Imath::V2f(at.uv), relief};
   const Imath::V3d carved =

@@ -15,9 +15,9 @@ struct SurfacePlace {
   bool relief = false;  ///< z may differ from the normal of the shape.
 };
 
-/// The place of a hit, where a scene has `needs.textures`; without it the normal says all. A relief turns the
-/// normal that vertex normals give. Where the material needs coordinates they are worked out, and the frame's
-/// x runs along dp/du; elsewhere they are (0, 0).
-[[nodiscard]] SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit);
+/// The place of a hit at that time, where a scene has `needs.textures`; without it the normal says all. A
+/// relief turns the normal that vertex normals give. Where the material needs coordinates they are worked
+/// out, and the frame's x runs along dp/du; elsewhere they are (0, 0).
+[[nodiscard]] SurfacePlace textured_place(const Scene& scene, const SurfaceHit& hit, float time);
 
 }  // namespace abbe

@@ -1,27 +1,69 @@
 #include "scene/camera/camera.h"
 
 namespace abbe {
+namespace {
+
+Imath::V3f moved_point(const Imath::V3f& point, const Imath::M44d& by) {
+  return Imath::V3f(Imath::V3d(point) * by);
+}
+
+Imath::V3d turned_direction(const Imath::V3d& direction, const Imath::M44d& by) {
+  Imath::V3d moved;
+  by.multDirMatrix(direction, moved);
+  return moved;
+}
+
+Ray moved_ray(const Ray& ray, const Imath::M44d& by) {
+  return {moved_point(ray.origin, by), Imath::V3f(turned_direction(Imath::V3d(ray.direction), by)), ray.t_max,
+          ray.time};
+}
+
+Imath::M44d motion_until(const Camera& camera, float time) {
+  return camera.motion->since_opening(static_cast<double>(time));
+}
+
+}  // namespace
 
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
                      const SampledSpectrum& wavelengths_nm, int hero, float time) {
-  return std::visit(
+  CameraRay ray = std::visit(
       [&](const auto& kind) {
         return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, hero, time);
       },
       camera.kind);
+  if (camera.motion) ray.ray = moved_ray(ray.ray, motion_until(camera, time));
+  return ray;
 }
 
 std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point, Imath::V2f lens,
                                                const SampledSpectrum& wavelengths_nm, float time) {
-  return std::visit(
-      [&](const auto& kind) { return kind.sample_towards(camera.film(), point, lens, wavelengths_nm, time); },
-      camera.kind);
+  const auto connect = [&](const Imath::V3f& seen) {
+    return std::visit(
+        [&](const auto& kind) {
+          return kind.sample_towards(camera.film(), seen, lens, wavelengths_nm, time);
+        },
+        camera.kind);
+  };
+  if (!camera.motion) return connect(point);
+  const Imath::M44d since_opening = motion_until(camera, time);
+  std::optional<CameraConnection> found = connect(moved_point(point, rigid_inverse(since_opening)));
+  if (found) found->lens_point = moved_point(found->lens_point, since_opening);
+  return found;
 }
 
 std::optional<CameraDensity> density(const Camera& camera, const Ray& ray,
                                      const SampledSpectrum& wavelengths_nm) {
-  return std::visit([&](const auto& kind) { return kind.density(camera.film(), ray, wavelengths_nm); },
+  const Ray& seen = camera.motion ? seen_at_rest(camera, ray) : ray;
+  return std::visit([&](const auto& kind) { return kind.density(camera.film(), seen, wavelengths_nm); },
                     camera.kind);
+}
+
+Ray seen_at_rest(const Camera& camera, const Ray& ray) {
+  return camera.motion ? moved_ray(ray, rigid_inverse(motion_until(camera, ray.time))) : ray;
+}
+
+Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float time) {
+  return camera.motion ? turned_direction(direction, motion_until(camera, time)) : direction;
 }
 
 double least_film_cosine(const Camera& camera) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -10,20 +11,24 @@
 #include "scene/camera/model.h"
 #include "scene/camera/pinhole.h"
 #include "scene/camera/thin_lens.h"
+#include "scene/shapes/motion.h"
 
 namespace abbe {
 
-/// What turns film positions into rays: the closed list of kinds, each a `CameraModel`, and the pixels.
+/// What turns film positions into rays: the closed list of kinds, each a `CameraModel`, and the pixels. The
+/// kind says how a camera that moves stands at time 0.
 struct Camera {
   std::variant<Pinhole, ThinLens, IrradianceProbe, LensSystem> kind;
   int width = 1;
   int height = 1;
   double pixel_pitch = 1;  ///< [m]
+  std::shared_ptr<const Motion> motion = nullptr;
 
   [[nodiscard]] FilmGrid film() const { return {width, height, pixel_pitch}; }
 };
 
-// What `CameraModel` says of each.
+// What `CameraModel` says of each; what has a time finds the camera where it is then, all else where it is at
+// time 0.
 [[nodiscard]] CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
                                    const SampledSpectrum& wavelengths_nm, int hero, float time);
 [[nodiscard]] std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point,
@@ -37,6 +42,11 @@ struct Camera {
 [[nodiscard]] const Imath::V3d& position(const Camera& camera);
 [[nodiscard]] Imath::V3d middle(const Camera& camera);
 void translate(Camera& camera, const Imath::V3d& by);
+
+/// The ray as it runs beside a camera that moves, seen from where that is at time 0.
+[[nodiscard]] Ray seen_at_rest(const Camera& camera, const Ray& ray);
+/// The direction in the world, at that time, of one that the camera has at time 0.
+[[nodiscard]] Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float time);
 
 /// The weight [sr] of the ray from the middle of the lens to a film position, at 550 nm when the shutter
 /// opens: what stands for a pixel's exposure by radiance where nothing is drawn.

@@ -17,6 +17,7 @@ struct Leaving {
   const Imath::V3f& normal;
   const Imath::V3f& wo;
   float scene_radius_m;
+  float time;
 };
 
 EmissionDensity density_of(const AreaLight& light, const Leaving& at) {
@@ -31,7 +32,7 @@ EmissionDensity density_of(const PointLight& /*light*/, const Leaving& /*at*/) {
 }
 
 EmissionDensity density_of(const SpotLight& light, const Leaving& at) {
-  return {1, light.lights(at.wo) ? cone_pdf(light.cap) : 0.0F};
+  return {1, light.lights(at.wo, at.time) ? cone_pdf(light.cap) : 0.0F};
 }
 
 // Over the disc that the scene fills, seen from there.
@@ -54,15 +55,15 @@ EmissionDensity density_of(const SunLight& light, const Leaving& at) {
 }  // namespace
 
 EmissionDensity emission_density(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo,
-                                 float scene_radius_m) {
+                                 float scene_radius_m, float time) {
   return std::visit(
       [&](const auto& kind) {
-        return density_of(kind, {normal, wo, scene_radius_m});
+        return density_of(kind, {normal, wo, scene_radius_m, time});
       },
       light.kind);
 }
 
-Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u) {
+Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u, float time) {
   const float phi = 2 * std::numbers::pi_v<float> * u.y;
   if (const auto* area = std::get_if<AreaLight>(&light.kind)) {
     const bool flip = area->two_sided && u.x >= 0.5F;
@@ -70,7 +71,7 @@ Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imat
     return direction_about(flip ? -normal : normal, 1 - std::sqrt(1 - v), phi);
   }
   if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return direction_about(spot->axis, u.x * spot->cap, phi);
+    return direction_about(spot->axis_at(time), u.x * spot->cap, phi);
   if (light.is<PointLight>()) return direction_about({0, 0, 1}, 2 * u.x, phi);
   throw Error(ErrorCode::internal, "light \"" + light.name + "\"", "a light at infinity has no place");
 }

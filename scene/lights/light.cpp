@@ -8,6 +8,7 @@
 
 #include "io/error.h"
 #include "scene/shapes/basis.h"
+#include "scene/shapes/placed.h"
 #include "scene/shapes/shape_instance.h"
 #include "scene/shapes/sphere.h"
 
@@ -62,7 +63,7 @@ std::optional<SphericalRectangle> wide_rectangle(const AreaLight& light, const I
   return SphericalRectangle::seen_from(*light.flat->rectangle, point);
 }
 std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
-  const auto* sphere = std::get_if<Sphere>(&shape);
+  const auto* sphere = plain<Sphere>(shape);
   if (sphere == nullptr) return std::nullopt;
   return cone_height(*sphere, point);
 }
@@ -71,10 +72,23 @@ SurfacePoint sample_area(const AreaLight& light, const Shape& shape, Imath::V2f 
   return light.flat ? sample_area(light.flat->quad, u) : sample_area(shape, light.triangle_cdf, u);
 }
 
+// Where the shape of a light stands at some time; nothing of one that stands still.
+std::optional<Placement> pose_of(const Shape& shape, float time) {
+  if (motion_of(shape) == nullptr) return std::nullopt;
+  return placement_at(*std::get<PlacedShape>(shape).at, static_cast<double>(time));
+}
+
+// A point of a light that moves, drawn in its prototype's coordinates, in the world.
+SurfacePoint to_world(const Placement& placement, const SurfacePoint& at) {
+  return {Imath::V3f(Imath::V3d(at.point) * placement.to_world),
+          Imath::V3f(normal_to_world(placement, Imath::V3d(at.normal)))};
+}
+
+// Of a light that moves, in its prototype's coordinates.
 AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const Imath::V3d& point,
                              Imath::V2f u) {
   if (const auto height = wide_cone(shape, point))
-    return sample_cone(std::get<Sphere>(shape), *height, point, u);
+    return sample_cone(*plain<Sphere>(shape), *height, point, u);
   if (const auto rectangle = wide_rectangle(light, point)) {
     const Imath::V2d uv = rectangle->sample(u);
     const RenderedQuad& quad = light.flat->quad;
@@ -83,10 +97,27 @@ AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const I
   return {sample_area(light, shape, u)};
 }
 
+AreaSample sample_area_light_at(float time, const AreaLight& light, const Shape& shape,
+                                const Imath::V3d& point, Imath::V2f u) {
+  const std::optional<Placement> moved = pose_of(shape, time);
+  if (!moved) return sample_area_light(light, shape, point, u);
+  AreaSample sample = sample_area_light(light, shape, point * moved->to_prototype, u);
+  sample.at = to_world(*moved, sample.at);
+  return sample;
+}
+
+// What is asked of a light: towards which point, by which numbers and when.
+struct SampleRequest {
+  const Imath::V3f& point;
+  Imath::V2f u;
+  float time;
+};
+
 std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emitter,
-                                       const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
-                                       Imath::V2f u) {
-  const auto [at, drawn] = sample_area_light(emitter, shapes[emitter.shape].shape, Imath::V3d(point), u);
+                                       const std::vector<ShapeInstance>& shapes, const SampleRequest& asked) {
+  const Imath::V3f& point = asked.point;
+  const auto [at, drawn] =
+      sample_area_light_at(asked.time, emitter, shapes[emitter.shape].shape, Imath::V3d(point), asked.u);
   const Imath::V3d d = Imath::V3d(at.point) - Imath::V3d(point);
   const double distance = d.length();
   const double pdf = drawn ? *drawn : density_by_area(emitter, d, distance, Imath::V3d(at.normal));
@@ -110,21 +141,21 @@ std::optional<LightSample> from_point(const Imath::V3f& position, const Imath::V
 }
 
 std::optional<LightSample> sample_kind(const Light&, const PointLight& lamp,
-                                       const std::vector<ShapeInstance>&, const Imath::V3f& point,
-                                       Imath::V2f) {
-  return from_point(lamp.position, point);
+                                       const std::vector<ShapeInstance>&, const SampleRequest& asked) {
+  return from_point(place_at(lamp, asked.time), asked.point);
 }
 
 std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, const std::vector<ShapeInstance>&,
-                                       const Imath::V3f& point, Imath::V2f) {
-  std::optional<LightSample> sample = from_point(lamp.position, point);
-  if (!sample || !lamp.lights(-sample->wi)) return std::nullopt;
+                                       const SampleRequest& asked) {
+  std::optional<LightSample> sample = from_point(place_at(lamp, asked.time), asked.point);
+  if (!sample || !lamp.lights(-sample->wi, asked.time)) return std::nullopt;
   return sample;
 }
 
 std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& environment,
-                                       const std::vector<ShapeInstance>&, const Imath::V3f& point,
-                                       Imath::V2f u) {
+                                       const std::vector<ShapeInstance>&, const SampleRequest& asked) {
+  const Imath::V3f& point = asked.point;
+  const Imath::V2f u = asked.u;
   if (!environment.image)
     return LightSample{sample_area(Sphere{{0, 0, 0}, 1}, u).normal, kInfinity, 1,
                        static_cast<float>(1 / (4 * std::numbers::pi)), point};
@@ -137,31 +168,35 @@ std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& env
 }
 
 std::optional<LightSample> sample_kind(const Light&, const DirectionalLight& beam,
-                                       const std::vector<ShapeInstance>&, const Imath::V3f& point,
-                                       Imath::V2f) {
-  return LightSample{beam.towards, kInfinity, 1, 1, point};
+                                       const std::vector<ShapeInstance>&, const SampleRequest& asked) {
+  return LightSample{beam.towards, kInfinity, 1, 1, asked.point};
 }
 
 std::optional<LightSample> sample_kind(const Light&, const SunLight& sun, const std::vector<ShapeInstance>&,
-                                       const Imath::V3f& point, Imath::V2f u) {
-  const float phi = 2 * std::numbers::pi_v<float> * u.y;
-  return LightSample{direction_about(sun.towards, u.x * sun.cap, phi), kInfinity, 1, cone_pdf(sun.cap),
-                     point};
+                                       const SampleRequest& asked) {
+  const float phi = 2 * std::numbers::pi_v<float> * asked.u.y;
+  return LightSample{direction_about(sun.towards, asked.u.x * sun.cap, phi), kInfinity, 1, cone_pdf(sun.cap),
+                     asked.point};
 }
 
-// Light that arrives at `point` from the unit direction `wi`, of a light hit at `hit` with that normal.
+// Light that arrives at `point` from the unit direction `wi`, of a light hit at `hit` with that normal, at
+// some time.
 struct Arrival {
   const Imath::V3f& point;
   const Imath::V3f& wi;
   const Imath::V3f& hit;
   const Imath::V3f& normal;
+  float time;
 };
 
 float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const Arrival& at) {
+  const Shape& shape = shapes[emitter.shape].shape;
   const Imath::V3d from(at.point);
-  if (const auto height = wide_cone(shapes[emitter.shape].shape, from))
+  const std::optional<Placement> moved = pose_of(shape, at.time);
+  const Imath::V3d seen_from = moved ? from * moved->to_prototype : from;
+  if (const auto height = wide_cone(shape, seen_from))
     return static_cast<float>(1 / (2 * std::numbers::pi * *height));
-  if (const auto rectangle = wide_rectangle(emitter, from))
+  if (const auto rectangle = wide_rectangle(emitter, seen_from))
     return static_cast<float>(1 / rectangle->solid_angle());
   const Imath::V3d d = Imath::V3d(at.hit) - from;
   return static_cast<float>(density_by_area(emitter, d, d.length(), Imath::V3d(at.normal)));
@@ -205,8 +240,8 @@ double etendue_of(const SunLight& sun, double across) {
 // What each kind of light answers.
 template <typename Kind>
 concept LightKind = requires(const Light& light, const Kind& kind, const std::vector<ShapeInstance>& shapes,
-                             const Imath::V3f& point, Imath::V2f u, const Arrival& at) {
-  { sample_kind(light, kind, shapes, point, u) } -> std::same_as<std::optional<LightSample>>;
+                             const SampleRequest& asked, const Arrival& at) {
+  { sample_kind(light, kind, shapes, asked) } -> std::same_as<std::optional<LightSample>>;
   { pdf_of(kind, shapes, at) } -> std::same_as<float>;
   { etendue_of(kind, 1.0) } -> std::same_as<double>;
 };
@@ -221,7 +256,7 @@ static_assert(kAllLightKinds<decltype(Light::kind)>);
 void AreaLight::measure(const Shape& of) {
   area = abbe::area(of);
   triangle_cdf = abbe::triangle_cdf(of);
-  if (const auto* quad = std::get_if<Quad>(&of))
+  if (const auto* quad = plain<Quad>(of))
     flat = std::make_shared<const EmittingQuad>(EmittingQuad{RenderedQuad(*quad), Rectangle::of(*quad)});
 }
 
@@ -236,6 +271,32 @@ const Imath::V3f* place(const Light& light) {
   return nullptr;
 }
 
+template <typename Lamp>
+static Imath::V3f moved_place(const Lamp& lamp, float time) {
+  if (!lamp.motion) return lamp.position;
+  return Imath::V3f(Imath::V3d(lamp.position) * lamp.motion->since_opening(static_cast<double>(time)));
+}
+Imath::V3f place_at(const PointLight& lamp, float time) {
+  return moved_place(lamp, time);
+}
+Imath::V3f place_at(const SpotLight& lamp, float time) {
+  return moved_place(lamp, time);
+}
+
+Imath::V3f SpotLight::axis_at(float time) const {
+  if (!motion) return axis;
+  Imath::V3d turned;
+  motion->since_opening(static_cast<double>(time)).multDirMatrix(Imath::V3d(axis), turned);
+  return Imath::V3f(turned);
+}
+
+const Motion* motion_of(const Light& light, const std::vector<ShapeInstance>& shapes) {
+  if (const auto* lamp = std::get_if<PointLight>(&light.kind)) return lamp->motion.get();
+  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return lamp->motion.get();
+  const auto* emitter = std::get_if<AreaLight>(&light.kind);
+  return emitter != nullptr ? motion_of(shapes[emitter->shape].shape) : nullptr;
+}
+
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                               const SampledSpectrum& wavelengths_nm) {
   const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
@@ -244,16 +305,17 @@ SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
 }
 
 std::optional<LightSample> sample_light(const Light& light, const std::vector<ShapeInstance>& shapes,
-                                        const Imath::V3f& point, Imath::V2f u) {
-  return std::visit([&](const auto& kind) { return sample_kind(light, kind, shapes, point, u); }, light.kind);
+                                        const Imath::V3f& point, Imath::V2f u, float time) {
+  const SampleRequest asked{point, u, time};
+  return std::visit([&](const auto& kind) { return sample_kind(light, kind, shapes, asked); }, light.kind);
 }
 
 float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
-                const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal) {
+                const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal, float time) {
   if (!emits_towards(light, hit_normal, -wi)) return 0;
   return std::visit(
       [&](const auto& kind) {
-        return pdf_of(kind, shapes, {point, wi, hit_point, hit_normal});
+        return pdf_of(kind, shapes, {point, wi, hit_point, hit_normal, time});
       },
       light.kind);
 }
@@ -264,13 +326,18 @@ bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3
 }
 
 EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeInstance>& shapes,
-                                    Imath::V2f u) {
-  if (const Imath::V3f* at = place(light)) return {*at, Imath::V3f(0), 1};
+                                    Imath::V2f u, float time) {
+  if (const auto* lamp = std::get_if<PointLight>(&light.kind))
+    return {place_at(*lamp, time), Imath::V3f(0), 1};
+  if (const auto* lamp = std::get_if<SpotLight>(&light.kind))
+    return {place_at(*lamp, time), Imath::V3f(0), 1};
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr)
     throw Error(ErrorCode::internal, "light \"" + light.name + "\"",
                 "a light at infinity has no point to emit from");
-  const SurfacePoint at = sample_area(*emitter, shapes[emitter->shape].shape, u);
+  const Shape& shape = shapes[emitter->shape].shape;
+  SurfacePoint at = sample_area(*emitter, shape, u);
+  if (const std::optional<Placement> moved = pose_of(shape, time)) at = to_world(*moved, at);
   return {at.point, at.normal, static_cast<float>(1 / emitter->area)};
 }
 

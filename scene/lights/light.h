@@ -20,6 +20,8 @@
 
 namespace abbe {
 
+struct ShapeInstance;
+
 /// Density [1/sr] of directions drawn uniformly from a cone, `cap` being 1 - cos of its half angle.
 [[nodiscard]] inline float cone_pdf(float cap) {
   return 1 / (2 * std::numbers::pi_v<float> * cap);
@@ -44,16 +46,21 @@ struct AreaLight {
 };
 /// Emits equally in all directions from one point.
 struct PointLight {
-  Imath::V3f position{0, 0, 0};
+  Imath::V3f position{0, 0, 0};  ///< Of one that moves, at time 0.
+  std::shared_ptr<const Motion> motion = nullptr;
 };
 /// Emits equally within a cone around `axis`, nothing outside.
 struct SpotLight {
-  Imath::V3f position{0, 0, 0};
+  Imath::V3f position{0, 0, 0};  ///< Of one that moves, this and the axis at time 0.
   Imath::V3f axis{0, 0, 1};
   float cap = 2;  ///< 1 - cos of the half angle, which keeps its digits however narrow the cone.
+  std::shared_ptr<const Motion> motion = nullptr;
 
+  [[nodiscard]] Imath::V3f axis_at(float time) const;
   /// Whether the unit direction `wi` from the lamp is within the cone: |wi - axis|^2 = 2 (1 - cos).
-  [[nodiscard]] bool lights(const Imath::V3f& wi) const { return (wi - axis).length2() <= 2 * cap; }
+  [[nodiscard]] bool lights(const Imath::V3f& wi, float time) const {
+    return (wi - (motion ? axis_at(time) : axis)).length2() <= 2 * cap;
+  }
 };
 /// Light from infinity: the same radiance from all directions, or as an image says.
 struct EnvironmentLight {
@@ -94,17 +101,22 @@ struct Light {
   [[nodiscard]] bool at_infinity() const { return is<EnvironmentLight, DirectionalLight, SunLight>(); }
 };
 
-/// Where a point or spot light is; nullptr for the others.
+/// Where a point or spot light is, of one that moves at time 0; nullptr for the others.
 [[nodiscard]] const Imath::V3f* place(const Light& light);
+/// Where it is at that time.
+[[nodiscard]] Imath::V3f place_at(const PointLight& lamp, float time);
+[[nodiscard]] Imath::V3f place_at(const SpotLight& lamp, float time);
+/// How a light moves; nullptr of one that stands still.
+[[nodiscard]] const Motion* motion_of(const Light& light, const std::vector<ShapeInstance>& shapes);
 
 /// The emission at these wavelengths of light arriving from the unit direction `wi`, which only an
 /// environment image asks for.
 [[nodiscard]] SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                                             const SampledSpectrum& wavelengths_nm);
 
-/// Light arriving at a point, without its spectrum: `factor` times `emission_from` is the incident radiance
-/// (area, environment, sun) or irradiance per unit cosine (point, spot, directional), and `pdf` the density
-/// of `wi` [1/sr] (1 for delta lights, whose direction is no choice).
+/// Light arriving at a point at some time, without its spectrum: `factor` times `emission_from` is the
+/// incident radiance (area, environment, sun) or irradiance per unit cosine (point, spot, directional), and
+/// `pdf` the density of `wi` [1/sr] (1 for delta lights, whose direction is no choice).
 struct LightSample {
   Imath::V3f wi;
   float distance;  ///< infinity for lights there
@@ -115,35 +127,34 @@ struct LightSample {
   Imath::V3f normal{0, 0, 0};  ///< Outward, of an area light there; zero for the others.
 };
 
-struct ShapeInstance;
-
-/// Draws a direction from `point` towards the light; nothing if the light cannot reach it. Spheres seen from
-/// outside are drawn by solid angle [Pharr2023, sec. 6.2.4], rectangles that look large too [Urena2013], all
-/// else by area.
+/// Draws a direction from `point` towards the light at that time; nothing if the light cannot reach it.
+/// Spheres seen from outside are drawn by solid angle [Pharr2023, sec. 6.2.4], rectangles that look large too
+/// [Urena2013], all else by area.
 [[nodiscard]] std::optional<LightSample> sample_light(const Light& light,
                                                       const std::vector<ShapeInstance>& shapes,
-                                                      const Imath::V3f& point, Imath::V2f u);
+                                                      const Imath::V3f& point, Imath::V2f u, float time);
 
 /// Density [1/sr] with which `sample_light` draws the direction from `point` that hits the light at
 /// `hit_point` with outward normal `hit_normal`; for lights at infinity pass the direction in `wi` only. 0
 /// for delta lights.
 [[nodiscard]] float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes,
                               const Imath::V3f& point, const Imath::V3f& wi, const Imath::V3f& hit_point,
-                              const Imath::V3f& hit_normal);
+                              const Imath::V3f& hit_normal, float time);
 
 /// Whether the light emits from a surface point with outward `normal` into direction `wo` (away from the
 /// surface).
 [[nodiscard]] bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo);
 
-/// A starting point of photons: the surface position and outward normal of an area light, or the point itself
-/// with a zero normal. Lights at infinity have none: Error{internal}.
+/// A starting point of photons of some time: the surface position and outward normal of an area light, or the
+/// point itself with a zero normal. Lights at infinity have none: Error{internal}.
 struct EmissionPoint {
   Imath::V3f point;
   Imath::V3f normal;
   float pdf_area;  ///< [1/m^2]; 1 for point and spot lights.
 };
 [[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
-                                                  const std::vector<ShapeInstance>& shapes, Imath::V2f u);
+                                                  const std::vector<ShapeInstance>& shapes, Imath::V2f u,
+                                                  float time);
 /// Numbers for `sample_emission_point` that are spread over a light, its middle first: where all of a light
 /// is to be looked at.
 inline constexpr std::array<std::array<float, 2>, 5> kSpreadOverLight{

@@ -69,13 +69,20 @@ SurfaceCoordinates coordinates_on(const Mesh& mesh, const Imath::V3d& point, std
   return at;
 }
 
-SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Imath::V3d& point, std::size_t triangle) {
-  const Imath::V3d inside = point * placed.at->to_prototype;
+// Where an instance stands at that time.
+const Placement& stands_at(const PlacedShape& placed, float time, std::optional<Placement>& moved) {
+  if (!placed.at->motion) return *placed.at;
+  return moved.emplace(placement_at(*placed.at, static_cast<double>(time)));
+}
+
+SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Placement& now, const Imath::V3d& point,
+                                  std::size_t triangle) {
+  const Imath::V3d inside = point * now.to_prototype;
   SurfaceCoordinates at = std::visit(
       [&](const auto& shape) { return coordinates_on(shape, inside, triangle); }, placed.of->shape);
   for (Imath::V3d* tangent : {&at.dp_du, &at.dp_dv}) {
     const Imath::V3d moved = *tangent;
-    placed.at->to_world.multDirMatrix(moved, *tangent);
+    now.to_world.multDirMatrix(moved, *tangent);
   }
   return at;
 }
@@ -83,26 +90,37 @@ SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Imath::V3d& p
 }  // namespace
 
 std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V3d& point,
-                                              std::size_t triangle, const Imath::V3d& geometric) {
+                                              std::size_t triangle, const Imath::V3d& geometric, float time) {
   const auto* mesh = plain<Mesh>(shape);
   if (mesh == nullptr || mesh->normals.empty()) return std::nullopt;
   const auto* placed = std::get_if<PlacedShape>(&shape);
+  std::optional<Placement> moved;
+  const Placement* now = placed != nullptr ? &stands_at(*placed, time, moved) : nullptr;
   const auto& [a, b, c] = mesh->triangles[triangle];
   const Imath::V3d& origin = mesh->vertices[a];
-  const PlaneShares share((placed ? point * placed->at->to_prototype : point) - origin,
-                          mesh->vertices[b] - origin, mesh->vertices[c] - origin);
+  const PlaneShares share((now ? point * now->to_prototype : point) - origin, mesh->vertices[b] - origin,
+                          mesh->vertices[c] - origin);
   const auto& [at_a, at_b, at_c] = mesh->normals[triangle];
   Imath::V3d normal = Imath::V3d(at_a) * (1 - share.first - share.second) + Imath::V3d(at_b) * share.first +
                       Imath::V3d(at_c) * share.second;
-  if (placed) normal = normal_to_world(*placed->at, normal);
+  if (now) normal = normal_to_world(*now, normal);
   normal.normalize();
   const double side = normal.dot(geometric);
   if (side == 0) return geometric;  // normals that cancel out
   return side < 0 ? -normal : normal;
 }
 
-SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std::size_t triangle) {
-  return std::visit([&](const auto& s) { return coordinates_on(s, point, triangle); }, shape);
+SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std::size_t triangle,
+                               float time) {
+  const auto on = [&](const auto& s) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(s)>, PlacedShape>) {
+      std::optional<Placement> moved;
+      return coordinates_on(s, stands_at(s, time, moved), point, triangle);
+    } else {
+      return coordinates_on(s, point, triangle);
+    }
+  };
+  return std::visit(on, shape);
 }
 
 }  // namespace abbe

@@ -24,15 +24,15 @@ struct SurfaceCoordinates {
 /// - on a sphere u is the longitude from +x over +y, over 2 pi, and v is 0 at the pole at -z, 1 at that at
 /// +z;
 /// - a mesh has what its file says, interpolated over each triangle, and a prism what `make_prism` says.
-/// An instance has the coordinates of its prototype.
+/// An instance has the coordinates of its prototype. A shape that moves is asked where it stands at `time`.
 [[nodiscard]] SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point,
-                                             std::size_t triangle);
+                                             std::size_t triangle, float time);
 
 /// The normal that the vertex normals of a mesh give by interpolation over triangle number `triangle`, of
-/// unit length and on the side of the `geometric` one, however the file's point. Nothing for a shape without
-/// them.
+/// unit length and on the side of the `geometric` one, however the file's point, at that time. Nothing for a
+/// shape without them.
 [[nodiscard]] std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V3d& point,
-                                                            std::size_t triangle,
-                                                            const Imath::V3d& geometric);
+                                                            std::size_t triangle, const Imath::V3d& geometric,
+                                                            float time);
 
 }  // namespace abbe

@@ -74,7 +74,7 @@ Imath::Box3d bounds(const Mesh& mesh) {
 
 std::vector<float> triangle_cdf(const Shape& shape) {
   std::vector<float> cdf;
-  const auto* mesh = std::get_if<Mesh>(&shape);
+  const auto* mesh = plain<Mesh>(shape);
   if (mesh == nullptr) return cdf;
   const double total = area(*mesh);
   double sum = 0;

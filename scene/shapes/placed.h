@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
@@ -17,6 +18,13 @@ namespace abbe {
 /// The placement of a matrix that has an inverse.
 [[nodiscard]] inline Placement placement(const Imath::M44d& to_world) {
   return {to_world, to_world.inverse()};
+}
+
+/// Where something stands at that time.
+[[nodiscard]] inline Placement placement_at(const Placement& placement, double time) {
+  if (!placement.motion) return placement;
+  const Imath::M44d since_opening = placement.motion->since_opening(time);
+  return {placement.to_world * since_opening, rigid_inverse(since_opening) * placement.to_prototype};
 }
 
 /// The ray in the prototype's coordinates. Its direction keeps what the map does to lengths, so that t means
@@ -70,17 +78,31 @@ template <typename T>
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const PlacedShape& placed, const BasicRay<T>& ray,
                                                    T t_min) {
+  if (placed.at->motion) {
+    const auto now =
+        std::make_shared<const Placement>(placement_at(*placed.at, static_cast<double>(ray.time)));
+    return intersect(PlacedShape{placed.of, now}, ray, t_min);
+  }
   if (!passes(to_prototype(*placed.at, ray), placed.of->bounds)) return std::nullopt;
   return std::visit([&](const auto& shape) { return intersect_placed(shape, *placed.at, ray, t_min); },
                     placed.of->shape);
 }
 
-[[nodiscard]] inline Imath::Box3d bounds(const PlacedShape& placed) {
-  const std::array<Imath::V3d, 2> ends{placed.of->bounds.min, placed.of->bounds.max};
-  Imath::Box3d box;
+/// The corners of the prototype's box, in the world at time 0.
+[[nodiscard]] inline std::vector<Imath::V3d> corners(const Prototype& prototype, const Placement& placement) {
+  const std::array<Imath::V3d, 2> ends{prototype.bounds.min, prototype.bounds.max};
+  std::vector<Imath::V3d> points;
   for (const auto& x : ends)
     for (const auto& y : ends)
-      for (const auto& z : ends) box.extendBy(Imath::V3d(x.x, y.y, z.z) * placed.at->to_world);
+      for (const auto& z : ends) points.push_back(Imath::V3d(x.x, y.y, z.z) * placement.to_world);
+  return points;
+}
+
+[[nodiscard]] inline Imath::Box3d bounds(const PlacedShape& placed) {
+  const std::vector<Imath::V3d> points = corners(*placed.of, *placed.at);
+  if (placed.at->motion) return placed.at->motion->sweep(points, 0, 1);
+  Imath::Box3d box;
+  for (const Imath::V3d& point : points) box.extendBy(point);
   return box;
 }
 

@@ -9,7 +9,8 @@
 namespace abbe {
 
 /// A half line, or its first `t_max`; lengths in metres, `direction` of unit length. Light runs along it at
-/// `time`, the share of the exposure that has gone by: 0 when the shutter opens, 1 when it closes.
+/// `time`, the share of the exposure of the whole film that has gone by: 0 when the shutter opens, 1 when it
+/// has closed for all rows; see `Shutter`.
 template <typename T>
 struct BasicRay {
   Imath::Vec3<T> origin;

@@ -28,8 +28,10 @@ SurfacePoint sample_shape(const S& shape, const std::vector<float>& /*triangle_c
 
 }  // namespace
 
-static double area(const PlacedShape& /*placed*/) {
-  refuse_to_emit();
+// What moves is rigid, and as large as its prototype.
+static double area(const PlacedShape& placed) {
+  if (!placed.at->motion) refuse_to_emit();
+  return std::visit([](const auto& s) { return area(s); }, placed.of->shape);
 }
 static SurfacePoint sample_area(const PlacedShape& /*placed*/, Imath::V2f /*u*/) {
   refuse_to_emit();
@@ -75,6 +77,9 @@ double area(const Shape& shape) {
 }
 
 SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_cdf, Imath::V2f u) {
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  if (placed != nullptr && placed->at->motion)
+    return std::visit([&](const auto& s) { return sample_shape(s, triangle_cdf, u); }, placed->of->shape);
   return std::visit([&](const auto& s) { return sample_shape(s, triangle_cdf, u); }, shape);
 }
 

@@ -11,6 +11,7 @@
 #include <ImathMatrix.h>
 #include <ImathVec.h>
 
+#include "scene/shapes/motion.h"
 #include "scene/shapes/ray.h"
 
 namespace abbe {
@@ -63,12 +64,13 @@ struct Prototype {
 };
 [[nodiscard]] std::shared_ptr<const Prototype> make_prototype(PlainShape shape);
 /// An invertible affine map between a prototype's coordinates and the world, for row vectors. A mirror is one
-/// too: normals stay outward.
+/// too: normals stay outward. Of what moves, the maps are those of time 0, and `placement_at` tells others.
 struct Placement {
   Imath::M44d to_world;
   Imath::M44d to_prototype;
+  std::shared_ptr<const Motion> motion = nullptr;  ///< Of what moves.
 };
-/// One instance: a prototype, and where it stands.
+/// One instance: a prototype, and where it stands. A shape that moves is one too.
 struct PlacedShape {
   std::shared_ptr<const Prototype> of;
   std::shared_ptr<const Placement> at;
@@ -88,16 +90,23 @@ template <typename S>
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min);
 
+/// How the shape moves; nullptr of one that stands still.
+[[nodiscard]] inline const Motion* motion_of(const Shape& shape) {
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  return placed != nullptr ? placed->at->motion.get() : nullptr;
+}
+
 /// A right prism with an isosceles cross-section: apex angle [degrees] in (0, 180) between its two equal
 /// faces of width `side`. The apex edge is towards +z, the third face lies in a plane z = const, the edges of
 /// length `length` run along y. The origin is the centroid. On the three faces the texture coordinate u runs
 /// along the length and v around it, 0 to 1 on each; on the ends they are shares of the cross-section.
 [[nodiscard]] Mesh make_prism(double apex_deg, double side, double length);
 
-/// A box around the shape; of an instance, that around its prototype's box.
+/// A box around the shape; of an instance, that around its prototype's box. Of a shape that moves, it holds
+/// the shape at all times.
 [[nodiscard]] Imath::Box3d bounds(const Shape& shape);
-/// Area of the outer side of a shape [m^2]. Instances do not emit and have no use for it: Error{internal},
-/// here and below.
+/// Area of the outer side of a shape [m^2]. Instances that stand still do not emit and have no use for it:
+/// Error{internal}, here and below.
 [[nodiscard]] double area(const Shape& shape);
 
 /// A point drawn uniformly by area, on the surface as the render holds it: corners rounded to float, curves
@@ -106,8 +115,8 @@ struct SurfacePoint {
   Imath::V3f point;
   Imath::V3f normal;
 };
-/// Draws a point of the shape by two numbers in [0, 1); `triangle_cdf` is what the function below makes of
-/// the shape.
+/// Draws a point of the shape by two numbers in [0, 1), of one that moves in its prototype's coordinates;
+/// `triangle_cdf` is what the function below makes of the shape.
 [[nodiscard]] SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_cdf,
                                        Imath::V2f u);
 

@@ -28,7 +28,7 @@ template <typename PointAt>
 void expect_coordinates(const Shape& shape, const V2d& uv, const PointAt& point_at,
                         std::size_t triangle = 0) {
   constexpr double kStep = 1e-6;
-  const SurfaceCoordinates at = coordinates(shape, point_at(uv.x, uv.y), triangle);
+  const SurfaceCoordinates at = coordinates(shape, point_at(uv.x, uv.y), triangle, 0);
   expect_near(at.uv, uv, kTight);
   const V3d du = (point_at(uv.x + kStep, uv.y) - point_at(uv.x - kStep, uv.y)) / (2 * kStep);
   const V3d dv = (point_at(uv.x, uv.y + kStep) - point_at(uv.x, uv.y - kStep)) / (2 * kStep);
@@ -68,7 +68,7 @@ TEST(Coordinates, OfASphereAreLongitudeAndLatitude) {
                                  std::sin(longitude) * std::cos(latitude), std::sin(latitude)) *
                                  2;
     });
-  const SurfaceCoordinates pole = coordinates(sphere, {1, 2, 5}, 0);
+  const SurfaceCoordinates pole = coordinates(sphere, {1, 2, 5}, 0, 0);
   EXPECT_EQ(pole.uv.y, 1);
   EXPECT_EQ(pole.dp_du, V3d(0));
 }
@@ -94,7 +94,7 @@ TEST(Coordinates, OfAPrismStandOnItsFaces) {
   for (std::size_t i = 0; i < prism.triangles.size(); ++i) {
     const auto& [a, b, c] = prism.triangles[i];
     const V3d middle = (prism.vertices[a] + prism.vertices[b] + prism.vertices[c]) / 3;
-    const SurfaceCoordinates at = coordinates(prism, middle, i);
+    const SurfaceCoordinates at = coordinates(prism, middle, i, 0);
     EXPECT_GT(at.dp_du.cross(at.dp_dv).dot(middle), 0) << i;
     if (i >= 2) {
       EXPECT_NEAR(at.dp_du.length(), 3, 1e-6) << i;
@@ -106,9 +106,9 @@ TEST(Coordinates, OfAPrismStandOnItsFaces) {
 
 TEST(Coordinates, WithoutDirectionAreNoTrouble) {
   Mesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 1, 1}}, {{0, 1, 2}}};
-  EXPECT_EQ(coordinates(mesh, {0, 0, 0}, 0).dp_du, V3d(0));
+  EXPECT_EQ(coordinates(mesh, {0, 0, 0}, 0, 0).dp_du, V3d(0));
   mesh.coordinates = {{{{0.5F, 0.5F}, {0.5F, 0.5F}, {0.5F, 0.5F}}}};
-  const SurfaceCoordinates at = coordinates(mesh, {0.1, 0.1, 0.1}, 0);
+  const SurfaceCoordinates at = coordinates(mesh, {0.1, 0.1, 0.1}, 0, 0);
   expect_near(at.uv, V2d(0.5, 0.5), kTight);
   EXPECT_EQ(at.dp_du, V3d(0));
 }
@@ -142,7 +142,7 @@ TEST(Coordinates, AreFoundWhereARayMeetsASurface) {
     for (const float z : {0.0F, 5.0F, 10.0F}) {
       const auto hit = scene.intersect({{p.x, p.y, z + 1}, {0, 0, -1}});
       ASSERT_TRUE(hit);
-      const SurfacePlace place = textured_place(scene, *hit);
+      const SurfacePlace place = textured_place(scene, *hit, 0);
       const V2f expected = z == 10 ? V2f(0, 0) : p.x + p.y <= 1 ? p : p + V2f(1, 1);
       EXPECT_LE((place.uv - expected).length(), 1e-5F) << p << " " << place.uv;
       EXPECT_LE((place.frame.x - Imath::V3f(1, 0, 0)).length(), 1e-6F);

@@ -30,7 +30,7 @@ TEST(Emission, DirectionsIntegrateToOne) {
   for (const auto& [name, scene] : all_light_kinds()) {
     const Light& light = scene.lights[0];
     if (light.is<DirectionalLight>()) {
-      EXPECT_EQ(emission_density(light, V3f(0), {0, -0.6F, -0.8F}, kRadius).pdf_direction, 1);
+      EXPECT_EQ(emission_density(light, V3f(0), {0, -0.6F, -0.8F}, kRadius, 0).pdf_direction, 1);
       continue;
     }
     const auto* sun = std::get_if<SunLight>(&light.kind);
@@ -45,7 +45,7 @@ TEST(Emission, DirectionsIntegrateToOne) {
         const V3f wo = direction_about(
             axis, (static_cast<float>(i) + random.uniform()) / kSide * height,
             (static_cast<float>(j) + random.uniform()) / kSide * 2 * std::numbers::pi_v<float>);
-        sum += static_cast<double>(emission_density(light, normal, wo, kRadius).pdf_direction);
+        sum += static_cast<double>(emission_density(light, normal, wo, kRadius, 0).pdf_direction);
       }
     EXPECT_NEAR(sum / (kSide * kSide) * 2 * kPi * static_cast<double>(height), 1, 2e-3) << name;
   }
@@ -65,8 +65,8 @@ TEST(Emission, DirectionsAreDrawnAsTheDensitySays) {
     std::array<double, kBins> drawn{};
     std::array<double, kBins> expected{};
     for (int i = 0; i < kCount; ++i) {
-      const V3f wo = emission_direction(light, normal, random.pair());
-      EXPECT_GT(emission_density(light, normal, wo, kRadius).pdf_direction, 0) << name;
+      const V3f wo = emission_direction(light, normal, random.pair(), 0);
+      EXPECT_GT(emission_density(light, normal, wo, kRadius, 0).pdf_direction, 0) << name;
       const double z = std::clamp(static_cast<double>(wo.dot(axis)), -1.0, 0.999999);
       drawn[static_cast<std::size_t>((z + 1) / 2 * kBins)] += 1.0 / kCount;
     }
@@ -75,7 +75,8 @@ TEST(Emission, DirectionsAreDrawnAsTheDensitySays) {
       const auto cap = static_cast<float>(2 - 2 * (i + 0.5) / kSteps);
       const V3f wo = direction_about(axis, cap, 0.7F);
       expected[static_cast<std::size_t>(i / (kSteps / kBins))] +=
-          static_cast<double>(emission_density(light, normal, wo, kRadius).pdf_direction) * 4 * kPi / kSteps;
+          static_cast<double>(emission_density(light, normal, wo, kRadius, 0).pdf_direction) * 4 * kPi /
+          kSteps;
     }
     for (std::size_t bin = 0; bin < kBins; ++bin)
       EXPECT_NEAR(drawn[bin], expected[bin], 5e-3) << name << ", bin " << bin;
@@ -85,11 +86,11 @@ TEST(Emission, DirectionsAreDrawnAsTheDensitySays) {
 TEST(Emission, PointsAreDrawnAsTheDensitySays) {
   for (const auto& [name, scene] : all_light_kinds()) {
     const Light& light = scene.lights[0];
-    const float pdf = emission_density(light, {0, 0, -1}, {0, 0, -1}, kRadius).pdf_position;
+    const float pdf = emission_density(light, {0, 0, -1}, {0, 0, -1}, kRadius, 0).pdf_position;
     if (light.at_infinity())
       EXPECT_FLOAT_EQ(pdf, static_cast<float>(1 / (9 * kPi))) << name;
     else
-      EXPECT_EQ(pdf, sample_emission_point(light, scene.shapes, {0.3F, 0.6F}).pdf_area) << name;
+      EXPECT_EQ(pdf, sample_emission_point(light, scene.shapes, {0.3F, 0.6F}, 0).pdf_area) << name;
   }
 }
 
@@ -109,12 +110,13 @@ TEST(Emission, DensityPerAreaIsThatPerSolidAngleTimesCosineOverDistanceSquared) 
       for (int j = 0; j < kSide; ++j) {
         const EmissionPoint at = sample_emission_point(light, scene.shapes,
                                                        {(static_cast<float>(i) + random.uniform()) / kSide,
-                                                        (static_cast<float>(j) + random.uniform()) / kSide});
+                                                        (static_cast<float>(j) + random.uniform()) / kSide},
+                                                       0);
         const V3f d = at.point - from;
         const V3f wi = d.normalized();
         if (radius > 0 && at.normal.dot(wi) > 0) continue;
         const double per_area =
-            static_cast<double>(light_pdf(light, scene.shapes, from, wi, at.point, at.normal) *
+            static_cast<double>(light_pdf(light, scene.shapes, from, wi, at.point, at.normal, 0) *
                                 std::abs(at.normal.dot(wi)) / d.length2());
         sum += per_area / static_cast<double>(at.pdf_area);
       }

@@ -31,7 +31,7 @@ Scene in_relief(Shape shape, Relief relief) {
 V3f normal_at(const Scene& scene, float x, float y) {
   const auto hit = scene.intersect({{x, y, 5}, {0, 0, -1}});
   EXPECT_TRUE(hit);
-  return hit ? textured_place(scene, *hit).frame.z : V3f(0);
+  return hit ? textured_place(scene, *hit, 0).frame.z : V3f(0);
 }
 
 // Leaning by (0.36, 0.48) of its length along u and v.

@@ -37,7 +37,7 @@ Scene scene_of(Shape shape, std::shared_ptr<const Relief> relief = nullptr) {
 SurfacePlace place_at(const Scene& scene, float x, float y, float from) {
   const auto hit = scene.intersect({{x, y, from}, {0, 0, from > 0 ? -1.0F : 1.0F}});
   EXPECT_TRUE(hit);
-  return textured_place(scene, hit.value());
+  return textured_place(scene, hit.value(), 0);
 }
 void expect_near(const V3f& found, const V3d& expected) {
   EXPECT_LT((V3d(found) - expected).length(), 1e-6) << found << " " << expected;

@@ -44,6 +44,31 @@ Film still_by(const char* integrator, int samples) {
   return std::move(result.film);
 }
 
+// A lamp in a black shell that is taken off when the upper half of the rows has closed: no lane that falls
+// there has any light, whichever row the others fall on.
+TEST(LensSystemScene, LanesComeThroughTheShutterOfTheirOwnRows) {
+  constexpr const char* kUncovered = R"({
+    "abbe": 1,
+    "camera": {"lens_system": {"prescription": "landscape", "focus_distance": 0.4}, "from": [0, -1, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+    "sensor": {"resolution": [16, 16], "pixel_pitch_um": 100, "observer": "1931", "exposure_s": 0.05, "shutter": {"row_delay_s": 0.05}},
+    "materials": {"white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}},
+    "lights": [{"sphere": {"center": [0.5, -1.2, 0.4], "radius": 0.1}, "emission": {"illuminant": "E", "luminance": 300}}],
+    "shapes": [
+      {"quad": {"corner": [-1.5, 0, -1.5], "edge_u": [0, 0, 3], "edge_v": [3, 0, 0]}, "material": "white"},
+      {"sphere": {"center": [0.5, -1.2, 0.4], "radius": 0.2}, "material": "black",
+       "motion": {"keyframes": [{"time_s": 0.401}, {"time_s": 0.4011, "translate": [0, 0, 50]}]}}
+    ],
+    "render": {"max_depth": 4}
+  })";
+  for (const char* integrator : {"path", "light", "bdpt", "vcm"}) {
+    Scene scene =
+        test::load_text(kUncovered, {{"/render/integrator", integrator}, {"/render/samples", "256"}});
+    const Film film = render(scene, {}).film;
+    EXPECT_EQ(test::region(film, 1, 0, 0, 16, 8).mean, 0) << integrator;
+    EXPECT_GT(test::region(film, 1, 0, 10, 16, 14).mean, 0) << integrator;
+  }
+}
+
 TEST(LensSystemScene, EveryTechniqueMakesTheSamePicture) {
   const Film path = still_by("path", 384);
   const struct {

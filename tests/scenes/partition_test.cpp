@@ -115,7 +115,8 @@ TEST_P(Partition, AnInterruptedRenderGoesOnAsItWouldHave) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Partition,
                          testing::Values(Seen{"prism.json"}, Seen{"cornell.json"}, Seen{"glass_sphere.json"},
                                          kMosaic, Seen{"glass_sphere.json", nullptr, "sppm"},
-                                         Seen{"cornell.json", nullptr, "vcm"}),
+                                         Seen{"cornell.json", nullptr, "vcm"}, Seen{"rolling_fan.json"},
+                                         Seen{"rolling_fan.json", nullptr, "bdpt"}),
                          [](const auto& info) {
                            const char* name = info.param.scene;
                            return std::string(name, std::strchr(name, '.')) + "_" + info.param.integrator +

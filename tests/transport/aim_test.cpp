@@ -21,7 +21,7 @@ double integral(const Aim& aim, G g) {
   double sum = 0;
   for (std::uint32_t i = 0; i < kCount; ++i) {
     const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
-    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]});
+    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]}, 0);
     sum += g(d.wi) / static_cast<double>(d.pdf);
   }
   return sum / kCount;
@@ -53,7 +53,7 @@ TEST(Aim, LearningMovesDensityAndKeepsTheIntegral) {
   int in_hot_cell = 0;
   for (std::uint32_t i = 0; i < 4096; ++i) {
     const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
-    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]});
+    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]}, 0);
     in_hot_cell += d.cell == hot ? 1 : 0;
   }
   EXPECT_GT(in_hot_cell, 4096 * 0.95 * 0.9 / 9 * 0.8);
@@ -83,7 +83,7 @@ TEST(Aim, AnEmitterReachingBeyondItsTargetIsStillDrawnByTheStatedDensity) {
   constexpr std::uint32_t kCount = 1 << 16;
   for (std::uint32_t i = 0; i < kCount; ++i) {
     const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
-    const AimedDirection d = aim.sample(kPoint, beyond, u[2], {u[0], u[1]});
+    const AimedDirection d = aim.sample(kPoint, beyond, u[2], {u[0], u[1]}, 0);
     sum += d.wi.x < -0.99F ? 1 / static_cast<double>(d.pdf) : 0;
   }
   const double cap = 2 * std::numbers::pi * 0.01;

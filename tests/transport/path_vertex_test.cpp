@@ -48,7 +48,7 @@ struct DrawnLight {
 };
 std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u) {
   const Light& light = scene.lights[0];
-  const auto sample = sample_light(light, scene.shapes, from, u);
+  const auto sample = sample_light(light, scene.shapes, from, u, 0);
   if (!sample) return std::nullopt;
   PathVertex vertex{.at = LightVertex{0, sample->wi, V3f(0), true}, .packet = packet()};
   if (light.at_infinity()) return DrawnLight{vertex, static_cast<double>(sample->pdf)};
@@ -75,7 +75,7 @@ TEST(Connect, ToALightIsWhatPathTracingAdds) {
       const V3f point(random.uniform() - 0.5F, random.uniform() - 0.5F, 0.05F);
       const V2f u = random.pair();
       const PathVertex x = surface_vertex(point, {0, 0, 1}, {0.3F, 0.4F, 2}, DiffuseBsdf{uneven(0.2F)});
-      const auto sample = sample_light(scene.lights[0], scene.shapes, point, u);
+      const auto sample = sample_light(scene.lights[0], scene.shapes, point, u, 0);
       const auto light = draw_light(scene, point, u);
       if (!sample || !light || sample->wi.z < 0.01F) continue;
       const auto joined = connect(scene, caster, x, light->vertex);

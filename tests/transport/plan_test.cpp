@@ -108,9 +108,9 @@ TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
   for (std::uint32_t i = 0; i < 4096; ++i) {
     const auto u = Sampler(2, Purpose::pilot, 0, 0, i).group(0);
     for (std::size_t light = 0; light < 2; ++light) {
-      const EmissionPoint from = sample_emission_point(scene.lights[light], scene.shapes, {0, 0});
+      const EmissionPoint from = sample_emission_point(scene.lights[light], scene.shapes, {0, 0}, 0);
       const auto aimed = [&](const Plan& plan) {
-        return plan.aims[light].sample(scene.lights[light], from, u[2], {u[0], u[1]});
+        return plan.aims[light].sample(scene.lights[light], from, u[2], {u[0], u[1]}, 0);
       };
       ASSERT_EQ(aimed(one).wi, aimed(four).wi) << i;
       ASSERT_EQ(aimed(one).pdf, aimed(four).pdf) << i;

@@ -76,7 +76,7 @@ const Camera kMeter{IrradianceProbe{{0, 0, 0}, {0, 0, 1}}, 1, 1, 0.04};
 RecordedPath camera_path(const Plan& plan, const Sampler& sampler, std::uint32_t i) {
   RecordedPath path(sampler, i);
   path.packet = draw_packet(plan.wavelengths, sampler.group(kFilmGroup)[2]);
-  start_from_camera(plan, 0, 0, path);
+  start_from_camera(plan, 0, 0, 0, path);
   return path;
 }
 
@@ -86,7 +86,7 @@ RecordedPath light_path(const Plan& plan, RayCaster& caster, const PathPacket& p
   RecordedPath path(sampler, i);
   path.packet.wavelengths = packet.wavelengths;
   path.packet.hero = packet.hero;
-  start_from_light(plan, caster, path);
+  start_from_light(plan, caster, 0, path);
   return path;
 }
 

@@ -50,13 +50,13 @@ std::optional<Equiangular> Equiangular::along(const Ray& ray, float length, cons
   const auto* point = std::get_if<PointLight>(&light.kind);
   const auto* spot = std::get_if<SpotLight>(&light.kind);
   if (point == nullptr && spot == nullptr) return std::nullopt;
-  const Imath::V3d position(point != nullptr ? point->position : spot->position);
+  const Imath::V3d position(point != nullptr ? place_at(*point, ray.time) : place_at(*spot, ray.time));
   const Imath::V3d m = Imath::V3d(ray.origin) - position;
   const Imath::V3d d(ray.direction);
   Interval part{0, length};
   if (spot != nullptr && spot->cap < 1) {
     const double cap = spot->cap;
-    const auto lit = within_cone(m, d, Imath::V3d(spot->axis), cap * (2 - cap));
+    const auto lit = within_cone(m, d, Imath::V3d(spot->axis_at(ray.time)), cap * (2 - cap));
     if (!lit) return std::nullopt;
     part = {std::max(part.from, lit->from), std::min(part.to, lit->to)};
   }

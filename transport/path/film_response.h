@@ -25,8 +25,8 @@ struct ExposureByLight {
   }
 };
 
-/// Where and when light meets the film: the pixel, the cosine of the angle of incidence, and the time as the
-/// share of the exposure that has gone by.
+/// Where and when light meets the film: the pixel, the cosine of the angle of incidence, and the time as rays
+/// have it.
 struct FilmPoint {
   int x = 0;
   int y = 0;
@@ -34,6 +34,31 @@ struct FilmPoint {
   float time = 0;
   const LaneImages* images = nullptr;  ///< Where each lane falls, behind a lens that displaces them.
 };
+
+/// What light of each lane that comes to the film then counts, by the rows on which the lanes fall; see
+/// `Shutter::weight`.
+[[nodiscard]] inline SampledSpectrum lane_openings(const Shutter& shutter, const LaneImages& images,
+                                                   float time) {
+  SampledSpectrum::Values open{};
+  for (int lane = 0; lane < kLanes; ++lane)
+    open[static_cast<std::size_t>(lane)] = shutter.weight(static_cast<int>(images.y[lane]), time);
+  return SampledSpectrum(open);
+}
+
+/// What of a contribution comes through the shutter, the point's time being one of all those of the span.
+[[nodiscard]] inline SampledSpectrum let_through(const Shutter& shutter, const FilmPoint& at,
+                                                 const SampledSpectrum& contribution) {
+  if (at.images != nullptr) return contribution * lane_openings(shutter, *at.images, at.time);
+  return contribution * shutter.weight(at.y, at.time);
+}
+
+/// Where the time was drawn by the opening of the point's own row, as `Shutter::draw` does, so that light
+/// which falls on that row counts the same at any time: by how much more each lane counts, and how much more
+/// densely it would have drawn the time. Zero if that row is closed.
+[[nodiscard]] inline SampledSpectrum openings_over_own(const Shutter& shutter, const FilmPoint& at) {
+  const float own = shutter.weight(at.y, at.time);
+  return own > 0 ? lane_openings(shutter, *at.images, at.time) / SampledSpectrum(own) : SampledSpectrum();
+}
 
 /// By which way light came: from which light of the scene, and by how many events between it and the camera,
 /// or the meter.

@@ -25,9 +25,9 @@ struct Crossings {
 };
 
 std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3f& from,
-                                             const Imath::V3f& direction) {
+                                             const Imath::V3f& direction, float time) {
   std::map<std::uint32_t, Crossings> found;
-  Ray ray{from, direction};
+  Ray ray = ray_at(from, direction, time);
   while (const std::optional<SurfaceHit> hit = scene.intersect(ray)) {
     SurfaceHit last = *hit;
     const TouchingSurfaces together = scene.touching(ray, *hit);
@@ -77,13 +77,13 @@ std::optional<std::uint32_t> MediumStack::entry_of(const Scene& scene, std::uint
   return found;
 }
 
-MediumStack enclosing(const Scene& scene, const Imath::V3f& point) {
+MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time) {
   MediumStack inside;
   bool any = false;
   for (std::uint32_t i = 0; i < scene.shapes.size() && !any; ++i) any = filled(scene, i);
   if (!any) return inside;
-  const auto ahead = crossings(scene, point, askew_direction<float>());
-  const auto behind = crossings(scene, point, -askew_direction<float>());
+  const auto ahead = crossings(scene, point, askew_direction<float>(), time);
+  const auto behind = crossings(scene, point, -askew_direction<float>(), time);
   std::vector<std::pair<float, std::uint32_t>> around;
   for (const auto& [shape, of] : ahead) {
     const auto other = behind.find(shape);
@@ -106,7 +106,7 @@ MediumStack around_camera(const Scene& scene) {
 MediumStack around_light(const Scene& scene, const Light& light) {
   if (light.at_infinity() || scene.is_far(light)) return {};
   const auto around = [&](const std::array<float, 2>& u) {
-    const EmissionPoint at = sample_emission_point(light, scene.shapes, {u[0], u[1]});
+    const EmissionPoint at = sample_emission_point(light, scene.shapes, {u[0], u[1]}, 0);
     return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
   };
   MediumStack middle = around(kSpreadOverLight.front());
@@ -119,6 +119,15 @@ MediumStack around_light(const Scene& scene, const Light& light) {
                   "--integrator path renders it");
   }
   return middle;
+}
+
+bool matter_moves(const Scene& scene, const Imath::Box3d& box, bool moves) {
+  for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
+    const Shape& shape = scene.shapes[i].shape;
+    if ((moves || motion_of(shape) != nullptr) && filled(scene, i) && bounds(shape).intersects(box))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace abbe

@@ -28,7 +28,8 @@ SampledSpectrum sent(const CameraVertex& at, const Asked& asked, TransportMode /
 SampledSpectrum sent(const LightVertex& at, const Asked& asked, TransportMode /*mode*/) {
   const Light& light = asked.scene.lights[at.light];
   if (!emits_towards(light, at.normal, asked.w)) return {};
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind); spot != nullptr && !spot->lights(asked.w))
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind);
+      spot != nullptr && !spot->lights(asked.w, asked.vertex.time))
     return {};
   const float cosine = light.is<AreaLight>() ? std::abs(at.normal.dot(asked.w)) : 1.0F;
   return emission_from(light, -asked.w, asked.vertex.lambda_nm()) * cosine;
@@ -49,8 +50,9 @@ SampledSpectrum drawn(const CameraVertex& at, const Asked& asked, const Imath::V
 }
 
 SampledSpectrum drawn(const LightVertex& at, const Asked& asked, const Imath::V3f& /*before*/) {
-  const EmissionDensity of = emission_density(asked.scene.lights[at.light], at.normal, asked.w,
-                                              static_cast<float>(scene_radius(asked.scene.bounds)));
+  const EmissionDensity of =
+      emission_density(asked.scene.lights[at.light], at.normal, asked.w,
+                       static_cast<float>(scene_radius(asked.scene.bounds)), asked.vertex.time);
   return SampledSpectrum(at.at_infinity ? of.pdf_position : of.pdf_direction);
 }
 
@@ -78,7 +80,8 @@ std::optional<Imath::V3f> normal_of(const Scene& scene, const PathVertex& vertex
   if (!std::holds_alternative<CameraVertex>(vertex.at)) return std::nullopt;
   const CameraTraits camera = traits(scene.camera);
   if (camera.surface_normal) return Imath::V3f(*camera.surface_normal);
-  return camera.axis ? std::optional(Imath::V3f(*camera.axis)) : std::nullopt;
+  if (!camera.axis) return std::nullopt;
+  return Imath::V3f(direction_at(scene.camera, *camera.axis, vertex.time));
 }
 
 Way way_from(const PathVertex& a, const PathVertex& b) {

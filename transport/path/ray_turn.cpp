@@ -15,7 +15,7 @@ std::optional<Imath::V2f> coordinates_at(const Shape& shape, const Imath::V3d& p
   if (std::holds_alternative<Mesh>(shape) ||
       (placed != nullptr && std::holds_alternative<Mesh>(placed->of->shape)))
     return std::nullopt;
-  return Imath::V2f(coordinates(shape, point, 0).uv);
+  return Imath::V2f(coordinates(shape, point, 0, 0).uv);
 }
 
 // The indices of the other side, as the passage has them.

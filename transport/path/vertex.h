@@ -117,7 +117,7 @@ struct SurfaceVertex {
   [[nodiscard, gnu::noinline]] Bsdf placed(const Scene& scene, const std::optional<Interface>& met,
                                            const Walk& walk) {
     if (met && met->passes) return scattering(scene, met, walk, {0, 0});
-    const SurfacePlace place = textured_place(scene, hit);
+    const SurfacePlace place = textured_place(scene, hit, walk.ray.time);
     frame = place.frame;
     wo = frame.to_local(-walk.ray.direction);
     relief = place.relief;

@@ -127,16 +127,17 @@ AimedPoint Aim::point(Imath::V2f u) const {
   return {on_target(a, b), density_[cell] * even, static_cast<int>(cell)};
 }
 
-AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u) const {
+AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u,
+                           float time) const {
   AimedDirection aimed;
   if (!guided_ || choice < kEmissionShare) {
-    aimed.wi = emission_direction(light, from.normal, u);
+    aimed.wi = emission_direction(light, from.normal, u, time);
   } else {
     const AimedPoint target = point(u);
     aimed.wi = (target.point - from.point).normalized();
     aimed.cell = target.cell;
   }
-  const float by_emission = emission_density(light, from.normal, aimed.wi, kAnyRadius).pdf_direction;
+  const float by_emission = emission_density(light, from.normal, aimed.wi, kAnyRadius, time).pdf_direction;
   // A direction drawn through a cell counts as through that cell: rounded, it may meet the next one.
   const int cell = aimed.cell >= 0 ? aimed.cell : cell_met(from.point, aimed.wi);
   aimed.pdf =

@@ -57,10 +57,10 @@ class Aim {
   [[nodiscard]] const Imath::V3f& axis() const { return axis_; }
   [[nodiscard]] float half_size() const { return half_size_; }
 
-  /// Draws a direction for a photon leaving `from`; `u` aims, `choice` picks between target and emission. A
-  /// direction in which the light does not emit has no power, not no density.
+  /// Draws a direction for a photon leaving `from` at that time; `u` aims, `choice` picks between target and
+  /// emission. A direction in which the light does not emit has no power, not no density.
   [[nodiscard]] AimedDirection sample(const Light& light, const EmissionPoint& from, float choice,
-                                      Imath::V2f u) const;
+                                      Imath::V2f u, float time) const;
 
  private:
   void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);

@@ -64,7 +64,10 @@ LightBounds bounds_at_infinity(const Imath::V3f& towards, double cap, double fac
 }  // namespace
 
 Imath::Box3d bounds_of(const Light& light, const Scene& scene) {
-  if (const Imath::V3f* at = place(light)) return Imath::Box3d(Imath::V3d(*at));
+  const Imath::V3f* at = place(light);
+  const Motion* motion = motion_of(light, scene.shapes);
+  if (at != nullptr && motion != nullptr) return motion->sweep({Imath::V3d(*at)}, 0, 1);
+  if (at != nullptr) return Imath::Box3d(Imath::V3d(*at));
   return bounds(scene.shapes[std::get<AreaLight>(light.kind).shape].shape);
 }
 
@@ -82,9 +85,10 @@ LightBounds light_bounds(const Light& light, const Scene& scene, double seen) {
     return sky;
   }
   EmissionCone cone = kEverywhere;
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind); spot != nullptr && !spot->motion)
     cone = {Imath::V3d(spot->axis), std::acos(1 - static_cast<double>(spot->cap)), 0};
-  return {bounds_of(light, scene), 0, 0, cone, seen, seen};
+  const Imath::Box3d box = bounds_of(light, scene);
+  return {box, box.size().length() / 2, 0, cone, seen, seen};
 }
 
 LightBounds union_of(const LightBounds& a, const LightBounds& b) {

@@ -19,7 +19,7 @@ struct LightBounds {
   bool at_infinity = false;
 };
 
-/// A box around a light that has a place.
+/// A box around a light that has a place, of one that moves around all of its places.
 [[nodiscard]] Imath::Box3d bounds_of(const Light& light, const Scene& scene);
 
 /// The bounds of one light, `seen` being what stands for its emission. An area light has the intensity of its

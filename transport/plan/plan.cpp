@@ -8,6 +8,7 @@
 #include "scene/extent.h"
 #include "transport/plan/aiming.h"
 #include "transport/plan/emissions.h"
+#include "transport/plan/light_bounds.h"
 
 namespace abbe {
 namespace {
@@ -37,7 +38,7 @@ double strength(const Scene& scene, const Light& light) {
 double nominal_value(const Scene& scene, const Emissions& emissions) {
   const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
                           static_cast<float>(scene.camera.height) / 2);
-  const double weight = central_weight(scene.camera, center) * scene.exposure_s;
+  const double weight = central_weight(scene.camera, center) * scene.exposure_s * scene.shutter.mean();
   double nominal = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     nominal = std::max(nominal, emissions.seen[i] * strength(scene, scene.lights[i]));
@@ -115,6 +116,27 @@ std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniqu
              : pixels;
 }
 
+// Around where rays leave the camera, at all times.
+Imath::Box3d camera_box(const Camera& camera) {
+  const Imath::V3d center = middle(camera);
+  const std::optional<Opening> opening = traits(camera).opening;
+  const double reach =
+      opening ? opening->u.length() + opening->v.length() : (center - position(camera)).length();
+  const Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
+  if (!camera.motion) return box;
+  const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);
+  return {path.min - Imath::V3d(reach), path.max + Imath::V3d(reach)};
+}
+
+void look_for_moving_matter(Plan& plan) {
+  const Scene& scene = plan.scene;
+  plan.camera_matter_moves = matter_moves(scene, camera_box(scene.camera), scene.camera.motion != nullptr);
+  for (const Light& light : scene.lights)
+    plan.light_matter_moves.push_back(
+        !light.at_infinity() && !scene.is_far(light) &&
+        matter_moves(scene, bounds_of(light, scene), motion_of(light, scene.shapes) != nullptr));
+}
+
 // Nothing being known of `refusal`.
 Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
              const std::vector<bool>& traced) {
@@ -140,8 +162,9 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
       nominal_value(scene, emissions),
       make_own_wavelengths(scene, seen),
       around_camera(scene),
-      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0),
-      static_cast<float>(first_gather_radius(scene, photons))};
+      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
+  plan.gather_radius = static_cast<float>(first_gather_radius(scene, photons));
+  if (scene.needs.motion) look_for_moving_matter(plan);
   if (uses(plan.techniques, Technique::path)) plan.lights_along = lamps_along_matter(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);

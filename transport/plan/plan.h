@@ -32,9 +32,11 @@ struct Plan {
   double nominal_value;               ///< Order of magnitude of a film value.
   /// Per channel, for the pixels of a mosaic; none where lanes of a path fall on several pixels.
   std::vector<WavelengthDistribution> own_wavelengths;
-  MediumStack camera_inside;              ///< Where camera paths start,
-  std::vector<MediumStack> light_inside;  ///< and photons, likewise.
-  float gather_radius = 0;                ///< Of the first sample [m].
+  MediumStack camera_inside;                  ///< Where camera paths start,
+  std::vector<MediumStack> light_inside;      ///< and photons, likewise.
+  bool camera_matter_moves = false;           ///< Whether that depends on time,
+  std::vector<bool> light_matter_moves = {};  ///< and per light; none where nothing moves.
+  float gather_radius = 0;                    ///< Of the first sample [m].
   /// Those at points that camera paths connect to along matter that scatters.
   PowerLightSampler lights_along{std::vector<double>()};
   /// Where camera paths look for the caustics of lights that photons are not traced from,

@@ -38,12 +38,13 @@ class LightRecorder {
   LightRecorder(const Plan& plan, RayCaster& caster)
       : plan_(plan), caster_(caster), recorder_(plan.scene, caster) {}
 
-  std::vector<RecordedPath>& record(const std::vector<Sampler>& numbers, const PathPacket& packet) {
+  std::vector<RecordedPath>& record(const std::vector<Sampler>& numbers, const PathPacket& packet,
+                                    float time) {
     recorder_.paths().clear();
     for (std::uint32_t i = 0; i < numbers.size(); ++i) {
       RecordedPath& path = recorder_.paths().emplace_back(numbers[i], i);
       path.packet = packet;
-      start_from_light(plan_, caster_, path);
+      start_from_light(plan_, caster_, time, path);
     }
     recorder_.run();
     return recorder_.paths();
@@ -76,30 +77,31 @@ std::size_t bytes_of_light_paths(const Scene& scene) {
   return 0;
 }
 
-PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, const LightNumbers& numbers,
-                            int threads, PassCounts& counts) {
+PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, float time,
+                            const LightNumbers& numbers, int threads, PassCounts& counts) {
   std::vector<std::vector<Photon>> batches((plan.photons + kStepBatch - 1) / kStepBatch);
   trace_all<PhotonTracer>(
       plan, threads, counts, [&](PhotonTracer& tracer, std::uint64_t first, std::uint64_t last) {
-        tracer.trace(numbers_of(numbers, first, last), packet, batches[first / kStepBatch]);
+        tracer.trace(numbers_of(numbers, first, last), packet, time, batches[first / kStepBatch]);
       });
   std::vector<Photon> photons;  // in the order of their paths, whichever threads traced them
   for (const std::vector<Photon>& batch : batches) photons.insert(photons.end(), batch.begin(), batch.end());
-  return {std::move(photons), plan.photons, packet};
+  return {std::move(photons), plan.photons, packet, time};
 }
 
-LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float radius,
+LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float time, float radius,
                                const LightNumbers& numbers, int threads, PassCounts& counts) {
   std::vector<std::vector<RecordedPath>> batches((plan.photons + kStepBatch - 1) / kStepBatch);
-  trace_all<LightRecorder>(
-      plan, threads, counts, [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
-        batches[first / kStepBatch] = std::move(recorder.record(numbers_of(numbers, first, last), packet));
-      });
+  trace_all<LightRecorder>(plan, threads, counts,
+                           [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
+                             batches[first / kStepBatch] =
+                                 std::move(recorder.record(numbers_of(numbers, first, last), packet, time));
+                           });
   std::vector<RecordedPath> paths;
   paths.reserve(plan.photons);
   for (std::vector<RecordedPath>& batch : batches)
     std::move(batch.begin(), batch.end(), std::back_inserter(paths));
-  return {std::move(paths), radius, packet};
+  return {std::move(paths), radius, packet, time};
 }
 
 }  // namespace abbe

@@ -17,13 +17,14 @@ namespace abbe {
 /// Numbers of the path from a light with that number, of one sample.
 using LightNumbers = std::function<Sampler(std::uint64_t path)>;
 
-/// The photons that the plan's paths from lights leave in a sample of that packet, the same whatever the
-/// number of threads. Adds to `counts`.
-[[nodiscard]] PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet,
+/// The photons that the plan's paths from lights leave in a sample of that packet and time, the same whatever
+/// the number of threads. Adds to `counts`.
+[[nodiscard]] PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, float time,
                                           const LightNumbers& numbers, int threads, PassCounts& counts);
 
 /// The paths themselves, to be merged within `radius` [m].
-[[nodiscard]] LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float radius,
-                                             const LightNumbers& numbers, int threads, PassCounts& counts);
+[[nodiscard]] LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float time,
+                                             float radius, const LightNumbers& numbers, int threads,
+                                             PassCounts& counts);
 
 }  // namespace abbe

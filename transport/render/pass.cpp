@@ -123,13 +123,14 @@ PassCounts Pass::run_until(std::uint32_t end, int threads, const std::function<b
 
 void Pass::collect(std::uint64_t sample, int threads, PassCounts& counts) {
   const LightNumbers numbers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
-  const PathPacket packet = packet_of(sample);
+  const std::array<float, 4> common = numbers_of(sample);
+  const PathPacket packet = draw_packet(plan_.wavelengths, common[0]);
   left_ = std::monostate();  // first, as both would take their memory
   if (uses(plan_.techniques, Technique::vcm))
-    left_ = collect_light_paths(plan_, packet, gather_radius(plan_.gather_radius, sample), numbers, threads,
-                                counts);
+    left_ = collect_light_paths(plan_, packet, common[1], gather_radius(plan_.gather_radius, sample), numbers,
+                                threads, counts);
   else
-    left_ = collect_photons(plan_, packet, numbers, threads, counts);
+    left_ = collect_photons(plan_, packet, common[1], numbers, threads, counts);
 }
 
 PassCounts Pass::work(std::uint32_t end, const std::function<bool()>& pause) {
@@ -170,10 +171,10 @@ Pass::Tile Pass::tile(std::uint32_t number) const {
   return {static_cast<int>(number % tiles_x_ * kTile), static_cast<int>(number / tiles_x_ * kTile)};
 }
 
-// What all paths of a sample have in common where they are to be joined across pixels.
-PathPacket Pass::packet_of(std::uint64_t sample) const {
-  return draw_packet(plan_.wavelengths,
-                     Sampler(seed_, Purpose::sample, replicate(sample), 0, index(sample)).group(0)[0]);
+// By which all paths of a sample have a packet and a time in common where they are to be joined across
+// pixels.
+std::array<float, 4> Pass::numbers_of(std::uint64_t sample) const {
+  return Sampler(seed_, Purpose::sample, replicate(sample), 0, index(sample)).group(0);
 }
 
 // Of the replicate's sequence at a pixel, that of a sample; nothing where the pixel skips it. Which samples

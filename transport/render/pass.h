@@ -134,7 +134,7 @@ class Pass {
   void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
-  [[nodiscard]] PathPacket packet_of(std::uint64_t sample) const;
+  [[nodiscard]] std::array<float, 4> numbers_of(std::uint64_t sample) const;
   [[nodiscard]] Deposit pixels_deposit(std::uint64_t sample, Worker& worker);
   [[nodiscard]] ContributionDeposit layers_deposit(std::uint64_t sample, std::uint32_t factor,
                                                    Worker& worker);

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "transport/path/connect.h"
+#include "transport/path/dimensions.h"
 #include "transport/path/merge.h"
+#include "transport/technique/start_matter.h"
 #include "transport/technique/subpaths.h"
 
 namespace abbe {
@@ -53,12 +55,13 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
       weights_(plan.scene, caster),
       values_(response_.planes()) {}
 
-LightPaths::LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of)
+LightPaths::LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of, float at)
     : paths(std::move(traced)),
       vertices(merged_vertices(paths)),
       map(places_of(paths, vertices)),
       radius(within),
-      packet(of) {}
+      packet(of),
+      time(at) {}
 
 void BidirectionalTracer::trace(std::span<const PixelPair> samples, const LightPaths& from_lights,
                                 const Deposit& deposit) {
@@ -80,7 +83,9 @@ void BidirectionalTracer::trace(std::span<const PixelPair> samples, const Deposi
 // s = 0 x_t is on a light by itself, for s = 1 a point of a light is drawn for x_{t-1} instead of y_0, and
 // for t = 1 a point of the lens for y_{s-1}, which may expose another pixel. Merging x with y within r adds
 //     sum_y w [T_x / P_x] [T_y / P_y] f / (pi r^2 N).
-// `StrategyWeights` balances all of them.
+// `StrategyWeights` balances all of them. Both paths have one time, drawn from the whole span in which the
+// film is exposed, so that they may be joined, and what they bring counts `Shutter::weight` of the row it
+// comes to then, whichever strategy brought it: the balance is that of the same path at one time.
 void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std::uint32_t first) {
   first_ = first;
   samples_ = samples;
@@ -92,15 +97,17 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     const PixelPair& sample = samples[i];
     RecordedPath& eye = from_camera_.paths().emplace_back(sample.camera, i);
+    const std::array<float, 4> film = sample.camera.group(kFilmGroup);
+    const float time = from_lights_ == nullptr ? film[kTimeNumber] : from_lights_->time;
     if (from_lights_ == nullptr) {
       RecordedPath& photon = from_light_.paths().emplace_back(sample.light, i);
-      photon.packet = draw_packet(plan_.wavelengths, sample.camera.group(kFilmGroup)[2]);
+      photon.packet = draw_packet(plan_.wavelengths, film[2]);
       eye.packet = photon.packet;
-      start_from_light(plan_, caster_, photon);
+      start_from_light(plan_, caster_, time, photon);
     } else {
       eye.packet = from_lights_->packet;
     }
-    if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, eye, images_[i]);
+    if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, time, eye, images_[i]);
   }
   from_camera_.run();
   from_light_.run();
@@ -167,7 +174,7 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   lens.packet.wavelengths = from.packet.wavelengths;
   lens.packet.hero = from.packet.hero;
   lens.packet.throughput = SampledSpectrum(1 / of->pdf_position);
-  lens.inside = lens.beyond = plan_.camera_inside;
+  lens.inside = lens.beyond = camera_matter(plan_, seen->lens_point, from.time);
   lens.time = from.time;
   set_joined(i, 0, photon, s);
   joined_.z.insert(joined_.z.begin(), &lens);
@@ -270,7 +277,9 @@ template <typename DepositAt>
 void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution,
                                  DepositAt deposit) {
   const SampledWavelengths& wavelengths = from_camera_.paths()[i].packet.wavelengths;
-  response_.expose(at, wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_, deposit);
+  response_.expose(at, wavelengths,
+                   let_through(scene_.shutter, at, contribution) * static_cast<float>(scene_.exposure_s),
+                   values_, deposit);
 }
 
 }  // namespace abbe

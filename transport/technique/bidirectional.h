@@ -25,7 +25,7 @@ struct PixelPair {
 
 /// The paths from lights of a sample, all of one packet, to be joined to any path from its camera.
 struct LightPaths {
-  LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of);
+  LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of, float at);
 
   std::vector<RecordedPath> paths;  ///< By the number of the pixel that each belongs to.
   struct Vertex {
@@ -35,7 +35,8 @@ struct LightPaths {
   std::vector<Vertex> vertices;  ///< On surfaces that scatter: those of the map.
   PhotonMap map;
   float radius = 0;   ///< Within which they are merged [m].
-  PathPacket packet;  ///< That all set out with.
+  PathPacket packet;  ///< That all set out with,
+  float time = 0;     ///< and when.
 };
 
 /// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]: a path from the camera and one from a

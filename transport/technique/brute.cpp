@@ -52,9 +52,10 @@ void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& d
   paths.clear();
   for (std::uint32_t i = 0; i < photons.size(); ++i) {
     RecordedPath& path = paths.emplace_back(photons[i], i);
-    path.packet = draw_packet(plan_.wavelengths, photons[i].group(kAimGroup)[2]);
+    const std::array<float, 4> aim = photons[i].group(kAimGroup);
+    path.packet = draw_packet(plan_.wavelengths, aim[2]);
     keep_hero(path.packet);
-    start_from_light(plan_, caster_, path);
+    start_from_light(plan_, caster_, aim[kTimeNumber], path);
     if (path.vertices.empty()) continue;
     look_for_camera(path);
     walks_.going().push_back(i);
@@ -66,7 +67,7 @@ void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& d
 // weighed.
 void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
   if (!opening_) return;
-  const std::optional<double> distance = opening_->crossed_by(path.ray);
+  const std::optional<double> distance = opening_->crossed_by(seen_at_rest(scene_.camera, path.ray));
   if (!distance) return;
   const Imath::V3f point(Imath::V3d(path.ray.origin) + Imath::V3d(path.ray.direction) * *distance);
   const auto seen =
@@ -78,10 +79,12 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
   if (!through) return;
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
                      path.ray.time, seen->images ? &*seen->images : nullptr};
-  response_.expose(
-      at, path.packet.wavelengths,
-      path.packet.throughput * seen->importance * through->transmittance * scale_, values_,
-      [&](const FilmPoint& pixel, std::span<const double> values) { (*deposit_)(path.path, pixel, values); });
+  response_.expose(at, path.packet.wavelengths,
+                   let_through(scene_.shutter, at,
+                               path.packet.throughput * seen->importance * through->transmittance * scale_),
+                   values_, [&](const FilmPoint& pixel, std::span<const double> values) {
+                     (*deposit_)(path.path, pixel, values);
+                   });
 }
 
 AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
@@ -101,9 +104,14 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
   found_.assign(samples.size(), SampledSpectrum());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     RecordedPath& path = paths.emplace_back(samples[i].sampler, i);
-    path.packet =
-        draw_packet(plan_.wavelengths_at(samples[i].x, samples[i].y), path.sampler.group(kFilmGroup)[2]);
-    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path, images_[i]);
+    const std::array<float, 4> film = path.sampler.group(kFilmGroup);
+    path.packet = draw_packet(plan_.wavelengths_at(samples[i].x, samples[i].y), film[2]);
+    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y,
+                               scene_.shutter.draw(samples[i].y, film[kTimeNumber]), path, images_[i]);
+    if (at_[i].images != nullptr) {
+      const SampledSpectrum others = openings_over_own(scene_.shutter, at_[i]);
+      advance(path.packet, others, others);
+    }
     keep_hero(path.packet);
     path.carried_at_start = path.packet.carried();
     walks_.going().push_back(i);
@@ -111,8 +119,8 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
   walks_.run(*this);
   for (const RecordedPath& path : paths) {
     response_.expose(
-        at_[path.path], path.packet.wavelengths, found_[path.path] * static_cast<float>(scene_.exposure_s),
-        values_,
+        at_[path.path], path.packet.wavelengths,
+        found_[path.path] * static_cast<float>(scene_.exposure_s * scene_.shutter.mean()), values_,
         [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
   }
 }

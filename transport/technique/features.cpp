@@ -8,6 +8,7 @@
 #include "transport/path/dimensions.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
+#include "transport/technique/start_matter.h"
 
 namespace abbe {
 namespace {
@@ -86,9 +87,10 @@ Walk FeatureTracer::start(const PixelSample& sample) const {
   walk.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
   walk.ray = sample_ray(scene_.camera,
                         {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                        {lens[0], lens[1]}, walk.lambda_nm(), walk.packet.hero, film[kTimeNumber])
+                        {lens[0], lens[1]}, walk.lambda_nm(), walk.packet.hero,
+                        scene_.shutter.draw(sample.y, film[kTimeNumber]))
                  .ray;
-  if (!plan_.camera_inside.empty()) walk.around.enter(scene_, plan_.camera_inside, walk.lambda_nm());
+  enter_camera_matter(plan_, walk);
   return walk;
 }
 
@@ -111,8 +113,8 @@ void FeatureTracer::look(const PixelSample& sample, bool first, const SurfaceHit
                          const std::optional<Interface>& met, Walk& walk) {
   const SurfaceVertex vertex(scene_, hit, met, walk);
   const Imath::V3f back = -walk.ray.direction;
-  const Imath::V3d axis =
-      camera_.axis.value_or(camera_.surface_normal.value_or(Imath::V3d(walk.ray.direction)));
+  const Imath::V3d axis = camera_.axis ? direction_at(scene_.camera, *camera_.axis, walk.ray.time)
+                                       : camera_.surface_normal.value_or(Imath::V3d(walk.ray.direction));
   values_.push_back(1);
   for (const Feature feature : features_) {
     if (feature == Feature::depth)

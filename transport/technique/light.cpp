@@ -21,7 +21,10 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
 // The estimate of a film value is, over photons y_0 y_1 ... of power Phi from the lights,
 //     sum_n w_n Phi [T_n / P_n] f cos W,
 // T_n being the throughput up to y_n and P_n its density, and W what the camera makes of intensity towards
-// its lens: each vertex is connected to the lens, and `mis_weight` balances the lanes.
+// its lens: each vertex is connected to the lens, and `mis_weight` balances the lanes. A photon has a time of
+// the whole span in which the film is exposed, and W contains what the shutter of the row that it comes to
+// passes then
+// (`Shutter::weight`).
 void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit) {
   deposit_ = &deposit;
   starts_.assign(photons.size(), {});
@@ -90,7 +93,8 @@ void LightTracer::resolve_connections() {
     if (blocked_[i] != 0) continue;
     auto& [path, events, contribution, place] = connections_[i];
     if (!images_.empty()) place.images = &images_[i];
-    response_.expose(place, walks_.paths()[path].packet.wavelengths, contribution * scale_, values_,
+    response_.expose(place, walks_.paths()[path].packet.wavelengths,
+                     let_through(scene_.shutter, place, contribution * scale_), values_,
                      [&](const FilmPoint& at, std::span<const double> values) {
                        (*deposit_)(path, at, values);
                        if (apart_) apart_(at, {starts_[path].light, events}, values);

@@ -6,6 +6,7 @@
 
 #include "transport/path/equiangular.h"
 #include "transport/path/mis_weight.h"
+#include "transport/technique/start_matter.h"
 
 namespace abbe {
 namespace {
@@ -66,13 +67,14 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   const std::array<float, 4> lens =
       camera_.depth_of_field ? sample.sampler.group(kLensGroup) : std::array<float, 4>{};
   path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
+  const float time = scene_.shutter.draw(sample.y, film[kTimeNumber]);
   const CameraRay ray =
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, film[kTimeNumber]);
+                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
   path.ray = ray.ray;
   path.at = {sample.x, sample.y, ray.cos_film, ray.ray.time};
-  path.scale = ray.weight * static_cast<float>(scene_.exposure_s);
-  if (!plan_.camera_inside.empty()) path.around.enter(scene_, plan_.camera_inside, path.lambda_nm());
+  path.scale = ray.weight * static_cast<float>(scene_.exposure_s * scene_.shutter.mean());
+  enter_camera_matter(plan_, path);
   if (camera_.displaces_lanes && !part_lanes(ray, path)) return false;
   if (!camera_.surface_normal) return true;
   const Imath::V3f normal(*camera_.surface_normal);
@@ -82,14 +84,16 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   return leaves;
 }
 
-// Each lane falls where the lens takes it, balanced with the others that would have drawn the ray. Whether
-// any light comes through at all.
+// Each lane falls where the lens takes it, balanced with the others that would have drawn the ray, and the
+// time of it. Whether any light comes through at all.
 [[gnu::noinline]] bool PathTracer::part_lanes(const CameraRay& ray, CameraPath& path) {
   if (ray.weight.is_zero()) return false;
   images_[path.path] = *ray.images;
   path.at.images = &images_[path.path];
-  path.packet.lane_pdf = ray.lane_pdf;
-  return true;
+  const SampledSpectrum openings = openings_over_own(scene_.shutter, path.at);
+  path.scale *= openings;
+  path.packet.lane_pdf = ray.lane_pdf * openings;
+  return !openings.is_zero();
 }
 
 // Whether photons bring what a light that the path has met sends along it.
@@ -102,7 +106,8 @@ float PathTracer::connection_pdf(const CameraPath& path, std::uint32_t light, co
                                  const Imath::V3f& normal) const {
   if (path.connected == 0) return 0;
   return plan_.path_lights.probability(light, path.last.point, path.last.normal()) *
-         light_pdf(scene_.lights[light], scene_.shapes, path.ray.origin, path.ray.direction, point, normal);
+         light_pdf(scene_.lights[light], scene_.shapes, path.ray.origin, path.ray.direction, point, normal,
+                   path.ray.time);
 }
 
 void PathTracer::escape(CameraPath& path) {
@@ -133,17 +138,19 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
 }
 
 std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const LightSampleContext& place,
-                                                                const std::array<float, 4>& u) const {
+                                                                const std::array<float, 4>& u,
+                                                                float time) const {
   if (plan_.path_lights.empty()) return std::nullopt;
   const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place.point, place.normal(), u[0]);
   const Light& light = scene_.lights[pick.light];
-  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, place.point, {u[1], u[2]});
+  const std::optional<LightSample> towards =
+      sample_light(light, scene_.shapes, place.point, {u[1], u[2]}, time);
   if (!towards) return std::nullopt;
   return ChosenLight{pick.light, light, *towards, pick.probability * towards->pdf};
 }
 
 void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
-  const std::optional<ChosenLight> chosen = choose_light(vertex.place(), u);
+  const std::optional<ChosenLight> chosen = choose_light(vertex.place(), u, path.ray.time);
   if (!chosen) return;
   const Imath::V3f& world = chosen->towards.wi;
   const auto [wi, f, crosses] = vertex.towards(world, kMode);
@@ -194,7 +201,7 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   if (!part) return;
   const float t = part->sample(u.y);
   const Imath::V3f point = stretch.ray.origin + stretch.ray.direction * t;
-  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {0, 0});
+  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {0, 0}, path.ray.time);
   if (!towards) return;
   const MediumAt& medium = path.around.medium;
   SampledSpectrum passed(1.0F);
@@ -212,7 +219,7 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
 }
 
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
-  std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u);
+  std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u, path.ray.time);
   if (!chosen) return;
   if (connects_along() && path.stretch.length > 0)
     chosen->pdf +=

@@ -101,7 +101,7 @@ class PathTracer {
   bool start(const PixelSample& sample, CameraPath& path);
   bool part_lanes(const CameraRay& ray, CameraPath& path);
   [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
-                                                        const std::array<float, 4>& u) const;
+                                                        const std::array<float, 4>& u, float time) const;
   [[nodiscard]] float pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const;
   [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
                                      const Imath::V3f& normal) const;

@@ -32,7 +32,8 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
 // their density, and N paths from lights that left photons of the power T_y over theirs within r of x,
 //     T_x [sum_y f T_y / (pi r^2 N) + f G T L_e / p_light],
 // besides the light that events of a single direction meet: `mis_weight` balances the lanes, which are those
-// of all paths of a sample.
+// of all paths of a sample. So is the time, one of all those of the exposure, and each row counts what its
+// shutter passes then.
 void PhotonGatherer::trace(std::span<const PixelSample> samples, const PhotonCloud& cloud,
                            const GatherKernel& kernel, const Deposit& deposit) {
   constexpr std::uint32_t kTogether = 64;
@@ -51,7 +52,7 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     GatherPath& path = paths.emplace_back(samples[i].sampler, i);
     path.packet = cloud_->packet;
-    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, path, images_[i]);
+    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, cloud_->time, path, images_[i]);
     if (path.vertices.empty()) continue;
     if (meter_) connect_meter(path);
     walks_.going().push_back(i);
@@ -142,8 +143,9 @@ void PhotonGatherer::connect_meter(GatherPath& path) {
 
 void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at,
                              const SampledSpectrum& contribution) {
-  response_.expose(at, path.packet.wavelengths, contribution * static_cast<float>(scene_.exposure_s), values_,
-                   [&](const FilmPoint& pixel, std::span<const double> values) {
+  response_.expose(at, path.packet.wavelengths,
+                   let_through(scene_.shutter, at, contribution) * static_cast<float>(scene_.exposure_s),
+                   values_, [&](const FilmPoint& pixel, std::span<const double> values) {
                      (*deposit_)(first_ + path.path, pixel, values);
                    });
 }

@@ -6,6 +6,7 @@
 
 #include "scene/shapes/basis.h"
 #include "transport/path/dimensions.h"
+#include "transport/technique/start_matter.h"
 
 namespace abbe {
 namespace {
@@ -22,19 +23,19 @@ struct PhotonRandom {
   Imath::V2f aim;    // a direction, or a point aimed at
   Imath::V2f start;  // a point of the light, or of a sun
   float choice;      // between target and emission
-  float time;        // within the exposure
+  float time;        // as rays have it, of all those of the exposure
 };
 
-bool shines(const Light& light, const EmissionPoint& from, const Imath::V3f& wi) {
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->lights(wi);
+bool shines(const Light& light, const EmissionPoint& from, const Imath::V3f& wi, float time) {
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->lights(wi, time);
   return emits_towards(light, from.normal, wi);
 }
 
 PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pick, const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
-  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start);
-  const AimedDirection aimed = plan.aims[pick.light].sample(light, from, u.choice, u.aim);
-  if (!shines(light, from, aimed.wi)) return {{}, 0, aimed.cell};
+  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
+  const AimedDirection aimed = plan.aims[pick.light].sample(light, from, u.choice, u.aim, u.time);
+  if (!shines(light, from, aimed.wi, u.time)) return {{}, 0, aimed.cell};
   const bool area = light.is<AreaLight>();
   const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
   return {area ? spawn(from.point, from.normal, aimed.wi, u.time) : ray_at(from.point, aimed.wi, u.time),
@@ -50,13 +51,13 @@ PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler
                     const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const Aim& aim = plan.aims[pick.light];
-  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start);
+  const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
   const AimedPoint at = aim.point(u.aim);
   const Imath::V3d way = Imath::V3d(at.point) - Imath::V3d(from.point);
   const double distance = way.length();
   const Imath::V3f wi(way * (1 / distance));
   const Ray ray = arriving(aim, at, wi, u.time);
-  if (!shines(light, from, wi)) return {ray, 0, at.cell};
+  if (!shines(light, from, wi, u.time)) return {ray, 0, at.cell};
   const bool area = light.is<AreaLight>();
   if (caster.occluded(
           way_between(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point, u.time)))
@@ -71,7 +72,7 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLigh
                             const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const Aim& aim = plan.aims[pick.light];
-  const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start);
+  const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start, u.time);
   const AimedPoint at = aim.point(u.aim);
   const Ray ray = arriving(aim, at, -from.wi, u.time);
   if (caster.occluded(way_along(ray_at(ray.origin, from.wi, u.time)))) return {ray, 0, at.cell};
@@ -100,8 +101,7 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
   photon.packet = draw_packet(plan.wavelengths, a[2]);
   photon.packet.throughput = plan.scene.lights[pick.light].emission(photon.lambda_nm()) * start.factor;
   photon.ray = start.ray;
-  const MediumStack& inside = plan.light_inside[pick.light];
-  if (!inside.empty()) photon.around.enter(plan.scene, inside, photon.lambda_nm());
+  enter_light_matter(plan, pick.light, photon);
   return {pick.light, start.cell};
 }
 

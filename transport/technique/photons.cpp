@@ -19,7 +19,7 @@ std::vector<Imath::V3f> places_of(const std::vector<Photon>& photons) {
 PhotonTracer::PhotonTracer(const Plan& plan, RayCaster& caster)
     : plan_(plan), caster_(caster), walks_(plan.scene, caster) {}
 
-void PhotonTracer::trace(std::span<const Sampler> samplers, const PathPacket& packet,
+void PhotonTracer::trace(std::span<const Sampler> samplers, const PathPacket& packet, float time,
                          std::vector<Photon>& photons) {
   left_.clear();
   scattered_.assign(samplers.size(), false);
@@ -28,7 +28,7 @@ void PhotonTracer::trace(std::span<const Sampler> samplers, const PathPacket& pa
   for (std::uint32_t i = 0; i < samplers.size(); ++i) {
     RecordedPath& path = paths.emplace_back(samplers[i], i);
     path.packet = packet;
-    start_from_light(plan_, caster_, path);
+    start_from_light(plan_, caster_, time, path);
     if (!path.vertices.empty()) walks_.going().push_back(i);
   }
   walks_.run(*this);
@@ -51,7 +51,7 @@ void PhotonTracer::connect_within(RecordedPath& path, const PhaseFunction& /*pha
   scattered_[path.path] = true;
 }
 
-PhotonCloud::PhotonCloud(std::vector<Photon> left, std::uint64_t traced, const PathPacket& of)
-    : photons(std::move(left)), map(places_of(photons)), paths(traced), packet(of) {}
+PhotonCloud::PhotonCloud(std::vector<Photon> left, std::uint64_t traced, const PathPacket& of, float at)
+    : photons(std::move(left)), map(places_of(photons)), paths(traced), packet(of), time(at) {}
 
 }  // namespace abbe

@@ -34,9 +34,10 @@ class PhotonTracer {
 
   PhotonTracer(const Plan& plan, RayCaster& caster);
 
-  /// Traces a path of that packet for each of the samplers, and adds what they leave to `photons`, in an
-  /// order that depends on nothing else.
-  void trace(std::span<const Sampler> samplers, const PathPacket& packet, std::vector<Photon>& photons);
+  /// Traces a path of that packet and time for each of the samplers, and adds what they leave to `photons`,
+  /// in an order that depends on nothing else.
+  void trace(std::span<const Sampler> samplers, const PathPacket& packet, float time,
+             std::vector<Photon>& photons);
 
   // What RandomWalks asks.
   void escape(RecordedPath& /*path*/) {}
@@ -79,12 +80,13 @@ class PhotonTracer {
 
 /// The photons of a sample, to be gathered.
 struct PhotonCloud {
-  PhotonCloud(std::vector<Photon> left, std::uint64_t traced, const PathPacket& of);
+  PhotonCloud(std::vector<Photon> left, std::uint64_t traced, const PathPacket& of, float at);
 
   std::vector<Photon> photons;
   PhotonMap map;
   std::uint64_t paths;  ///< That have been traced for them.
-  PathPacket packet;    ///< That all set out with.
+  PathPacket packet;    ///< That all set out with,
+  float time;           ///< and when.
 };
 
 }  // namespace abbe

@@ -6,6 +6,7 @@
 #include "scene/lights/emission.h"
 #include "scene/shapes/basis.h"
 #include "transport/path/dimensions.h"
+#include "transport/technique/start_matter.h"
 
 namespace abbe {
 namespace {
@@ -28,30 +29,29 @@ struct Departure {
 };
 
 Departure leave_near(const Light& light, std::uint32_t index, const Scene& scene,
-                     const std::array<float, 4>& aim, const std::array<float, 4>& start) {
-  const EmissionPoint from = sample_emission_point(light, scene.shapes, {start[0], start[1]});
-  const Imath::V3f wo = emission_direction(light, from.normal, {aim[0], aim[1]});
-  const float time = aim[kTimeNumber];
+                     const std::array<float, 4>& aim, const std::array<float, 4>& start, float time) {
+  const EmissionPoint from = sample_emission_point(light, scene.shapes, {start[0], start[1]}, time);
+  const Imath::V3f wo = emission_direction(light, from.normal, {aim[0], aim[1]}, time);
   const Ray ray =
       light.is<AreaLight>() ? spawn(from.point, from.normal, wo, time) : ray_at(from.point, wo, time);
-  return {{index, from.point, from.normal}, ray, emission_density(light, from.normal, wo, 1)};
+  return {{index, from.point, from.normal}, ray, emission_density(light, from.normal, wo, 1, time)};
 }
 
 // Uniformly over the disc that the ball shows it.
 std::optional<Departure> leave_infinity(const Light& light, std::uint32_t index, const Scene& scene,
                                         RayCaster& caster, const std::array<float, 4>& aim,
-                                        const std::array<float, 4>& start) {
-  const LightSample from = *sample_light(light, scene.shapes, Imath::V3f(0), {start[0], start[1]});
+                                        const std::array<float, 4>& start, float time) {
+  const LightSample from = *sample_light(light, scene.shapes, Imath::V3f(0), {start[0], start[1]}, time);
   const Ball ball = ball_around(scene);
   const Basis<float> across(from.wi);
   const float phi = 2 * std::numbers::pi_v<float> * aim[1];
   const float r = ball.radius * std::sqrt(aim[0]);
   const Imath::V3f origin =
       ball.center + across.to_world({r * std::cos(phi), r * std::sin(phi), 2 * ball.radius});
-  if (caster.occluded(way_along(ray_at(origin, from.wi, aim[kTimeNumber])))) return std::nullopt;
+  if (caster.occluded(way_along(ray_at(origin, from.wi, time)))) return std::nullopt;
   return Departure{{index, from.wi, Imath::V3f(0), true},
-                   ray_at(origin, -from.wi, aim[kTimeNumber]),
-                   emission_density(light, Imath::V3f(0), -from.wi, ball.radius)};
+                   ray_at(origin, -from.wi, time),
+                   emission_density(light, Imath::V3f(0), -from.wi, ball.radius, time)};
 }
 
 // Where light arrives at a vertex, to be chosen for it.
@@ -75,15 +75,16 @@ PathVertex& first_vertex(RecordedPath& path) {
 
 }  // namespace
 
-FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path, LaneImages& images) {
+FilmPoint start_from_camera(const Plan& plan, int x, int y, float time, RecordedPath& path,
+                            LaneImages& images) {
   const Scene& scene = plan.scene;
   const std::array<float, 4> film = path.sampler.group(kFilmGroup);
   const std::array<float, 4> lens = path.sampler.group(kLensGroup);
   const CameraRay start =
       sample_ray(scene.camera, {static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]},
-                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, film[kTimeNumber]);
+                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
   path.ray = start.ray;
-  if (!plan.camera_inside.empty()) path.around.enter(scene, plan.camera_inside, path.lambda_nm());
+  enter_camera_matter(plan, path);
   const std::optional<CameraDensity> of =
       start.weight.is_zero() ? std::nullopt : density(scene.camera, start.ray, path.lambda_nm());
   if (of) {
@@ -99,7 +100,7 @@ FilmPoint start_from_camera(const Plan& plan, int x, int y, RecordedPath& path, 
   return {x, y, start.cos_film, start.ray.time, start.images ? &images : nullptr};
 }
 
-void start_from_light(const Plan& plan, RayCaster& caster, RecordedPath& path) {
+void start_from_light(const Plan& plan, RayCaster& caster, float time, RecordedPath& path) {
   if (plan.traced_lights.empty()) return;
   const Scene& scene = plan.scene;
   const std::array<float, 4> aim = path.sampler.group(kAimGroup);
@@ -107,16 +108,15 @@ void start_from_light(const Plan& plan, RayCaster& caster, RecordedPath& path) {
   const PowerLightSampler::SampledLight pick = plan.traced_lights.pick(start[3]);
   const Light& light = scene.lights[pick.light];
   const std::optional<Departure> departure =
-      light.at_infinity() ? leave_infinity(light, pick.light, scene, caster, aim, start)
-                          : leave_near(light, pick.light, scene, aim, start);
+      light.at_infinity() ? leave_infinity(light, pick.light, scene, caster, aim, start, time)
+                          : leave_near(light, pick.light, scene, aim, start, time);
   if (!departure || !(departure->density.pdf_direction > 0)) return;
   const float pdf_point = pick.probability * (light.at_infinity() ? departure->density.pdf_direction
                                                                   : departure->density.pdf_position);
   const float pdf_way =
       light.at_infinity() ? departure->density.pdf_position : departure->density.pdf_direction;
   path.ray = departure->ray;
-  if (const MediumStack& inside = plan.light_inside[pick.light]; !inside.empty())
-    path.around.enter(scene, inside, path.lambda_nm());
+  enter_light_matter(plan, pick.light, path);
 
   PathVertex& origin = first_vertex(path);
   origin.at = departure->from;
@@ -136,7 +136,8 @@ std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
   const LightSampleContext place = place_of(scene, vertex);
   const LightSampler::Pick pick = plan.path_lights.pick(place.point, place.normal(), u[0]);
   const Light& light = scene.lights[pick.light];
-  const std::optional<LightSample> to = sample_light(light, scene.shapes, place.point, {u[1], u[2]});
+  const std::optional<LightSample> to =
+      sample_light(light, scene.shapes, place.point, {u[1], u[2]}, vertex.time);
   if (!to) return std::nullopt;
   const bool far = light.at_infinity();
   std::optional<PathVertex> drawn(std::in_place);
@@ -159,7 +160,7 @@ EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVe
   const Way way = way_from(light, lit);
   if (!plan.traced_lights.empty()) {
     const Ball ball = ball_around(scene);
-    const EmissionDensity of = emission_density(emitter, at.normal, way.direction, ball.radius);
+    const EmissionDensity of = emission_density(emitter, at.normal, way.direction, ball.radius, lit.time);
     const float chosen = plan.traced_lights.probability(at.light);
     const bool within = (point_of(lit) - ball.center).length2() <= ball.radius * ball.radius;
     ends.light_start = chosen * (at.at_infinity ? of.pdf_direction : of.pdf_position);
@@ -168,11 +169,12 @@ EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVe
   const LightSampleContext place = place_of(scene, lit);
   if (!plan.path_lights.empty()) {
     const float chosen = plan.path_lights.probability(at.light, place.point, place.normal());
-    ends.light_connection =
-        emitter.is_delta()
-            ? chosen
-            : chosen * light_pdf(emitter, scene.shapes, place.point, -way.direction, at.point, at.normal) *
-                  solid_angle_per_area(scene, lit, light);
+    ends.light_connection = emitter.is_delta()
+                                ? chosen
+                                : chosen *
+                                      light_pdf(emitter, scene.shapes, place.point, -way.direction, at.point,
+                                                at.normal, lit.time) *
+                                      solid_angle_per_area(scene, lit, light);
   }
   return ends;
 }

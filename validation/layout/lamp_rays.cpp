@@ -10,6 +10,7 @@
 
 #include "io/error.h"
 #include "scene/extent.h"
+#include "scene/shapes/placed.h"
 
 namespace abbe {
 namespace {
@@ -39,6 +40,12 @@ struct SurfaceMiddle {
 
 // Points are drawn in float: those of round and meshed lamps are put onto their surface.
 SurfaceMiddle surface_middle(const AreaLight& light, const Shape& shape) {
+  if (const auto* placed =
+          std::get_if<PlacedShape>(&shape)) {  // it moves, and is drawn where it is at time 0
+    const Shape at_rest = std::visit([](const auto& s) { return Shape(s); }, placed->of->shape);
+    const auto [point, normal] = surface_middle(light, at_rest);
+    return {point * placed->at->to_world, normal_to_world(*placed->at, normal)};
+  }
   if (const auto* quad = std::get_if<Quad>(&shape))
     return {quad->corner + (quad->edge_u + quad->edge_v) / 2, normal_of(*quad)};
   if (const auto* disc = std::get_if<Disc>(&shape)) return {disc->center, disc->normal};
