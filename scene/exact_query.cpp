@@ -23,18 +23,22 @@ const Placement* placement_of(const RTCIntersectContext* context) {
 }
 
 // Where it stands at the ray's time.
-const Placement* placement_now(const Placement* at, const BasicRay<double>& ray,
-                               std::optional<Placement>& moved) {
-  if (at == nullptr || !at->motion) return at;
-  return &moved.emplace(placement_at(*at, static_cast<double>(ray.time)));
+Placement placement_now(const Placement& at, const BasicRay<double>& ray) {
+  return placement_at(at, static_cast<double>(ray.time));
+}
+
+// What moves is kept out of line, here and below, so that what stands still does not pay for it.
+template <typename S>
+[[gnu::noinline]] std::optional<ShapeHit<double>> moving_intersection(const S& shape, const Placement& at,
+                                                                      const BasicRay<double>& ray) {
+  return intersect_placed(shape, placement_now(at, ray), ray, 0.0);
 }
 
 template <typename S>
 std::optional<ShapeHit<double>> intersection(const S& shape, const Placement* at,
                                              const BasicRay<double>& ray) {
-  std::optional<Placement> moved;
-  const Placement* now = placement_now(at, ray, moved);
-  return now == nullptr ? intersect(shape, ray, 0.0) : intersect_placed(shape, *now, ray, 0.0);
+  if (at == nullptr) return intersect(shape, ray, 0.0);
+  return at->motion ? moving_intersection(shape, *at, ray) : intersect_placed(shape, *at, ray, 0.0);
 }
 
 void set_bounds(const RTCBoundsFunctionArguments* args, const Imath::Box3d& box) {
@@ -118,8 +122,7 @@ unsigned slice_of(float time) {
 // The ray as the scene of a prototype takes it, where the instance stands at the ray's time.
 RTCRay ray_within(const SceneInstance& moving, const BasicRay<double>& ray, float t_max, unsigned mask,
                   std::size_t id) {
-  std::optional<Placement> moved;
-  RTCRay within = embree_ray(to_prototype(*placement_now(moving.at.get(), ray, moved), ray));
+  RTCRay within = embree_ray(to_prototype(placement_now(*moving.at, ray), ray));
   within.tfar = t_max;
   within.mask = mask;
   within.id = static_cast<unsigned>(id);
@@ -194,6 +197,39 @@ Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const Place
   return shift;
 }
 
+// Where the ray meets that triangle, of an instance that stands `at`; nothing where it does not.
+std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit,
+                                       const SceneInstance* instance, const Placement* at,
+                                       const BasicRay<double>& ray) {
+  const BasicRay<double> local = at == nullptr ? ray : to_prototype(*at, ray);
+  const double t = plane_crossing(set, hit.primID, local);
+  if (!(t > 0 && t < ray.t_max)) return std::nullopt;
+  Imath::V3d point = ray.origin + ray.direction * t;
+  if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
+    point += shift_in_world(set, hit, at, local, t, Imath::V3f(point));
+  if (instance == nullptr)
+    return SurfaceHit{Imath::V3f(point), set.normals[hit.primID], static_cast<float>(t), hit.geomID,
+                      hit.primID};
+  const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
+  return surface_hit({t, point, normal_to_world(*at, normal)}, hit.instID[0], hit.primID);
+}
+
+[[gnu::noinline]] std::optional<SurfaceHit> moving_triangle_hit(const TriangleSet& set, const RTCHit& hit,
+                                                                const SceneInstance& instance,
+                                                                const BasicRay<double>& ray) {
+  const Placement now = placement_now(*instance.at, ray);
+  return triangle_hit(set, hit, &instance, &now, ray);
+}
+
+[[gnu::noinline]] BasicRay<double> moving_ray_inside(const Placement& at, const BasicRay<double>& ray) {
+  return to_prototype(placement_now(at, ray), ray);
+}
+
+// The ray in the coordinates of a prototype.
+BasicRay<double> ray_inside(const Placement& at, const BasicRay<double>& ray) {
+  return at.motion ? moving_ray_inside(at, ray) : to_prototype(at, ray);
+}
+
 }  // namespace
 
 void reject_behind(const RTCFilterFunctionNArguments* args) {
@@ -204,9 +240,7 @@ void reject_behind(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const BasicRay<double>& ray = context.rays[RTCRayN_id(args->ray, args->N, i)];
     const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, i);
-    std::optional<Placement> moved;
-    const Placement* now = placement_now(at, ray, moved);
-    const double t = plane_crossing(set, triangle, now == nullptr ? ray : to_prototype(*now, ray));
+    const double t = plane_crossing(set, triangle, at == nullptr ? ray : ray_inside(*at, ray));
     if (!(t > 0 && t < ray.t_max)) args->valid[i] = 0;
   }
 }
@@ -244,18 +278,9 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
                                         : std::get_if<TriangleSet>(&instance->of->geometry);
   if (set == nullptr) return surface_hit(context.nearest[number], shape, 0);
   const BasicRay<double>& ray = context.rays[number];
-  std::optional<Placement> moved;
-  const Placement* now = instance == nullptr ? nullptr : placement_now(instance->at.get(), ray, moved);
-  const BasicRay<double> local = now == nullptr ? ray : to_prototype(*now, ray);
-  const double t = plane_crossing(*set, hit.primID, local);
-  if (!(t > 0 && t < ray.t_max)) return std::nullopt;
-  Imath::V3d point = ray.origin + ray.direction * t;
-  if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
-    point += shift_in_world(*set, hit, now, local, t, Imath::V3f(point));
-  if (instance == nullptr)
-    return SurfaceHit{Imath::V3f(point), set->normals[hit.primID], static_cast<float>(t), shape, hit.primID};
-  const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
-  return surface_hit({t, point, normal_to_world(*now, normal)}, shape, hit.primID);
+  const Placement* at = instance == nullptr ? nullptr : instance->at.get();
+  return at != nullptr && at->motion ? moving_triangle_hit(*set, hit, *instance, ray)
+                                     : triangle_hit(*set, hit, instance, at, ray);
 }
 
 }  // namespace abbe
