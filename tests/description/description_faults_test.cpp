@@ -207,7 +207,8 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "the lens cannot focus within its focal length (got 2 m, allowed (2, inf) m)"},
       {"a lens that is none", R"({"camera": {"lens_system": {"prescription": "double_gaus"}, )" + at + "}",
        ErrorCode::input,
-       "/camera/lens_system/prescription: error: unknown lens \"double_gaus\"; did you mean \"double_gauss\"?"},
+       "/camera/lens_system/prescription: error: unknown lens \"double_gaus\"; did you mean "
+       "\"double_gauss\"?"},
       {"a lens too far open",
        R"({"camera": {"lens_system": {"prescription": "double_gauss", "f_number": 1.4}, )" + at + "}",
        ErrorCode::scene,
