@@ -23,12 +23,11 @@ Fields fields(Tag<Motion>) {
   return describe(
       "motion",
       "Rigid motion from keyframe to keyframe: the translation is linear, the rotation of a constant rate "
-      "about one "
-      "axis. Before the first and after the last nothing moves.",
+      "about one axis. Before the first and after the last nothing moves.",
       {field("keyframes", &Motion::keyframes, list<Keyframe>("keyframes", 1),
              "In the order of their times. Where two that follow each other turn about the same axis, the "
-             "angle runs "
-             "from one to the other, whole turns included; else the shorter way is taken (slerp).")});
+             "angle runs from one to the other, whole turns included; else the shorter way is taken "
+             "(slerp).")});
 }
 
 }  // namespace abbe::spec

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene.h"
+#include "scene/shapes/placed.h"
 #include "scene/small_light.h"
 
 namespace abbe {
@@ -71,9 +72,11 @@ bool is_ideal_mirror(const Material& material) {
 // The normal of what is flat and stands still.
 std::optional<Imath::V3d> flat_normal(const Shape& shape) {
   if (motion_of(shape) != nullptr) return std::nullopt;
-  if (const auto* quad = plain<Quad>(shape)) return normal_of(*quad);
-  if (const auto* disc = plain<Disc>(shape)) return disc->normal;
-  return std::nullopt;
+  std::optional<Imath::V3d> normal;
+  if (const auto* quad = plain<Quad>(shape)) normal = normal_of(*quad);
+  if (const auto* disc = plain<Disc>(shape)) normal = disc->normal;
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  return normal && placed ? normal_to_world(*placed->at, *normal) : normal;
 }
 
 // Whether the camera sees all specular shapes, parallel planes, within 10 degrees of their normals, and

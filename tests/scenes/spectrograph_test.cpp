@@ -39,7 +39,8 @@ std::vector<double> line_columns(const Film& film) {
 // the prism of index `n` [m].
 double miss(const Scene& scene, double column, double n) {
   const Ray start =
-      sample_ray(scene.camera, {static_cast<float>(column), 0.5F}, {0.5F, 0.5F}, SampledSpectrum(550), 0).ray;
+      sample_ray(scene.camera, {static_cast<float>(column), 0.5F}, {0.5F, 0.5F}, SampledSpectrum(550), 0, 0)
+          .ray;
   BasicRay<double> ray{V3d(start.origin), V3d(start.direction)};
   for (int event = 0; event < 2; ++event) {
     const auto hit = intersect_exact(scene, ray, 1e-9);

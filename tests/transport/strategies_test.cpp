@@ -76,7 +76,8 @@ const Camera kMeter{IrradianceProbe{{0, 0, 0}, {0, 0, 1}}, 1, 1, 0.04};
 RecordedPath camera_path(const Plan& plan, const Sampler& sampler, std::uint32_t i) {
   RecordedPath path(sampler, i);
   path.packet = draw_packet(plan.wavelengths, sampler.group(kFilmGroup)[2]);
-  start_from_camera(plan, 0, 0, 0, path);
+  LaneImages none;
+  start_from_camera(plan, 0, 0, 0, path, none);
   return path;
 }
 
