@@ -8,7 +8,8 @@
 namespace abbe {
 
 /// Sets a path out from the camera through pixel (x, y) at that time, with its packet and by its own numbers.
-/// Returns where it exposes the film; behind a lens that displaces lanes, `images` keeps that of each of them.
+/// Returns where it exposes the film; behind a lens that displaces lanes, `images` keeps that of each of
+/// them.
 FilmPoint start_from_camera(const Plan& plan, int x, int y, float time, RecordedPath& path,
                             LaneImages& images);
 
