@@ -6,6 +6,14 @@
 
 namespace abbe::description {
 
+/// Where curves differ from zero: from `low` to `high` nm, which are in the other order where none does.
+struct Support {
+  double low = kMaxWavelengthNm;
+  double high = kMinWavelengthNm;
+};
+/// Takes in where this curve does.
+void extend(Support& support, const Curve& curve);
+
 /// Warns of every lamp that emits nothing the sensor sees.
 void check_lamps(const LoadContext& context, const Scene& scene);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "description/checks.h"
 #include "description/kinds.h"
 #include "description/load_lens.h"
 #include "io/error.h"
@@ -98,17 +99,11 @@ bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius,
   return false;
 }
 
-// The ends of the wavelengths that a sensor counts [nm].
-std::array<double, 2> counted_range(const Sensor& sensor) {
-  std::array<double, 2> range{kMaxWavelengthNm, kMinWavelengthNm};
-  for (const Channel& channel : sensor.channels)
-    for (int nm = kMinWavelengthNm; nm < kMaxWavelengthNm; ++nm)
-      if (const Curve& weight = envelope(channel); weight(nm) != 0 || weight(nm + 1) != 0) {
-        range[0] = std::min<double>(range[0], nm);
-        range[1] = std::max<double>(range[1], nm + 1);
-      }
-  if (range[0] > range[1]) return {kMinWavelengthNm, kMaxWavelengthNm};
-  return range;
+// The wavelengths that a sensor counts, whichever way its filters stand; all where it counts none.
+Support counted_range(const Sensor& sensor) {
+  Support range;
+  for (const Channel& channel : sensor.channels) extend(range, envelope(channel));
+  return range.low < range.high ? range : Support{kMinWavelengthNm, kMaxWavelengthNm};
 }
 
 bool is_in_air(const spec::LensSystem& said, const lens::System& lens, LoadContext& context) {
@@ -128,16 +123,17 @@ std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame&
   if (sensor.spectral) {
     context.diagnostics.error(
         said.where,
-        "a spectral sensor keeps radiances, which a lens that takes wavelengths to other "
-        "pixels does not give: it needs a thin lens or a pinhole");
+        "a spectral sensor keeps radiances, which a lens that takes wavelengths to other pixels does not "
+        "give: it needs a thin lens or a pinhole");
     return std::nullopt;
   }
   try {
     const std::optional<double> stop = closed_stop(said, *lens, context);
     if (!stop || (said.focus_distance && !focus(said, *lens, *stop, context))) return std::nullopt;
-    const auto [low_nm, high_nm] = counted_range(sensor);
+    const Support counted = counted_range(sensor);
     const FilmGrid grid{sensor.width, sensor.height, sensor.pixel_pitch};
-    return LensSystem{frame, std::make_shared<LensOptics>(*std::move(lens), *stop, grid, low_nm, high_nm)};
+    return LensSystem{frame,
+                      std::make_shared<LensOptics>(*std::move(lens), *stop, grid, counted.low, counted.high)};
   } catch (const Error& error) {
     context.diagnostics.error(said.where, error.what());
     return std::nullopt;

@@ -22,8 +22,7 @@ Fields fields(Tag<Shutter>) {
        defaulted("fall_s", &Shutter::fall_s, kSeconds, "How long it takes to close."),
        field("transmission", &Shutter::transmission, list<Knot>(vector<Knot>(kShare), "pairs", 2),
              "In place of both: pairs of the share of `exposure_s` that has gone by, from 0 to 1, and the "
-             "share of "
-             "the light that passes then, with straight lines between them."),
+             "share of the light that passes then, with straight lines between them."),
        defaulted("row_delay_s", &Shutter::row_delay_s, kSeconds,
                  "By how much each row opens later than that above it, as in a rolling shutter.")});
 }

@@ -6,13 +6,6 @@
 #include "description/checks.h"
 
 namespace abbe::description {
-namespace {
-
-// Where a curve differs from zero: [low, high] nm, empty when it never does.
-struct Support {
-  double low = kMaxWavelengthNm;
-  double high = kMinWavelengthNm;
-};
 void extend(Support& support, const Curve& curve) {
   const auto knots = curve.knots();
   if (curve.is_constant() && curve.max() != 0) support = {kMinWavelengthNm, kMaxWavelengthNm};
@@ -22,8 +15,6 @@ void extend(Support& support, const Curve& curve) {
     support.high = std::max(support.high, knots[i + 1].wavelength_nm);
   }
 }
-
-}  // namespace
 
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene) {
   Support sensor;

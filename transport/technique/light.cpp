@@ -23,8 +23,7 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
 // T_n being the throughput up to y_n and P_n its density, and W what the camera makes of intensity towards
 // its lens: each vertex is connected to the lens, and `mis_weight` balances the lanes. A photon has a time of
 // the whole span in which the film is exposed, and W contains what the shutter of the row that it comes to
-// passes then
-// (`Shutter::weight`).
+// passes then (`Shutter::weight`).
 void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit) {
   deposit_ = &deposit;
   starts_.assign(photons.size(), {});
