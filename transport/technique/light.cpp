@@ -90,13 +90,13 @@ void LightTracer::resolve_connections() {
   if (!walks_.has_free_paths()) caster_.occluded(ways_, blocked_);
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (blocked_[i] != 0) continue;
-    auto& [path, events, contribution, place] = connections_[i];
-    if (!images_.empty()) place.images = &images_[i];
-    response_.expose(place, walks_.paths()[path].packet.wavelengths,
-                     let_through(scene_.shutter, place, contribution * scale_), values_,
+    Connection& found = connections_[i];
+    if (!images_.empty()) found.at.images = &images_[i];
+    response_.expose(found.at, walks_.paths()[found.path].packet.wavelengths,
+                     let_through(scene_.shutter, found.at, found.contribution * scale_), values_,
                      [&](const FilmPoint& at, std::span<const double> values) {
-                       (*deposit_)(path, at, values);
-                       if (apart_) apart_(at, {starts_[path].light, events}, values);
+                       (*deposit_)(found.path, at, values);
+                       if (apart_) apart_(at, {starts_[found.path].light, found.events}, values);
                      });
   }
   connections_.clear();
