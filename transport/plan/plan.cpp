@@ -122,7 +122,7 @@ Imath::Box3d camera_box(const Camera& camera) {
   const std::optional<Opening> opening = traits(camera).opening;
   const double reach =
       opening ? opening->u.length() + opening->v.length() : (center - position(camera)).length();
-  const Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
+  Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
   if (!camera.motion) return box;
   const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);
   return {path.min - Imath::V3d(reach), path.max + Imath::V3d(reach)};
