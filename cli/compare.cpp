@@ -16,6 +16,7 @@
 #include "sensor/film/recorded_white.h"
 #include "validation/picture/difference_maps.h"
 #include "validation/statistics/chart_difference.h"
+#include "validation/statistics/polarisation_difference.h"
 
 namespace abbe::cli {
 namespace {
@@ -40,6 +41,16 @@ void add_color(Json& answer, const std::string& key, const std::optional<ColorDi
   answer[key + "_mean"] = color ? Json(color->mean) : Json();
   answer[key + "_p95"] = color ? Json(color->p95) : Json();
   answer[key + "_max"] = color ? Json(color->max) : Json();
+}
+
+// Of films that measure it.
+void add_polarisation(Json& answer, const std::optional<PolarisationDifference>& difference) {
+  if (!difference) return;
+  answer["polarised_share"] = difference->polarised_share;
+  answer["degree_mean"] = difference->degree_mean;
+  answer["degree_max"] = difference->degree_max;
+  answer["angle_deg_mean"] = difference->angle_deg_mean;
+  answer["angle_deg_max"] = difference->angle_deg_max;
 }
 
 Json patch_answer(const std::vector<PatchDifference>& patches, const std::string& key) {
@@ -119,6 +130,7 @@ void compare_films(const CompareOptions& options, const Image& image, const Imag
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;
   add_color(answer, "dE00", c.color);
+  add_polarisation(answer, polarisation_difference(image, reference));
   const std::optional<ColorDifference> color =
       options.formula == DeltaE::cie2000 ? c.color
                                          : color_difference(image, reference, options.formula, white);

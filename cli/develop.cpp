@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -12,15 +13,20 @@
 #include "develop/develop.h"
 #include "develop/dng_profile_file.h"
 #include "develop/film_file.h"
+#include "develop/polarisation.h"
+#include "develop/polarisation_camera.h"
 #include "develop/radiance.h"
 #include "film/spectral.h"
 #include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/exr.h"
 #include "io/extension.h"
 #include "io/file_lock.h"
+#include "io/picture.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/readout/speed.h"
+#include "validation/picture/polarisation_maps.h"
 
 namespace abbe::cli {
 namespace {
@@ -34,10 +40,27 @@ fs::path numbered(const fs::path& path, std::uint32_t frame, const DevelopOption
          fmt::format("{}_{:04}{}", path.stem().string(), frame + 1, path.extension().string());
 }
 
+fs::path map_file(const DevelopOptions& options, const std::string& map) {
+  return options.polarisation / (map + ".png");
+}
+fs::path values_file(const DevelopOptions& options) {
+  return options.polarisation / "polarisation.exr";
+}
+
+// The files that tell of polarisation, in a folder that is made for them.
+std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
+  if (options.polarisation.empty()) return {};
+  std::error_code ignored;
+  fs::create_directories(options.polarisation, ignored);
+  std::vector<fs::path> files{values_file(options)};
+  for (const char* map : {kDegreeMap, kLinearDegreeMap, kAngleMap}) files.push_back(map_file(options, map));
+  return files;
+}
+
 std::vector<fs::path> check_outputs(const DevelopOptions& options) {
   for (const fs::path& output : options.outputs) require_developed_extension(output);
   if (!options.display.empty()) require_picture_extension(options.display);
-  std::vector<fs::path> files;
+  std::vector<fs::path> files = polarisation_files(options);
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     for (const fs::path& output : options.outputs) files.push_back(numbered(output, frame, options));
     if (!options.display.empty()) files.push_back(numbered(options.display, frame, options));
@@ -104,9 +127,26 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
                        white ? std::optional(asked_white(*white, told)) : recorded_white(told));
 }
 
+// What a film tells of polarisation, whatever looks at it: itself, or by what lies behind its polarisers.
+void write_polarisation(const Image& film, const DevelopOptions& options) {
+  const Image solved = stokes_planes(film).empty() ? stokes_of_polarisers(film) : Image{};
+  const Image& measured = solved.channels.empty() ? film : solved;
+  Image values = polarisation_image(measured);
+  values.channels.insert(values.channels.end(), solved.channels.begin(), solved.channels.end());
+  const std::vector<PolarisationMap> maps =
+      polarisation_maps(polarisation_of_light(measured),
+                        solved.channels.empty() ? Measured::all : Measured::linear, film.width, film.height);
+  std::vector<std::function<void()>> writers;
+  writers.emplace_back([&] { write_exr(values_file(options), values); });
+  for (const PolarisationMap& map : maps)
+    writers.emplace_back([&] { write_picture(map_file(options, map.name), map.map); });
+  write_all(writers);
+}
+
 ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   Image film = read_film(options.film, &inputs);
   if (!options.lights.empty()) relight(film, options.lights);
+  if (!options.polarisation.empty()) write_polarisation(film, options);
   if (is_spectral(film)) return expose_spectral(std::move(film), options, inputs);
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");

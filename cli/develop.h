@@ -17,6 +17,7 @@ struct DevelopOptions {
   std::filesystem::path film;
   std::vector<std::filesystem::path> outputs;  ///< Raw pictures and multi-part images.
   std::filesystem::path display;               ///< Empty when no picture is wanted.
+  std::filesystem::path polarisation;          ///< Folder for maps of it; empty when none are wanted.
   std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
   std::vector<Override> overrides;             ///< Of the read-out and the white.
   std::vector<LightFactor> lights;             ///< That count otherwise than in the film.

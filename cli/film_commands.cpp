@@ -74,6 +74,10 @@ void add_develop(CLI::App& app, Command& command) {
       ->type_name("FILE.dng|FILE.tif|FILE.fits|FILE.png|FILE.exr");
   options.add_option("--display", sub->display, "Write a picture for sRGB displays")->type_name("FILE.png");
   options
+      .add_option("--stokes", sub->polarisation,
+                  "Folder for pictures of the degree and the angle of polarisation, and their values (.exr)")
+      ->type_name("FOLDER");
+  options
       .add_option("--profile", sub->profile,
                   "Matrices of a calibration for two lights, which a .dng tells raw converters (default: the "
                   "film's own for its white)")

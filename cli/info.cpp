@@ -183,8 +183,9 @@ int info(const InfoOptions& options) {
   else
     fmt::print("{}", describe(scene, choice));
   if (const auto refused = refusal(scene)) say(fmt::format("warning: {}", refused->what()));
+  warn_of_unpolarised_measurement(scene, false);
   warn_of_dark_camera(scene, false);
-  note_polarisation(scene.needs);
+  note_polarisation(scene);
   return 0;
 }
 

@@ -32,7 +32,9 @@ int query_critical(const IndexOptions& options);
 /// Polarising angle of light from outside, atan(n).
 int query_brewster(const IndexOptions& options);
 
-/// `query reflectance`: of a polished surface, perhaps under thin films, for light from air.
+/// `query reflectance`: of a polished surface, perhaps under thin films, for light from air; with the phases
+/// of the reflected fields, which go as exp(-i omega t) and of which that in the plane of incidence has the
+/// sign of `FresnelAmplitudes`.
 struct ReflectanceOptions {
   std::string name;
   std::vector<double> at_nm;

@@ -65,10 +65,22 @@ Coating parse_coating(const std::string& text, const std::vector<double>& at_nm)
   return coating;
 }
 
-FresnelPower<double> reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
-                                      double angle_deg) {
+struct ReflectedFromAir {
+  FresnelPower<double> power;
+  FilmReflection<double> amplitudes;
+};
+ReflectedFromAir reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
+                                  double angle_deg) {
   const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);
-  return coated_power(coating, nm, index.catalogued_n(nm), index.k(nm), cos_i, false);
+  const double n = index.catalogued_n(nm);
+  const double k = index.k(nm);
+  return {coated_power(coating, nm, n, k, cos_i, false), coated_reflection(coating, nm, n, k, cos_i, false)};
+}
+
+// In [0, 360], so that what glass reflects with next to no absorption stays near half a turn, or none.
+double phase_deg(const Complex<double>& amplitude) {
+  const double phase = std::atan2(amplitude.im + 0.0, amplitude.re) / kDegree;  // of no negative zero
+  return phase < 0 ? phase + 360 : phase;
 }
 
 }  // namespace
@@ -112,10 +124,12 @@ int query_reflectance(const ReflectanceOptions& options) {
   answer["name"] = material.name;
   answer["angle_deg"] = options.angles_deg;
   answer["wavelength_nm"] = options.at_nm;
-  answer["Rs"] = rows([](const auto& f) { return f.Rs; });
-  answer["Rp"] = rows([](const auto& f) { return f.Rp; });
-  answer["R"] = rows([](const auto& f) { return f.R(); });
-  if (!coating.layers.empty()) answer["T"] = rows([](const auto& f) { return f.transmitted(); });
+  answer["Rs"] = rows([](const auto& f) { return f.power.Rs; });
+  answer["Rp"] = rows([](const auto& f) { return f.power.Rp; });
+  answer["R"] = rows([](const auto& f) { return f.power.R(); });
+  if (!coating.layers.empty()) answer["T"] = rows([](const auto& f) { return f.power.transmitted(); });
+  answer["phase_s_deg"] = rows([](const auto& f) { return phase_deg(f.amplitudes.s); });
+  answer["phase_p_deg"] = rows([](const auto& f) { return phase_deg(f.amplitudes.p); });
   return print_material_answer(answer, options);
 }
 

@@ -1,5 +1,10 @@
 #include "cli/ray_commands.h"
 
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include "cli/draw.h"
 #include "cli/lens.h"
 #include "cli/trace.h"
@@ -13,6 +18,19 @@ void add_follow(CLI::App& app, Follow& follow) {
       "Which way where a surface reflects and lets through (default: refraction); both follows all, in "
       "branches",
       "refraction|reflection|both");
+}
+
+// In units of its own I.
+StokesVector parse_stokes(const std::string& option, const std::string& text) {
+  const std::vector<double> given = parse_numbers(option, text, -1e30, 1e30);
+  const auto fault = [&](std::string_view allowed) {
+    return Error(ErrorCode::usage, option, fmt::format("got \"{}\", allowed {}", text, allowed));
+  };
+  if (given.size() != 4) throw fault("four numbers I,Q,U,V");
+  const double polarised = std::hypot(given[1], given[2], given[3]);
+  if (!(given[0] > 0) || polarised > given[0] * (1 + 1e-9))
+    throw fault("I above 0 and Q, U, V of light that is not polarised by more than all of it");
+  return {1, given[1] / given[0], given[2] / given[0], given[3] / given[0]};
 }
 
 }  // namespace
@@ -38,6 +56,10 @@ void add_trace(CLI::App& app, Command& command) {
   add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
              "Events to follow at most (default 64)", "N");
   add_follow(*sub.app, sub->follow);
+  add_parsed(
+      *sub.app, "--stokes", sub->stokes, parse_stokes,
+      "Stokes vector of the light that sets out (default 1,0,0,0), in the frame of the answer's first_axis",
+      "I,Q,U,V");
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }

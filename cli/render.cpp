@@ -328,7 +328,8 @@ int render(const RenderOptions& options) {
     metered(costs.display, [&] { display = display_of(scene, chosen_view(options)); })();
   if (display) require_distinct(files_of(outputs, options), display->files());
   if (options.explain) tell(describe(scene, choice));
-  if (!options.quiet) note_polarisation(scene.needs);
+  if (!options.quiet) note_polarisation(scene);
+  warn_of_unpolarised_measurement(scene, options.strict);
   warn_of_dark_camera(scene, options.strict);
   warn_of_lost_light(scene, options.strict && !leaves_integrator);
 

@@ -34,12 +34,25 @@ Json file_point(const Scene& scene, const Imath::V3d& point) {
   return list((point + scene.origin_m) / scene.unit_m);
 }
 
+Json matrix(const FullMueller& mueller) {
+  Json rows = Json::array();
+  for (const StokesVector& row : mueller.rows) rows.push_back(row);
+  return rows;
+}
+
+void add_polarisation(const EventPolarisation& polarisation, Json& answer) {
+  answer["axis"] = list(polarisation.axis);
+  answer["mueller"] = matrix(polarisation.mueller);
+  answer["stokes"] = polarisation.stokes;
+}
+
 Json event_answer(const Scene& scene, const TraceEvent& event) {
   Json answer{{"kind", name(event.kind)}};
   if (event.kind == TraceEvent::Kind::escape) return answer;
   answer["point"] = file_point(scene, event.at.point);
   answer["normal"] = list(event.at.normal);
   answer["shape"] = scene.shapes[event.shape].name;
+  if (event.polarisation) add_polarisation(*event.polarisation, answer);
   if (!event.passage) return answer;
   const Passage& passage = *event.passage;
   answer["n_from"] = passage.n_from;
@@ -53,7 +66,7 @@ Json event_answer(const Scene& scene, const TraceEvent& event) {
 }
 
 // Where a branch's light went, with its shares of power in a tree.
-void add_way(const Scene& scene, const RayTrace& trace, bool tree, Json& answer) {
+void add_way(const Scene& scene, const RayTrace& trace, bool tree, const StokesVector& light, Json& answer) {
   answer["events"] = Json::array();
   for (const TraceEvent& event : trace.events) {
     Json told = event_answer(scene, event);
@@ -66,28 +79,32 @@ void add_way(const Scene& scene, const RayTrace& trace, bool tree, Json& answer)
   }
   answer["final_origin"] = file_point(scene, trace.last.origin);
   answer["final_dir"] = list(trace.last.direction);
+  answer["first_axis"] = list(trace.way.first_axis);
+  answer["last_axis"] = list(trace.way.last_axis);
+  answer["mueller"] = matrix(trace.way.mueller);
+  answer["stokes"] = trace.way.mueller * light;
 }
 
-Json branch_answer(const Scene& scene, const RayTree& tree, std::size_t number) {
+Json branch_answer(const Scene& scene, const RayTree& tree, std::size_t number, const StokesVector& light) {
   const RayBranch& branch = tree.branches[number];
   Json answer{{"branch", number},
               {"from_branch", branch.from},
               {"from_event", branch.event},
               {"share", branch.share}};
-  add_way(scene, branch.trace, true, answer);
+  add_way(scene, branch.trace, true, light, answer);
   answer["deviation_deg"] = angle_deg(tree.branches.front().start.direction, branch.trace.last.direction);
   return answer;
 }
 
-Json tree_answer(const Scene& scene, const RayTree& tree, bool with_branches) {
+Json tree_answer(const Scene& scene, const RayTree& tree, bool with_branches, const StokesVector& light) {
   const RayBranch& main = tree.branches.front();
   Json answer;
-  add_way(scene, main.trace, with_branches, answer);
+  add_way(scene, main.trace, with_branches, light, answer);
   answer["deviation_deg"] = angle_deg(main.start.direction, main.trace.last.direction);
   if (!with_branches) return answer;
   answer["branches"] = Json::array();
   for (std::size_t i = 1; i < tree.branches.size(); ++i)
-    answer["branches"].push_back(branch_answer(scene, tree, i));
+    answer["branches"].push_back(branch_answer(scene, tree, i, light));
   answer["cut_branches"] = tree.cut;
   answer["cut_share"] = tree.cut_share;
   return answer;
@@ -164,8 +181,8 @@ int trace(const TraceOptions& options) {
   const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
   const BasicRay<double> ray = first_ray(scene, options);
   const FollowLimits limits{.max_events = options.max_events};
-  const RayTree tree = follow_ray(scene, ray, options.wavelength_nm, options.follow, limits);
-  const Json answer = tree_answer(scene, tree, options.follow == Follow::both);
+  const RayTree tree = follow_ray(scene, ray, options.wavelength_nm, options.follow, limits, options.stokes);
+  const Json answer = tree_answer(scene, tree, options.follow == Follow::both, options.stokes);
   if (options.json)
     print(answer, true);
   else

@@ -20,7 +20,8 @@ struct TraceOptions {
   int max_events = 64;
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
-  std::string light = {};  ///< Where the ray starts, in place of an origin.
+  std::string light = {};           ///< Where the ray starts, in place of an origin.
+  StokesVector stokes{1, 0, 0, 0};  ///< Of the light that sets out, with I = 1.
   Follow follow = Follow::refraction;
 };
 

@@ -7,6 +7,7 @@
 #include "cli/answer.h"
 #include "film/shortcomings.h"
 #include "io/error.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe::cli {
 namespace {
@@ -26,12 +27,21 @@ void warn_of_dark_camera(const Scene& scene, bool strict) {
   if (const auto dark = dark_camera(scene)) warn(*dark, strict);
 }
 
-void note_polarisation(const Needs& needs) {
-  if (!needs.polarisation_matters) return;
+void note_polarisation(const Scene& scene) {
+  if (!scene.needs.polarisation_matters || scene.render.polarisation) return;
   say(fmt::format(
-      "polarisation is not carried, which matters after {}: it takes 0.3 % of the light off a prism of "
+      "render/polarisation is \"off\", which matters after {}: it takes 0.3 % of the light off a prism of "
       "N-BK7, 3 % of N-SF11, more where mirrors cross (docs/physics/conventions.md)",
-      needs.because.at("polarisation_matters")));
+      scene.needs.because.at("polarisation_matters")));
+}
+
+void warn_of_unpolarised_measurement(const Scene& scene, bool strict) {
+  if (any_analyser(scene.channels) && !scene.render.polarisation)
+    warn(
+        "the sensor measures how light is polarised, and render/polarisation is \"off\": all light will "
+        "count "
+        "as unpolarised",
+        strict);
 }
 
 }  // namespace abbe::cli

@@ -11,7 +11,11 @@ void warn_of_lost_light(const Scene& scene, bool strict);
 /// Warns of a camera that stands within opaque matter where no light is: Error{scene} when `strict`.
 void warn_of_dark_camera(const Scene& scene, bool strict);
 
-/// Says in a line, when the scene has paths where it costs something, that polarisation is left out.
-void note_polarisation(const Needs& needs);
+/// Says in a line, when the scene leaves polarisation out and has paths where that costs something, what it
+/// costs.
+void note_polarisation(const Scene& scene);
+
+/// Warns of a sensor that measures polarisation in a scene that leaves it out: Error{scene} when `strict`.
+void warn_of_unpolarised_measurement(const Scene& scene, bool strict);
 
 }  // namespace abbe::cli

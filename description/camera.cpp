@@ -25,8 +25,9 @@ static Fields fields(Tag<Aperture>) {
              "Focal length over the diameter of the opening; of a pinhole, which is sharp everywhere, it "
              "sets the exposure only and is 4 when neither it nor `t_stop` is given."),
        field("t_stop", &Aperture::t_stop, kFNumber,
-             "f-number over the root of the lens's transmittance, at least the f-number: it exposes as a "
-             "lens without losses of that f-number does, and alone stands for both.")});
+             "f-number over the root of the share of light that the lens passes, at least the f-number: it "
+             "exposes as a round lens without losses of that f-number does, and alone stands for a lens "
+             "without losses.")});
 }
 
 static Fields fields(Tag<Pinhole>) {
@@ -42,7 +43,7 @@ static Fields fields(Tag<ThinLens>) {
   return describe(
       "thin_lens", "A camera with an ideal lens.",
       {field("focal_length", &ThinLens::focal_length, kLength, "The focal length."),
-       lent(&ThinLens::aperture),
+       lent(&ThinLens::aperture), lent(&ThinLens::iris),
        field("focus_distance", &ThinLens::focus_distance,
              "Distance from the lens to the plane in focus, beyond the focal length; that from `from` to "
              "`to` when absent.")},
@@ -99,16 +100,19 @@ struct Aperture {
   double transmittance;
 };
 
-// T = N/sqrt(tau): a T-stop exposes as a lens without losses of that f-number does. Without an f-number the
-// lens is taken for one.
-std::optional<Aperture> build(const spec::Aperture& aperture, const LoadContext& context) {
+// T = N/sqrt(s tau), s being the share of the circle that is open: a T-stop exposes as a round lens without
+// losses of that f-number does. Without an f-number the lens is taken for one without losses.
+std::optional<Aperture> build(const spec::Aperture& aperture, double open_share, const LoadContext& context) {
   if (!aperture.t_stop) return Aperture{aperture.f_number.value_or(kDefaultFNumber), 1};
   const double t_stop = aperture.t_stop->value;
-  const double f_number = aperture.f_number.value_or(t_stop);
-  if (t_stop >= f_number) return Aperture{f_number, std::pow(f_number / t_stop, 2)};
+  if (!aperture.f_number) return Aperture{t_stop * std::sqrt(open_share), 1};
+  const double f_number = *aperture.f_number;
+  const double fastest = f_number / std::sqrt(open_share);
+  if (t_stop >= fastest) return Aperture{f_number, std::pow(fastest / t_stop, 2)};
   context.diagnostics.error(
       aperture.t_stop->where,
-      fmt::format("a T-stop is no faster than its f-number (got {}, allowed [{}, inf))", t_stop, f_number));
+      fmt::format("a T-stop is no faster than {} (got {}, allowed [{}, inf))",
+                  open_share < 1 ? "its f-number and blades let it be" : "its f-number", t_stop, fastest));
   return std::nullopt;
 }
 
@@ -140,7 +144,7 @@ std::optional<Placed> build(const spec::View& view, const SourcePosition& where,
 std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosition& where,
                              const Sensor& sensor, const LoadContext& context) {
   const auto placed = build(camera.view, where, context);
-  const auto aperture = build(camera.lens.aperture, context);
+  const auto aperture = build(camera.lens.aperture, 1, context);
   if (!placed || !aperture) return std::nullopt;
   double image_distance = 0;
   if (const auto* length = std::get_if<spec::FocalLength>(&camera.lens.view)) {
@@ -164,7 +168,8 @@ double focus_distance(const spec::ThinLens& lens, const Placed& placed, const Lo
 std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePosition& where,
                               const LoadContext& context) {
   const auto placed = build(camera.view, where, context);
-  const auto aperture = build(camera.lens.aperture, context);
+  const auto iris = build(camera.lens.iris, context);
+  const auto aperture = build(camera.lens.aperture, iris ? iris->share() : 1, context);
   if (!placed || !aperture) return std::nullopt;
   const double focus = focus_distance(camera.lens, *placed, context);
   const double f = camera.lens.focal_length * context.unit_m;
@@ -176,8 +181,8 @@ std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePo
     return std::nullopt;
   }
   // 1/v = 1/f - 1/s, in the form that holds for s = infinity.
-  return ThinLens{placed->frame, f / (1 - f / focus), focus, f / (2 * aperture->f_number),
-                  aperture->transmittance};
+  return ThinLens{
+      placed->frame, f / (1 - f / focus), focus, f / (2 * aperture->f_number), aperture->transmittance, iris};
 }
 
 std::optional<LensSystem> build(const spec::LensSystemCamera& camera, const SourcePosition& where,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <variant>
 
+#include "description/iris.h"
 #include "description/lens_system.h"
 #include "description/load_context.h"
 #include "description/motion.h"
@@ -27,6 +28,7 @@ struct Pinhole {
 struct ThinLens {
   double focal_length = 0;
   Aperture aperture;
+  Iris iris;
   std::optional<FocusDistance> focus_distance;  ///< Of what the camera looks at when absent.
   SourcePosition where;
 };

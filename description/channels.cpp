@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include "description/sensor.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe::description {
 namespace {
 
 // Above 1 by what a measurement may err, far below a percentage.
 constexpr Range kTransmittance{0, 1.05};
+constexpr Range kExtinctionRatio{1, 1e9};
 constexpr Range kQuantumEfficiency{0, 10};  // above 1 for energetic photons; per cent are more
 
 // As EXR files can name channels and what is said of them.
@@ -29,9 +31,10 @@ bool is_plain(std::string_view name) {
 
 /// What all channels of a sensor share.
 struct Detector {
-  std::optional<ResponseKind> response;
-  std::optional<Curve> quantum_efficiency;
-  std::optional<FilterStack> filters;  ///< Before all channels: the lens, and what lies over the sensor.
+  std::optional<ResponseKind> response = {};
+  std::optional<Curve> quantum_efficiency = {};
+  std::optional<FilterStack> filters = {};  ///< Before all channels: the lens, and what lies over the sensor.
+  std::optional<Polariser> polariser = {};  ///< Likewise.
   double exposure_s = 1;
 };
 
@@ -56,9 +59,20 @@ std::optional<FilterStack> build_filters(const spec::Filters& filters, LoadConte
   return complete ? std::optional(std::move(stack)) : std::nullopt;
 }
 
+std::optional<Polariser> build_polariser(const spec::PolarisingFilter& said, LoadContext& context) {
+  Polariser polariser{said.angle_deg};
+  const auto& passing = said.transmittance;
+  const auto transmittance = passing ? build(*passing, {"filter", kTransmittance}, context) : Curve(1.0);
+  const auto& ratio = said.extinction_ratio;
+  if (ratio) polariser.extinction_ratio = build(*ratio, {"filter", kExtinctionRatio}, context);
+  if (!transmittance || (ratio && !polariser.extinction_ratio)) return std::nullopt;
+  polariser.transmittance = *transmittance;
+  return polariser;
+}
+
 // Nothing after an error.
 std::optional<Detector> build_detector(const spec::Sensor& said, LoadContext& context) {
-  Detector detector{{}, {}, {}, said.exposure_s};
+  Detector detector{.exposure_s = said.exposure_s};
   if (said.response) detector.response = said.response->value;
   const auto& efficiency = said.quantum_efficiency;
   if (efficiency && detector.response == ResponseKind::energy)
@@ -66,10 +80,11 @@ std::optional<Detector> build_detector(const spec::Sensor& said, LoadContext& co
                               "a quantum_efficiency makes the response quantum (got \"energy\")");
   if (efficiency) detector.quantum_efficiency = build(*efficiency, {"camera", kQuantumEfficiency}, context);
   if (said.filters) detector.filters = build_filters(said.filters->value, context);
+  if (said.polariser) detector.polariser = build_polariser(*said.polariser, context);
   const auto& lens = said.lens_transmission;
   const auto transmission = lens ? build(*lens, {"filter", kTransmittance}, context) : std::optional<Curve>();
   if ((efficiency && !detector.quantum_efficiency) || (said.filters && !detector.filters) ||
-      (lens && !transmission))
+      (said.polariser && !detector.polariser) || (lens && !transmission))
     return std::nullopt;
   if (transmission) {
     if (!detector.filters) detector.filters.emplace();
@@ -82,6 +97,7 @@ std::optional<Detector> build_detector(const spec::Sensor& said, LoadContext& co
 struct Own {
   Curve curve = Curve(1.0);
   FilterStack filters = {};
+  std::optional<Polariser> polariser = {};
   double exposure_s;
 };
 
@@ -96,8 +112,12 @@ std::optional<Own> build_own(const spec::ChannelResponse& said, const Detector& 
     return own;
   }
   const auto& filtered = std::get<spec::FilteredChannel>(said);
-  auto stack = build_filters(filtered.filters, context);
-  if (!stack) return std::nullopt;
+  auto stack = build_filters(filtered.filters.value_or(spec::Filters{}), context);
+  if (filtered.polariser) own.polariser = build_polariser(*filtered.polariser, context);
+  if (!stack || (filtered.polariser && !own.polariser)) return std::nullopt;
+  if (filtered.polariser && detector.polariser)
+    context.diagnostics.error(filtered.polariser->where,
+                              "a second polariser: the sensor has one before all channels");
   own.exposure_s = filtered.exposure_s.value_or(own.exposure_s);
   own.curve = std::exchange(stack->fixed, Curve(1.0));
   own.filters = *std::move(stack);
@@ -120,6 +140,7 @@ std::optional<Channel> build_channel(const schema::Named<spec::ChannelResponse>&
   const bool quantum = detector.quantum_efficiency || detector.response == ResponseKind::quantum;
   Channel channel = quantum ? quantum_channel(name, curve) : energy_channel(name, std::move(curve));
   if (!own->filters.shifting.empty()) channel = behind(std::move(channel), own->filters);
+  if (own->polariser) channel = behind(std::move(channel), *own->polariser);
   if (own->exposure_s != detector.exposure_s)
     channel = exposed(std::move(channel), own->exposure_s / detector.exposure_s);
   return channel;
@@ -182,6 +203,7 @@ struct ChannelBuilder {
     refuse(place(said.electrons_per_lx_s), "electrons_per_lx_s", "spectral", context);
     refuse(place(said.filters), "filters", "spectral", context);
     refuse(place(said.lens_transmission), "lens_transmission", "spectral", context);
+    refuse(place(said.polariser), "polariser", "spectral", context);
     refuse(place(said.mosaic), "mosaic", "spectral", context);
     sensor.spectral = build_bins(bins, context);
     if (sensor.spectral) sensor.channels = spectral_channels(*sensor.spectral);
@@ -225,6 +247,16 @@ void require_response(const Channel& channel, const SourcePosition& where, LoadC
                                                  channel.name, kMinWavelengthNm, kMaxWavelengthNm));
 }
 
+// What stands in the way of measuring all of the light's polarisation.
+void check_stokes(const spec::Sensor& said, const Sensor& sensor, LoadContext& context) {
+  const auto refuse_beside = [&](bool there, const char* what) {
+    if (there) context.diagnostics.error(said.stokes->where, fmt::format("stokes goes without {}", what));
+  };
+  refuse_beside(any_analyser(sensor.channels), "polarisers, whose channels measure a part of it");
+  refuse_beside(said.mosaic.has_value(), "a mosaic, whose pixels count one value each");
+  refuse_beside(said.readout.has_value(), "a read-out, as its planes have a sign");
+}
+
 }  // namespace
 
 void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
@@ -233,9 +265,15 @@ void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& conte
   scale_to_peak(said, sensor, context);
   for (Channel& channel : sensor.channels) {
     if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
+    if (detector && detector->polariser && !channel.analyser)
+      channel = behind(std::move(channel), *detector->polariser);
     limit_angles(channel, 0);
     require_response(channel, place_of(channel, said), context);
   }
+  if (!said.stokes || !said.stokes->value) return;
+  check_stokes(said, sensor, context);
+  if (!any_analyser(sensor.channels) && !said.mosaic)
+    sensor.channels = with_stokes(std::move(sensor.channels));
 }
 
 }  // namespace abbe::description

@@ -53,6 +53,7 @@ template <typename E, typename... Choices>
 Fields describe_emission(std::string_view name, std::string_view text, bool has_flux, Choices... scale) {
   decltype(Emission::spectrum) E::*spectrum = &Emission::spectrum;
   decltype(Emission::scale) E::*scales = &Emission::scale;
+  decltype(Emission::polarised) E::*polarised = &Emission::polarised;
   const auto sources = [&](auto... more) {
     return one_of(
         spectrum,
@@ -74,10 +75,23 @@ Fields describe_emission(std::string_view name, std::string_view text, bool has_
                                   "spectral_flux_W_per_nm",
                                   "What the lamp sends out at each wavelength [W/nm], 0 or more."))
                             : sources(),
-                   at_most_one(scales, "an emission has one scale", std::move(scale)...)});
+                   at_most_one(scales, "an emission has one scale", std::move(scale)...),
+                   field("polarised", polarised, "How its light is polarised; not at all when absent.")});
 }
 
 }  // namespace
+
+static Fields fields(Tag<Polarisation>) {
+  return describe(
+      "polarised", "How the light of a lamp is polarised, at all wavelengths and in all directions.",
+      {one_of(&Polarisation::kind,
+              under<PolarisedAlong>("axis", direction(),
+                                    "Linearly: the field swings along this direction of the scene, which "
+                                    "stays where lamps move, as far as it lies across the way of the light."),
+              under<CircularlyPolarised>("circular", word<Handedness>("handedness", {"left", "right"}),
+                                         "Circularly: right is clockwise as the receiver sees it.")),
+       defaulted("degree", &Polarisation::degree, Range::unit(), "Share of the light that is polarised.")});
+}
 
 template <Quantity quantity>
 Fields fields(Tag<AmountAt<quantity>>) {
@@ -252,6 +266,15 @@ std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind&
   const std::optional<double> factor = normaliser(*spectrum, *scale, emission.where, context);
   if (!factor) return std::nullopt;
   return times(*spectrum, *factor);
+}
+
+std::optional<LampPolarisation> polarisation_of(const spec::Emission& emission) {
+  if (!emission.polarised) return std::nullopt;
+  const auto degree = static_cast<float>(emission.polarised->degree);
+  if (const auto* along = std::get_if<spec::PolarisedAlong>(&emission.polarised->kind))
+    return LampPolarisation{degree, LinearPolarisation{Imath::V3f(along->value.normalized())}};
+  const auto& circular = std::get<spec::CircularlyPolarised>(emission.polarised->kind);
+  return LampPolarisation{degree, CircularPolarisation{circular.value == spec::Handedness::right}};
 }
 
 }  // namespace abbe::description

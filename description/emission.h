@@ -5,7 +5,10 @@
 #include <string>
 #include <variant>
 
+#include <ImathVec.h>
+
 #include "description/curve.h"
+#include "scene/lights/polarisation.h"
 #include "spectral/scaled_curve.h"
 
 namespace abbe::spec {
@@ -34,6 +37,15 @@ struct AmountAt {
   double distance = 0;
 };
 
+struct PolarisedAlong : schema::Value<Imath::V3d> {};
+enum class Handedness { left, right };
+struct CircularlyPolarised : schema::Value<Handedness> {};
+/// How the light of a lamp is polarised.
+struct Polarisation {
+  std::variant<std::monostate, PolarisedAlong, CircularlyPolarised> kind;
+  double degree = 1;
+};
+
 /// What a lamp sends out: one spectrum, and at most one quantity that it is scaled to.
 struct Emission {
   std::variant<std::monostate, Illuminant, Blackbody, Daylight, Spectrum, Lines, SpectralFlux> spectrum;
@@ -42,6 +54,7 @@ struct Emission {
                Amount<Quantity::luminous_intensity>, Amount<Quantity::irradiance>,
                Amount<Quantity::illuminance>, AmountAt<Quantity::irradiance>, AmountAt<Quantity::illuminance>>
       scale;
+  std::optional<Polarisation> polarised;
   SourcePosition where;
 };
 // Emissions by what they may be scaled to.
@@ -76,5 +89,7 @@ struct LampKind {
 /// nothing then.
 [[nodiscard]] std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind& kind,
                                                LoadContext& context);
+/// How its light is polarised; nothing where it is not.
+[[nodiscard]] std::optional<LampPolarisation> polarisation_of(const spec::Emission& emission);
 
 }  // namespace abbe::description

@@ -38,27 +38,30 @@ static Kind kind(Tag<LensGlass::Wrapped>) {
 static Fields fields(Tag<LensSurface>) {
   using Pair = std::array<double, 2>;
   return describe(
-      "lens_surface", "A surface and what follows it, as an object or [radius, thickness, glass, aperture].",
-      {defaulted("radius", &LensSurface::radius, kMm,
-                 "Of curvature, positive where the centre is behind; 0 for a plane."),
-       defaulted("thickness", &LensSurface::thickness, kMm, "To the next surface, or to the image."),
-       field("glass", &LensSurface::glass, "What is behind it; air when absent."),
-       field("aperture", &LensSurface::aperture, kPositiveMm, "Half the diameter that lets light through."),
-       defaulted("stop", &LensSurface::stop, "Whether it is the aperture stop."),
-       defaulted("conic", &LensSurface::conic, {-1e6, 1e6},
-                 "Conic constant: 0 for a sphere, -1 for a paraboloid."),
-       defaulted("r2", &LensSurface::r2, Range::any(), "Coefficient of r^2 [1/mm]."),
-       defaulted("asphere", &LensSurface::asphere, Range::any(), "Coefficients of r^4, r^6, ... to r^20."),
-       defaulted("decenter", &LensSurface::decenter, vector<Pair>(kMm),
-                 "Of its vertex along x and y; what follows stays."),
-       defaulted("tilt_deg", &LensSurface::tilt_deg, vector<Pair>(kTilt),
-                 "About x, then about the tilted y."),
-       defaulted("coating", &LensSurface::coating, "Thin films, from the air inwards.")});
+             "lens_surface", "A surface and what follows it.",
+             {defaulted("radius", &LensSurface::radius, kMm,
+                        "Of curvature, positive where the centre is behind; 0 for a plane."),
+              defaulted("thickness", &LensSurface::thickness, kMm, "To the next surface, or to the image."),
+              field("glass", &LensSurface::glass, "What is behind it; air when absent."),
+              field("aperture", &LensSurface::aperture, kPositiveMm,
+                    "Half the diameter that lets light through."),
+              defaulted("stop", &LensSurface::stop, "Whether it is the aperture stop."),
+              defaulted("conic", &LensSurface::conic, {-1e6, 1e6},
+                        "Conic constant: 0 for a sphere, -1 for a paraboloid."),
+              defaulted("r2", &LensSurface::r2, Range::any(), "Coefficient of r^2 [1/mm]."),
+              defaulted("asphere", &LensSurface::asphere, Range::any(),
+                        "Coefficients of r^4, r^6, ... to r^20."),
+              defaulted("decenter", &LensSurface::decenter, vector<Pair>(kMm),
+                        "Of its vertex along x and y; what follows stays."),
+              defaulted("tilt_deg", &LensSurface::tilt_deg, vector<Pair>(kTilt),
+                        "About x, then about the tilted y."),
+              defaulted("coating", &LensSurface::coating, "Thin films, from the air inwards.")})
+      .or_row(2, 4);
 }
 
 Fields fields(Tag<Lens>) {
   return describe(
-      "Abbe lens", "Lengths are in mm, wavelengths in nm, indices relative to air.",
+      "lens", "Lengths are in mm, wavelengths in nm, indices relative to air.",
       {defaulted("title", &Lens::title, "What it is."),
        defaulted("source", &Lens::source, "Where its figures come from."),
        field("surfaces", &Lens::surfaces, list<LensSurface>("surfaces", 1),

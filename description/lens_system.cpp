@@ -25,11 +25,18 @@ Kind kind(Tag<FocusDistance>) {
                               form<double>(Json::number, kLength));
 }
 
+Kind kind(Tag<Prescription>) {
+  return forms<Prescription>("", "a lens: its name, a file, or an object with its surfaces",
+                             form<std::string>(Json::text), form<Lens>(Json::object));
+}
+
 Fields fields(Tag<LensSystem>) {
   return describe(
       "lens_system", "A camera with a real lens, traced surface by surface; the film is at its image.",
-      {field("prescription", &LensSystem::prescription,
-             "A lens by its name in `data/lens`, or a file of one (`.json`, `.zmx`, `.dat`)."),
+      {field(
+           "prescription", &LensSystem::prescription,
+           "A lens by its name in `data/lens`, a file of one (`.json`, `.zmx`, `.dat`), or what its `.json` "
+           "would say."),
        field("focus_distance", &LensSystem::focus_distance,
              "Distance from the first surface to the plane in focus, which moves the film; where the "
              "prescription has its image when absent."),
@@ -39,7 +46,8 @@ Fields fields(Tag<LensSystem>) {
            "axis is least, of the prescription's wavelengths together."),
        field("f_number", &LensSystem::f_number, Range{0, 1e6, true, false},
              "Focal length over the diameter of the beam on the axis, to which the stop is closed; as wide "
-             "as the prescription says when absent.")});
+             "as the prescription says when absent."),
+       lent(&LensSystem::iris)});
 }
 
 }  // namespace abbe::spec
@@ -50,7 +58,8 @@ namespace {
 constexpr double kMmPerM = 1000;
 
 std::optional<lens::System> load_prescription(const spec::LensSystem& said, LoadContext& context) {
-  std::string name = said.prescription.value;
+  if (const auto* itself = std::get_if<spec::Lens>(&said.prescription.value)) return build(*itself, context);
+  std::string name = std::get<std::string>(said.prescription.value);
   if (std::filesystem::path(name).has_extension()) {
     const auto file = context.file(name, said.prescription.where);
     if (!file) return std::nullopt;
@@ -130,6 +139,7 @@ std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame&
   try {
     const std::optional<double> stop = closed_stop(said, *lens, context);
     if (!stop || (said.focus_distance && !focus(said, *lens, *stop, context))) return std::nullopt;
+    lens->surfaces[lens->stop].iris = build(said.iris, context);
     const Support counted = counted_range(sensor);
     const FilmGrid grid{sensor.width, sensor.height, sensor.pixel_pitch};
     return LensSystem{frame,

@@ -4,6 +4,8 @@
 #include <string>
 #include <variant>
 
+#include "description/iris.h"
+#include "description/lens.h"
 #include "description/load_context.h"
 #include "description/sensor.h"
 #include "io/schema/fields.h"
@@ -17,14 +19,19 @@ enum class Far { infinity };
 using FocusDistance = std::variant<double, Far>;
 [[nodiscard]] schema::Kind kind(schema::Tag<FocusDistance>);
 
+/// A lens by its name or file, or what such a file says.
+using Prescription = std::variant<std::string, Lens>;
+[[nodiscard]] schema::Kind kind(schema::Tag<Prescription>);
+
 enum class FilmPlane { paraxial, best };
 /// A lens of a prescription.
 struct LensSystem {
-  schema::Located<std::string> prescription;
+  schema::Located<Prescription> prescription;
   std::optional<FocusDistance>
       focus_distance;  ///< The image stays where the prescription has it when absent.
   FilmPlane focus = FilmPlane::best;
   std::optional<schema::Located<double>> f_number;
+  Iris iris;
   SourcePosition where;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<LensSystem>);
@@ -33,7 +40,7 @@ struct LensSystem {
 
 namespace abbe::description {
 
-/// The lens in front of the sensor's film. Reports what its prescription says that is wrong, in its own file,
+/// The lens in front of the sensor's film. Reports what its prescription says that is wrong, where it stands,
 /// a lens that cannot be in focus there or cannot be opened so far, and a film that it does not light;
 /// nothing then.
 [[nodiscard]] std::optional<LensSystem> build(const spec::LensSystem& lens, const CameraFrame& frame,

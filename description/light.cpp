@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "description/material.h"
+#include "description/shape.h"
 #include "scene/shapes/quad.h"
 
 namespace abbe::spec {
@@ -186,7 +187,8 @@ struct LightBuilder {
 
   void add(decltype(Light::kind) kind, const spec::Emission& emission, const LampKind& lamp) {
     if (auto curve = build(emission, lamp, context))
-      scene.lights.push_back({std::move(name), std::move(kind), *std::move(curve)});
+      scene.lights.push_back(
+          {std::move(name), std::move(kind), *std::move(curve), polarisation_of(emission)});
   }
   // Of a lamp at a point, in a scene that has been recentred.
   [[nodiscard]] Moving moving_point() const {
@@ -266,7 +268,8 @@ struct LightBuilder {
     if (!sky->texels.empty())
       light.image = std::make_shared<const EnvironmentImage>(sky->width, sky->height, std::move(sky->texels),
                                                              sky->frame, curve->curve(), scene.channels);
-    scene.lights.push_back({std::move(name), std::move(light), *std::move(curve)});
+    scene.lights.push_back(
+        {std::move(name), std::move(light), *std::move(curve), polarisation_of(said.emission)});
   }
 };
 
@@ -281,7 +284,8 @@ void add_area_light(const spec::Emission& emission, bool two_sided, std::uint32_
   }
   auto curve = build(emission, area_lamp(instance.shape, two_sided), context);
   if (!curve) return;
-  scene.lights.push_back({instance.name, AreaLight{shape, two_sided}, std::move(*curve)});
+  scene.lights.push_back(
+      {instance.name, AreaLight{shape, two_sided}, std::move(*curve), polarisation_of(emission)});
 }
 
 LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadContext& context, Scene& scene) {

@@ -5,7 +5,6 @@
 
 #include "description/lens.h"
 #include "description/pbrt_table.h"
-#include "description/short_form.h"
 #include "description/zemax.h"
 #include "io/data_directory.h"
 #include "io/schema/read.h"
@@ -20,10 +19,7 @@ std::optional<spec::Lens> read_json(const fs::path& file, Diagnostics& diagnosti
   const auto source = read_text(file, diagnostics);
   auto root = source ? parse_json(source, diagnostics) : std::nullopt;
   if (!root) return std::nullopt;
-  description::expand_short_surfaces(*root, diagnostics);
-  auto lens = schema::read<spec::Lens>(*root, diagnostics);
-  if (lens) lens->where = root->where;
-  return lens;
+  return schema::read<spec::Lens>(*root, diagnostics);
 }
 
 using Reader = std::optional<spec::Lens> (*)(const fs::path&, Diagnostics&);

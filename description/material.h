@@ -91,6 +91,29 @@ struct CosinePower : Power {
 };
 struct Phong : Power {};
 struct Retroreflector : Power {};
+/// What all thin elements have.
+struct ThinElement {
+  std::optional<Curve> transmittance;
+};
+struct Polariser : ThinElement {
+  std::optional<Curve> extinction_ratio;
+  double angle_deg = 0;
+};
+struct Retardance {
+  double retardance_deg = 0;
+};
+struct Crystal {
+  double thickness = 0;
+  Curve birefringence;
+};
+struct WavePlate : ThinElement {
+  std::variant<std::monostate, Retardance, Crystal> kind;
+  double angle_deg = 0;
+};
+struct Depolariser : ThinElement {};
+[[nodiscard]] schema::Fields fields(schema::Tag<Polariser>);
+[[nodiscard]] schema::Fields fields(schema::Tag<WavePlate>);
+[[nodiscard]] schema::Fields fields(schema::Tag<Depolariser>);
 struct MixturePart {
   schema::Located<std::string> material;
   Curve weight;
@@ -106,7 +129,8 @@ struct BumpMap {
 };
 struct Material {
   std::variant<std::monostate, Mixture, Diffuse, Dielectric, Conductor, Film, Medium, CoatedDiffuse,
-               ThinGlass, Mirror, Schlick, OrenNayar, Principled, CosinePower, Phong, Retroreflector>
+               ThinGlass, Mirror, Schlick, OrenNayar, Principled, CosinePower, Phong, Retroreflector,
+               Polariser, WavePlate, Depolariser>
       model;
   std::optional<schema::Located<int>> priority;
   std::variant<std::monostate, NormalMap, BumpMap> relief;
@@ -138,6 +162,10 @@ void build_materials(const spec::Materials& materials, LoadContext& context, Sce
 [[nodiscard]] std::optional<Medium> build(const spec::Scattering& scattering,
                                           const std::optional<spec::Curve>& absorption, LoadContext& context);
 [[nodiscard]] std::optional<PlacedGrid> build(const spec::Grid& grid, LoadContext& context);
+/// Thin elements report curves out of their ranges; nothing then.
+[[nodiscard]] std::optional<MaterialModel> build(const spec::Polariser& polariser, LoadContext& context);
+[[nodiscard]] std::optional<MaterialModel> build(const spec::WavePlate& plate, LoadContext& context);
+[[nodiscard]] std::optional<MaterialModel> build(const spec::Depolariser& sheet, LoadContext& context);
 /// A mixture of materials of `scene` that are no mixtures.
 [[nodiscard]] std::optional<MixtureMaterial> build(const spec::Mixture& mixture, LoadContext& context,
                                                    const Scene& scene);

@@ -1,3 +1,4 @@
+#include <concepts>
 #include <utility>
 #include <vector>
 
@@ -184,7 +185,8 @@ Fields fields(Tag<Material>) {
               under<ThinGlass>("thin_glass"), under<Mirror>("mirror"), under<Schlick>("schlick"),
               under<OrenNayar>("oren_nayar"), under<Principled>("principled"),
               under<CosinePower>("cosine_power"), under<Phong>("phong"),
-              under<Retroreflector>("retroreflector")),
+              under<Retroreflector>("retroreflector"), under<Polariser>("polariser"),
+              under<WavePlate>("wave_plate"), under<Depolariser>("depolariser")),
        field("priority", &Material::priority, {-1000, 1000},
              "Of the matter inside, 0 when absent: where shapes overlap, that of the highest priority is "
              "there, of equals the one that light enters last."),
@@ -313,6 +315,10 @@ struct ModelBuilder {
   }
   Model operator()(const spec::Retroreflector& said) const {
     return made<RetroreflectorMaterial>(build(said.reflectance, context), said.exponent);
+  }
+  template <std::derived_from<spec::ThinElement> Element>
+  Model operator()(const Element& said) const {
+    return build(said, context);
   }
 };
 

@@ -20,6 +20,9 @@ std::shared_ptr<const Material> mixable_material(const schema::Located<std::stri
   if (std::holds_alternative<MixtureMaterial>(material.model)) fault = "a mixture within a mixture";
   if (interior(material) != nullptr || medium(material) != nullptr)
     fault = "light enters it, which a mixture has no inside for";
+  if (std::holds_alternative<PolariserMaterial>(material.model) ||
+      std::holds_alternative<WavePlateMaterial>(material.model))
+    fault = "its axis would be lost, as a mixture has one of its own for all parts";
   if (material.relief != nullptr) fault = "its relief would be lost, which the mixture may have instead";
   if (fault == nullptr) return std::make_shared<const Material>(material);
   context.diagnostics.error(name.where,

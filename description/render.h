@@ -17,6 +17,9 @@ struct Photons {
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Photons>);
 
+/// Whether paths carry polarisation: where it matters, or never.
+enum class Polarising { automatic, off };
+
 /// How to render.
 struct Render {
   Integrator integrator = Integrator::automatic;
@@ -26,6 +29,7 @@ struct Render {
   std::uint64_t seed = 0;
   std::optional<Photons> photons;
   bool consistent = false;
+  Polarising polarisation = Polarising::automatic;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 

@@ -8,6 +8,7 @@
 
 #include "io/image.h"
 #include "sensor/readout/speed.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe::spec {
 namespace {
@@ -32,7 +33,8 @@ Kind filters() {
 
 Kind channels() {
   return by_name<ChannelResponse>(
-      forms<ChannelResponse>("channel", "a channel", form<FilteredChannel>(Json::object, {"filters"}),
+      forms<ChannelResponse>("channel", "a channel",
+                             form<FilteredChannel>(Json::object, {"filters", "polariser"}),
                              form<Curve>(Json::any)),
       "channels by name", 1);
 }
@@ -52,12 +54,26 @@ static Fields fields(Tag<InterferenceFilter>) {
                          "Transmittance along the normal, in [0, 1.05].")});
 }
 
+static Fields fields(Tag<PolarisingFilter>) {
+  return describe(
+      "polarising_filter", "A polariser for linearly polarised light, before the film.",
+      {field("angle_deg", &PolarisingFilter::angle_deg, kAngle,
+             "Of the axis along which it lets light pass: from the right of the picture towards up."),
+       field("transmittance", &PolarisingFilter::transmittance,
+             "Of light polarised along that axis, in [0, 1.05]; 1 when absent."),
+       field("extinction_ratio", &PolarisingFilter::extinction_ratio,
+             "That transmittance over the one of light polarised across the axis, from 1 to 1e9; infinite "
+             "when absent.")});
+}
+
 static Fields fields(Tag<FilteredChannel>) {
   return describe(
-      "filtered_channel", "A channel behind filters of its own.",
+      "filtered_channel", "A channel behind filters of its own, or behind a polariser.",
       {field("filters", &FilteredChannel::filters, filters(), "The filters, one behind the other."),
+       field("polariser", &FilteredChannel::polariser, "Before the filters of this channel alone."),
        field("exposure_s", &FilteredChannel::exposure_s, kExposure,
-             "Exposure time of this channel; the sensor's when absent.")});
+             "Exposure time of this channel; the sensor's when absent.")},
+      {"filters", "polariser"});
 }
 
 static Fields fields(Tag<Bins>) {
@@ -105,6 +121,10 @@ Fields fields(Tag<Sensor>) {
        field("filters", &Sensor::filters, filters(), "Filters before every channel, one behind the other."),
        field("lens_transmission", &Sensor::lens_transmission,
              "Transmittance in [0, 1.05] before all filters."),
+       field("polariser", &Sensor::polariser, "Before all channels."),
+       field("stokes", &Sensor::stokes,
+             "Whether every channel measures the Stokes vector of the light: C the intensity, S1.C, S2.C and "
+             "S3.C the other components."),
        field("mosaic", &Sensor::mosaic, mosaic(),
              "Channels of single pixels, rows of a pattern that repeats from the top left corner."),
        field("readout", &Sensor::readout)},
@@ -210,6 +230,12 @@ void scale_to_sensitivity(const spec::Sensor& said, Sensor& sensor, LoadContext&
             said.electrons_per_lx_s->value * spec::kPeak.high / peak));
 }
 
+// Polarisation is told in the frame of a picture.
+void check_polarisation(const spec::Sensor& said, const Sensor& sensor, LoadContext& context) {
+  if (any_analyser(sensor.channels))
+    context.diagnostics.error(said.where, "a meter of irradiance tells no polarisation");
+}
+
 }  // namespace
 
 Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
@@ -220,6 +246,7 @@ Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
   if (said.shutter) sensor.shutter = build(*said.shutter, sensor.exposure_s, sensor.height, context);
   sensor.fill_factor = said.fill_factor;
   build_channels(said, sensor, context);
+  if (probe) check_polarisation(said, sensor, context);
   scale_to_sensitivity(said, sensor, context);
   if (said.model && std::holds_alternative<std::monostate>(said.counts))
     context.diagnostics.error(said.where, "neither the model nor the scene says what its pixels count");

@@ -21,9 +21,17 @@ struct InterferenceFilter {
 };
 using Filter = std::variant<Curve, InterferenceFilter>;
 using Filters = std::vector<Filter>;
-/// A channel behind filters of its own.
+/// A polariser for linearly polarised light.
+struct PolarisingFilter {
+  double angle_deg = 0;
+  std::optional<Curve> transmittance;     ///< 1 when absent.
+  std::optional<Curve> extinction_ratio;  ///< Infinite when absent.
+  SourcePosition where;
+};
+/// A channel behind filters of its own, perhaps behind a polariser.
 struct FilteredChannel {
-  Filters filters;
+  std::optional<Filters> filters;
+  std::optional<PolarisingFilter> polariser;
   std::optional<double> exposure_s;  ///< The sensor's when absent.
 };
 using ChannelResponse = std::variant<Curve, FilteredChannel>;
@@ -54,6 +62,8 @@ struct Sensor {
   std::optional<schema::Located<double>> electrons_per_lx_s;
   std::optional<schema::Located<Filters>> filters;
   std::optional<Curve> lens_transmission;
+  std::optional<PolarisingFilter> polariser;
+  std::optional<schema::Located<bool>> stokes;
   std::optional<schema::Located<std::vector<schema::Located<std::vector<schema::Located<std::string>>>>>>
       mosaic;
   std::optional<schema::Located<Readout>> readout;

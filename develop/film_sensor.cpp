@@ -10,6 +10,7 @@
 #include "sensor/film/recorded_white.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/readout_json.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe {
 namespace {
@@ -49,7 +50,7 @@ struct Metadata {
 
 void read_planes(const Metadata& data, FilmSensor& sensor) {
   sensor.planes = split(data.text("sensor_channels"), ',');
-  sensor.channels = sensor.planes;
+  sensor.channels = intensities(sensor.planes);
   const double exposure_s = sensor.shared_exposure_s = data.number("exposure_s");
   for (const std::string& plane : sensor.planes)
     sensor.exposure_s.push_back(data.find_number("exposure_s." + plane).value_or(exposure_s));
@@ -101,6 +102,10 @@ std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
       if (const auto* text = std::get_if<std::string>(&name->value)) sensor.camera = *text;
   const JsonValue* readout = json->find("readout");
   if (readout == nullptr || diagnostics.has_errors()) return std::nullopt;
+  if (sensor.planes.size() > sensor.channels.size() && !sensor.mosaic)
+    throw Error(
+        ErrorCode::input, data.path.string(),
+        fmt::format("its plane \"{}\" has a sign, and no electrons to read out", sensor.planes.back()));
   for (const std::string& channel : sensor.channels)
     if (!data.text("channel." + channel).starts_with("quantum"))
       throw Error(ErrorCode::input, data.path.string(),

@@ -26,7 +26,7 @@ struct FilmSensor {
   double shared_exposure_s = 1;    ///< The sensor's,
   std::vector<double> exposure_s;  ///< and that of each plane.
   std::optional<Mosaic> mosaic;
-  std::vector<std::string> channels;  ///< The planes, or the channels of the mosaic.
+  std::vector<std::string> channels;  ///< The planes that count light, or the channels of the mosaic.
   double gathering_area_m2 = 0;       ///< Film values times this are what a pixel counts.
   std::optional<Readout> readout;
   std::optional<double> electrons_per_lx_s;  ///< Of a pixel of the most sensitive channel, in daylight.

@@ -17,6 +17,7 @@
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_crop.h"
 #include "sensor/film/recorded_mosaic.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe {
 namespace {
@@ -36,7 +37,7 @@ void read_mosaic(LinearImage& read) {
 
 // Leaves the film's own planes, in the order of the sensor; files keep channels by the alphabet.
 void keep_planes(Image& image) {
-  std::vector<std::string> order = plane_names(image);
+  std::vector<std::string> order = intensities(plane_names(image));
   if (!told(image, "sensor_channels") && !is_spectral(image)) {
     std::erase_if(order, [](const std::string& name) { return name.find('.') != std::string::npos; });
     const std::vector<std::string> colors{"R", "G", "B"};

@@ -81,6 +81,12 @@ void forget_channels(std::map<std::string, std::string>& metadata) {
   std::erase_if(metadata, [](const auto& entry) { return entry.first.starts_with("channel."); });
 }
 
+void forget_layout(std::map<std::string, std::string>& metadata) {
+  for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime", "to_xyz_d65",
+                          kHandednessKey, kSpectralBinsKey, kAxisKey, kDistanceKey})
+    metadata.erase(key);
+}
+
 Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
                    const std::filesystem::path& path, Diagnostics& diagnostics) {
   for (const Channel& channel : sensor.channels) check_coverage(image, channel, path, diagnostics);
@@ -88,9 +94,7 @@ Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
   if (sensor.mosaic) film = mosaicked(film, *sensor.mosaic, names_of(sensor.channels));
   film.metadata = image.metadata;
   forget_channels(film.metadata);
-  for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime",
-                          kSpectralBinsKey, kAxisKey, kDistanceKey})
-    film.metadata.erase(key);
+  forget_layout(film.metadata);
   for (const auto& [key, value] : sensor.metadata) film.metadata[key] = value;
   return film;
 }

@@ -48,6 +48,9 @@ struct RadianceSensor {
 /// Drops what is said of the channels of the sensor that a film was exposed on.
 void forget_channels(std::map<std::string, std::string>& metadata);
 
+/// Drops what is said of the layout of a spectral film, and of its preview.
+void forget_layout(std::map<std::string, std::string>& metadata);
+
 /// The film of a sensor that looks at the radiances read from `path`, with the metadata of both; with a
 /// mosaic, its one plane. Warns of channels that respond beyond the image's bands. Throws Error{input} for
 /// one that sees nothing of them.

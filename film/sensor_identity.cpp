@@ -15,6 +15,8 @@
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
+#include "sensor/response/polariser_group.h"
+#include "sensor/response/stokes_channels.h"
 #include "transport/render/white.h"
 
 namespace abbe {
@@ -83,6 +85,10 @@ FilmIdentity sensor_identity(const Scene& scene) {
                                               ? "quantum, electrons per m^2"
                                               : "energy, response-weighted J per m^2";
   }
+  const auto rows = polariser_rows(scene.channels);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (rows[k]) identity[kAnalyserKey + names[k]] = to_text(*rows[k]);
+  if (count_intensities(scene.channels) < scene.channels.size()) identity[kHandednessKey] = kRightHanded;
   identity["sensor_channels"] = fmt::format("{}", fmt::join(scene.film_planes(), ","));
   if (scene.mosaic) {
     identity["mosaic"] = to_text(*scene.mosaic, names);
@@ -100,7 +106,7 @@ FilmIdentity sensor_identity(const Scene& scene) {
 DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
   if (scene.spectral) return display_of_radiance(view, white_of(scene).xy);
   const White white = has_colors(scene) ? white_of(scene) : White{"", "", {}, Curve(1.0)};
-  return make_display(scene.channels, *white.spectrum, view, white.xy);
+  return make_display(intensities(scene.channels), *white.spectrum, view, white.xy);
 }
 
 Image film_image(Image planes) {

@@ -92,8 +92,9 @@ Image spectral_film_image(const Image& film) {
       spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_s));
   for (ImageChannel& channel : observed(image).channels) image.others.push_back(std::move(channel));
   forget_channels(image.metadata);
-  for (const SpectralBand& band : image.bands)
-    image.metadata["channel." + spectral_channel(band.center_nm)] = kRadiance;
+  for (int component = 0; component < (image.is_polarised() ? 4 : 1); ++component)
+    for (const SpectralBand& band : image.bands)
+      image.metadata["channel." + spectral_channel(band.center_nm, component)] = kRadiance;
   return spectral_layout(image);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <vector>
 
 #include "io/text.h"
 
@@ -155,7 +156,10 @@ std::string unknown_name(std::string_view kind, std::string_view name,
     return fmt::format("unknown {} \"{}\"; did you mean \"{}\"?", kind, name, *nearest);
   if (candidates.empty() || candidates.size() > kShortList)
     return fmt::format("unknown {} \"{}\"", kind, name);
-  return fmt::format("unknown {} \"{}\"; known: {}", kind, name, fmt::join(candidates, ", "));
+  std::vector<std::string> known;  // each once, although two forms of a thing may have it
+  for (const std::string& candidate : candidates)
+    if (std::find(known.begin(), known.end(), candidate) == known.end()) known.push_back(candidate);
+  return fmt::format("unknown {} \"{}\"; known: {}", kind, name, fmt::join(known, ", "));
 }
 
 }  // namespace abbe

@@ -19,7 +19,6 @@ constexpr const char* kVersionKey = "spectralLayoutVersion";
 constexpr const char* kVersion = "1.0";
 constexpr const char* kUnitsKey = "emissiveUnits";
 constexpr const char* kUnits = "W.m^-2.sr^-1";
-constexpr const char* kHandednessKey = "polarisationHandedness";
 constexpr double kLightSpeed = 299792458;  // m/s
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
@@ -63,7 +62,8 @@ void check_polarisation(const Image& image, const std::array<Component, 4>& stok
                         const std::string& where) {
   if (std::all_of(stokes.begin() + 1, stokes.end(), [](const Component& c) { return c.empty(); })) return;
   const auto handedness = image.metadata.find(kHandednessKey);
-  if (handedness == image.metadata.end() || (handedness->second != "left" && handedness->second != "right"))
+  if (handedness == image.metadata.end() ||
+      (handedness->second != "left" && handedness->second != kRightHanded))
     refuse(where,
            fmt::format("polarised, but no attribute \"{}\" (allowed \"left\", \"right\")", kHandednessKey));
   const auto same_center = [](const SpectralBand& a, const SpectralBand& b) {
@@ -74,10 +74,17 @@ void check_polarisation(const Image& image, const std::array<Component, 4>& stok
       refuse(where, fmt::format("S{} has other wavelengths than S0", i));
 }
 
+// Of images whose S3 has the other sign.
+void turn_to_right(Image& image, Component& s3) {
+  if (std::exchange(image.metadata.at(kHandednessKey), kRightHanded) == kRightHanded) return;
+  for (SpectralBand& band : s3)
+    for (float& value : band.radiance) value = -value;
+}
+
 }  // namespace
 
-std::string spectral_channel(double center_nm) {
-  std::string name = fmt::format("S0.{:.6f}nm", center_nm);
+std::string spectral_channel(double center_nm, int component) {
+  std::string name = fmt::format("S{}.{:.6f}nm", component, center_nm);
   name[name.rfind('.')] = ',';
   return name;
 }
@@ -104,8 +111,9 @@ std::optional<SpectralName> parse_spectral_channel(std::string_view name, const 
 
 bool is_spectral(const Image& image) {
   return image.metadata.contains(kVersionKey) ||
-         std::any_of(image.channels.begin(), image.channels.end(),
-                     [](const ImageChannel& channel) { return looks_spectral(channel.name); });
+         std::any_of(image.channels.begin(), image.channels.end(), [](const ImageChannel& channel) {
+           return looks_spectral(channel.name) && (channel.name[0] == 'T' || channel.name[1] == '0');
+         });
 }
 
 std::vector<double> band_edges(const std::vector<SpectralBand>& bands) {
@@ -121,6 +129,10 @@ Image spectral_layout(const SpectralImage& image) {
   Image layout{image.width, image.height, image.others, image.metadata};
   for (const SpectralBand& band : image.bands)
     layout.channels.push_back({spectral_channel(band.center_nm), band.radiance});
+  for (std::size_t i = 0; i < image.polarised.size(); ++i)
+    for (const SpectralBand& band : image.polarised[i])
+      layout.channels.push_back({spectral_channel(band.center_nm, static_cast<int>(i) + 1), band.radiance});
+  if (image.is_polarised()) layout.metadata[kHandednessKey] = kRightHanded;
   layout.metadata[kVersionKey] = kVersion;
   layout.metadata[kUnitsKey] = kUnits;
   return layout;
@@ -148,6 +160,8 @@ SpectralImage spectral_image(Image image, const std::string& where) {
   require_attribute(image, kUnitsKey, kUnits, where);
   check_polarisation(image, stokes, where);
   result.bands = std::move(stokes[0]);
+  std::move(stokes.begin() + 1, stokes.end(), result.polarised.begin());
+  if (result.is_polarised()) turn_to_right(image, result.polarised[2]);
   result.metadata = std::move(image.metadata);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <iconv.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "io/error.h"
 #include "io/sha256.h"
 #include "io/standard_stream.h"
 
@@ -156,6 +158,36 @@ bool append_utf8(const std::u16string& units, std::string& text) {
   return true;
 }
 
+// The same text in UTF-8, up to the first byte that is no letter; all of it is taken from `bytes`.
+std::string taken_from_windows_1252(std::string_view& bytes) {
+  const iconv_t converter = ::iconv_open("UTF-8", "WINDOWS-1252");
+  if (converter == reinterpret_cast<iconv_t>(-1))
+    throw Error(ErrorCode::input, "", "the C library of this system does not convert Windows-1252");
+  std::string text(3 * bytes.size(), '\0');  // no letter of it takes more
+  auto* from = const_cast<char*>(bytes.data());
+  std::size_t left = bytes.size();
+  char* to = text.data();
+  std::size_t room = text.size();
+  ::iconv(converter, &from, &left, &to, &room);
+  ::iconv_close(converter);
+  bytes.remove_prefix(bytes.size() - left);
+  text.resize(text.size() - room);
+  return text;
+}
+
+// The source in UTF-8, if its bytes are letters of Windows-1252.
+std::shared_ptr<const SourceText> from_windows_1252(const std::shared_ptr<SourceText>& source,
+                                                    Diagnostics& diagnostics, ErrorCode code) {
+  const std::string bytes = std::move(source->text);
+  std::string_view left = bytes;
+  source->text = taken_from_windows_1252(left);
+  if (left.empty()) return checked(source, diagnostics, code);
+  return refuse(source, source->text.size(),
+                fmt::format("neither UTF-8 nor Windows-1252 (got byte 0x{:02X})",
+                            static_cast<unsigned char>(left.front())),
+                code, diagnostics);
+}
+
 }  // namespace
 
 std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, Diagnostics& diagnostics,
@@ -169,7 +201,12 @@ std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path&
   const auto source = read_source(path, diagnostics, code, kMaxTextBytes);
   if (!source) return nullptr;
   const auto order = utf16_order(source->text);
-  if (!order) return checked(source, diagnostics, code);
+  if (!order) {
+    const std::size_t valid = valid_prefix(source->text);
+    const bool utf8 =
+        valid == source->text.size() || source->text[valid] == 0 || source->text.starts_with(kByteOrderMark);
+    return utf8 ? checked(source, diagnostics, code) : from_windows_1252(source, diagnostics, code);
+  }
   const bool whole = source->text.size() % 2 == 0;
   const std::u16string units = utf16_units(source->text, *order);
   source->text.clear();

@@ -23,7 +23,9 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
                                                           ErrorCode code = ErrorCode::input,
                                                           std::size_t limit_bytes = kMaxTextBytes);
 /// The same of a file that may be UTF-16 as well, which is told by its byte order mark, or by the zeros that
-/// the letters of plain text have in it; unpaired surrogates are reported. The text given is UTF-8.
+/// the letters of plain text have in it, or Windows-1252, which holds Latin-1 and is what any other text is
+/// that is not UTF-8. Unpaired surrogates, and bytes that no letter has, are reported. The text given is
+/// UTF-8.
 [[nodiscard]] std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path& path,
                                                                   Diagnostics& diagnostics,
                                                                   ErrorCode code = ErrorCode::input);

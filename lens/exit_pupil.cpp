@@ -88,6 +88,13 @@ std::vector<V2d> joined(std::span<const std::vector<V2d>* const> parts) {
   return all;
 }
 
+// Of which the bounds along a radius are those all around.
+SpectralSystem without_blades(const SpectralSystem& system) {
+  System round = system.system();
+  round.surfaces[round.stop].iris.reset();
+  return {std::move(round), system.stop_radius_mm()};
+}
+
 }  // namespace
 
 V2d PupilBound::point(const V2d& disc) const {
@@ -106,7 +113,8 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
       columns_(centred_ ? kRadii : kCells),
       rows_(centred_ ? 1 : kCells) {
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
-  centred_ ? bound_along_radius(system, wavelengths_nm) : bound_all_over(system, wavelengths_nm);
+  const SpectralSystem round = without_blades(system);
+  centred_ ? bound_along_radius(round, wavelengths_nm) : bound_all_over(round, wavelengths_nm);
   if (std::all_of(bounds_.begin(), bounds_.end(), [](const PupilBound& b) { return !(b.area() > 0); }))
     throw Error(ErrorCode::scene, system.system().title, "no light comes through the lens to the film");
 }

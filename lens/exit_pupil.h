@@ -26,10 +26,11 @@ struct EntranceDisc {
   double radius;
 };
 
-/// Bounds of the exit pupil as the points of an image see it, found once by rays from there, and of where all
-/// of these rays come in. Nothing passes outside of them: they are those of the rim at neighbouring points of
-/// the image and at some wavelengths together, a little widened. Where surfaces without clear apertures would
-/// let light through by ways apart from the beam, far outside of it, that light is none of the lens's.
+/// Bounds of the exit pupil, of a stop with blades that of its circle, as the points of an image see it,
+/// found once by rays from there, and of where all of these rays come in. Nothing passes outside of them:
+/// they are those of the rim at neighbouring points of the image and at some wavelengths together, a little
+/// widened. Where surfaces without clear apertures would let light through by ways apart from the beam, far
+/// outside of it, that light is none of the lens's.
 class ExitPupil {
  public:
   /// For an image of these half sides [mm] and wavelengths between the ends of the range. Throws

@@ -44,7 +44,8 @@ std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) 
   speed.f_number = std::abs(first.focal_length_mm) / speed.entrance_diameter_mm;
   speed.working_f_number = 1 / (2 * at.n.back() * std::abs(marginal->last.direction.y));
   speed.transmittance = axial.transmitted / axial.passed;
-  speed.t_stop = speed.f_number / std::sqrt(speed.transmittance);
+  const auto& iris = at.surface(at.system->stop).iris;
+  speed.t_stop = speed.f_number / std::sqrt(speed.transmittance * (iris ? iris->share() : 1));
   speed.airy_radius_um = kFirstZeroOfJ1 / std::numbers::pi * at.wavelength_nm * 1e-3 * speed.working_f_number;
   return speed;
 }

@@ -14,7 +14,7 @@ struct Speed {
   double f_number;              ///< Focal length over that diameter.
   double working_f_number;      ///< 1/(2 n' sin U') of the real marginal ray.
   double transmittance;         ///< Mean over the axial beam.
-  double t_stop;                ///< f-number over the root of the transmittance.
+  double t_stop;                ///< f-number over the root of the transmittance and the share between blades.
   double airy_radius_um;        ///< Of the first dark ring, 0.6098 lambda/(n' sin U'). [Born1999]
 };
 /// Nothing where the axial beam does not get to the image.

@@ -2,76 +2,118 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abbe::lens {
 namespace {
 
-using V3d = Imath::V3d;
+using Imath::Vec3;
 
 constexpr int kMaxNewtonSteps = 60;
 constexpr double kConverged = 1e-14;  // of the distance, or of a millimetre
 
 // The conic is c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0; of the ray's two points on it the one is taken where
 // the gradient (-c x, -c y, 1 - (1 + k) c z) has the ray's sense, which must be on the vertex's sheet.
-std::optional<double> intersect_conic(double c, double k, const V3d& o, const V3d& d) {
-  const double a = c * (1 + k * d.z * d.z);
-  const double b = d.z - c * (o.dot(d) + k * o.z * d.z);
-  const double rest = c * (o.length2() + k * o.z * o.z) - 2 * o.z;
-  const double square = b * b - a * rest;
-  if (!(square > 0)) return std::nullopt;
-  const double root = std::sqrt(square);
-  const double t = b + root > 0 ? rest / (b + root) : (b - root) / a;
-  if (!(1 - (1 + k) * c * (o.z + t * d.z) > 0)) return std::nullopt;
-  return t;
+template <typename Real>
+Meeting<Real> meet_conic(double c, double k, const BasicRay<Real>& ray) {
+  using std::sqrt;
+  const auto& [o, d] = ray;
+  const Real a = c * (1 + k * d.z * d.z);
+  const Real b = d.z - c * (o.dot(d) + k * o.z * d.z);
+  const Real rest = c * (o.dot(o) + k * o.z * o.z) - 2 * o.z;
+  const Real square = b * b - a * rest;
+  const Real root = sqrt(select(square > 0, square, 1));
+  const Truth<Real> onwards = b + root > 0;
+  const Real t = select(onwards, rest, b - root) / select(onwards, b + root, a);
+  return {square > 0 && (1 - (1 + k) * c * (o.z + t * d.z) > 0), t};
+}
+
+template <typename Real>
+Real conic_root(const Profile& of, const Real& r2) {
+  using std::sqrt;
+  return sqrt(1 - (1 + of.conic) * of.curvature * of.curvature * r2);
+}
+
+template <typename Real>
+Real sag_at(const Profile& of, const Real& r2) {
+  Real powers = 0;
+  for (std::size_t i = of.even.size(); i-- > 0;) powers = (powers + of.even[i]) * r2;
+  return of.curvature * r2 / (1 + conic_root(of, r2)) + powers;
+}
+
+// dz/d(r^2).
+template <typename Real>
+Real slope_at(const Profile& of, const Real& r2) {
+  Real powers = 0;
+  for (std::size_t i = of.even.size(); i-- > 0;)
+    powers = powers * r2 + static_cast<double>(i + 1) * of.even[i];
+  return of.curvature / (2 * conic_root(of, r2)) + powers;
+}
+
+// Newton's method from `start` on.
+template <typename Real>
+Meeting<Real> meet_asphere(const Profile& of, const BasicRay<Real>& ray, const Real& start) {
+  using std::abs;
+  const auto& [o, d] = ray;
+  Meeting<Real> meeting{false, start};
+  Truth<Real> seeking = true;
+  for (int step = 0; step < kMaxNewtonSteps && bool(seeking); ++step) {
+    Real& t = meeting.length_mm;
+    const Vec3<Real> p = o + d * t;
+    const Real r2 = p.x * p.x + p.y * p.y;
+    const Real towards = d.z - 2 * slope_at(of, r2) * (p.x * d.x + p.y * d.y);
+    const Real change = (p.z - sag_at(of, r2)) / towards;
+    seeking = seeking && abs(change) <= std::numeric_limits<double>::max();
+    t -= select(seeking, change, 0);
+    const Real close = kConverged * select(abs(t) > 1, abs(t), 1);
+    meeting.met = meeting.met || (seeking && abs(change) <= close && towards > 0);
+    seeking = seeking && abs(change) > close;
+  }
+  return meeting;
 }
 
 }  // namespace
 
 bool Profile::aspheric() const {
-  double sizes = 0;
-  for (const double a : even) sizes += std::abs(a);
-  return sizes != 0;
+  return std::any_of(even.begin(), even.end(), [](double a) { return a != 0; });
 }
 
 double Profile::sag(double r2) const {
-  double powers = 0;
-  for (std::size_t i = even.size(); i-- > 0;) powers = (powers + even[i]) * r2;
-  return curvature * r2 / (1 + std::sqrt(1 - (1 + conic) * curvature * curvature * r2)) + powers;
+  return sag_at(*this, r2);
 }
 
-double Profile::slope(double r2) const {
-  double powers = 0;
-  for (std::size_t i = even.size(); i-- > 0;) powers = powers * r2 + static_cast<double>(i + 1) * even[i];
-  return curvature / (2 * std::sqrt(1 - (1 + conic) * curvature * curvature * r2)) + powers;
+template <typename Real>
+Vec3<Real> Profile::normal(const Vec3<Real>& point) const {
+  if (!aspheric()) {  // from z, which is exact where the sheet is steep
+    const Vec3<Real> up(-curvature * point.x, -curvature * point.y, 1 - (1 + conic) * curvature * point.z);
+    return conic == 0 ? up : unit(up);  // of a sphere it is the way to the centre over the radius
+  }
+  const Real s = 2 * slope_at(*this, Real(point.x * point.x + point.y * point.y));
+  return unit(Vec3<Real>(-s * point.x, -s * point.y, 1));
 }
 
-V3d Profile::normal(const V3d& point) const {
-  if (!aspheric())  // from z, which is exact where the sheet is steep
-    return V3d(-curvature * point.x, -curvature * point.y, 1 - (1 + conic) * curvature * point.z)
-        .normalized();
-  const double s = 2 * slope(point.x * point.x + point.y * point.y);
-  return V3d(-s * point.x, -s * point.y, 1).normalized();
+template <typename Real>
+Meeting<Real> Profile::meet(const BasicRay<Real>& ray) const {
+  using std::abs;
+  // From the point nearest to the vertex on, so that the squares of far origins do not swamp the rest.
+  const Real nearest = -ray.origin.dot(ray.direction);
+  const BasicRay<Real> near{ray.origin + ray.direction * nearest, ray.direction};
+  Meeting<Real> meeting = meet_conic(curvature, conic, near);
+  if (aspheric())
+    meeting = meet_asphere(*this, near,
+                           select(meeting.met, meeting.length_mm,
+                                  select(abs(near.direction.z) > 0, -near.origin.z / near.direction.z, 0)));
+  return {meeting.met, nearest + meeting.length_mm};
 }
 
 std::optional<double> Profile::intersect(const Ray& ray) const {
-  // From the point nearest to the vertex on, so that the squares of far origins do not swamp the rest.
-  const double nearest = -ray.origin.dot(ray.direction);
-  const V3d o = ray.origin + nearest * ray.direction;
-  const V3d& d = ray.direction;
-  const auto conic_t = intersect_conic(curvature, conic, o, d);
-  if (!aspheric()) return conic_t ? std::optional(nearest + *conic_t) : std::nullopt;
-  double t = conic_t.value_or(d.z != 0 ? -o.z / d.z : 0);
-  for (int step = 0; step < kMaxNewtonSteps; ++step) {
-    const V3d p = o + t * d;
-    const double r2 = p.x * p.x + p.y * p.y;
-    const double towards = d.z - 2 * slope(r2) * (p.x * d.x + p.y * d.y);
-    const double change = (p.z - sag(r2)) / towards;
-    if (!std::isfinite(change)) return std::nullopt;
-    t -= change;
-    if (std::abs(change) <= kConverged * std::max(1.0, std::abs(t)))
-      return towards > 0 ? std::optional(nearest + t) : std::nullopt;
-  }
-  return std::nullopt;
+  const auto [met, length_mm] = meet(ray);
+  return met ? std::optional(length_mm) : std::nullopt;
 }
+
+template Vec3<double> Profile::normal(const Vec3<double>&) const;
+template Vec3<Doubles> Profile::normal(const Vec3<Doubles>&) const;
+template Meeting<double> Profile::meet(const Ray&) const;
+template Meeting<Doubles> Profile::meet(const BasicRay<Doubles>&) const;
 
 }  // namespace abbe::lens

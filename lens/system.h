@@ -8,6 +8,7 @@
 #include <ImathMatrix.h>
 #include <ImathVec.h>
 
+#include "lens/iris.h"
 #include "lens/profile.h"
 #include "materials/index/refractive_index.h"
 #include "materials/interface/coating.h"
@@ -31,6 +32,7 @@ struct Surface {
   Imath::V2d decenter_mm{0, 0};            ///< Of its vertex alone; what follows stays where it is.
   Imath::V2d tilt_deg{0, 0};               ///< About x, then about the tilted y, through its vertex.
   Coating coating{};                       ///< From the air inwards.
+  std::optional<Iris> iris{};              ///< Blades that leave a polygon of the semi-aperture's circle.
 
   [[nodiscard]] bool displaced() const;
 };

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lens/system.h"
+#include "lens/crossing.h"
 
 namespace abbe::lens {
 
@@ -14,47 +14,8 @@ enum class RayEnd {
   stopped            ///< Beyond the clear aperture of a surface.
 };
 
-/// Where a ray passes a surface.
-struct RayHit {
-  Imath::V3d point;      ///< On the surface.
-  Imath::V3d normal;     ///< Unit, towards +z.
-  Imath::V3d direction;  ///< Behind the surface.
-  double length_mm;      ///< From the last surface, or from the ray's origin.
-};
-
-/// A surface where it stands, between the indices before and behind it.
-struct SurfaceBetween {
-  const Surface& surface;
-  const SystemAt::Frame& frame;
-  double n_before;
-  double n_behind;
-};
-
 /// Whether clear apertures stop light.
 enum class Apertures { obeyed, ignored };
-
-/// Takes a ray through a surface, and tells of it in `hit` if it ends at RayEnd::image.
-[[nodiscard]] RayEnd cross(const SurfaceBetween& at, Apertures apertures, const Ray& ray, RayHit& hit);
-
-/// The same of a ray that goes the other way, towards -z; its direction in `hit` is that before the surface,
-/// and the length is as negative as it is long.
-[[nodiscard]] RayEnd cross_back(const SurfaceBetween& at, Apertures apertures, const Ray& ray, RayHit& hit);
-
-/// Unpolarised light on its way through surfaces: two fields across each other, s and p of which every
-/// surface weakens by its own amplitudes. Of coatings the phases are left out, so that beyond them s and p
-/// keep the phase they had.
-class WeakenedLight {
- public:
-  explicit WeakenedLight(const Imath::V3d& direction);
-  /// Passes a surface, coming along `from`.
-  void cross(const SurfaceBetween& at, double wavelength_nm, const Imath::V3d& from, const RayHit& hit);
-  /// Share of the power that is left.
-  [[nodiscard]] double power() const { return (first_.length2() + second_.length2()) / 2; }
-
- private:
-  Imath::V3d first_;
-  Imath::V3d second_;
-};
 
 /// A ray's way, exact to double precision.
 struct RayPath {

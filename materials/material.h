@@ -14,6 +14,7 @@
 #include "materials/model/principled.h"
 #include "materials/model/rough.h"
 #include "materials/model/smooth.h"
+#include "materials/model/thin_element.h"
 #include "materials/texture/relief.h"
 
 namespace abbe {
@@ -40,7 +41,8 @@ using MaterialModel =
     std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial, RoughDielectricMaterial,
                  RoughConductorMaterial, MediumMaterial, CoatedDiffuseMaterial, ThinGlassMaterial,
                  MixtureMaterial, MirrorMaterial, SchlickMaterial, OrenNayarMaterial, PrincipledMaterial,
-                 CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial>;
+                 CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial, PolariserMaterial,
+                 WavePlateMaterial, DepolariserMaterial>;
 
 template <typename List>
 inline constexpr bool kAllSurfaceModels = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/bsdf/polarisation.h"
 #include "materials/material.h"
 
 namespace abbe {
@@ -37,6 +38,17 @@ Choice choose(const MixtureMaterial& material, const SampledSpectrum& wavelength
     left -= weight[hero];
   }
   return choice;
+}
+
+SampledSpectrum delta_power(const Bsdf& part, const Imath::V3f& wo, bool through) {
+  return visit_model(
+      [&](const auto& model) {
+        if constexpr (requires { model.delta_power(wo, through); })
+          return model.delta_power(wo, through);
+        else
+          return SampledSpectrum();
+      },
+      part);
 }
 
 }  // namespace
@@ -76,6 +88,31 @@ SampledSpectrum MixtureBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) con
   for (const MixtureMaterial::Component& component : material_->components)
     weighted += component.weight(wavelengths_nm_) * abbe::pdf(make_bsdf(*component.material, at()), wo, wi);
   return quotient(weighted, total_weight(*material_, wavelengths_nm_));
+}
+
+// Light enters no part, so that none scales what passes.
+std::optional<MuellerMatrix> MixtureBsdf::mueller(const Imath::V3f& wo, const Imath::V3f& wi,
+                                                  bool delta) const {
+  SampledSpectrum total;
+  std::optional<MuellerMatrix> sum;
+  for (const MixtureMaterial::Component& component : material_->components) {
+    const Bsdf part = make_bsdf(*component.material, at());
+    const SampledSpectrum power =
+        component.weight(wavelengths_nm_) *
+        (delta ? delta_power(part, wo, wo.z * wi.z < 0) : abbe::eval(part, wo, wi, TransportMode::power));
+    total += power;
+    const auto own = power.is_zero() ? std::nullopt : abbe::mueller(part, wo, wi, delta);
+    if (!own) continue;
+    if (!sum) sum = {own->axis, {}, {}, {}, {}};
+    sum->d += power * own->d;
+    sum->p += power * own->p;
+    sum->c += power * own->c;
+    sum->s += power * own->s;
+  }
+  if (sum)
+    for (SampledSpectrum* element : {&sum->d, &sum->p, &sum->c, &sum->s})
+      *element = quotient(*element, total);
+  return sum;
 }
 
 }  // namespace abbe

@@ -2,6 +2,8 @@
 
 #include <variant>
 
+#include "materials/interface/fresnel_mueller.h"
+#include "materials/interface/thin_element.h"
 #include "materials/interface/thin_sheet.h"
 
 namespace abbe {
@@ -45,8 +47,17 @@ struct PowerOf {
   Power operator()(const CoatedDiffuseMaterial& paint) const {
     return reflected(fresnel_dielectric(at.cos_i, paint.index.n(at.wavelength_nm) / at.outside));
   }
+  Power operator()(const PolariserMaterial& sheet) const {
+    return straight_on(sheet.mean_transmittance(at.wavelength_nm));
+  }
+  Power operator()(const WavePlateMaterial& plate) const {
+    return straight_on(plate.transmittance(at.wavelength_nm));
+  }
+  Power operator()(const DepolariserMaterial& sheet) const {
+    return straight_on(sheet.transmittance(at.wavelength_nm));
+  }
   // Matter that begins without an interface.
-  Power operator()(const MediumMaterial&) const { return {{0, 0, 1, 1, at.cos_i}}; }
+  Power operator()(const MediumMaterial&) const { return straight_on(1); }
   Power operator()(const MixtureMaterial& mixture) const {
     Power sum;
     for (const MixtureMaterial::Component& component : mixture.components) {
@@ -65,11 +76,80 @@ struct PowerOf {
     return std::nullopt;
   }
 
+  [[nodiscard]] Power straight_on(double T) const { return {{0, 0, T, T, at.cos_i}}; }
   // Of an opaque surface.
   static Power reflected(const FresnelPower<double>& power) { return {{power.Rs, power.Rp, 0, 0, 0}}; }
 };
 
+constexpr MuellerElements<double> kUnpolarised{0, 0, 0, 0};
+
+struct SmoothMuellerOf {
+  const SmoothLookup& at;
+
+  SmoothMueller operator()(const DielectricMaterial& glass) const {
+    return {coated_mueller(glass.coating, at.wavelength_nm, glass.index.n(at.wavelength_nm), 0, at.cos_i,
+                           at.inside, at.outside)};
+  }
+  SmoothMueller operator()(const ConductorMaterial& metal) const {
+    return {coated_mueller(metal.coating, at.wavelength_nm, metal.index.n(at.wavelength_nm),
+                           metal.index.k(at.wavelength_nm), at.cos_i, false, at.outside)};
+  }
+  SmoothMueller operator()(const MirrorMaterial& /*mirror*/) const { return {{kIdealMirror<double>, {}}}; }
+  SmoothMueller operator()(const SchlickMaterial& /*mirror*/) const { return {{kIdealMirror<double>, {}}}; }
+  SmoothMueller operator()(const ThinGlassMaterial& pane) const {
+    return {sheet_mueller(at.cos_i, pane.index.n(at.wavelength_nm) / at.outside,
+                          pane.index.absorption_per_m(at.wavelength_nm) * pane.thickness)};
+  }
+  SmoothMueller operator()(const CoatedDiffuseMaterial& paint) const {
+    return {{reflection_mueller(at.cos_i, paint.index.n(at.wavelength_nm) / at.outside, 0.0), {}}};
+  }
+  SmoothMueller operator()(const PolariserMaterial& sheet) const {
+    return {{{}, polariser_mueller(sheet.blocked(at.wavelength_nm))}, surface_axis(sheet.angle)};
+  }
+  SmoothMueller operator()(const WavePlateMaterial& plate) const {
+    return {{{}, wave_plate_mueller(plate.retardance(at.wavelength_nm))}, surface_axis(plate.angle)};
+  }
+  SmoothMueller operator()(const DepolariserMaterial& /*sheet*/) const { return {{{}, kUnpolarised}}; }
+  SmoothMueller operator()(const MediumMaterial& /*boundary*/) const { return {}; }
+  // The mean over the parts, by the power that each sends that way.
+  SmoothMueller operator()(const MixtureMaterial& mixture) const {
+    SmoothMueller sum{{kUnpolarised, kUnpolarised}};
+    double reflected = 0;
+    double through = 0;
+    for (const MixtureMaterial::Component& component : mixture.components) {
+      const auto power = smooth_power(*component.material, at);
+      if (!power) continue;
+      const double weight = component.weight(at.wavelength_nm);
+      const MuellerBothWays<double> part = smooth_mueller(*component.material, at)->ways;
+      add(part.reflected, weight * power->R(), sum.ways.reflected, reflected);
+      add(part.through, weight * power->transmitted(), sum.ways.through, through);
+    }
+    scale(sum.ways.reflected, reflected);
+    scale(sum.ways.through, through);
+    return sum;
+  }
+  template <typename Spread>
+  SmoothMueller operator()(const Spread&) const {
+    static_assert(!Spread::lobes().delta);
+    return {};
+  }
+
+  using Elements = MuellerElements<double>;
+  static void add(const Elements& part, double power, Elements& sum, double& total) {
+    sum = {sum.d + power * part.d, sum.p + power * part.p, sum.c + power * part.c, sum.s + power * part.s};
+    total += power;
+  }
+  static void scale(Elements& sum, double total) {
+    if (total > 0) sum = {sum.d / total, sum.p / total, sum.c / total, sum.s / total};
+  }
+};
+
 }  // namespace
+
+std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at) {
+  if (!smooth_power(material, at)) return std::nullopt;
+  return std::visit(SmoothMuellerOf{at}, material.model);
+}
 
 std::optional<FresnelPower<double>> smooth_power(const Material& material, const SmoothLookup& at) {
   return std::visit(PowerOf{at}, material.model);

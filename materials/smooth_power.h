@@ -5,6 +5,7 @@
 #include <ImathVec.h>
 
 #include "materials/interface/fresnel.h"
+#include "materials/interface/mueller.h"
 #include "materials/material.h"
 
 namespace abbe {
@@ -24,5 +25,15 @@ struct SmoothLookup {
 /// decide at unknown coordinates.
 [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const Material& material,
                                                                const SmoothLookup& at);
+
+/// What that does to polarisation, all elements being 0 where it depolarises.
+struct SmoothMueller {
+  MuellerBothWays<double> ways;
+  /// In the surface, x being along u; of thin elements, whose axis is its projection across the ray. Without
+  /// it the axis is that across the plane of incidence.
+  std::optional<Imath::V2d> axis = {};
+};
+/// Nothing where `smooth_power` says nothing.
+[[nodiscard]] std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at);
 
 }  // namespace abbe

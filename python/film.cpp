@@ -60,7 +60,8 @@ py::object spectrum(const FilmHandle& film, int x, int y) {
     throw Error(ErrorCode::usage, "spectrum",
                 fmt::format("no such pixel (got {}, {}, allowed up to {}, {})", x, y, image.width - 1,
                             image.height - 1));
-  return film.array()[py::make_tuple(y, x)];
+  const auto bands = static_cast<py::ssize_t>(band_channels(image).size());
+  return film.array()[py::make_tuple(y, x, py::slice(0, bands, 1))];
 }
 
 FilmHandle film_of_file(const fs::path& path) {

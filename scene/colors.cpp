@@ -1,9 +1,11 @@
 #include "scene/colors.h"
 
+#include "sensor/response/stokes_channels.h"
+
 namespace abbe {
 
 bool has_colors(const Scene& scene) {
-  return scene.spectral || scene.channels.size() == 3;
+  return scene.spectral || count_intensities(scene.channels) == 3;
 }
 
 }  // namespace abbe

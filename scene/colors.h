@@ -4,7 +4,8 @@
 
 namespace abbe {
 
-/// Whether a film of the scene has colours, and so a white: three channels, or a spectrum.
+/// Whether a film of the scene has colours, and so a white: three channels that count light, or a
+/// spectrum.
 [[nodiscard]] bool has_colors(const Scene& scene);
 
 }  // namespace abbe

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "scene/polarisation_need.h"
 #include "scene/scene.h"
 #include "scene/shapes/placed.h"
 #include "scene/small_light.h"
@@ -39,7 +38,7 @@ constexpr std::array<NeedName, 15> kNeeds{{
     {"delta_lights", &Needs::delta_lights, "point, spot or directional lights"},
     {"narrow_bands", &Needs::narrow_bands, "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &Needs::polarisation_matters,
-     "interfaces may follow each other at oblique angles"},
+     "light that one event has polarised may meet another that depends on it"},
     {"depth_of_field", &Needs::depth_of_field, "a lens of finite aperture"},
     {"angular_response", &Needs::angular_response, "a filter shifts with the angle of incidence on the film"},
     {"motion", &Needs::motion, "a shape, a light or the camera moves while the film is exposed"},
@@ -52,73 +51,6 @@ void require(Needs& needs, bool Needs::*need, bool asked, const char* kind, cons
   const auto* known =
       std::find_if(kNeeds.begin(), kNeeds.end(), [need](const NeedName& n) { return n.member == need; });
   needs.because[known->key] = name.empty() ? kind : fmt::format("{} \"{}\"", kind, name);
-}
-
-bool is_black(const Material& material) {
-  const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model);
-  return diffuse != nullptr && !diffuse->reflectance.textured() && diffuse->reflectance.curve().max() == 0;
-}
-
-// Reflects s and p alike: by definition, or as a metal of n = 0, which lets nothing in.
-bool is_ideal_mirror(const Material& material) {
-  if (std::holds_alternative<MirrorMaterial>(material.model)) return true;
-  const auto* metal = std::get_if<ConductorMaterial>(&material.model);
-  if (metal == nullptr) return false;
-  for (double lambda_nm = kMinWavelengthNm; lambda_nm <= kMaxWavelengthNm; ++lambda_nm)
-    if (metal->index.n(lambda_nm) > 0) return false;
-  return true;
-}
-
-// The normal of what is flat and stands still.
-std::optional<Imath::V3d> flat_normal(const Shape& shape) {
-  if (motion_of(shape) != nullptr) return std::nullopt;
-  std::optional<Imath::V3d> normal;
-  if (const auto* quad = plain<Quad>(shape)) normal = normal_of(*quad);
-  if (const auto* disc = plain<Disc>(shape)) normal = disc->normal;
-  const auto* placed = std::get_if<PlacedShape>(&shape);
-  return normal && placed ? normal_to_world(*placed->at, *normal) : normal;
-}
-
-// Whether the camera sees all specular shapes, parallel planes, within 10 degrees of their normals, and
-// nothing is there to scatter light to other angles. Reflectances for s and p, 4 % in the mean, then differ
-// by a tenth of it at most, and two of them in a row by 0.2 % of their product.
-bool seen_along_normals(const Scene& scene) {
-  constexpr double kSteepest = 10 * std::numbers::pi / 180;
-  constexpr double kParallel = 1 - 1e-9;
-  const CameraTraits camera = traits(scene.camera);
-  const std::optional<Imath::V3d>& axis = camera.axis;
-  // Behind a real lens the angles at the film are others than those in the scene.
-  if (!axis || camera.displaces_lanes || scene.camera.motion) return false;
-  std::optional<Imath::V3d> common;
-  for (const ShapeInstance& instance : scene.shapes) {
-    const Material& material = material_of(scene, instance);
-    const Lobes sent = lobes(material);
-    const Medium* filling = medium(material);
-    if ((sent.spread && !is_black(material)) || (filling != nullptr && filling->scatters())) return false;
-    if (!sent.delta) continue;
-    const std::optional<Imath::V3d> normal = flat_normal(instance.shape);
-    if (!normal || std::abs(normal->dot(common.value_or(*normal))) < kParallel) return false;
-    common = normal;
-    const double along = std::min(1.0, std::abs(normal->dot(*axis)));
-    if (std::acos(along) + std::acos(least_film_cosine(scene.camera)) > kSteepest) return false;
-  }
-  return true;
-}
-
-// Two shapes that polarise may throw light at each other; so may the faces of one mesh, and the two
-// interfaces of a glass ball. Ideal mirrors polarise nothing, and at normal incidence nothing does. The shape
-// that makes it so, if any.
-const ShapeInstance* chained_interface(const Scene& scene) {
-  if (seen_along_normals(scene)) return nullptr;
-  int specular = 0;
-  for (const ShapeInstance& instance : scene.shapes) {
-    const Material& material = material_of(scene, instance);
-    if (!lobes(material).delta || is_ideal_mirror(material)) continue;
-    const bool refracts = interior(material) != nullptr;
-    if (++specular >= 2 || plain<Mesh>(instance.shape) || (refracts && plain<Sphere>(instance.shape)))
-      return &instance;
-  }
-  return nullptr;
 }
 
 // A shape that light enters by an interface and another one that looks otherwise there, or ends matter
@@ -177,8 +109,8 @@ void analyse_matter(const Scene& scene, Needs& needs) {
   if (specular != nullptr) require(needs, &Needs::caustics, scattering && lit, "shape", specular->name);
   if (const ShapeInstance* nested = nested_shape(scene))
     require(needs, &Needs::nesting, true, "shape", nested->name);
-  if (const ShapeInstance* chained = chained_interface(scene))
-    require(needs, &Needs::polarisation_matters, true, "shape", chained->name);
+  if (const auto polarising = polarisation_need(scene))
+    require(needs, &Needs::polarisation_matters, true, polarising->kind, polarising->name);
 }
 
 void analyse_lights(const Scene& scene, Needs& needs) {

@@ -25,9 +25,8 @@ struct Needs {
   bool textures =
       false;  ///< Some scattering depends on where on its surface: by coordinates or vertex normals.
   bool delta_lights = false;
-  bool narrow_bands = false;  ///< Some emission or response has features narrower than 10 nm.
-  bool polarisation_matters =
-      false;  ///< Two or more dielectric or metal events may follow each other off-normal.
+  bool narrow_bands = false;          ///< Some emission or response has features narrower than 10 nm.
+  bool polarisation_matters = false;  ///< See `polarisation_need`.
   bool depth_of_field = false;
   bool angular_response = false;  ///< Some filter shifts with the angle of incidence on the film.
   bool motion = false;            ///< A shape, a light or the camera moves while the film is exposed.

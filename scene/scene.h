@@ -73,6 +73,8 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   PhotonSettings photons = {};
   bool consistent = false;  ///< Whether Integrator::automatic may also choose what blurs, ever less.
+  /// Whether paths carry it where it matters; else all light counts as unpolarised at every event.
+  bool polarisation = true;
 };
 
 /// Where to write, as the scene file asks; empty when it does not.

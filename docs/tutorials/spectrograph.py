@@ -16,7 +16,8 @@ def line_columns(film):
     counts = planes(film)["counts"][0]
     lit = np.flatnonzero(counts > 0.01 * counts.max())
     lines = np.split(lit, np.flatnonzero(np.diff(lit) > 1) + 1)
-    return np.array([np.average(line + 0.5, weights=counts[line]) for line in lines])
+    strongest = max(counts[line].sum() for line in lines)  # light that goes round within the prism makes faint lines beside each
+    return np.array([np.average(line + 0.5, weights=counts[line]) for line in lines if counts[line].sum() > 0.1 * strongest])
 
 
 def hartmann(columns, nm):

@@ -12,6 +12,18 @@ Field Field::with(Presence other) const {
   return field;
 }
 
+Fields Fields::or_row(std::size_t least, std::size_t most) const {
+  Fields table = *this;
+  table.row = Row{least, most};
+  return table;
+}
+
+std::vector<std::string_view> Fields::row_keys() const {
+  std::vector<std::string_view> keys;
+  for (std::size_t i = 0; row && i < row->most; ++i) keys.push_back(fields.at(i).key);
+  return keys;
+}
+
 Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
                 std::vector<std::string_view> any_of, bool exclusive) {
   return {name, text, std::move(fields), std::move(any_of), exclusive};

@@ -50,6 +50,13 @@ struct Field {
   [[nodiscard]] Field with(Presence other) const;
 };
 
+/// A list that may stand in the place of a thing's object: the values of its first keys, of so many at least
+/// and at most, null where a key is not said.
+struct Row {
+  std::size_t least;
+  std::size_t most;
+};
+
 /// The table of a thing.
 struct Fields {
   std::string_view name;  ///< That of a definition of the JSON schema.
@@ -57,10 +64,16 @@ struct Fields {
   std::vector<Field> fields;
   /// Keys, or paths of keys ("sun/irradiance"), one of which must be there; the first is asked for.
   std::vector<std::string_view> any_of = {};
-  bool exclusive = false;  ///< Whether no two of them may be there.
+  bool exclusive = false;       ///< Whether no two of them may be there.
+  std::optional<Row> row = {};  ///< Of keys alone, each of which may be absent.
   // What the type of the thing tells.
   const void* defaults = nullptr;                   ///< A thing as its members' initialisers make it.
   SourcePosition* (*where)(void* thing) = nullptr;  ///< Where it keeps its place, nullptr when it does not.
+
+  /// The same table of a thing that may be written as a row.
+  [[nodiscard]] Fields or_row(std::size_t least, std::size_t most) const;
+  /// The keys of the row.
+  [[nodiscard]] std::vector<std::string_view> row_keys() const;
 };
 
 namespace detail {

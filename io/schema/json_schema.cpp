@@ -233,9 +233,28 @@ struct SchemaOf {
     return defined(fields.name, [&] {
       Object schema;
       if (!fields.text.empty()) add(schema, "description", string(fields.text));
-      write_object(fields, schema, definitions);
+      if (fields.row) {
+        Object object;
+        write_object(fields, object, definitions);
+        add(schema, "anyOf", json(Array{json(std::move(object)), row_of(fields)}));
+      } else {
+        write_object(fields, schema, definitions);
+      }
       return json(std::move(schema));
     });
+  }
+  JsonValue row_of(const Fields& fields) const {
+    Array values;
+    for (std::size_t i = 0; i < fields.row->most; ++i)
+      values.push_back(object_of(
+          "anyOf",
+          json(Array{schema_of(std::get<Kind>(*fields.fields[i].part), definitions), of_type("null")})));
+    JsonValue schema = of_type("array");
+    auto& object = std::get<Object>(schema.value);
+    add(object, "prefixItems", json(std::move(values)));
+    add(object, "minItems", json(static_cast<double>(fields.row->least)));
+    add(object, "maxItems", json(static_cast<double>(fields.row->most)));
+    return schema;
   }
   JsonValue operator()(const List& kind) const {
     JsonValue all = array_of(schema_of(*kind.element, definitions), kind.least, 0);

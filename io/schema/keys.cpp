@@ -60,7 +60,11 @@ struct KindText {
     return within(fmt::format("{} {}", vector.count, vector.whole ? "integers" : "numbers"), vector.range);
   }
   std::string operator()(const Numbers& numbers) const { return within("numbers", numbers.range); }
-  std::string operator()(const Thing& thing) const { return linked("object", &thing.fields(), links); }
+  std::string operator()(const Thing& thing) const {
+    const Fields& fields = thing.fields();
+    const std::string object = linked("object", &fields, links);
+    return fields.row ? fmt::format("{} or [{}]", object, fmt::join(fields.row_keys(), ", ")) : object;
+  }
   std::string operator()(const List& list) const {
     const std::string element = kind_text(*list.element, links);
     return fmt::format("{}[{}, …]", list.bare ? element + " or " : "", element);

@@ -185,10 +185,11 @@ bool fits(const JsonValue& json, const Form& form) {
                                           [&](std::string_view key) { return json.find(key) != nullptr; });
 }
 
-// Whether a key that tells a form is there but for a slip.
+// Whether a key that tells a form is there but for a slip, which in one of two letters makes another word.
 bool fits_misspelt(const JsonValue& json, const Form& form) {
   const auto* object = std::get_if<JsonValue::Object>(&json.value);
-  const std::vector<std::string> keys(form.keys.begin(), form.keys.end());
+  std::vector<std::string> keys(form.keys.begin(), form.keys.end());
+  std::erase_if(keys, [](const std::string& key) { return key.size() < 3; });
   return object != nullptr &&
          std::any_of(object->begin(), object->end(), [&](const JsonValue::Member& member) {
            return nearest_name(member.first, keys).has_value();
@@ -271,6 +272,27 @@ struct ReadValue {
   bool operator()(const Forms& kind) const { return read_form(json, kind, value, diagnostics); }
 };
 
+// What a row stands for.
+std::optional<JsonValue> object_of_row(const JsonValue& json, const JsonValue::Array& row,
+                                       const Fields& fields, Diagnostics& diagnostics) {
+  const std::vector<std::string_view> keys = fields.row_keys();
+  if (row.size() < fields.row->least || row.size() > keys.size()) {
+    diagnostics.error(
+        json.where, fmt::format("a list in place of an object has {} here (got {} values, allowed {} to {})",
+                                fmt::join(keys, ", "), row.size(), fields.row->least, keys.size()));
+    return std::nullopt;
+  }
+  JsonValue::Object object;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (std::holds_alternative<std::nullptr_t>(row[i].value)) continue;
+    JsonValue& value = object.emplace_back(std::string(keys[i]), row[i]).second;
+    value.key_offset = value.where.offset;
+  }
+  JsonValue whole = json;
+  whole.value = std::move(object);
+  return whole;
+}
+
 }  // namespace
 
 bool read(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics) {
@@ -278,6 +300,10 @@ bool read(const JsonValue& json, const Kind& kind, void* value, Diagnostics& dia
 }
 
 bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics& diagnostics) {
+  if (const auto* row = std::get_if<JsonValue::Array>(&json.value); row != nullptr && fields.row) {
+    const auto object = object_of_row(json, *row, fields, diagnostics);
+    return object && read(*object, fields, thing, diagnostics);
+  }
   const JsonValue::Object* object = read_object(json, diagnostics);
   if (!object) return false;
   ObjectReading reading{json, diagnostics};

@@ -16,6 +16,7 @@
 #include "materials/bsdf/rough.h"
 #include "materials/bsdf/rough_diffuse.h"
 #include "materials/bsdf/smooth.h"
+#include "materials/bsdf/thin_element.h"
 #include "materials/bsdf/thin_glass.h"
 
 namespace abbe {
@@ -39,7 +40,8 @@ concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const Bsdf
 using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf,
                           CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf, CoatedDiffuseBsdf,
                           ThinGlassBsdf, MixtureBsdf, MirrorBsdf, SchlickBsdf, OrenNayarBsdf, PrincipledBsdf,
-                          CosinePowerBsdf<false>, CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>;
+                          CosinePowerBsdf<false>, CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf,
+                          PolariserBsdf, WavePlateBsdf, DepolariserBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every vertex of a path holds one
 
 template <typename List>

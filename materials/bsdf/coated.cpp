@@ -82,13 +82,18 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
 std::optional<BsdfSample> CoatedConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/,
                                                       int /*hero*/, TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
+  return BsdfSample{.wi = mirrored(wo), .weight = delta_power(wo, false), .pdf = 1, .delta = true};
+}
+
+SampledSpectrum CoatedConductorBsdf::delta_power(const Imath::V3f& wo, bool through) const {
+  if (through) return {};
   const CoatingAt at(*coating, wavelengths_nm, outside);
   const RelativeIndex relative = relative_index(*index, outside, wavelengths_nm);
   SampledSpectrum::Values R;
   for (int lane = 0; lane < kLanes; ++lane)
     R[static_cast<std::size_t>(lane)] =
         at.power(lane, relative.n[lane], relative.k[lane], cosine_of(wo), false).R();
-  return BsdfSample{.wi = mirrored(wo), .weight = SampledSpectrum(R), .pdf = 1, .delta = true};
+  return SampledSpectrum(R);
 }
 
 }  // namespace abbe

@@ -36,6 +36,7 @@ struct CoatedConductorBsdf {
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 

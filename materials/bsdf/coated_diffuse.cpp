@@ -64,6 +64,10 @@ std::optional<BsdfSample> CoatedDiffuseBsdf::sample(const Imath::V3f& wo, const 
                     .pdf = pdf};
 }
 
+SampledSpectrum CoatedDiffuseBsdf::delta_power(const Imath::V3f& wo, bool is_through) const {
+  return is_through ? SampledSpectrum() : through(*this, wo.z).reflected;
+}
+
 SampledSpectrum CoatedDiffuseBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi,
                                         TransportMode /*mode*/) const {
   if (!(wo.z * wi.z > 0)) return {};

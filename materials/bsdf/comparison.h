@@ -22,6 +22,9 @@ struct MirrorBsdf {
     if (wo.z == 0) return std::nullopt;
     return BsdfSample{.wi = mirrored(wo), .weight = reflectance, .pdf = 1, .delta = true};
   }
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& /*wo*/, bool through) const {
+    return through ? SampledSpectrum() : reflectance;
+  }
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
@@ -34,9 +37,11 @@ struct SchlickBsdf {
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
                                                  TransportMode /*mode*/) const {
     if (wo.z == 0) return std::nullopt;
-    const auto reflectance = [c = std::min(std::abs(wo.z), 1.0F)](float r) { return schlick(c, r); };
-    return BsdfSample{
-        .wi = mirrored(wo), .weight = SampledSpectrum::map(r0, reflectance), .pdf = 1, .delta = true};
+    return BsdfSample{.wi = mirrored(wo), .weight = delta_power(wo, false), .pdf = 1, .delta = true};
+  }
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const {
+    if (through) return {};
+    return SampledSpectrum::map(r0, [c = std::min(std::abs(wo.z), 1.0F)](float r) { return schlick(c, r); });
   }
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };

@@ -6,14 +6,24 @@
 #include "materials/interface/fresnel.h"
 
 namespace abbe {
+namespace {
+
+inline SampledSpectrum reflectance(const ConductorBsdf& metal, const Imath::V3f& wo) {
+  const float cos_i = std::min(std::abs(wo.z), 1.0F);
+  return SampledSpectrum::map(metal.n, metal.k,
+                              [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); });
+}
+
+}  // namespace
 
 std::optional<BsdfSample> ConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
                                                 TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
-  const float cos_i = std::min(std::abs(wo.z), 1.0F);
-  const auto reflectance = [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); };
-  return BsdfSample{
-      .wi = mirrored(wo), .weight = SampledSpectrum::map(n, k, reflectance), .pdf = 1, .delta = true};
+  return BsdfSample{.wi = mirrored(wo), .weight = reflectance(*this, wo), .pdf = 1, .delta = true};
+}
+
+SampledSpectrum ConductorBsdf::delta_power(const Imath::V3f& wo, bool through) const {
+  return through ? SampledSpectrum() : reflectance(*this, wo);
 }
 
 }  // namespace abbe

@@ -27,6 +27,10 @@ BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float e
 
 }  // namespace
 
+float DielectricBsdf::reflectance(const Imath::V3f& wo, int lane) const {
+  return fresnel_dielectric(std::min(std::abs(wo.z), 1.0F), eta(wo, lane)).R();
+}
+
 std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const {
   if (wo.z == 0) return std::nullopt;
@@ -35,7 +39,7 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const Bsd
   const auto fresnel = [&](float n) { return fresnel_dielectric(cos_i, inside ? 1 / n : n); };
   const FresnelPower<float> f = fresnel(n[hero]);
   if (u.lobe >= f.R()) {
-    const BsdfSample s = refracted(wo, f, inside ? 1 / n[hero] : n[hero], mode);
+    const BsdfSample s = refracted(wo, f, eta(wo, hero), mode);
     return dispersive ? only_lane(s, hero) : s;
   }
   if (!dispersive) return reflected(wo, SampledSpectrum(1), f.R());

@@ -16,6 +16,17 @@ namespace abbe {
   return {w.x, w.y, wo.z < 0 ? -w.z : w.z};
 }
 
+/// The share of `part` in `all`, lane by lane; 0 of nothing.
+[[nodiscard]] inline SampledSpectrum share_of(const SampledSpectrum& part, const SampledSpectrum& all) {
+  return SampledSpectrum::map(part, all,
+                              [](float x, float y) { return y > 0 ? std::min(x / y, 1.0F) : 0.0F; });
+}
+
+/// The cosine at which facets are met that mirror o into i.
+[[nodiscard]] inline float mirror_cosine(const Imath::V3f& o, const Imath::V3f& i) {
+  return std::min((o + i).length() / 2, 1.0F);
+}
+
 /// Facets that mirror o into i: the density of i [1/sr] by all their light, and the cosine they are met at.
 struct FacetMirror {
   float density;
@@ -23,25 +34,43 @@ struct FacetMirror {
 };
 [[nodiscard]] inline FacetMirror facet_mirror(const Microfacets<float>& facets, float seen,
                                               const Imath::V3f& o, const Imath::V3f& i) {
-  const Imath::V3f h = o + i;
-  return {seen * facets.D(h) / 4, std::min(h.length() / 2, 1.0F)};  // |dh/di| = 1/(4 o.h)
+  return {seen * facets.D(o + i) / 4, mirror_cosine(o, i)};  // |dh/di| = 1/(4 o.h)
 }
 
-/// Density of i [1/sr] by the light that facets refract from o into it, eta = n_i/n_o. Their normal is that
-/// of o + eta i = m, and |dh/di| = eta^2 |i.h|/m^2. [Walter2007, eq. 16 and 17] In double, and by Fresnel's
-/// formulas from the thinner side, so that both ways agree where facets are met at grazing angles.
+/// Facets that refract o into i, eta = n_i/n_o: their normal is that of o + eta i = m [Walter2007, eq. 16].
+/// In double, and with what Fresnel's formulas ask for from the thinner side, so that both ways agree where
+/// facets are met at grazing angles.
+struct RefractingFacet {
+  Imath::V3d m;
+  double cos_o, cos_i;  ///< With m, times its length; none such facet is there unless both are positive.
+  double m2;
+
+  RefractingFacet(const Imath::V3f& o, const Imath::V3f& i, double eta)
+      : m(Imath::V3d(o) + Imath::V3d(i) * eta) {
+    const double upward = std::copysign(1.0, m.z);
+    cos_o = m.dot(Imath::V3d(o)) * upward;
+    cos_i = -m.dot(Imath::V3d(i)) * upward;
+    m2 = m.length2();
+  }
+  [[nodiscard]] bool there() const { return cos_o > 0 && cos_i > 0 && m.z != 0; }
+  [[nodiscard]] float cos_thin(float eta) const {
+    return std::min(static_cast<float>((eta > 1 ? cos_o : cos_i) / std::sqrt(m2)), 1.0F);
+  }
+};
+[[nodiscard]] inline float from_thin(float eta) {
+  return eta > 1 ? eta : 1 / eta;
+}
+
+/// Density of i [1/sr] by the light that facets refract from o into it, eta = n_i/n_o; |dh/di| is
+/// eta^2 |i.h|/m^2. [Walter2007, eq. 17]
 [[nodiscard]] inline float facet_refraction(const Microfacets<float>& facets, float seen, const Imath::V3f& o,
                                             const Imath::V3f& i, float eta) {
   const double e = eta;
-  const Imath::V3d m = Imath::V3d(o) + Imath::V3d(i) * e;
-  const double upward = std::copysign(1.0, m.z);
-  const double cos_o = m.dot(Imath::V3d(o)) * upward;
-  const double cos_i = -m.dot(Imath::V3d(i)) * upward;
-  if (!(cos_o > 0) || !(cos_i > 0) || m.z == 0) return 0;
-  const double m2 = m.length2();
-  const auto cos_thin = static_cast<float>((e > 1 ? cos_o : cos_i) / std::sqrt(m2));
-  const float transmitted = fresnel_dielectric(std::min(cos_thin, 1.0F), e > 1 ? eta : 1 / eta).transmitted();
-  return transmitted * seen * facets.D(Imath::V3f(m)) * static_cast<float>(cos_o * cos_i * e * e / (m2 * m2));
+  const RefractingFacet facet(o, i, e);
+  if (!facet.there()) return 0;
+  const float transmitted = fresnel_dielectric(facet.cos_thin(eta), from_thin(eta)).transmitted();
+  return transmitted * seen * facets.D(Imath::V3f(facet.m)) *
+         static_cast<float>(facet.cos_o * facet.cos_i * e * e / (facet.m2 * facet.m2));
 }
 
 }  // namespace abbe

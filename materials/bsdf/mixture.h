@@ -4,6 +4,7 @@
 
 #include "materials/bsdf/event.h"
 #include "materials/bsdf/lookup.h"
+#include "materials/interface/mueller.h"
 
 namespace abbe {
 
@@ -23,6 +24,9 @@ class MixtureBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  /// What `mueller` says of it: the mean over the parts by the power that each sends from wo to wi.
+  [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi,
+                                                     bool delta) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 
  private:

@@ -48,6 +48,8 @@ struct RoughConductorBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  /// Of the light sent from wo to wi, lane by lane, what one facet alone has scattered.
+  [[nodiscard]] SampledSpectrum single_share(const Imath::V3f& wo, const Imath::V3f& wi) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
@@ -70,6 +72,8 @@ struct RoughDielectricBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  /// Of the light sent from wo to wi, lane by lane, what one facet alone has scattered.
+  [[nodiscard]] SampledSpectrum single_share(const Imath::V3f& wo, const Imath::V3f& wi) const;
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
 };
 

@@ -31,7 +31,12 @@ Reflection reflection(const RoughMetal& surface, const Imath::V3f& o, const Imat
 }
 
 // f cos of each lane.
-SampledSpectrum coloured(const RoughConductorBsdf& bsdf, const Reflection& r) {
+struct Coloured {
+  SampledSpectrum single, multiple;
+
+  [[nodiscard]] SampledSpectrum all() const { return single + multiple; }
+};
+Coloured coloured(const RoughConductorBsdf& bsdf, const Reflection& r) {
   const RelativeIndex index = relative_index(*bsdf.index, bsdf.outside, bsdf.wavelengths_nm);
   const SampledSpectrum once = SampledSpectrum::map(
       index.n, index.k, [&](float n, float k) { return fresnel_conductor(r.cos, n, k).R(); });
@@ -41,7 +46,7 @@ SampledSpectrum coloured(const RoughConductorBsdf& bsdf, const Reflection& r) {
   const SampledSpectrum often =
       SampledSpectrum::map((*bsdf.mean_reflectance)(bsdf.wavelengths_nm),
                            [energy](float mean) { return mean * mean * energy / (1 - mean * (1 - energy)); });
-  return once * r.single + often * r.multiple;
+  return {once * r.single, often * r.multiple};
 }
 
 }  // namespace
@@ -61,19 +66,26 @@ std::optional<BsdfSample> RoughConductorBsdf::sample(const Imath::V3f& wo, const
   if (!(i.z > 0)) return std::nullopt;
   const Reflection r = reflection(*surface, o, i);
   if (!(r.pdf > 0)) return std::nullopt;
-  return BsdfSample{.wi = from_side_of(wo, i), .weight = coloured(*this, r) * (1 / r.pdf), .pdf = r.pdf};
+  return BsdfSample{
+      .wi = from_side_of(wo, i), .weight = coloured(*this, r).all() * (1 / r.pdf), .pdf = r.pdf};
 }
 
 SampledSpectrum RoughConductorBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi,
                                          TransportMode /*mode*/) const {
   if (!(wo.z * wi.z > 0)) return {};
   const Reflection r = reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi));
-  return coloured(*this, r) * (1 / std::abs(wi.z));
+  return coloured(*this, r).all() * (1 / std::abs(wi.z));
 }
 
 SampledSpectrum RoughConductorBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
   if (!(wo.z * wi.z > 0)) return {};
   return SampledSpectrum(reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi)).pdf);
+}
+
+SampledSpectrum RoughConductorBsdf::single_share(const Imath::V3f& wo, const Imath::V3f& wi) const {
+  if (!(wo.z * wi.z > 0)) return {};
+  const Coloured f = coloured(*this, reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi)));
+  return share_of(f.single, f.all());
 }
 
 }  // namespace abbe

@@ -34,9 +34,9 @@ SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const Qu
 }
 
 // Power sent from o into i, lane by lane, times the cosine of i [1/sr], and the density of i were each lane
-// the hero.
+// the hero; of the power what a single facet has sent there.
 struct Scattered {
-  SampledSpectrum power, pdf;
+  SampledSpectrum power, pdf, single;
 };
 
 // That of facets alone. Masking goes by the height in reflection, where o and i see the same side.
@@ -50,11 +50,13 @@ Scattered by_facets(const Microfacets<float>& facets, const SampledSpectrum& eta
     const SampledSpectrum there = mirror.density * SampledSpectrum::map(eta, [&](float lane_eta) {
                                     return fresnel_dielectric(mirror.cos, lane_eta).R();
                                   });
-    return {there * ((1 + lambda_o) / (1 + lambda_o + lambda_i)), there};
+    const SampledSpectrum power = there * ((1 + lambda_o) / (1 + lambda_o + lambda_i));
+    return {power, there, power};
   }
   const SampledSpectrum there = SampledSpectrum::map(
       eta, [&](float lane_eta) { return facet_refraction(facets, seen, o, i, lane_eta); });
-  return {there * (1 / (1 + lambda_i)), there};
+  const SampledSpectrum power = there * (1 / (1 + lambda_i));
+  return {power, there, power};
 }
 
 // Including what is scattered more than once: with A_s the integral of what side s loses over projected solid
@@ -76,7 +78,7 @@ Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V
 
   const float density = (into_inside ? surface.inside_share : 1 - surface.inside_share) *
                         surface.lost[into_inside ? 1 : 0][1].pdf(place_i, std::abs(i.z));
-  return {once.power + lost * share, (SampledSpectrum(1) - lost) * once.pdf + lost * density};
+  return {once.power + lost * share, (SampledSpectrum(1) - lost) * once.pdf + lost * density, once.power};
 }
 
 // What refraction does to the quantity carried into `wi`, lane by lane.
@@ -143,6 +145,12 @@ SampledSpectrum RoughDielectricBsdf::eval(const Imath::V3f& wo, const Imath::V3f
 SampledSpectrum RoughDielectricBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
   if (wo.z == 0 || wi.z == 0) return {};
   return scattered(*this, wo.z < 0, from_side_of(wo, wo), from_side_of(wo, wi)).pdf;
+}
+
+SampledSpectrum RoughDielectricBsdf::single_share(const Imath::V3f& wo, const Imath::V3f& wi) const {
+  if (wo.z == 0 || wi.z == 0) return {};
+  const Scattered all = scattered(*this, wo.z < 0, from_side_of(wo, wo), from_side_of(wo, wi));
+  return share_of(all.single, all.power);
 }
 
 }  // namespace abbe

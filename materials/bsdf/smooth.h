@@ -17,6 +17,10 @@ struct DielectricBsdf {
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
+  /// The index of the other side over that of the side of `wo`.
+  [[nodiscard]] float eta(const Imath::V3f& wo, int lane) const { return wo.z < 0 ? 1 / n[lane] : n[lane]; }
+  /// The share of unpolarised light that is reflected.
+  [[nodiscard]] float reflectance(const Imath::V3f& wo, int lane) const;
 };
 
 /// Smooth conductor, opaque, reflecting on both sides.
@@ -28,6 +32,7 @@ struct ConductorBsdf {
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 

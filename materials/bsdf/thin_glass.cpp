@@ -45,4 +45,12 @@ std::optional<BsdfSample> ThinGlassBsdf::sample(const Imath::V3f& wo, const Bsdf
                     .transmitted = passes};
 }
 
+SampledSpectrum ThinGlassBsdf::delta_power(const Imath::V3f& wo, bool through) const {
+  const float cos_i = std::min(std::abs(wo.z), 1.0F);
+  return SampledSpectrum::map(n, depth, [=](float lane_n, float lane_depth) {
+    const Sheet lane = sheet(cos_i, lane_n, lane_depth);
+    return through ? lane.transmitted : lane.reflected;
+  });
+}
+
 }  // namespace abbe

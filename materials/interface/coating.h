@@ -6,6 +6,8 @@
 
 #include "materials/index/refractive_index.h"
 #include "materials/interface/fresnel.h"
+#include "materials/interface/mueller.h"
+#include "materials/interface/thin_film.h"
 
 namespace abbe {
 
@@ -33,6 +35,15 @@ struct Coating {
 [[nodiscard]] FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n,
                                                 double k, double cos_i, bool inside, double outside = 1);
 
+/// What the same surface does to polarisation; light is let through to clear matter.
+[[nodiscard]] MuellerBothWays<double> coated_mueller(const Coating& coating, double wavelength_nm, double n,
+                                                     double k, double cos_i, bool inside, double outside = 1);
+
+/// Its amplitudes of reflection, with the signs of `FresnelAmplitudes`.
+[[nodiscard]] FilmReflection<double> coated_reflection(const Coating& coating, double wavelength_nm, double n,
+                                                       double k, double cos_i, bool inside,
+                                                       double outside = 1);
+
 /// A coating at the lanes of a packet: its indices are looked up once for all of them, relative to the matter
 /// `outside`, air if nullptr.
 class CoatingAt {
@@ -42,6 +53,8 @@ class CoatingAt {
 
   /// Reflectance and transmittance at one lane of matter of index n + ik, relative to what is outside.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
+  /// What the surface does to polarisation at one lane.
+  [[nodiscard]] MuellerBothWays<float> mueller(int lane, float n, float k, float cos_i, bool inside) const;
 
  private:
   const Coating& coating_;

@@ -25,8 +25,12 @@ Complex<T> scaled(const Complex<T>& a, const T& s) {
   return {a.re * s, a.im * s};
 }
 template <typename T>
+Complex<T> conjugate(const Complex<T>& a) {
+  return {a.re, -a.im};
+}
+template <typename T>
 Complex<T> operator/(const Complex<T>& a, const Complex<T>& b) {
-  return scaled(a * Complex<T>{b.re, -b.im}, T(1) / norm(b));
+  return scaled(a * conjugate(b), T(1) / norm(b));
 }
 
 /// -i a.

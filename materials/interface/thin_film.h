@@ -7,6 +7,7 @@
 
 #include "materials/interface/complex.h"
 #include "materials/interface/fresnel.h"
+#include "materials/interface/mueller.h"
 #include "materials/interface/snell.h"
 
 namespace abbe {
@@ -26,6 +27,21 @@ struct FilmLayer {
 template <typename T>
 [[nodiscard]] FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
                                          const T& k);
+
+/// Amplitudes of reflection by the same layers on the same substrate, with the signs of
+/// `FresnelAmplitudes`.
+template <typename T>
+struct FilmReflection {
+  Complex<T> s, p;
+};
+template <typename T>
+[[nodiscard]] FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers,
+                                                const T& eta, const T& k);
+
+/// What they do to polarisation; light is let through to a clear substrate.
+template <typename T>
+[[nodiscard]] MuellerBothWays<T> film_mueller(const T& cos_i, std::span<const FilmLayer<T>> layers,
+                                              const T& eta, const T& k);
 
 namespace film {
 
@@ -54,19 +70,32 @@ void cross(Fields<T>& at, const Matrix<T>& m, const T& decay) {
   at = {scaled(u, unit), scaled(v, unit), at.scale * decay * unit};
 }
 
+/// The waves that make up the fields at the first boundary, times twice kappa_i: what arrives and what goes
+/// back.
+template <typename T>
+struct Waves {
+  Complex<T> arriving, reflected;
+
+  Waves(const Fields<T>& at, const T& kappa_i)
+      : arriving(scaled(at.u, kappa_i) + at.v), reflected(scaled(at.u, kappa_i) + scaled(at.v, T(-1))) {}
+};
+
 /// R and T of the fields at the first boundary; `kappa_t` is the real part of the substrate's admittance.
 template <typename T>
 std::pair<T, T> powers(const Fields<T>& at, const T& kappa_i, const T& kappa_t) {
-  const Complex<T> in = scaled(at.u, kappa_i);
-  const T incident = norm(in + at.v);
-  return {norm(in + scaled(at.v, T(-1))) / incident,
-          T(4) * kappa_i * kappa_t * (at.scale * at.scale / incident)};
+  const Waves<T> waves(at, kappa_i);
+  const T incident = norm(waves.arriving);
+  return {norm(waves.reflected) / incident, T(4) * kappa_i * kappa_t * (at.scale * at.scale / incident)};
 }
 
-}  // namespace film
-
+/// Both polarisations at the first boundary, and what they are to the substrate.
 template <typename T>
-FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
+struct Stack {
+  Fields<T> s, p;
+  Complex<T> q_t, p_t;
+};
+template <typename T>
+Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
   using std::cos;
   using std::exp;
   using std::expm1;
@@ -75,8 +104,8 @@ FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers,
   const Complex<T> one{T(1), T(0)};
   const Complex<T> q_t = normal_component(cos_i, eta, k);
   const Complex<T> p_t = q_t / square(eta, k);
-  film::Fields<T> s{one, q_t, T(1)};
-  film::Fields<T> p{one, p_t, T(1)};
+  Fields<T> s{one, q_t, T(1)};
+  Fields<T> p{one, p_t, T(1)};
   for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
     const Complex<T> q = normal_component(cos_i, layer->eta, layer->k);
     const T length = T(kTurn) * layer->thickness;
@@ -93,12 +122,47 @@ FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers,
     // At the critical angle of a layer q is 0 and sin(length q)/q its length.
     const Complex<T> over = norm(q) > T(0) ? sine / q : Complex<T>{length, T(0)};
     const Complex<T> eps = square(layer->eta, layer->k);
-    film::cross(s, {cosine, over, sine * q}, decay);
-    film::cross(p, {cosine, over * eps, sine * q / eps}, decay);
+    cross(s, {cosine, over, sine * q}, decay);
+    cross(p, {cosine, over * eps, sine * q / eps}, decay);
   }
-  const auto [Rs, Ts] = film::powers(s, cos_i, q_t.re);
-  const auto [Rp, Tp] = film::powers(p, cos_i, p_t.re);
+  return {s, p, q_t, p_t};
+}
+
+}  // namespace film
+
+template <typename T>
+FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
+  const film::Stack<T> at = film::stack(cos_i, layers, eta, k);
+  const auto [Rs, Ts] = film::powers(at.s, cos_i, at.q_t.re);
+  const auto [Rp, Tp] = film::powers(at.p, cos_i, at.p_t.re);
   return {Rs, Rp, Ts, Tp, k > T(0) ? T(0) : refracted_cosine(cos_i, eta)};
+}
+
+template <typename T>
+FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
+                                  const T& k) {
+  const film::Stack<T> at = film::stack(cos_i, layers, eta, k);
+  const film::Waves<T> s(at.s, cos_i);
+  const film::Waves<T> p(at.p, cos_i);
+  return {s.reflected / s.arriving, p.reflected / p.arriving};
+}
+
+template <typename T>
+MuellerBothWays<T> film_mueller(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
+                                const T& k) {
+  using std::sqrt;
+  const film::Stack<T> at = film::stack(cos_i, layers, eta, k);
+  const film::Waves<T> s(at.s, cos_i);
+  const film::Waves<T> p(at.p, cos_i);
+  const auto [Rs, Ts] = film::powers(at.s, cos_i, at.q_t.re);
+  const auto [Rp, Tp] = film::powers(at.p, cos_i, at.p_t.re);
+  const Complex<T> r_s = s.reflected / s.arriving;
+  const Complex<T> r_p = p.reflected / p.arriving;
+  // What is let through has the phases of 1 over what arrives.
+  const Complex<T> phases = p.arriving * conjugate(s.arriving);
+  const T size = sqrt(norm(phases));
+  return {mueller_elements(Rs, Rp, r_s * conjugate(r_p)),
+          mueller_elements(Ts, Tp, scaled(phases, sqrt(Ts * Tp) / size))};
 }
 
 }  // namespace abbe

@@ -1,5 +1,6 @@
 #include "materials/medium/phase.h"
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <numbers>
@@ -83,6 +84,17 @@ PhaseSample sample(const PhaseFunction& phase, const Imath::V2f& u) {
 float pdf(const PhaseFunction& phase, const Imath::V3f& from, const Imath::V3f& to) {
   const float versine = (turns_back(phase) ? from + to : from - to).length2() / 2;
   return std::visit([versine](const auto& p) { return density(p, versine); }, phase);
+}
+
+// Fields across the plane of both directions scatter alike into all of it, those in it by the cosine.
+// [Chandrasekhar1960, sec. 16]
+std::optional<MuellerMatrix> mueller(const PhaseFunction& phase, const Imath::V3f& from,
+                                     const Imath::V3f& to) {
+  if (!std::holds_alternative<RayleighPhase>(phase)) return std::nullopt;
+  const float cosine = std::clamp(from.dot(to), -1.0F, 1.0F);
+  const float both = 1 + cosine * cosine;
+  return MuellerMatrix{across(from, to), SampledSpectrum((1 - cosine) * (1 + cosine) / both),
+                       SampledSpectrum(1.0F), SampledSpectrum(2 * cosine / both)};
 }
 
 }  // namespace abbe

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include <ImathVec.h>
+
+#include "materials/interface/mueller.h"
 
 namespace abbe {
 
@@ -33,5 +36,9 @@ struct PhaseSample {
 /// Density with which light that travels along the unit vector `from` is turned to the unit vector `to`
 /// [1/sr].
 [[nodiscard]] float pdf(const PhaseFunction& phase, const Imath::V3f& from, const Imath::V3f& to);
+
+/// What that does to polarisation; nothing where it depolarises, as all but Rayleigh scattering are taken to.
+[[nodiscard]] std::optional<MuellerMatrix> mueller(const PhaseFunction& phase, const Imath::V3f& from,
+                                                   const Imath::V3f& to);
 
 }  // namespace abbe

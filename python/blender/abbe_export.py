@@ -397,7 +397,7 @@ class Exporter:
         if camera.dof.use_dof:
             target = camera.dof.focus_object and camera.dof.focus_object.evaluated_get(self.depsgraph).matrix_world.translation
             distance = (abs(axes.col[2].dot(target - at)) if target else camera.dof.focus_distance) * self.scale
-            self.notes.add(where, "an opening is round here", camera.dof.aperture_blades > 2 or camera.dof.aperture_ratio != 1)
+            self.notes.add(where, "the blades and the ratio of an opening are left out: it is round", camera.dof.aperture_blades > 2 or camera.dof.aperture_ratio != 1)
             self.notes.add(where, "no lens is in focus within its focal length: a pinhole", distance <= focal_length)
             if distance > focal_length:
                 extension = distance / (distance - focal_length)  # of the film's distance, and so of the film that has Blender's view

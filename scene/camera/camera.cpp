@@ -86,6 +86,16 @@ void translate(Camera& camera, const Imath::V3d& by) {
   std::visit([&](auto& kind) { kind.translate(by); }, camera.kind);
 }
 
+std::optional<Imath::V3f> film_right(const Camera& camera, float time) {
+  const auto right = [&](const auto& kind) -> std::optional<Imath::V3f> {
+    if constexpr (requires { kind.frame; })
+      return Imath::V3f(direction_at(camera, kind.frame.right, time));
+    else
+      return std::nullopt;
+  };
+  return std::visit(right, camera.kind);
+}
+
 double central_weight(const Camera& camera, Imath::V2f film) {
   constexpr float kMiddleNm = 550;
   return static_cast<double>(

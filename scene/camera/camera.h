@@ -48,6 +48,10 @@ void translate(Camera& camera, const Imath::V3d& by);
 /// The direction in the world, at that time, of one that the camera has at time 0.
 [[nodiscard]] Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float time);
 
+/// The unit direction in the world, at that time, of what is the right of the picture; a meter has none. With
+/// the way k of light that comes in, and it made perpendicular to k, k x right is up in the picture.
+[[nodiscard]] std::optional<Imath::V3f> film_right(const Camera& camera, float time);
+
 /// The weight [sr] of the ray from the middle of the lens to a film position, at 550 nm when the shutter
 /// opens: what stands for a pixel's exposure by radiance where nothing is drawn.
 [[nodiscard]] double central_weight(const Camera& camera, Imath::V2f film);

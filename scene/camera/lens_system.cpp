@@ -66,17 +66,19 @@ struct Landing {
   double pdf;  // a p_j [1/sr]
 };
 
-std::optional<Landing> land(const LensOptics& optics, const FilmGrid& grid, const lens::Ray& ray,
-                            double wavelength_nm) {
-  const auto there = optics.system.to_image(ray, wavelength_nm);
-  if (!there) return std::nullopt;
-  const auto film = film_position(grid, -there->point / kMmPerM);
+// Nothing for a lane that does not get to the film, or not through the bound of its exit pupil.
+std::optional<Landing> landing(const LensOptics& optics, const FilmGrid& grid,
+                               const lens::BasicArrival<lens::Doubles>& arrival, int lane) {
+  if (!arrival.arrived[lane]) return std::nullopt;
+  const V2d point(arrival.point.x[lane], arrival.point.y[lane]);
+  const auto film = film_position(grid, -point / kMmPerM);
   if (!film) return std::nullopt;
   const double depth = optics.system.image_z() - optics.system.last_z();
-  const V3d& d = there->direction;
-  const lens::PupilBound bound = optics.pupil.bound(there->point);
-  if (!bound.contains(there->point - V2d(d.x, d.y) * (depth / d.z))) return std::nullopt;
-  return Landing{*film, d.z, there->transmittance, depth * depth / (bound.area() * std::pow(d.z, 4))};
+  const V3d d(arrival.direction.x[lane], arrival.direction.y[lane], arrival.direction.z[lane]);
+  const lens::PupilBound bound = optics.pupil.bound(point);
+  if (!bound.contains(point - V2d(d.x, d.y) * (depth / d.z))) return std::nullopt;
+  const double cos2 = d.z * d.z;
+  return Landing{*film, d.z, arrival.transmittance[lane], depth * depth / (bound.area() * cos2 * cos2)};
 }
 
 // All lanes of a ray.
@@ -91,12 +93,11 @@ std::optional<Landings> land(const LensSystem& camera, const FilmGrid& grid, con
                              const SampledSpectrum& wavelengths_nm) {
   const lens::Ray of_lens{in_lens(camera.frame, V3d(ray.origin) - camera.frame.position) * kMmPerM,
                           -in_lens(camera.frame, V3d(ray.direction)).normalized()};
+  const auto arrival = camera.optics->system.to_image(of_lens, wavelengths_nm);
   std::array<std::optional<Landing>, kLanes> lanes;
   const Landing* any = nullptr;
   for (std::size_t j = 0; j < kLanes; ++j) {
-    const float nm = wavelengths_nm[static_cast<int>(j)];
-    const bool again = j > 0 && nm == wavelengths_nm[static_cast<int>(j) - 1];
-    lanes[j] = again ? lanes[j - 1] : land(*camera.optics, grid, of_lens, static_cast<double>(nm));
+    lanes[j] = landing(*camera.optics, grid, arrival, static_cast<int>(j));
     if (lanes[j] && any == nullptr) any = &*lanes[j];
   }
   if (any == nullptr) return std::nullopt;

@@ -16,7 +16,8 @@ std::optional<double> Opening::crossed_by(const Ray& ray) const {
   const double a = point.cross(v).dot(across) / across.length2();
   const double b = u.cross(point).dot(across) / across.length2();
   const bool within = round ? a * a + b * b <= 1 : std::abs(a) <= 1 && std::abs(b) <= 1;
-  return within ? std::optional(t) : std::nullopt;
+  const bool passes = within && (!iris || iris->contains({a, b}));
+  return passes ? std::optional(t) : std::nullopt;
 }
 
 }  // namespace abbe

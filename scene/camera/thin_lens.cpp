@@ -1,7 +1,5 @@
 #include "scene/camera/thin_lens.h"
 
-#include <numbers>
-
 #include "materials/bsdf/warp.h"
 #include "scene/camera/perspective.h"
 
@@ -9,11 +7,13 @@ namespace abbe {
 namespace {
 
 Perspective view_of(const ThinLens& camera) {
-  return {camera.frame, camera.image_distance, exposing_area(camera.aperture_radius, camera.transmittance)};
+  return {camera.frame, camera.image_distance,
+          exposing_area(camera.aperture_radius, camera.transmittance) * camera.open_share()};
 }
 
 PlanePoint lens_plane(const ThinLens& camera, Imath::V2f lens) {
-  return PlanePoint(concentric_disc(lens)) * camera.aperture_radius;
+  const PlanePoint disc(concentric_disc(lens));
+  return (camera.iris ? camera.iris->point(disc) : disc) * camera.aperture_radius;
 }
 
 // Through any lens point the scene ray aims at the point in focus that the ray through the centre of the lens
@@ -65,7 +65,7 @@ std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& 
   const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
   return density_through(view_of(*this), grid, *film, crossing(*this, on_film, on_lens, *tangent),
-                         1 / (std::numbers::pi * aperture_radius * aperture_radius));
+                         1 / (exposing_area(aperture_radius, 1) * open_share()));
 }
 
 double ThinLens::least_film_cosine(const FilmGrid& grid) const {
@@ -79,7 +79,7 @@ CameraTraits ThinLens::traits() const {
           .f_number = focal_length / (2 * aperture_radius),
           .axis = frame.forward,
           .opening = Opening{frame.position, frame.right * aperture_radius, frame.up * aperture_radius,
-                             frame.forward, true}};
+                             frame.forward, true, iris}};
 }
 
 }  // namespace abbe

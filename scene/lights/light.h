@@ -12,6 +12,7 @@
 #include <ImathVec.h>
 
 #include "scene/lights/environment_image.h"
+#include "scene/lights/polarisation.h"
 #include "scene/lights/spherical_rectangle.h"
 #include "scene/shapes/quad.h"
 #include "scene/shapes/ray.h"
@@ -89,6 +90,7 @@ struct Light {
   std::string name;
   std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight> kind;
   ScaledCurve emission;
+  std::optional<LampPolarisation> polarisation = {};
 
   template <typename... Kinds>
   [[nodiscard]] bool is() const {
@@ -113,6 +115,10 @@ struct Light {
 /// environment image asks for.
 [[nodiscard]] SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                                             const SampledSpectrum& wavelengths_nm);
+
+/// How light of it is polarised that travels in that unit direction; nothing of an ordinary lamp, and of a
+/// linearly polarised one along its very axis.
+[[nodiscard]] std::optional<Polarised> polarisation_of(const Light& light, const Imath::V3f& travels);
 
 /// Light arriving at a point at some time, without its spectrum: `factor` times `emission_from` is the
 /// incident radiance (area, environment, sun) or irradiance per unit cosine (point, spot, directional), and

@@ -1,6 +1,7 @@
 #include "sensor/film/film_planes.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "io/spectral_exr.h"
@@ -10,13 +11,14 @@
 namespace abbe {
 
 std::vector<std::string> plane_names(const Image& film) {
-  std::vector<std::pair<double, std::string>> bands;
-  for (const ImageChannel& channel : film.channels)
-    if (const auto band = parse_spectral_channel(channel.name, "film"); band && band->kind == '0')
-      bands.emplace_back(band->center_nm, channel.name);
+  std::vector<std::tuple<char, double, std::string>> bands;
+  if (is_spectral(film))
+    for (const ImageChannel& channel : film.channels)
+      if (const auto band = parse_spectral_channel(channel.name, "film"); band && band->kind != 'T')
+        bands.emplace_back(band->kind, band->center_nm, channel.name);
   std::sort(bands.begin(), bands.end());
   std::vector<std::string> names;
-  for (auto& [center_nm, name] : bands) names.push_back(std::move(name));
+  for (auto& [component, center_nm, name] : bands) names.push_back(std::move(name));
   if (!names.empty()) return names;
   if (const auto listed = film.metadata.find("sensor_channels"); listed != film.metadata.end())
     return split(listed->second, ',');

@@ -142,14 +142,14 @@ Deviations deviations_of(const Film& film, std::span<const std::size_t> values) 
 
 }  // namespace
 
-std::vector<std::size_t> lit_values(const Film& pilot) {
+std::vector<std::size_t> lit_values(const Film& pilot, std::size_t counting) {
   const Crop crop = pilot.crop();
   const auto planes = static_cast<std::size_t>(pilot.channels());
   std::vector<std::size_t> lit;
   for (int y = crop.y0; y < crop.y1; ++y)
     for (int x = crop.x0; x < crop.x1; ++x) {
       const std::size_t pixel = pilot.pixel_at(x, y);
-      for (std::size_t plane = 0; plane < planes; ++plane)
+      for (std::size_t plane = 0; plane < std::min(planes, counting); ++plane)
         if (pilot.mean(pixel, static_cast<int>(plane)) != 0) lit.push_back(pixel * planes + plane);
     }
   if (lit.size() <= kMostValues) return lit;

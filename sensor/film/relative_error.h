@@ -19,8 +19,10 @@ struct RelativeError {
 };
 
 /// The values of a film that have light, by pixel times planes plus plane: those that are not 0 in a pilot,
-/// which must be independent of the film to be judged; of very many, evenly spread ones.
-[[nodiscard]] std::vector<std::size_t> lit_values(const Film& pilot);
+/// which must be independent of the film to be judged; of very many, evenly spread ones. Only the first
+/// `counting` planes are looked at: the others have a sign, and are small where there is much light.
+[[nodiscard]] std::vector<std::size_t> lit_values(
+    const Film& pilot, std::size_t counting = std::numeric_limits<std::size_t>::max());
 
 /// Percentiles over the lit values, corrected for the few replicates by `quantiles_of_deviation`. A lit value
 /// that the film has no light in counts as infinitely far off.

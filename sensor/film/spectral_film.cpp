@@ -1,12 +1,14 @@
 #include "sensor/film/spectral_film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "io/error.h"
 #include "sensor/film/variance_name.h"
+#include "sensor/response/stokes_channels.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -24,11 +26,32 @@ std::vector<float> divided(const std::vector<float>& values, std::span<const dou
   return quotients;
 }
 
-// The image's variance of each band, or nothing.
-std::vector<const ImageChannel*> variances(const SpectralImage& image) {
+// The bands that an image holds of a Stokes component.
+auto& bands_of(auto& image, int component) {
+  return component == 0 ? image.bands : image.polarised.at(static_cast<std::size_t>(component) - 1);
+}
+
+// Adds the bins of a film's Stokes component to the image as radiances.
+void add_component(const Image& film, const SpectralBins& bins, int component,
+                   std::span<const double> exposure_per_radiance, SpectralImage& image) {
+  for (int bin = 0; bin < bins.count; ++bin) {
+    const std::string name = name_of({component, bin_name(bins, bin)});
+    const ImageChannel* value = film.find(name);
+    const ImageChannel* variance = film.find(variance_of(name));
+    if (value == nullptr) throw Error(ErrorCode::internal, name, "the film lacks a bin of its sensor");
+    bands_of(image, component)
+        .push_back({bins.center_nm(bin), divided(value->values, exposure_per_radiance, 1)});
+    if (variance == nullptr) continue;
+    image.others.push_back({variance_of(spectral_channel(bins.center_nm(bin), component)),
+                            divided(variance->values, exposure_per_radiance, 2)});
+  }
+}
+
+// The image's variance of each band of a component, or nothing.
+std::vector<const ImageChannel*> variances(const SpectralImage& image, int component) {
   std::vector<const ImageChannel*> found;
   for (const SpectralBand& band : image.bands) {
-    const std::string name = variance_of(spectral_channel(band.center_nm));
+    const std::string name = variance_of(spectral_channel(band.center_nm, component));
     for (const ImageChannel& channel : image.others)
       if (channel.name == name) found.push_back(&channel);
   }
@@ -38,11 +61,42 @@ std::vector<const ImageChannel*> variances(const SpectralImage& image) {
 }
 
 // Mean of a response over each band, its wavelengths alike.
-std::vector<double> mean_weights(const Channel& channel, const std::vector<double>& edges) {
+std::vector<double> mean_weights(const Curve& response, const std::vector<double>& edges) {
   std::vector<double> weights;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-    weights.push_back(channel.weight.integral(edges[i], edges[i + 1]) / (edges[i + 1] - edges[i]));
+    weights.push_back(response.integral(edges[i], edges[i + 1]) / (edges[i + 1] - edges[i]));
   return weights;
+}
+
+// What a band of a Stokes component counts in a channel.
+struct Term {
+  double weight;
+  const std::vector<float>& radiance;
+  const ImageChannel* variance;
+};
+
+void add_terms(const SpectralImage& image, int component, const Curve& response, std::vector<Term>& terms) {
+  const std::vector<double> weights = mean_weights(response, band_edges(image.bands));
+  const std::vector<const ImageChannel*> errors = variances(image, component);
+  const std::vector<SpectralBand>& bands = bands_of(image, component);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    terms.push_back({weights[i], bands[i].radiance, errors.empty() ? nullptr : errors[i]});
+}
+
+std::vector<Term> terms_of(const SpectralImage& image, const Channel& channel) {
+  std::vector<Term> terms;
+  if (!channel.analyser || channel.analyser->i != 0) add_terms(image, 0, channel.weight, terms);
+  if (!channel.analyser) return terms;
+  if (!image.is_polarised())
+    throw Error(ErrorCode::usage, channel.name,
+                "tells polarised light, which a spectral image without S1, S2 and S3 does not");
+  const Analyser& row = *channel.analyser;
+  const std::array rows{row.q, row.u, row.v};
+  for (int component = 1; component < 4; ++component)
+    if (const float factor = rows.at(static_cast<std::size_t>(component) - 1); factor != 0)
+      add_terms(image, component, product(channel.weight, scaled(row.contrast, static_cast<double>(factor))),
+                terms);
+  return terms;
 }
 
 }  // namespace
@@ -58,39 +112,30 @@ std::vector<Channel> spectral_channels(const SpectralBins& bins) {
 SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                             std::span<const double> exposure_per_radiance) {
   SpectralImage image{film.width, film.height, {}, {}, film.metadata};
-  for (int bin = 0; bin < bins.count; ++bin) {
-    const std::string name = bin_name(bins, bin);
-    const ImageChannel* value = film.find(name);
-    const ImageChannel* variance = film.find(variance_of(name));
-    if (value == nullptr) throw Error(ErrorCode::internal, name, "the film lacks a bin of its sensor");
-    image.bands.push_back({bins.center_nm(bin), divided(value->values, exposure_per_radiance, 1)});
-    if (variance == nullptr) continue;
-    image.others.push_back({variance_of(spectral_channel(bins.center_nm(bin))),
-                            divided(variance->values, exposure_per_radiance, 2)});
-  }
+  const bool polarised = film.find(name_of({1, bin_name(bins, 0)})) != nullptr;
+  for (int component = 0; component < (polarised ? 4 : 1); ++component)
+    add_component(film, bins, component, exposure_per_radiance, image);
   return image;
 }
 
 Image expose(const SpectralImage& image, std::span<const Channel> channels,
              std::span<const double> exposure_per_radiance) {
   Image film{image.width, image.height, {}, {}};
-  const std::vector<double> edges = band_edges(image.bands);
-  const std::vector<const ImageChannel*> band_variances = variances(image);
   std::vector<ImageChannel> errors;
   for (const Channel& channel : channels) {
     if (channel.angular)
       throw Error(ErrorCode::usage, channel.name,
                   "responds by the angle of the light, which a spectral image does not tell");
-    const std::vector<double> weights = mean_weights(channel, edges);
+    const std::vector<Term> terms = terms_of(image, channel);
     std::vector<float> values;
     std::vector<float> bounds;
     for (std::size_t pixel = 0; pixel < film.pixels(); ++pixel) {
       double value = 0;
       double deviation = 0;
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        value += weights[i] * image.bands[i].radiance[pixel];
-        if (!band_variances.empty())
-          deviation += std::abs(weights[i]) * std::sqrt(band_variances[i]->values[pixel]);
+      for (const Term& term : terms) {
+        value += term.weight * term.radiance[pixel];
+        if (term.variance != nullptr)
+          deviation += std::abs(term.weight) * std::sqrt(term.variance->values[pixel]);
       }
       values.push_back(static_cast<float>(value * exposure_per_radiance[pixel]));
       bounds.push_back(static_cast<float>(std::pow(deviation * exposure_per_radiance[pixel], 2)));

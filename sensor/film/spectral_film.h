@@ -23,16 +23,17 @@ struct SpectralBins {
 /// arrives in the bin [J/m^2]. Named by their centres, as "545nm".
 [[nodiscard]] std::vector<Channel> spectral_channels(const SpectralBins& bins);
 
-/// The film of those channels as radiances. `exposure_per_radiance` [s sr] is, pixel by pixel, what a
-/// radiance is multiplied by to give the radiant exposure. `Variance.` channels, where there are any, are
-/// divided by its square. Of the film's metadata and channels all others are kept.
+/// The film of those channels, or of theirs `with_stokes`, as radiances. `exposure_per_radiance` [s sr] is,
+/// pixel by pixel, what a radiance is multiplied by to give the radiant exposure. `Variance.` channels, where
+/// there are any, are divided by its square. Of the film's metadata and channels all others are kept.
 [[nodiscard]] SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                                           std::span<const double> exposure_per_radiance);
 
 /// The film of a sensor that looks at a spectral image: the light of a band is spread evenly over it, and
 /// what lies beyond 300-1100 nm is not seen. Variances are upper bounds, as if the errors of all bands were
 /// one. Metadata are left out. Throws Error{usage} for a channel whose response depends on the angle, which
-/// an image has lost, Error{input} for variances of some bands only.
+/// an image has lost, and for one with an analyser where the image is not polarised, Error{input} for
+/// variances of some bands only.
 [[nodiscard]] Image expose(const SpectralImage& image, std::span<const Channel> channels,
                            std::span<const double> exposure_per_radiance);
 

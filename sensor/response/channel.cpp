@@ -41,6 +41,12 @@ Channel behind(Channel channel, const FilterStack& filters) {
   return channel;
 }
 
+Channel behind(Channel channel, const Polariser& polariser) {
+  channel = behind(std::move(channel), FilterStack{mean_transmittance(polariser)});
+  channel.analyser = analyser_of(polariser);
+  return channel;
+}
+
 Channel scaled(Channel channel, double factor) {
   channel.weight = scaled(channel.weight, factor);
   if (channel.angular) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/diagnostics.h"
+#include "sensor/response/analyser.h"
 #include "sensor/response/filter.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
@@ -28,9 +29,11 @@ struct AngularResponse {
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;
-  Curve weight;               ///< For light along the normal of its filters.
+  Curve weight;               ///< For unpolarised light along the normal of its filters.
   double exposure_ratio = 1;  ///< Of its own exposure time to the sensor's; the weight contains it.
   std::optional<AngularResponse> angular = {};  ///< When some filter of it shifts with the angle.
+  /// When it tells polarised light from unpolarised light; what it measures is then times the weight.
+  std::optional<Analyser> analyser = {};
 };
 
 /// The weight for light that arrives under an angle of this cosine.
@@ -59,6 +62,8 @@ struct Channel {
 
 /// The channel behind filters, reached by light from all sides.
 [[nodiscard]] Channel behind(Channel channel, const FilterStack& filters);
+/// The channel, which has no analyser yet, behind a polariser.
+[[nodiscard]] Channel behind(Channel channel, const Polariser& polariser);
 /// The channel that counts `factor` times as much of the same light.
 [[nodiscard]] Channel scaled(Channel channel, double factor);
 /// The channel with an exposure of its own, `ratio` times the sensor's.

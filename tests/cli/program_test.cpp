@@ -287,6 +287,12 @@ TEST(Trace, FromTheCommandLine) {
   EXPECT_EQ(abbe(trace + "--dir 1,0,.25 --lambda 200").code, 2);
   EXPECT_EQ(abbe(trace + "--dir -1,0 --lambda 550").code, 2);
   EXPECT_EQ(abbe(trace + "--lambda 550").code, 2);
+  const auto lit = [&](const std::string& stokes) {
+    return abbe(trace + "--dir 1,0,.25 --lambda 550 --stokes=" + stokes);
+  };
+  EXPECT_EQ(lit("2,1.2,0,-1.6").code, 0);
+  EXPECT_NE(lit("1,1,1,0").err.find("--stokes: got \"1,1,1,0\", allowed I above 0"), std::string::npos);
+  for (const char* wrong : {"1,1,1,0", "0,0,0,0", "1,0,0"}) EXPECT_EQ(lit(wrong).code, 2) << wrong;
 }
 
 TEST(Info, KeysOfTheContract) {
@@ -310,7 +316,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_GE(found["wavelength_range_nm"][0], 300);
   EXPECT_LE(found["wavelength_range_nm"][1], 1100);
   EXPECT_GT(found["memory_bytes"], 24 * 16 * 3 * 16);
-  EXPECT_NE(run.err.find("polarisation is not carried"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("polarisation"), std::string::npos) << run.err;
   const Outcome readable = abbe("info " + path);
   EXPECT_NE(readable.out.find("dispersion"), std::string::npos);
   EXPECT_EQ(abbe("info " + scratch().write("ball.json", ball_scene()).string()).err, "");

@@ -106,16 +106,22 @@ TEST(Warnings, InfoAnswersWherePhotonsCannotBeTraced) {
   }
 }
 
-TEST(Warnings, PolarisationTakesALineUnlessQuiet) {
+TEST(Warnings, PolarisationLeftOutTakesALineUnlessQuiet) {
   const std::string scene = room(ball("glass"), kLamp);
-  EXPECT_EQ(rendered(scene).err.find("polarisation"), std::string::npos);
-  const Outcome loud = abbe("render " + scene + " -o " + (scratch() / "warned.exr").string());
+  const std::string left_out = scene + " --set /render/polarisation=off";
+  EXPECT_EQ(abbe("info " + scene).err.find("polarisation"), std::string::npos);
+  EXPECT_EQ(rendered(left_out).err.find("polarisation"), std::string::npos);
+  const Outcome loud = abbe("render " + left_out + " -o " + (scratch() / "warned.exr").string());
   const std::size_t at =
-      loud.err.find("abbe: polarisation is not carried, which matters after shape \"ball\"");
+      loud.err.find("abbe: render/polarisation is \"off\", which matters after shape \"ball\"");
   ASSERT_NE(at, std::string::npos) << loud.err;
   EXPECT_LT(loud.err.find('\n', at) - at, 220U);
+  const Outcome measuring = rendered(left_out + " --set /sensor/stokes=true");
+  EXPECT_NE(measuring.err.find("warning: the sensor measures how light is polarised"), std::string::npos)
+      << measuring.err;
+  EXPECT_EQ(rendered(left_out + " --set /sensor/stokes=true", " --strict").code, 3);
   const std::string mirrors = room(ball("mirror") + ", " + ball("mirror", "0.1"), kLamp);
-  EXPECT_EQ(abbe("info " + mirrors).err, "");
+  EXPECT_EQ(rendered(mirrors + " --set /render/polarisation=off").err, "");
 }
 
 TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {

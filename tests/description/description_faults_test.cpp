@@ -134,6 +134,21 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        R"({"materials": {"g": {"dielectric": {"ior": 1.5}}, "m": {"mixture": [{"material": "g", "weight": 1}]}}})",
        ErrorCode::scene,
        "material \"g\" cannot be mixed: light enters it, which a mixture has no inside for"},
+      {"mixture of a polariser",
+       R"({"materials": {"p": {"polariser": {}}, "m": {"mixture": [{"material": "p", "weight": 1}]}}})",
+       ErrorCode::scene,
+       "material \"p\" cannot be mixed: its axis would be lost, as a mixture has one of its own for all "
+       "parts"},
+      {"23 extinction", R"({"materials": {"m": {"polariser": {"extinction_ratio": 0.5}}}})", ErrorCode::scene,
+       "/materials/m/polariser/extinction_ratio: error: curve out of range at 300 nm (got 0.5, allowed [1, "},
+      {"23 birefringence", R"({"materials": {"m": {"wave_plate": {"birefringence": -0.1, "thickness": 1}}}})",
+       ErrorCode::scene,
+       "/materials/m/wave_plate/birefringence: error: curve out of range at 300 nm (got -0.1, allowed [0, "
+       "10])"},
+      {"23 element", R"({"materials": {"m": {"depolariser": {"transmittance": 1.1}}}})", ErrorCode::scene,
+       "/materials/m/depolariser/transmittance: error: curve out of range at 300 nm (got 1.1, allowed [0, "
+       "1])"},
+      {"no retardance", R"({"materials": {"m": {"wave_plate": {}}}})", ErrorCode::scene, "retardance_deg"},
       {"24 unsorted",
        painted(R"({"table": {"wavelength_nm": [500, 400], "values": [0, 1], "outside": "zero"}})"),
        ErrorCode::scene, "wavelengths must ascend (got 400 nm after 500 nm)"},
@@ -214,6 +229,33 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene,
        "/camera/lens_system/f_number: error: the lens does not open so far (got f/1.4, allowed f/2 "
        "or more)"},
+      {"two blades",
+       R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4, "blades": 2}, )" + at + "}",
+       ErrorCode::scene, "/camera/thin_lens/blades: error: expected an integer (got 2, allowed [3, 32])"},
+      {"faster than blades let it be",
+       R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4, "t_stop": 4, "blades": 4}, )" + at +
+           "}",
+       ErrorCode::scene,
+       "/camera/thin_lens/t_stop: error: a T-stop is no faster than its f-number and blades let it be (got "
+       "4, allowed [5.013"},
+      {"a lens of no kind", R"({"camera": {"lens_system": {"prescription": 50}, )" + at + "}",
+       ErrorCode::scene,
+       "/camera/lens_system/prescription: error: expected a lens: its name, a file, or an object with its "
+       "surfaces (got a number)"},
+      {"a lens without a stop",
+       R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "surfaces": [[50, 4, 1.5], [-50, 40]]}}, )" +
+           at + "}",
+       ErrorCode::scene, "/camera/lens_system/prescription: error: no surface is the stop: a lens has one"},
+      {"a glass that is none, within a short surface",
+       R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "surfaces": [{"stop": true, "thickness": 1}, [50, 4, "N-BK77"], [-50, 40]]}}, )" +
+           at + "}",
+       ErrorCode::scene, "/camera/lens_system/prescription/surfaces/1/2: error: unknown "},
+      {"a short surface of one number",
+       R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "surfaces": [{"stop": true, "thickness": 1}, [50]]}}, )" +
+           at + "}",
+       ErrorCode::scene,
+       "/camera/lens_system/prescription/surfaces/1: error: a list in place of an object has radius, "
+       "thickness, glass, aperture here (got 1 values, allowed 2 to 4)"},
       {"too near for a real lens",
        R"({"camera": {"lens_system": {"prescription": "double_gauss", "focus_distance": 0.01}, )" + at + "}",
        ErrorCode::scene, "the lens has no image behind it of what is there to be in focus (got "},

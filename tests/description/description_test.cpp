@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "description.h"
+#include "scene/camera/lens_optics.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
@@ -53,6 +54,23 @@ TEST_F(DescriptionTest, ConvertsToMetresAndRecentres) {
   EXPECT_DOUBLE_EQ(std::get<Sphere>(inches->shapes.at(0).shape).radius, 0.0508);
   const Loaded bench = load(shaped(R"("mesh": "bench.ply")"), {{"/units", "cm"}});
   EXPECT_NEAR(area(bench->shapes.at(0).shape), 1e-4, 1e-10);
+}
+
+// Short surfaces and files of glass included; what a scene holds needs no file.
+TEST_F(DescriptionTest, LensesStandInTheScene) {
+  write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.625\n1100,1.625\n");
+  const Loaded loaded = load(R"({"camera": {"lens_system": {"prescription": {"title": "mine", "f_number": 8,
+    "surfaces": [{"stop": true, "thickness": 2}, [60, 5, "own.csv", 20], [-60, 48]]}, "blades": 6},
+    "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const lens::System& lens = std::get<LensSystem>(loaded->camera.kind).optics->system.system();
+  EXPECT_EQ(lens.title, "mine");
+  EXPECT_EQ(lens.surfaces[1].profile.curvature, 1.0 / 60);
+  EXPECT_EQ(lens.surfaces[1].behind->index.n(550), 1.625);
+  EXPECT_EQ(lens.surfaces[1].semi_aperture_mm, 20);
+  EXPECT_FALSE(lens.surfaces[2].behind);
+  EXPECT_DOUBLE_EQ(lens.surfaces[0].iris.value().share(), lens::Iris(6, 0).share());
+  EXPECT_FALSE(lens.surfaces[1].iris);
 }
 
 TEST_F(DescriptionTest, PlacesCameras) {

@@ -107,6 +107,29 @@ TEST_F(DescriptionTest, ReadsScatteringModels) {
   EXPECT_TRUE(std::get<CosinePowerMaterial>(model(7)).reciprocal);
 }
 
+TEST_F(DescriptionTest, ReadsThinElements) {
+  const Loaded loaded = load(R"({"units": "mm", "materials": {
+    "ideal": {"polariser": {}},
+    "sheet": {"polariser": {"transmittance": 0.8, "extinction_ratio": {"table": {"wavelength_nm": [400, 700], "values": [100, 400], "outside": "clamp"}}, "angle_deg": 30}},
+    "quarter": {"wave_plate": {"retardance_deg": 90, "angle_deg": -45}},
+    "quartz": {"wave_plate": {"birefringence": 0.0091, "thickness": 0.1, "transmittance": 0.9}},
+    "wedge": {"depolariser": {"transmittance": 0.5}}}})");
+  ASSERT_TRUE(loaded.scene) << loaded.text();
+  const auto model = [&](std::size_t i) -> const MaterialModel& { return loaded->materials.at(i).model; };
+  EXPECT_EQ(std::get<PolariserMaterial>(model(0)).mean_transmittance(550), 0.5);
+  const auto& sheet = std::get<PolariserMaterial>(model(1));
+  EXPECT_NEAR(sheet.blocked(550), 1 / 250.0, 1e-6);
+  EXPECT_NEAR(sheet.mean_transmittance(550), 0.4 * (1 + 1 / 250.0), 1e-6);
+  EXPECT_NEAR(sheet.angle, 0.5235987756, 1e-9);
+  EXPECT_TRUE(needs_coordinates(loaded->materials[1]));
+  const auto& quarter = std::get<WavePlateMaterial>(model(2));
+  EXPECT_NEAR(quarter.retardance(400), 1.5707963268, 1e-9);
+  EXPECT_NEAR(quarter.angle, -0.7853981634, 1e-9);
+  EXPECT_NEAR(std::get<WavePlateMaterial>(model(3)).retardance(550), 6.283185307 * 0.0091 * 1e-4 / 550e-9,
+              1e-6);
+  EXPECT_EQ(std::get<DepolariserMaterial>(model(4)).transmittance(550), 0.5);
+}
+
 TEST_F(DescriptionTest, ReadsCoatings) {
   const Loaded loaded = load(R"({"materials": {
     "lens": {"dielectric": {"ior": "N-BK7", "coating": [{"ior": "MgF2", "thickness_nm": 99.6}]}},

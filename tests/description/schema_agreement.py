@@ -78,7 +78,7 @@ GROUPS = [[key for choice in node["oneOf"] for key in choice.get("required", [])
 def nearby(node):
     """The bounds of numbers right at a node of the schema, in its forms and in arrays there."""
     node = samples.resolved(node)
-    inner = node.get("anyOf", []) + ([node["items"]] if "items" in node else [])
+    inner = node.get("anyOf", []) + node.get("prefixItems", []) + ([node["items"]] if "items" in node else [])
     return bounds(node) + [bound for part in inner for bound in nearby(part)]
 
 

@@ -73,6 +73,9 @@ class Samples:
             return self.of(self.draw.choice(node["anyOf"]))
         return getattr(self, node["type"])(node)
 
+    def null(self, node):
+        return None
+
     def boolean(self, node):
         return self.draw.random() < 0.5
 
@@ -89,6 +92,9 @@ class Samples:
         return self.draw.choice([x for x in (1, 2, 3, low, high) if low <= x <= high])
 
     def array(self, node, length=None):
+        if "prefixItems" in node:
+            length = self.draw.randint(node["minItems"], node["maxItems"]) if length is None else length
+            return [self.of(inner) for inner in node["prefixItems"][:length]] + [None] * (length - node["maxItems"])
         length = node.get("minItems", self.draw.randrange(3)) if length is None else length
         return [self.of(node["items"]) for _ in range(length)]
 
@@ -124,6 +130,10 @@ class Samples:
         if "type" not in node:
             for form in node.get("anyOf", []):
                 yield from self.sites(form, wrap, seen)
+        elif "prefixItems" in node:
+            for place, inner in enumerate(node["prefixItems"]):
+                row = lambda value, at=place: wrap([*self.array(node, at), value, *self.array(node)[at + 1:]])
+                yield from self.sites(inner, row, seen)
         elif node["type"] == "array":
             rest = node.get("minItems", 1) - 1
             yield from self.sites(node["items"], lambda value: wrap([value] + self.array(node, rest)), seen)

@@ -140,6 +140,29 @@ TEST_F(SensorTest, ATStopExposesAsALensWithoutLosses) {
   EXPECT_EQ(std::get<Pinhole>(lens(R"("pinhole": {"focal_length": 0.05})")).aperture_radius, 0.05 / 8);
 }
 
+// Whatever blades take: the f-number stays that of the circle, and T-stops tell how much light comes through.
+TEST_F(SensorTest, BladesLeaveTheFNumberAndCountInTheTStop) {
+  const auto lens = [this](const std::string& members) {
+    const Loaded loaded = load(R"({"camera": {"thin_lens": {"focal_length": 0.05, "blades": 5, )" + members +
+                               R"(}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}})");
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return std::get<ThinLens>(loaded->camera.kind);
+  };
+  const double share = 5 / (2 * std::numbers::pi) * std::sin(2 * std::numbers::pi / 5);
+  const ThinLens plain = lens(R"("f_number": 2)");
+  EXPECT_DOUBLE_EQ(plain.aperture_radius, 0.0125);
+  EXPECT_EQ(plain.transmittance, 1);
+  EXPECT_DOUBLE_EQ(plain.iris->share(), share);
+  const ThinLens both = lens(R"("f_number": 2, "t_stop": 2.5)");
+  EXPECT_DOUBLE_EQ(both.aperture_radius, 0.0125);
+  EXPECT_DOUBLE_EQ(both.transmittance * share, 0.64);
+  const ThinLens alone = lens(R"("t_stop": 2.5)");
+  EXPECT_DOUBLE_EQ(alone.aperture_radius, 0.01 / std::sqrt(share));
+  EXPECT_EQ(alone.transmittance, 1);
+  EXPECT_TRUE(lens(R"("f_number": 2, "blade_rotation_deg": 90)").iris->contains({0.99, 0}));
+  EXPECT_FALSE(plain.iris->contains({0.99, 0}));
+}
+
 TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
   const std::string pixel = R"("resolution": [1, 1], )";
   const auto behind = [&](const std::string& filter) {

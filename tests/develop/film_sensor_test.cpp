@@ -53,6 +53,27 @@ TEST(FilmSensor, FaultsOfTheReadOutAreReportedWhereTheyStand) {
   EXPECT_NE(diagnostics.text().find("allowed [1, 16]"), std::string::npos) << diagnostics.text();
 }
 
+// A film of Stokes vectors shows its intensities, and has nothing that a read-out could count.
+TEST(FilmSensor, OfStokesVectorsCountsTheirIntensities) {
+  Image film = counting_film();
+  film.metadata["sensor_channels"] = "V,S1.V,S2.V,S3.V";
+  film.metadata["sensor"] = "{}";
+  Diagnostics diagnostics;
+  const auto sensor = sensor_of(film, {}, diagnostics);
+  ASSERT_TRUE(sensor) << diagnostics.text();
+  EXPECT_EQ(sensor->planes.size(), 4U);
+  EXPECT_EQ(sensor->channels, std::vector<std::string>{"V"});
+  EXPECT_TRUE(sensor->display);
+  film.metadata["sensor"] = counting_film().metadata["sensor"];
+  try {
+    (void)sensor_of(film, {}, diagnostics);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::input);
+    EXPECT_STREQ(error.what(), "a.exr: its plane \"S3.V\" has a sign, and no electrons to read out");
+  }
+}
+
 TEST(FilmSensor, PlanesComeWithTheirVariance) {
   Image film = counting_film();
   Diagnostics diagnostics;

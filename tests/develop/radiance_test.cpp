@@ -9,7 +9,11 @@ namespace {
 
 // One pixel of 1 W m^-2 sr^-1 in each of two bands, from 500 to 600 nm.
 SpectralImage green() {
-  return {1, 1, {{525, {1}}, {575, {1}}}, {}, {{"seed", "7"}, {"channel.old", "gone"}, {kAxisKey, "3"}}};
+  return {1,
+          1,
+          {{525, {1}}, {575, {1}}},
+          {},
+          {{"seed", "7"}, {"channel.old", "gone"}, {"to_xyz_d65", "of the preview"}, {kAxisKey, "3"}}};
 }
 
 Channel band(const std::string& name, double from_nm, double to_nm) {

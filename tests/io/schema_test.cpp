@@ -235,5 +235,40 @@ TEST(SchemaTest, RefusesATableOfOtherTypes) {
   EXPECT_THROW((void)field("count", &Lamp::count, schema::within<double>(kLength), ""), Error);
 }
 
+// A thing that may be a row of the values of its first keys.
+struct Layer {
+  double thickness = 1;
+  std::optional<std::string> glass;
+  bool last = false;
+};
+[[maybe_unused]] Fields fields(Tag<Layer>) {
+  return describe("layer", "What light passes.",
+                  {schema::defaulted("thickness", &Layer::thickness, {0, 9}, "How thick it is."),
+                   field("glass", &Layer::glass, "What it is of."),
+                   schema::defaulted("last", &Layer::last, "Whether others follow.")})
+      .or_row(1, 2);
+}
+
+TEST(Schema, RowsStandForTheFirstKeys) {
+  const auto layer = [](const std::string& text, std::string* complaint = nullptr) {
+    Diagnostics diagnostics;
+    const auto json = parse_json(source(text), diagnostics);
+    const auto read = schema::read<Layer>(*json, diagnostics);
+    if (complaint != nullptr) *complaint = diagnostics.text();
+    return read;
+  };
+  EXPECT_EQ(layer(R"([2, "BK7"])")->thickness, 2);
+  EXPECT_EQ(layer(R"([2, "BK7"])")->glass, "BK7");
+  EXPECT_EQ(layer(R"([null, "BK7"])")->thickness, 1);
+  EXPECT_FALSE(layer("[3]")->glass);
+  EXPECT_TRUE(layer(R"({"thickness": 3, "last": true})")->last);
+  std::string complaint;
+  EXPECT_FALSE(layer(R"([2, "BK7", true])", &complaint));
+  EXPECT_NE(complaint.find("has thickness, glass here (got 3 values, allowed 1 to 2)"), std::string::npos)
+      << complaint;
+  EXPECT_FALSE(layer("[2, 3]", &complaint));
+  EXPECT_NE(complaint.find("1:5: /1: error: expected a string"), std::string::npos) << complaint;
+}
+
 }  // namespace
 }  // namespace abbe::testing

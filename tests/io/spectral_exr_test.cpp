@@ -105,6 +105,41 @@ TEST(SpectralExr, AnImageIsSpectralByItsAttributeOrItsChannels) {
   EXPECT_FALSE(is_spectral({1, 1, {{"R", {1}}, {"Variance.S0.550nm", {1}}}, {{"seed", "7"}}}));
 }
 
+// S1.film and the like are channels of a colour film.
+TEST(SpectralExr, ComponentsAloneMakeNoImageSpectral) {
+  EXPECT_FALSE(is_spectral({1, 1, {{"film", {1}}, {"S1.film", {1}}}, {}}));
+}
+
+SpectralImage polarised_sample() {
+  SpectralImage image = sample();
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const SpectralBand& band : image.bands) {
+      const auto value = static_cast<float>(i + 1);
+      image.polarised.at(i).push_back({band.center_nm, {value, -value}});
+    }
+  return image;
+}
+
+TEST(SpectralExr, PolarisationComesBackRightHanded) {
+  EXPECT_EQ(spectral_channel(550, 2), "S2.550,000000nm");
+  EXPECT_FALSE(spectral_layout(sample()).metadata.contains(kHandednessKey));
+  Image layout = spectral_layout(polarised_sample());
+  EXPECT_EQ(layout.metadata.at(kHandednessKey), "right");
+  EXPECT_EQ(layout.find("S3.545,500000nm")->values, (std::vector<float>{3, -3}));
+  for (const char* handedness : {"right", "left"}) {
+    layout.metadata[kHandednessKey] = handedness;
+    const SpectralImage read = spectral_image(layout, "a.exr");
+    EXPECT_TRUE(read.is_polarised());
+    EXPECT_EQ(read.metadata.at(kHandednessKey), "right");
+    for (std::size_t i = 0; i < 3; ++i) {
+      ASSERT_EQ(read.polarised.at(i).size(), 3U);
+      const float value = static_cast<float>(i + 1) * (i == 2 && *handedness == 'l' ? -1.0F : 1.0F);
+      EXPECT_EQ(read.polarised.at(i)[2].center_nm, 1000.25);
+      EXPECT_EQ(read.polarised.at(i)[2].radiance, (std::vector<float>{value, -value})) << i << handedness;
+    }
+  }
+}
+
 TEST(SpectralExr, OpenImageIoReadsIt) {
   const auto path = test_folder() / "a.exr";
   write_exr(path, spectral_layout(sample()));

@@ -57,12 +57,13 @@ TEST(LensPrescription, ShortFormSaysTheSame) {
 TEST(LensPrescription, GlassesComeFromCataloguesAndNumbers) {
   const System system = sound_lens_of(
       R"({"entrance_pupil": 1, "wavelengths_nm": [587.5618], "surfaces": [{"thickness": 1, "glass": "N-BK7", "stop": true},
-      [0, 1, {"nd": 1.7, "vd": 40}], [0, 1, 1.9], [0, 1, "schott/F5"], [0, 1]]})");
+      [0, 1, {"nd": 1.7, "vd": 40}], [0, 1, 1.9], [0, 1, "schott/F5"], [0, 1], [0, 1, {"n": 1.4, "k": 1e-9}], [0, 1]]})");
   const SystemAt d(system, 587.5618);
   EXPECT_NEAR(d.n[1], 1.516800, 5e-7);
   EXPECT_NEAR(d.n[2], 1.7, 1e-12);
   EXPECT_EQ(d.n[3], 1.9);
   EXPECT_EQ(d.n[5], 1);
+  EXPECT_EQ(d.n[6], 1.4) << "n is no slip of nd";
   const double spread = SystemAt(system, 486.1327).n[2] - SystemAt(system, 656.2725).n[2];
   EXPECT_NEAR((1.7 - 1) / spread, 40, 1e-9);
 }

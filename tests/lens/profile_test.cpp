@@ -68,7 +68,7 @@ TEST(LensProfile, NormalsAreAcrossTheSurface) {
     const auto z = [&](double px, double py) { return profile.sag(px * px + py * py); };
     const double h = 1e-5;
     const V3d expected(-(z(x + h, y) - z(x - h, y)) / (2 * h), -(z(x, y + h) - z(x, y - h)) / (2 * h), 1);
-    const V3d normal = profile.normal({x, y, z(x, y)});
+    const V3d normal = profile.normal(V3d(x, y, z(x, y)));
     EXPECT_LT((normal - expected.normalized()).length(), 1e-9);
   }
 }

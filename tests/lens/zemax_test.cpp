@@ -109,8 +109,25 @@ TEST(LensZemax, Utf16IsReadAsUtf8Is) {
     }
 }
 
+// With letters of Latin-1, and the quotes and the dash that Windows-1252 has beside them.
+TEST(LensZemax, Windows1252IsReadAsUtf8Is) {
+  std::string bytes = replaced(kAchromat, "AC254-100-A POSITIVE", "\x93M\xFCller\x94 \x96 20\xB0 5\xB5m");
+  bytes = replaced(bytes, "ENVD", "NOTE 0 f\xFCr\nENVD");
+  const auto loaded = lens_of(bytes, ".zmx");
+  ASSERT_TRUE(loaded.system) << loaded.text();
+  EXPECT_EQ(loaded.system->title, "\u201CM\u00FCller\u201D \u2013 20\u00B0 5\u00B5m ACHROMAT");
+  EXPECT_EQ(first_order(SystemAt(*loaded.system, 587.6)).focal_length_mm,
+            first_order(SystemAt(sound_lens_of(kAchromat, ".zmx"), 587.6)).focal_length_mm);
+  expect_fault(replaced(bytes, "GLAS SF5", "GLAS Gl\xE4ser"), "36:8", "\"Gl\u00E4ser\"");
+  EXPECT_EQ(sound_lens_of(replaced(kAchromat, "AC254-100-A", "\u00B5\u00FC"), ".zmx").title,
+            "\u00B5\u00FC POSITIVE ACHROMAT");
+}
+
 TEST(LensZemax, OtherEncodingsAreErrors) {
-  expect_fault(replaced(kAchromat, "front", "fr\xF6nt"), "23:10", "invalid UTF-8");
+  expect_fault(replaced(kAchromat, "front", "\xFC\x81"), "23:9",
+               "neither UTF-8 nor Windows-1252 (got byte 0x81)");
+  expect_fault("\xEF\xBB\xBF" + replaced(kAchromat, "front", "fr\xF6nt"), "23:10", "invalid UTF-8");
+  expect_fault(replaced(kAchromat, "front", std::string("\xB5\0", 2)), "23:9", "NUL byte");
   expect_fault(utf16(kAchromat, true, true) + "x", "", "invalid UTF-16");
   expect_fault(utf16("MODE SEQ\n", true, true) + "\x01\xD8\x41" + std::string(1, '\0'), "2:1",
                "invalid UTF-16");

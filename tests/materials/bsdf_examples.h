@@ -217,6 +217,25 @@ inline std::vector<RetroreflectorBsdf> examples() {
   return {{SampledSpectrum(1), 2}, {SampledSpectrum(1), 50}, {ramp(0, 0.9F), 2000}};
 }
 
+template <>
+inline std::optional<double> lossless_within(const WavePlateBsdf& model) {
+  return model.transmittance[0] == 1 ? std::optional(1e-6) : std::nullopt;
+}
+template <>
+inline std::vector<PolariserBsdf> examples() {
+  return {{{SampledSpectrum(0.5F)}, SampledSpectrum(0), {1, 0}},
+          {{ramp(0.2F, 0.4F)}, ramp(0, 1), {0.6F, -0.8F}}};
+}
+template <>
+inline std::vector<WavePlateBsdf> examples() {
+  return {{{SampledSpectrum(1)}, SampledSpectrum(1.5707964F), {0, 1}},
+          {{ramp(0.9F, 0.3F)}, ramp(-3, 3), {0.6F, 0.8F}}};
+}
+template <>
+inline std::vector<DepolariserBsdf> examples() {
+  return {{{SampledSpectrum(1)}}, {{ramp(0, 0.9F)}}};
+}
+
 // A mirror, Lambert's matter and rougher; a sheet of glass with holes and spots. Of each only one reflects in
 // a single direction, so that its way back is told from others'.
 inline const std::vector<MixtureMaterial>& mixtures() {

@@ -28,6 +28,13 @@ Camera wide_pinhole() {
 Camera lens() {
   return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125}, 6, 4, 0.005};
 }
+// The same with five blades, and with seven that are turned and a radius of as much light.
+Camera bladed_lens() {
+  return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125, 1, lens::Iris(5, 0)}, 6, 4, 0.005};
+}
+Camera turned_lens() {
+  return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.02, 0.7, lens::Iris(7, 50)}, 6, 4, 0.005};
+}
 Camera wide_lens() {
   return {ThinLens{frame(), 0.006, 0.03, 0.002, 0.7}, 6, 4, 0.005};
 }
@@ -56,6 +63,30 @@ TEST(Camera, ImageIsUpright) {
   EXPECT_NEAR(right_edge.x / right_edge.y, 0.015 / 0.05, 1e-6) << "3 pixels of 5 mm at 50 mm, to the right";
   const V3f top_edge = ray_of(pinhole(), {3, 0}, {0, 0}).ray.direction;
   EXPECT_NEAR(top_edge.z / -top_edge.y, 0.010 / 0.05, 1e-6) << "upwards";
+}
+
+// To the right of what any kind shows; with the way of the light it makes up.
+void expect_right_is_right(const Camera& camera, float time) {
+  const auto right = film_right(camera, time);
+  ASSERT_TRUE(right);
+  EXPECT_NEAR(right->length(), 1, 1e-6F);
+  const auto looks = [&](V2f film) {
+    return sample_ray(camera, film, {0.5F, 0.5F}, kWavelengths, 0, time).ray.direction;
+  };
+  EXPECT_NEAR((looks({6, 2}) - looks({0, 2})).normalized().dot(*right), 1, 1e-6F);
+  const V3f up = (-looks({3, 2})).cross(*right);
+  EXPECT_NEAR((looks({3, 0}) - looks({3, 4})).normalized().dot(up), 1, 1e-6F);
+}
+
+TEST(Camera, TellsTheRightOfItsPicture) {
+  expect_right_is_right(pinhole(), 0);
+  expect_right_is_right(wide_lens(), 0);
+  Camera turning = pinhole();
+  turning.motion = std::make_shared<const Motion>(
+      std::vector<Motion::Keyframe>{{0, {0, 1, 0}, 0, {0, 0, 0}}, {1, {0, 1, 0}, 1.2, {0, 0, 0}}});
+  for (const float time : {0.0F, 0.5F, 1.0F}) expect_right_is_right(turning, time);
+  EXPECT_GT((*film_right(turning, 1) - *film_right(turning, 0)).length(), 1);
+  EXPECT_FALSE(film_right(meter(), 0));
 }
 
 TEST(Camera, ExposureIsThatOfTheLensFormula) {
@@ -110,9 +141,36 @@ TEST(Camera, LensPointsFillTheAperture) {
   EXPECT_NEAR(mean_square / (0.0125 * 0.0125), 0.5, 0.01);
 }
 
+// As the camera looks along -y, right is -x: a corner at the clockwise angle c is at (-sin c, cos c) of x and
+// z. What leaves it by itself comes in where rays leave, and nowhere else.
+TEST(Camera, BladesLeaveAPolygonOfTheAperture) {
+  const Camera camera = bladed_lens();
+  const Opening opening = traits(camera).opening.value();
+  const lens::Iris iris(5, 0);
+  Random random(12);
+  double highest = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const V3d from = V3d(ray_of(camera, {3, 2}, random.pair()).ray.origin) - V3d(1, 2, 3);
+    EXPECT_TRUE(iris.contains(Imath::V2d(-from.x, from.z) * (0.9999 / 0.0125)));
+    highest = std::max(highest, from.z / 0.0125);
+  }
+  EXPECT_GT(highest, 0.97) << "a corner is up";
+  int within = 0;
+  constexpr int kSide = 400;
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) {
+      const Imath::V2d point((2 * i + 1.0) / kSide - 1, (2 * j + 1.0) / kSide - 1);
+      const V3f at(V3d(1 - point.x * 0.0125, 1, 3 + point.y * 0.0125));
+      const bool crossed = opening.crossed_by({at, {0, 1, 0}}).has_value();
+      EXPECT_TRUE(!crossed || point.length() < 1 + 1e-3);
+      within += crossed;
+    }
+  EXPECT_NEAR(4.0 * within / kSide / kSide / kPi, iris.share(), 0.002);
+}
+
 TEST(Camera, ConnectionsAreTheReverseOfRays) {
   Random random(3);
-  for (const Camera& camera : {pinhole(), lens()})
+  for (const Camera& camera : {pinhole(), lens(), bladed_lens(), turned_lens()})
     for (int i = 0; i < 10000; ++i) {
       const V2f film(6 * random.uniform(), 4 * random.uniform());
       const V2f u = random.pair();
@@ -158,7 +216,7 @@ struct Estimate {
 TEST(Camera, BothWaysCollectTheSameEnergy) {
   const Disc patch{{1.04, 0.6, 2.98}, V3d(0.3, 1, 0.2).normalized(), 0.2};
   constexpr int kCount = 400000;
-  for (const Camera& camera : {pinhole(), lens()}) {
+  for (const Camera& camera : {pinhole(), lens(), bladed_lens()}) {
     Random random(4);
     Estimate film_to_patch;
     Estimate patch_to_film;
@@ -191,7 +249,8 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
 
 TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
   Random random(7);
-  for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), wide_lens(), meter(), point_meter()})
+  for (const Camera& camera :
+       {pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(), wide_lens(), meter(), point_meter()})
     for (int i = 0; i < 10000; ++i) {
       const V2f film(static_cast<float>(camera.width) * random.uniform(),
                      static_cast<float>(camera.height) * random.uniform());

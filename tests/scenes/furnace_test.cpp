@@ -40,6 +40,10 @@ const std::multimap<std::string, White> kWhites{
     {"cosine_power", {R"({"reflectance": 1, "exponent": 2, "reciprocal": true})", Returns::no_more}},
     {"phong", {R"({"reflectance": 1, "exponent": 20})", Returns::no_more}},
     {"retroreflector", {R"({"reflectance": 1, "exponent": 50})", Returns::no_more}},
+    {"polariser", {R"({"extinction_ratio": 1})", Returns::all}},
+    {"polariser", {R"({"angle_deg": 30})", Returns::no_more}},
+    {"wave_plate", {R"({"retardance_deg": 90})", Returns::all}},
+    {"depolariser", {R"({})", Returns::all}},
     {"mixture",
      {R"([{"material": "white", "weight": 0.4}, {"material": "silver", "weight": 0.6}])", Returns::all}}};
 

@@ -1,5 +1,7 @@
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include "lens/spot.h"
 #include "scene/camera/lens_optics.h"
@@ -174,6 +176,17 @@ TEST(LensSystemScene, ACropHasTheBitsOfTheWhole) {
     const Crop crop{9, 13, 20, 22};
     EXPECT_TRUE(same_bits(whole, render(scene, {.crop = crop}).film, crop)) << integrator;
   }
+}
+
+TEST(LensSystemScene, APrescriptionMayStandInTheScene) {
+  std::ifstream file(data_directory() / "lens" / "landscape.json");
+  const std::string prescription{std::istreambuf_iterator<char>(file), {}};
+  const std::vector<Override> named{{"/render/integrator", "path"}, {"/render/samples", "8"}};
+  std::vector<Override> within = named;
+  within.push_back({"/camera/lens_system/prescription", prescription});
+  const Film film = render(test::load_text(kStill, named), {}).film;
+  ASSERT_GT(frame_mean_error(film), 0);
+  EXPECT_EQ(render(test::load_text(kStill, within), {}).film.bytes(), film.bytes());
 }
 
 TEST(LensSystemScene, PartsAddUpToTheWhole) {

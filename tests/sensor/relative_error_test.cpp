@@ -130,6 +130,16 @@ TEST(RelativeError, IsThatOfAllPlanesAndColorsAlike) {
   expect_even(chosen(1024, 1, [](std::size_t pixel) { return pixel / 1024 % 2 * 2 + pixel % 2; }), 4);
 }
 
+TEST(RelativeError, IsThatOfPlanesThatCountLight) {
+  Film film(2, 1, 3, 1, 1.0);
+  const std::vector<double> values{1, -0.25, 0.5};
+  for (std::size_t pixel = 0; pixel < 2; ++pixel) film.add(pixel, 0, values);
+  film.set_samples({1});
+  EXPECT_EQ(lit_values(film, 1), (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(lit_values(film, 2), (std::vector<std::size_t>{0, 1, 3, 4}));
+  EXPECT_EQ(lit_values(film, 9), lit_values(film));
+}
+
 TEST(RelativeError, WhatIsLitAndNotFoundYetIsInfinitelyFarOff) {
   const Film film = half_dark(0.01);
   std::vector<std::size_t> lit = lit_values(film);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/error.h"
+#include "sensor/response/stokes_channels.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -78,6 +79,50 @@ TEST(SpectralFilm, ASensorCountsTheEnergyThatItsFiltersPass) {
   // Deviations of 0.2 in all bins, added up.
   EXPECT_FLOAT_EQ(seen.find("Variance.all")->values[0], 0.25F * 0.36F);
   EXPECT_FLOAT_EQ(seen.find("Variance.signed")->values[0], 0.25F * 1.44F);
+}
+
+TEST(SpectralFilm, StokesComponentsBecomeRadiancesToo) {
+  Image polarised = film();
+  for (int component = 1; component < 4; ++component)
+    for (const int nm : {405, 415, 425}) {
+      const std::string name = name_of({component, std::to_string(nm) + "nm"});
+      polarised.channels.push_back({name, {static_cast<float>(component), -1}});
+      polarised.channels.push_back({"Variance." + name, {1, 4}});
+    }
+  const SpectralImage image = spectral_film(polarised, kBins, std::vector<double>{0.5, 0.25});
+  ASSERT_TRUE(image.is_polarised());
+  EXPECT_EQ(image.bands[1].radiance, (std::vector<float>{830, 3320}));
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(image.polarised.at(i).size(), 3U);
+    EXPECT_EQ(image.polarised.at(i)[2].center_nm, 425);
+    EXPECT_EQ(image.polarised.at(i)[2].radiance, (std::vector<float>{2 * static_cast<float>(i + 1), -4}));
+  }
+  ASSERT_EQ(image.others.size(), 12U);
+  EXPECT_EQ(image.others[11].name, "Variance.S3.425,000000nm");
+  EXPECT_EQ(image.others[11].values, (std::vector<float>{4, 64}));
+  EXPECT_FALSE(spectral_film(film(), kBins, std::vector<double>{1, 1}).is_polarised());
+}
+
+// A polariser before a sensor that looks at a polarised image passes what it would have passed in the scene.
+TEST(SpectralFilm, PolarisersLookAtPolarisedImagesAlone) {
+  SpectralImage image = radiances();
+  const std::vector channels{behind(energy_channel("up", band(405, 430)), Polariser{90, Curve(0.8)})};
+  try {
+    (void)expose(image, channels, std::vector<double>{1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::usage);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const SpectralBand& band : image.bands)
+      image.polarised.at(i).push_back({band.center_nm, {i == 0 ? -0.5F * band.radiance[0] : 7}});
+  // Three quarters of the light swing up and down.
+  const Image seen = expose(image, channels, std::vector<double>{2});
+  EXPECT_NEAR(seen.find("up")->values[0], 2 * 0.8F * 0.75F * (0.5F + 2 + 3), 1e-5F);
+  const Image all = expose(image, with_stokes({energy_channel("all", Curve(1.0))}), std::vector<double>{1});
+  EXPECT_FLOAT_EQ(all.find("all")->values[0], 6);
+  EXPECT_FLOAT_EQ(all.find("S1.all")->values[0], -3);
+  EXPECT_FLOAT_EQ(all.find("S3.all")->values[0], 21);
 }
 
 TEST(SpectralFilm, WithoutVariancesThereIsNoError) {

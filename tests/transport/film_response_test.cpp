@@ -57,6 +57,62 @@ TEST(FilmResponse, AngularChannelsFollowTheAngle) {
   EXPECT_EQ(tilted[1], upright[1]);
 }
 
+StokesSpectrum slanted(float intensity) {
+  return {SampledSpectrum(intensity), SampledSpectrum(0.5F), SampledSpectrum(0.25F), SampledSpectrum(0.125F)};
+}
+
+TEST(FilmResponse, ChannelsMeasureTheirRowOfTheStokesVector) {
+  EXPECT_FALSE(FilmResponse(kChannels).polarised());
+  std::vector<Channel> channels = with_stokes(kChannels);
+  channels.push_back(behind(energy_channel("up", Curve(1.0)), Polariser{90}));
+  const FilmResponse response(channels);
+  EXPECT_TRUE(response.polarised());
+  std::vector<double> values(channels.size(), 0.0);
+  response.add({}, all_at(500), slanted(1), values);
+  const std::vector<double> of_unit{1, 3, 0.5, 1.5, 0.25, 0.75, 0.125, 0.375, (1 - 0.5) / 2};
+  for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], 16 * of_unit[k], 1e-6) << k;
+  // What has no polarisation is a vector without it.
+  EXPECT_EQ(exposed(response, {}, 500, 1), (std::vector<double>{16, 48, 0, 0, 0, 0, 0, 0, 8}));
+  std::vector<double> unpolarised(channels.size(), 0.0);
+  response.add({}, all_at(500), StokesSpectrum{SampledSpectrum(1.0F)}, unpolarised);
+  EXPECT_EQ(unpolarised, exposed(response, {}, 500, 1));
+}
+
+// As unpolarised light does, and a mosaic of polarisers has each at its own pixel.
+TEST(FilmResponse, PolarisedLightFallsOnPixelsAndAngles) {
+  const std::vector<Channel> channels{
+      behind(behind(energy_channel("right", Curve(1.0)), {Curve(1.0), {{band(645, 655), 2.0}}}),
+             Polariser{0}),
+      behind(energy_channel("up", Curve(1.0)), Polariser{90})};
+  const Mosaic mosaic{2, 1, {0, 1}};
+  const FilmResponse response(channels, &mosaic);
+  const auto at = [&](int x, float cos_film) {
+    std::vector<double> values(1, 0.0);
+    response.add({x, 0, cos_film}, all_at(640), slanted(1), values);
+    return values[0];
+  };
+  const auto tilt = static_cast<float>(std::sqrt(1 - 4 * (1 - std::pow(640.0 / 650, 2))));
+  EXPECT_EQ(at(0, 1), 0);
+  EXPECT_NEAR(at(0, tilt), 16 * 0.75, 1e-6);
+  EXPECT_NEAR(at(1, tilt), 16 * 0.25, 1e-6);
+}
+
+TEST(FilmResponse, LanesOfPolarisedLightFallApart) {
+  const std::vector<Channel> channels = with_stokes({energy_channel("a", Curve(1.0))});
+  const FilmResponse response(channels);
+  LaneImages images{SampledSpectrum(2.5F), SampledSpectrum(0.5F), SampledSpectrum(1.0F)};
+  images.x = SampledSpectrum(SampledSpectrum::Values{2.5F, 2.5F, 2.5F, 2.5F, 2.5F, 2.5F, 4.5F, 4.5F});
+  std::vector<double> values(4, 0.0);
+  std::vector<std::pair<int, std::vector<double>>> fell;
+  response.expose({0, 0, 1, 0, &images}, all_at(500), slanted(1), values,
+                  [&](const FilmPoint& at, std::span<const double> exposed) {
+                    fell.emplace_back(at.x, std::vector<double>(exposed.begin(), exposed.end()));
+                  });
+  ASSERT_EQ(fell.size(), 2U);
+  EXPECT_EQ(fell[0], std::pair(2, std::vector<double>({12, 6, 3, 1.5})));
+  EXPECT_EQ(fell[1], std::pair(4, std::vector<double>({4, 2, 1, 0.5})));
+}
+
 Scene card_in_a_line(const std::vector<Channel>& channels) {
   Scene scene{};
   scene.camera = {IrradianceProbe{}, 2, 1, 1};

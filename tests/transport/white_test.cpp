@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sensor/response/stokes_channels.h"
 #include "transport/render/white.h"
 
 // Which light is the white.
@@ -47,6 +48,15 @@ TEST(MainLight, IsTheOneThatExposesTheFilmMostInAnyOrder) {
     EXPECT_EQ(white.name, "dome") << lights[0].name << ' ' << lights[1].name;
     EXPECT_EQ(white.xy, chromaticity(blue()));
   } while (std::next_permutation(lights.begin(), lights.end(), by_name));
+}
+
+// X, Y and Z together see more of the blue lamp.
+TEST(MainLight, IsThatOfTheObserverWhoMeasuresPolarisation) {
+  Scene scene = card({lamp("blue", blue(), 1.5), lamp("green", Curve({{500, 0}, {550, 1}, {600, 0}}), 1)});
+  scene.channels = observer_channels(Observer::cie1931);
+  EXPECT_EQ(main_light(scene).name, "green");
+  scene.channels = with_stokes(scene.channels);
+  EXPECT_EQ(main_light(scene).name, "green");
 }
 
 TEST(MainLight, LampsOfProportionalSpectraCountAsOne) {

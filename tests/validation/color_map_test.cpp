@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "calibration/output/color_spaces.h"
 
@@ -36,6 +37,24 @@ TEST(ColorMap, NeighboursLookAlikeAndEndsDoNot) {
   }
   EXPECT_GT(map_color(0)[2], map_color(0)[0]) << "blue first";
   EXPECT_GT(map_color(1)[0], map_color(1)[2]) << "yellow last";
+}
+
+TEST(ColorMap, CyclicColoursGoRoundAtOneLightness) {
+  const double chroma = std::hypot(lab_of(cyclic_color(0, 1))[1], lab_of(cyclic_color(0, 1))[2]);
+  EXPECT_GT(chroma, 25);
+  for (int i = 0; i < 360; ++i) {
+    const DisplayColor color = cyclic_color(i / 360.0, 1);
+    EXPECT_TRUE(std::all_of(color.begin(), color.end(), [](double v) { return v >= 0 && v <= 1; })) << i;
+    const Lab a = lab_of(color);
+    const Lab b = lab_of(cyclic_color((i + 1) / 360.0, 1));
+    EXPECT_NEAR(a[0], 65, 1e-6) << i;
+    EXPECT_NEAR(std::hypot(a[1], a[2]), chroma, 1e-6) << i;
+    EXPECT_NEAR(std::hypot(a[1] - b[1], a[2] - b[2]), chroma * std::numbers::pi / 180, 1e-3) << i;
+  }
+  const Lab grey = lab_of(cyclic_color(0.3, 0));
+  EXPECT_NEAR(std::hypot(grey[1], grey[2]), 0, 1e-6);
+  const Lab half = lab_of(cyclic_color(0.3, 0.5));
+  EXPECT_NEAR(std::hypot(half[1], half[2]), chroma / 2, 1e-6);
 }
 
 TEST(ColorMap, ScalesAndClampsAndShowsWhatIsNoNumber) {

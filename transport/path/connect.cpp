@@ -48,7 +48,12 @@ std::optional<Connection> connect(const Scene& scene, RayCaster& caster, const P
       unblocked_transmission(scene, caster, straight, ray, surroundings(scene, a, way.direction),
                              a.lambda_nm(), static_cast<float>(way.distance));
   if (!through) return std::nullopt;
-  return Connection{f * through->transmittance, through->density};
+  Connection joint{f * through->transmittance, through->density};
+  if (a.packet.polarisation || b.packet.polarisation)
+    joint.seen =
+        polarisation_towards(scene, a, way.direction, TransportMode::radiance)
+            .of(polarisation_towards(scene, b, -way.direction, TransportMode::power), -way.direction);
+  return joint;
 }
 
 }  // namespace abbe

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "sensor/response/stokes_channels.h"
 #include "spectral/packet.h"
+#include "spectral/stokes.h"
 
 namespace abbe {
 
@@ -52,6 +54,13 @@ struct FilmPoint {
   return contribution * shutter.weight(at.y, at.time);
 }
 
+[[nodiscard]] inline StokesSpectrum let_through(const Shutter& shutter, const FilmPoint& at,
+                                                const StokesSpectrum& contribution) {
+  StokesSpectrum through = contribution;
+  through *= let_through(shutter, at, SampledSpectrum(1.0F));
+  return through;
+}
+
 /// Where the time was drawn by the opening of the point's own row, as `Shutter::draw` does, so that light
 /// which falls on that row counts the same at any time: by how much more each lane counts, and how much more
 /// densely it would have drawn the time. Zero if that row is closed.
@@ -76,24 +85,31 @@ using Deposit = std::function<void(std::uint32_t path, const FilmPoint& at, std:
 
 /// What light does to the film: a contribution c at the wavelengths lambda_j, drawn with the density p,
 /// exposes channel k by sum_j c_j weight_k(lambda_j) / p(lambda_j). With a mosaic there is one value, that of
-/// the pixel's own channel.
+/// the pixel's own channel. Where the sensor tells polarised light from unpolarised light, c_j is what the
+/// channel's analyser measures of a Stokes vector told in the frame of the film: x is the picture's right
+/// (`film_right`), made perpendicular to the way of the light. A contribution without polarisation is a
+/// vector (c_j, 0, 0, 0).
 class FilmResponse {
  public:
   explicit FilmResponse(std::span<const Channel> channels, const Mosaic* mosaic = nullptr)
       : sensor_(channels),
         mosaic_(mosaic),
         angular_(std::any_of(channels.begin(), channels.end(),
-                             [](const Channel& channel) { return channel.angular.has_value(); })) {}
+                             [](const Channel& channel) { return channel.angular.has_value(); })),
+        polarised_(any_analyser(channels)),
+        plain_(!angular_ && !polarised_) {}
 
   /// How many values a contribution makes.
   [[nodiscard]] std::size_t planes() const { return mosaic_ == nullptr ? sensor_.size() : 1; }
   /// Whether the values depend on the angle of incidence.
   [[nodiscard]] bool angular() const { return angular_; }
+  /// Whether some value depends on how the light is polarised.
+  [[nodiscard]] bool polarised() const { return polarised_; }
 
   /// Tells `deposit` of each pixel on which lanes of a contribution fall, and of the values that these expose
   /// there, which `values` then holds, as many as `planes`: once in any case, where no lane has anything.
-  template <typename DepositAt>
-  void expose(const FilmPoint& at, const SampledWavelengths& wavelengths, const SampledSpectrum& contribution,
+  template <typename Contribution, typename DepositAt>
+  void expose(const FilmPoint& at, const SampledWavelengths& wavelengths, const Contribution& contribution,
               std::span<double> values, DepositAt deposit) const {
     if (at.images != nullptr) return expose_apart(at, wavelengths, contribution, values, deposit);
     std::fill(values.begin(), values.end(), 0.0);
@@ -110,34 +126,53 @@ class FilmResponse {
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k] += static_cast<double>((share * weight(sensor_[first + k], at, wavelengths.lambda_nm)).sum());
   }
+  void add(const FilmPoint& at, const SampledWavelengths& wavelengths, const StokesSpectrum& contribution,
+           std::span<double> values) const {
+    const std::size_t first = mosaic_ == nullptr ? 0 : static_cast<std::size_t>(mosaic_->at(at.x, at.y));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const Channel& channel = sensor_[first + k];
+      const SampledSpectrum& nm = wavelengths.lambda_nm;
+      const SampledSpectrum told =
+          channel.analyser ? measured(row_of(*channel.analyser, nm), contribution) : contribution.i;
+      values[k] += static_cast<double>((told / wavelengths.pdf * weight_at(channel, nm, at.cos_film)).sum());
+    }
+  }
 
  private:
   // Lanes of one pixel, and of one angle where that matters, expose it together.
-  template <typename DepositAt>
+  template <typename Contribution, typename DepositAt>
   [[gnu::noinline]] void expose_apart(const FilmPoint& at, const SampledWavelengths& wavelengths,
-                                      const SampledSpectrum& contribution, std::span<double> values,
+                                      const Contribution& contribution, std::span<double> values,
                                       DepositAt deposit) const {
     std::array<bool, kLanes> done{};
     bool any = false;
     for (int first = 0; first < kLanes; ++first) {
-      if (done[static_cast<std::size_t>(first)] || contribution[first] == 0) continue;
+      if (done[static_cast<std::size_t>(first)] || intensity(contribution)[first] == 0) continue;
       const FilmPoint pixel = image_of(at, first);
       SampledSpectrum::Values falling{};
       for (int lane = first; lane < kLanes; ++lane) {
         const FilmPoint other = image_of(at, lane);
         if (other.x != pixel.x || other.y != pixel.y || (angular_ && other.cos_film != pixel.cos_film))
           continue;
-        falling[static_cast<std::size_t>(lane)] = contribution[lane];
+        falling[static_cast<std::size_t>(lane)] = 1;  // not multiplied by: others need not be finite
         done[static_cast<std::size_t>(lane)] = true;
       }
       std::fill(values.begin(), values.end(), 0.0);
-      add(pixel, wavelengths, SampledSpectrum(falling), values);
+      add(pixel, wavelengths, only(contribution, SampledSpectrum(falling)), values);
       deposit(pixel, values);
       any = true;
     }
     if (any) return;
     std::fill(values.begin(), values.end(), 0.0);
     deposit(FilmPoint{at.x, at.y, at.cos_film, at.time}, values);
+  }
+  [[nodiscard]] static const SampledSpectrum& intensity(const SampledSpectrum& of) { return of; }
+  [[nodiscard]] static const SampledSpectrum& intensity(const StokesSpectrum& of) { return of.i; }
+  [[nodiscard]] static SampledSpectrum only(const SampledSpectrum& of, const SampledSpectrum& lanes) {
+    return SampledSpectrum::map(of, lanes, [](float value, float kept) { return kept > 0 ? value : 0; });
+  }
+  [[nodiscard]] static StokesSpectrum only(const StokesSpectrum& of, const SampledSpectrum& lanes) {
+    return {only(of.i, lanes), only(of.q, lanes), only(of.u, lanes), only(of.v, lanes)};
   }
   [[nodiscard]] static FilmPoint image_of(const FilmPoint& at, int lane) {
     return {static_cast<int>(at.images->x[lane]), static_cast<int>(at.images->y[lane]),
@@ -146,16 +181,19 @@ class FilmResponse {
 
   [[nodiscard]] SampledSpectrum weight(const Channel& channel, const FilmPoint& at,
                                        const SampledSpectrum& wavelengths_nm) const {
-    return angular_ ? weight_by_angle(channel, at.cos_film, wavelengths_nm) : channel.weight(wavelengths_nm);
+    return plain_ ? channel.weight(wavelengths_nm) : weight_unpolarised(channel, at.cos_film, wavelengths_nm);
   }
-  [[gnu::noinline]] static SampledSpectrum weight_by_angle(const Channel& channel, float cos_film,
-                                                           const SampledSpectrum& wavelengths_nm) {
-    return weight_at(channel, wavelengths_nm, cos_film);  // out of the way of the others
+  [[gnu::noinline]] static SampledSpectrum weight_unpolarised(const Channel& channel, float cos_film,
+                                                              const SampledSpectrum& wavelengths_nm) {
+    const SampledSpectrum weight = weight_at(channel, wavelengths_nm, cos_film);  // out of the others' way
+    return channel.analyser ? weight * channel.analyser->i : weight;
   }
 
   std::span<const Channel> sensor_;
   const Mosaic* mosaic_;
   bool angular_;
+  bool polarised_;
+  bool plain_;
 };
 
 /// The response of the scene's sensor; refers to the scene, which must outlive it.

@@ -25,4 +25,18 @@ namespace abbe {
   return vertex.relief ? sent.f * (std::abs(sent.wi.z) / arriving) : sent.f;
 }
 
+/// What a path of radiance, come to the surface with the packet `eye`, measures of the flux when that has
+/// come with the packet `light` from there, over what it would were all unpolarised; nothing if they carry
+/// none.
+[[nodiscard]] inline std::optional<StokesSpectrum> merged_polarisation(const SurfaceVertex& vertex,
+                                                                       const CarriedPolarisation& eye,
+                                                                       const Imath::V3f& from,
+                                                                       const CarriedPolarisation& light) {
+  if (!eye) return std::nullopt;
+  return eye
+      ->through(vertex.mueller(vertex.frame.to_local(from), false), vertex.frame.to_world(vertex.wo),
+                TransportMode::radiance)
+      .of(*light, -from);
+}
+
 }  // namespace abbe

@@ -5,6 +5,7 @@
 #include "materials/bsdf/event.h"
 #include "spectral/packet.h"
 #include "spectral/wavelength_distribution.h"
+#include "transport/path/polarisation.h"
 
 namespace abbe {
 
@@ -18,7 +19,12 @@ struct PathPacket {
   SampledSpectrum throughput{1.0F};  ///< f_j / P_hero.
   SampledSpectrum lane_pdf{1.0F};    ///< P_k / P_hero; 0 for a lane that cannot follow.
   int hero = 0;
+  CarriedPolarisation polarisation = {};  ///< Where it is carried.
 
+  /// The hero, where no other lane can follow any more.
+  [[nodiscard]] std::optional<int> lone_lane() const {
+    return lane_pdf.sum() == lane_pdf[hero] ? std::optional(hero) : std::nullopt;
+  }
   /// The largest throughput of a lane, the same whichever lane is the hero.
   [[nodiscard]] float carried() const { return throughput.max() / lane_pdf.max(); }
 };
@@ -35,13 +41,21 @@ struct PathPacket {
 }
 
 /// Takes a packet through an event that leaves `weight` = f / P_hero of each lane and that lane k would have
-/// brought about with `lane_pdf` times the hero's density. Here alone throughput and densities change.
+/// brought about with `lane_pdf` times the hero's density. Here and in `polarise` alone throughput and
+/// densities change.
 inline void advance(PathPacket& packet, const SampledSpectrum& weight, const SampledSpectrum& lane_pdf) {
   packet.throughput *= weight;
   packet.lane_pdf *= lane_pdf;
 }
 inline void advance(PathPacket& packet, const BsdfSample& event) {
   advance(packet, event.weight, event.lane_pdf);
+}
+/// Takes the polarisation of a packet that carries any through the same event, whose Mueller matrix is
+/// nothing where it depolarises; light travels along `travels` on that side of it on which the packet was.
+/// What the event leaves of unpolarised light becomes what it leaves of the packet's.
+inline void polarise(PathPacket& packet, const std::optional<MuellerMatrix>& matrix,
+                     const Imath::V3f& travels, TransportMode mode) {
+  packet.throughput *= packet.polarisation->pass(matrix, travels, mode);
 }
 /// Goes on with a probability that is the same for all lanes.
 inline void survive(PathPacket& packet, float probability) {

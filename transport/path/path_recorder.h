@@ -99,8 +99,9 @@ class PathRecorder {
       keep_light(path, {index, hit.point, hit.normal});
   }
   void reach(RecordedPath& path, const SurfaceVertex& vertex) {
-    path.vertices.push_back(
-        come_to(path, {.at = vertex, .beyond = vertex.behind(scene_, path.around.inside)}));
+    PathVertex here{.at = vertex};
+    here.beyond = vertex.behind(scene_, path.around.inside);
+    path.vertices.push_back(come_to(path, std::move(here)));
   }
   void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
   void connect_within(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& /*u*/) {
@@ -170,5 +171,8 @@ class PathRecorder {
   RayCaster& caster_;
   RandomWalks<PathRecorder> walks_;
 };
+
+template <TransportMode mode>
+inline constexpr bool kDrawsPolarised<PathRecorder<mode>> = false;
 
 }  // namespace abbe

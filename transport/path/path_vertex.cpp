@@ -5,6 +5,7 @@
 
 #include "scene/extent.h"
 #include "scene/lights/emission.h"
+#include "transport/path/polarised_ends.h"
 
 namespace abbe {
 namespace {
@@ -96,6 +97,19 @@ Way way_from(const PathVertex& a, const PathVertex& b) {
 SampledSpectrum sent_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                              TransportMode mode) {
   return std::visit([&](const auto& at) { return sent(at, {scene, vertex, w}, mode); }, vertex.at);
+}
+
+Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
+                                  TransportMode mode) {
+  if (const auto* light = std::get_if<LightVertex>(&vertex.at))
+    return polarisation_of_lamp(scene.lights[light->light], w);
+  const CarriedPolarisation& carried = vertex.packet.polarisation;
+  if (const auto* surface = std::get_if<SurfaceVertex>(&vertex.at))
+    return carried->through(surface->mueller(surface->frame.to_local(w), false),
+                            light_travels(-surface->frame.to_world(surface->wo), mode), mode);
+  if (const auto* medium = std::get_if<MediumVertex>(&vertex.at))
+    return carried->through(mueller(medium->phase, medium->from, w), light_travels(medium->from, mode), mode);
+  return polarisation_of_film(scene, -w, vertex.time);
 }
 
 SampledSpectrum direction_pdf(const Scene& scene, const PathVertex& vertex, const Imath::V3f& before,

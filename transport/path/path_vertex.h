@@ -79,6 +79,12 @@ struct Way {
 [[nodiscard]] SampledSpectrum sent_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                                            TransportMode mode);
 
+/// The polarisation with which the packet that the vertex holds leaves it towards the unit vector `w`, by no
+/// event of a single direction, relative to what it has come with; that of a lamp's own light, and power
+/// alone at a camera.
+[[nodiscard]] Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex,
+                                                const Imath::V3f& w, TransportMode mode);
+
 /// Density [1/sr] with which the vertex would draw the direction `w`, lane by lane, by an event that is not
 /// delta: a camera and a light of their own, the others when they are come to along -`before`, that is from
 /// the vertex in the direction `before`. Light from infinity draws the place of its way instead [1/m^2]. With

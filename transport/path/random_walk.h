@@ -10,6 +10,7 @@
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
 #include "transport/path/interface.h"
+#include "transport/path/polarised_draw.h"
 #include "transport/path/ray_caster.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
@@ -47,6 +48,11 @@ concept WalkingTechnique = requires(T technique, typename T::Path& path, const S
   technique.resolve_connections();
 };
 
+/// Whether a technique balances the lanes of its paths alone, so that its walks may draw events as polarised
+/// light has them; the others work out for themselves with which density each event of a path was drawn.
+template <typename Technique>
+inline constexpr bool kDrawsPolarised = true;
+
 /// Random walks of many paths that take each step together: rays are cast together, and each path goes on by
 /// itself. What becomes of a path does not depend on the others.
 template <typename Technique>
@@ -75,11 +81,16 @@ class RandomWalks {
     technique.reach(path, vertex);
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
     if (scatters(vertex.bsdf)) technique.connect(path, vertex, v);
-    const auto event = technique.scatter(path, vertex, BsdfRandom{u[2], {u[0], u[1]}});
+    const bool drawn = path.packet.polarisation && kDrawsPolarised<Technique> && draws_polarised(vertex.bsdf);
+    const float choice =
+        drawn ? polarised_choice(path.packet, vertex, path.ray.direction, Technique::kMode, u[2]) : u[2];
+    const auto event = technique.scatter(path, vertex, BsdfRandom{choice, {u[0], u[1]}});
     if (!event || !technique.follows(path, *event)) return false;
     path.connected = event->delta ? 0.0F : path.packet.lane_pdf.sum() / event->pdf;
     path.last = vertex.place();
     advance(path.packet, *event);
+    if (path.packet.polarisation)
+      polarise(path, vertex.mueller(event->wi, event->delta, path.packet.lone_lane()), drawn);
     if (event->transmitted)
       path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
     path.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi), path.ray.time);
@@ -135,11 +146,36 @@ class RandomWalks {
     const PhaseFunction& phase = path.around.medium.scattering->phase;
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
     technique.connect_within(path, phase, v);
-    const PhaseSample turned = sample(phase, {u[0], u[1]});
-    path.connected = path.packet.lane_pdf.sum() / turned.pdf;
     path.last = {path.ray.origin, std::nullopt};
-    path.ray.direction = Basis<float>(path.ray.direction).to_world(turned.direction);
+    path.ray.direction = turn(path, phase, {u[0], u[1]});
     return survives(path, technique.kept_within(path), u[3]);
+  }
+
+  // A direction drawn within matter, in which the path is connected and polarised as if it went there.
+  Imath::V3f turn(Path& path, const PhaseFunction& phase, const Imath::V2f& u) {
+    const Imath::V3f& along = path.ray.direction;
+    const float lanes = path.packet.lane_pdf.sum();
+    if (!path.packet.polarisation) {
+      const PhaseSample turned = sample(phase, u);
+      path.connected = lanes / turned.pdf;
+      return Basis<float>(along).to_world(turned.direction);
+    }
+    const bool drawn = kDrawsPolarised<Technique> && std::holds_alternative<RayleighPhase>(phase);
+    const PhaseSample plain = sample(phase, u);
+    const TurnedDirection turned =
+        drawn ? polarised_turn(path.packet, phase, along, Technique::kMode, u)
+              : TurnedDirection{Basis<float>(along).to_world(plain.direction), plain.pdf};
+    path.connected = lanes / (turned.pdf * polarise(path, mueller(phase, along, turned.direction), drawn));
+    return turned.direction;
+  }
+
+  // Takes the polarisation of a path that carries any through an event to which it has come along its ray.
+  // Returns by how much more densely than as of unpolarised light the event was drawn.
+  float polarise(Path& path, const std::optional<MuellerMatrix>& matrix, bool drawn) {
+    const Imath::V3f travels = light_travels(path.ray.direction, Technique::kMode);
+    if (drawn) return polarise_drawn(path.packet, matrix, travels, Technique::kMode);
+    abbe::polarise(path.packet, matrix, travels, Technique::kMode);
+    return 1;
   }
 
   // Whether a path may not have another event.

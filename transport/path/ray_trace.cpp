@@ -81,7 +81,8 @@ double transmittance(const Material* matter, const BasicRay<double>& ray, double
 struct Traveller {
   BasicRay<double> ray;
   MediumStack inside;
-  double nearest;    // at which it may meet something
+  double nearest;  // at which it may meet something
+  PolarisedWay way;
   double share = 1;  // of the power
   int events = 0;    // so far
   std::size_t from = 0, event = 0;
@@ -89,16 +90,19 @@ struct Traveller {
 
 class Follower {
  public:
-  Follower(const Scene& scene, double wavelength_nm, Follow follow, const FollowLimits& limits)
+  Follower(const Scene& scene, double wavelength_nm, Follow follow, const FollowLimits& limits,
+           const StokesVector& light)
       : scene_(scene),
         wavelength_nm_(wavelength_nm),
+        light_(light),
         follow_(follow),
         limits_(limits),
         size_(scene.bounds.isEmpty() ? 0 : scene.bounds.size().length()) {}
 
   RayTree operator()(const BasicRay<double>& ray) {
     const bool nested = scene_.needs.nesting;
-    wait({ray, nested ? enclosing(scene_, Imath::V3f(ray.origin)) : MediumStack{}, 0});
+    wait({ray, nested ? enclosing(scene_, Imath::V3f(ray.origin)) : MediumStack{}, 0,
+          PolarisedWay(ray.direction)});
     while (!waiting_.empty()) {
       const Traveller next = waiting_.begin()->second;
       waiting_.erase(waiting_.begin());
@@ -120,12 +124,13 @@ class Follower {
 
   void follow_branch(Traveller now) {
     const bool main = tree_.branches.empty();
-    tree_.branches.push_back({{{}, now.ray, false}, now.ray, now.share, now.from, now.event});
+    tree_.branches.push_back({{{}, now.ray, false, now.way}, now.ray, now.share, now.from, now.event});
     bool goes_on = true;
     while (goes_on && now.events < limits_.max_events && (main || now.share >= limits_.least_share))
       goes_on = step(now);
     RayTrace& trace = tree_.branches.back().trace;
     trace.last = now.ray;
+    trace.way = now.way;
     trace.cut_short = goes_on && now.events == limits_.max_events;
     if (goes_on) cut(now);
   }
@@ -134,8 +139,11 @@ class Follower {
   bool step(Traveller& now) {
     std::vector<TraceEvent>& events = tree_.branches.back().trace.events;
     const std::optional<ExactHit> hit = intersect_exact(scene_, now.ray, now.nearest);
-    now.share *= transmittance(matter_before(scene_, now.ray, hit, now.inside), now.ray,
-                               hit ? hit->hit.t : std::numeric_limits<double>::infinity(), wavelength_nm_);
+    const double left =
+        transmittance(matter_before(scene_, now.ray, hit, now.inside), now.ray,
+                      hit ? hit->hit.t : std::numeric_limits<double>::infinity(), wavelength_nm_);
+    now.share *= left;
+    now.way.mueller *= left;
     if (!hit) {
       events.push_back({.kind = Kind::escape, .at = {}, .share = now.share});
       return false;
@@ -155,20 +163,23 @@ class Follower {
                      .shape = met.acting.shape,
                      .passage = {},
                      .share = now.share,
-                     .R = turn.reflected ? turn.R : 0,
-                     .T = turn.through ? turn.T : 0};
+                     .R = turn.reflected ? share_of(now, turn, *turn.reflected) : 0,
+                     .T = turn.through ? share_of(now, turn, *turn.through) : 0};
     if (way != nullptr) {
       event.kind = way->kind;
       event.passage = turn.passage;
       event.passage->angle_out_deg = way->angle_deg;
     }
-    events.push_back(event);
-    if (follow_ == Follow::both) part(now, met, turn, way);
-    if (way == nullptr) return false;
+    const Traveller before = now;
     const bool through = turn.through && way == &*turn.through;
-    now.share *= through ? event.T : event.R;
-    send(now, met, way->direction, through);
-    return true;
+    if (way != nullptr) {
+      take(now, turn, *way);
+      send(now, met, way->direction, through);
+      event.polarisation = EventPolarisation{turn.axis, way->mueller, now.way.mueller * light_};
+    }
+    events.push_back(event);
+    if (follow_ == Follow::both) part(before, met, turn, way);
+    return way != nullptr;
   }
 
   // The way of the branch itself, nullptr where it ends.
@@ -180,13 +191,27 @@ class Follower {
     return through != nullptr ? through : reflected;
   }
 
+  // The light of a ray by a way on, its direction being still that before.
+  void take(Traveller& now, const Turn& turn, const RayWay& way) const {
+    now.way.turn_to(turn.axis, now.ray.direction);
+    now.way.mueller = way.mueller * now.way.mueller;
+    now.share = (now.way.mueller * light_)[0];
+  }
+
+  // Of the light that arrives, what a way on takes.
+  [[nodiscard]] double share_of(const Traveller& now, const Turn& turn, const RayWay& way) const {
+    Traveller after = now;
+    take(after, turn, way);
+    return now.share > 0 ? after.share / now.share : 0;
+  }
+
   // The ways on that the branch does not take itself.
   void part(const Traveller& now, const Meeting& met, const Turn& turn, const RayWay* taken) {
     for (const bool through : {false, true}) {
       const std::optional<RayWay>& way = through ? turn.through : turn.reflected;
       if (!way || taken == &*way) continue;
       Traveller other = now;
-      other.share *= through ? turn.T : turn.R;
+      take(other, turn, *way);
       other.from = tree_.branches.size() - 1;
       other.event = tree_.branches.back().trace.events.size() - 1;
       send(other, met, way->direction, through);
@@ -206,6 +231,7 @@ class Follower {
 
   const Scene& scene_;
   double wavelength_nm_;
+  StokesVector light_;  // of I = 1
   Follow follow_;
   const FollowLimits& limits_;
   double size_;
@@ -222,8 +248,8 @@ double angle_deg(const Imath::V3d& a, const Imath::V3d& b) {
 }
 
 RayTree follow_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, Follow follow,
-                   const FollowLimits& limits) {
-  return Follower(scene, wavelength_nm, follow, limits)(ray);
+                   const FollowLimits& limits, const StokesVector& light) {
+  return Follower(scene, wavelength_nm, follow, limits, light)(ray);
 }
 
 RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, int max_events) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "transport/path/ray_polarisation.h"
 
 namespace abbe {
 
@@ -19,6 +20,13 @@ struct Passage {
   double Rs, Rp;
 };
 
+/// What an event did to polarised light on the way that is followed.
+struct EventPolarisation {
+  Imath::V3d axis;      ///< The first axis of the frames before and after the event, across both directions.
+  FullMueller mueller;  ///< Whose first element is what unpolarised light keeps of its power.
+  StokesVector stokes;  ///< What goes on, the light that set out having I = 1.
+};
+
 /// One thing that happened to a ray.
 struct TraceEvent {
   enum class Kind { refract, reflect, total_reflection, hit, escape };
@@ -28,6 +36,7 @@ struct TraceEvent {
   std::optional<Passage> passage = {};  ///< Of a smooth surface.
   double share = 1;                     ///< Of the ray's power at its start, what arrives.
   double R = 0, T = 0;                  ///< Of what arrives, what goes on reflected and through.
+  std::optional<EventPolarisation> polarisation = {};  ///< Where the ray goes on.
 };
 
 /// A ray's whole way.
@@ -35,6 +44,7 @@ struct RayTrace {
   std::vector<TraceEvent> events;
   BasicRay<double> last;  ///< Where the ray ended or left from, and its direction there.
   bool cut_short;         ///< Still going after as many events as were allowed.
+  PolarisedWay way;       ///< From the start of the ray, all its branches included.
 };
 
 /// Which way is followed where a surface both reflects and lets through.
@@ -71,10 +81,13 @@ struct RayTree {
 /// and `Follow::both` follows refraction in the main branch, which ends at a surface that also scatters, and
 /// every other way in a branch of its own. Coordinates are the scene's own [m].
 ///
-/// Shares of power are, as in renders, those of light that arrives unpolarised at every surface. On the way
-/// between surfaces matter takes what it absorbs and scatters.
+/// Polarisation is carried from surface to surface: shares of power are those of light that sets out with the
+/// Stokes vector `light`, I = 1, in the frame that a `PolarisedWay` starts from. On the way between surfaces
+/// matter takes what it absorbs and scatters. Meshes of polarisers and wave plates end a ray, as a hit does
+/// not tell the coordinates that their axis needs.
 [[nodiscard]] RayTree follow_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
-                                 Follow follow, const FollowLimits& limits);
+                                 Follow follow, const FollowLimits& limits,
+                                 const StokesVector& light = {1, 0, 0, 0});
 
 /// The main branch alone, as `Follow::refraction` has it.
 [[nodiscard]] RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,

@@ -1,7 +1,9 @@
 #include "transport/path/ray_turn.h"
 
 #include "materials/interface/snell.h"
+#include "materials/interface/thin_element.h"
 #include "materials/smooth_power.h"
+#include "scene/shapes/basis.h"
 #include "scene/shapes/coordinates.h"
 
 namespace abbe {
@@ -10,12 +12,20 @@ namespace {
 using Kind = TraceEvent::Kind;
 
 // Unknown on meshes, as a hit does not tell their triangle.
-std::optional<Imath::V2f> coordinates_at(const Shape& shape, const Imath::V3d& point) {
+std::optional<SurfaceCoordinates> coordinates_at(const Shape& shape, const Imath::V3d& point) {
   const auto* placed = std::get_if<PlacedShape>(&shape);
   if (std::holds_alternative<Mesh>(shape) ||
       (placed != nullptr && std::holds_alternative<Mesh>(placed->of->shape)))
     return std::nullopt;
-  return Imath::V2f(coordinates(shape, point, 0, 0).uv);
+  return coordinates(shape, point, 0, 0);
+}
+
+// The axis of what happens, across the ray from `wo` before and after.
+Imath::V3d axis_of(const SmoothMueller& mueller, const Imath::V3d& wo, const Imath::V3d& normal,
+                   const std::optional<SurfaceCoordinates>& place) {
+  if (!mueller.axis) return across(wo, normal);
+  const Basis<double> axes(normal, place->dp_du);
+  return axes.to_world(projected_axis(*mueller.axis, axes.to_local(wo)));
 }
 
 // The indices of the other side, as the passage has them.
@@ -42,27 +52,33 @@ Turn turn_at(const Scene& scene, const ExactHit& at, const Imath::V3d& wo, doubl
   const bool entering = wo.dot(at.hit.normal) > 0;
   const Imath::V3d normal = entering ? at.hit.normal : -at.hit.normal;
   SmoothLookup lookup{wavelength_nm, normal.dot(wo), !entering, outside};
-  if (needs_coordinates(material)) lookup.coordinates = coordinates_at(shape.shape, at.hit.point);
+  std::optional<SurfaceCoordinates> place;
+  if (needs_coordinates(material)) place = coordinates_at(shape.shape, at.hit.point);
+  if (place) lookup.coordinates = Imath::V2f(place->uv);
   const auto power = smooth_power(material, lookup);
   if (!power) return {};
+  const SmoothMueller mueller = *smooth_mueller(material, lookup);
+  if (mueller.axis && !place) return {};
   Turn turn{{},
             {},
-            power->R(),
-            power->transmitted(),
+            axis_of(mueller, wo, at.hit.normal, place),
             {outside, 0, 0, angle_deg(wo, normal), 0, power->Rs, power->Rp},
             lobes(material).spread};
   set_other_side(material, wavelength_nm, entering, outside, turn.passage);
-  if (turn.T > 0) {
+  if (power->transmitted() > 0) {
     const bool bends = std::holds_alternative<DielectricMaterial>(material.model);
     const auto through =
         bends ? refract(wo, normal, turn.passage.n_to / turn.passage.n_from) : std::optional(-wo);
-    if (through) turn.through = RayWay{Kind::refract, through->normalized(), angle_deg(*through, -normal)};
+    if (through)
+      turn.through = RayWay{Kind::refract, through->normalized(), angle_deg(*through, -normal),
+                            FullMueller::of(mueller.ways.through, power->transmitted())};
   }
-  if (turn.R > 0) {
+  if (power->R() > 0) {
     const Imath::V3d direction = reflect(wo, normal);
     const bool total = !turn.through && !opaque(material);
-    turn.reflected = RayWay{total ? Kind::total_reflection : Kind::reflect, direction.normalized(),
-                            angle_deg(direction, normal)};
+    turn.reflected =
+        RayWay{total ? Kind::total_reflection : Kind::reflect, direction.normalized(),
+               angle_deg(direction, normal), FullMueller::of(mueller.ways.reflected, power->R())};
   }
   return turn;
 }

@@ -11,12 +11,15 @@ struct RayWay {
   TraceEvent::Kind kind;  ///< refract, reflect or total_reflection
   Imath::V3d direction;
   double angle_deg;  ///< To the normal.
+  /// What going this way does to polarisation, about the axis of the `Turn`, and to the power of unpolarised
+  /// light.
+  FullMueller mueller;
 };
 
-/// What a surface does to a ray: the ways on, and of the power that arrives unpolarised what takes them.
+/// What a surface does to a ray: the ways on, and what takes them.
 struct Turn {
   std::optional<RayWay> reflected, through;
-  double R = 0, T = 0;
+  Imath::V3d axis = {};  ///< Across the ray before and after.
   Passage passage = {};  ///< But for the angle out.
   bool ends = true;      ///< Light that takes neither is scattered, or all of it is.
 };

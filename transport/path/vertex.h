@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "materials/bsdf/polarisation.h"
 #include "materials/material.h"
 #include "scene/scene.h"
 #include "scene/surface.h"
@@ -66,6 +67,14 @@ struct SurfaceVertex {
     if (relief && event)
       event->weight *= shading_normal_correction(frame.to_world(event->wi), event->wi, mode);
     return event;
+  }
+  /// What it does to polarisation between the way that the path came and the local direction `wi`, in the
+  /// world; see `mueller` of scattering models.
+  [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wi, bool delta,
+                                                     std::optional<int> lane = {}) const {
+    std::optional<MuellerMatrix> matrix = abbe::mueller(bsdf, wo, wi, delta, lane);
+    if (matrix) matrix->axis = frame.to_world(matrix->axis);
+    return matrix;
   }
   /// By which refraction has divided radiance, were the event's light radiance: the square of the index it
   /// goes on in over that it came in, at the hero's wavelength; 1 where nothing is refracted.

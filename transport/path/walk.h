@@ -46,4 +46,9 @@ struct Walk {
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
 };
 
+/// The unit vector along which light travels where a path that carries that quantity goes along another.
+[[nodiscard]] inline Imath::V3f light_travels(const Imath::V3f& along, TransportMode mode) {
+  return mode == TransportMode::radiance ? -along : along;
+}
+
 }  // namespace abbe

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/polarisation_need.h"
 #include "transport/render/threads.h"
 #include "transport/technique/subpaths.h"
 
@@ -69,11 +70,13 @@ std::size_t bytes_of_light_paths(const Scene& scene) {
   constexpr std::size_t kInMap = sizeof(Imath::V3f) + 2 * sizeof(std::uint32_t);
   const std::vector<Technique> techniques = chosen_techniques(scene);
   const std::size_t paths = photons_of_sample(scene);
+  const std::size_t carried = carries_polarisation(scene) ? sizeof(Polarisation) : 0;
+  const std::size_t in_place = kInMap + carried;
   if (uses(techniques, Technique::vcm))
-    return paths *
-           (sizeof(RecordedPath) + kUsualPlaces * (sizeof(PathVertex) + sizeof(LightPaths::Vertex) + kInMap));
+    return paths * (sizeof(RecordedPath) + carried +
+                    kUsualPlaces * (sizeof(PathVertex) + sizeof(LightPaths::Vertex) + in_place));
   if (std::any_of(techniques.begin(), techniques.end(), gathers_photons))
-    return paths * kUsualPlaces * (sizeof(Photon) + kInMap);
+    return paths * kUsualPlaces * (sizeof(Photon) + in_place);
   return 0;
 }
 

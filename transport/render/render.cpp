@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/error.h"
+#include "sensor/response/stokes_channels.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"
@@ -215,7 +216,7 @@ class Rendering {
   RelativeError error_now() {
     if (!lit_)
       if (const auto pilot = pilot_film(plan_, threads_, options_.crop, [this] { return stop_asked(); }))
-        lit_ = lit_values(*pilot);
+        lit_ = lit_values(*pilot, count_intensities(plan_.scene.channels));
     return relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>());
   }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/extent.h"
+#include "sensor/response/stokes_channels.h"
 #include "transport/path/film_response.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/pilot.h"
@@ -67,11 +68,13 @@ std::vector<Group> groups_of(const Scene& scene, std::vector<std::uint32_t>& gro
 // What a film value of each channel weighs.
 std::vector<double> channel_weights(const Scene& scene) {
   if (scene.mosaic) return {1};
-  if (is_observer(scene.channels)) return {0, 1, 0};
-  if (!scene.spectral) return std::vector<double>(scene.channels.size(), 1.0);
-  std::vector<double> weights;
-  for (const Channel& bin : scene.channels)
-    weights.push_back(photometric(bin.weight) / bin.weight.integral());
+  const std::vector<Channel> counting = intensities(scene.channels);
+  std::vector<double> weights(counting.size(), 1.0);
+  if (is_observer(counting)) weights = {0, 1, 0};
+  if (scene.spectral)
+    for (std::size_t k = 0; k < counting.size(); ++k)
+      weights[k] = photometric(counting[k].weight) / counting[k].weight.integral();
+  weights.resize(scene.channels.size(), 0.0);
   return weights;
 }
 

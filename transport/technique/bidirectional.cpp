@@ -5,6 +5,7 @@
 #include "transport/path/connect.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/merge.h"
+#include "transport/path/polarised_ends.h"
 #include "transport/technique/start_matter.h"
 #include "transport/technique/subpaths.h"
 
@@ -52,6 +53,7 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
       response_(film_response_of(plan.scene)),
       from_camera_(plan.scene, caster),
       from_light_(plan.scene, caster),
+      found_(plan.scene),
       weights_(plan.scene, caster),
       values_(response_.planes()) {}
 
@@ -93,7 +95,7 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
   from_light_.paths().clear();
   at_.assign(samples.size(), {});
   images_.resize(samples.size());
-  found_.assign(samples.size(), SampledSpectrum());
+  found_.reset(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     const PixelPair& sample = samples[i];
     RecordedPath& eye = from_camera_.paths().emplace_back(sample.camera, i);
@@ -113,7 +115,7 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
   from_light_.run();
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     join(i);
-    if (samples[i].seen) expose(i, at_[i], found_[i]);
+    if (samples[i].seen) found_.tell(i, [&](const auto& found) { expose(i, at_[i], found); });
   }
 }
 
@@ -139,11 +141,12 @@ void BidirectionalTracer::meet(std::uint32_t i, const MetLight& met) {
   joined_.passed = SampledSpectrum(1.0F);
   const PathVertex& lit = *joined_.z[met.after - 1];
   const auto& light = std::get<LightVertex>(met.vertex.at);
+  const Imath::V3f towards = way_from(lit, met.vertex).direction;
+  const PathPacket& packet = met.vertex.packet;
+  const Light& emitter = scene_.lights[light.light];
   add(i, at_[i], light.light,
-      met.vertex.packet.throughput *
-          emission_from(scene_.lights[light.light], way_from(lit, met.vertex).direction,
-                        met.vertex.lambda_nm()) *
-          weight());
+      packet.throughput * emission_from(emitter, towards, packet.wavelengths.lambda_nm) * weight(),
+      seen_of(emitter, packet, towards));
 }
 
 void BidirectionalTracer::connect_to_light(std::uint32_t i, std::size_t t) {
@@ -196,14 +199,16 @@ void BidirectionalTracer::merge(std::uint32_t i, std::size_t t, const LightPaths
   const PathVertex& y = photon.vertices[at.number];
   if (t + at.number > most_vertices_) return;
   const auto& arrived = std::get<SurfaceVertex>(y.at);
-  const SampledSpectrum f = merged_scattering(std::get<SurfaceVertex>(x.at),
-                                              arrived.frame.to_world(arrived.wo), arrived.hit.normal);
+  const Imath::V3f from = arrived.frame.to_world(arrived.wo);
+  const auto& here = std::get<SurfaceVertex>(x.at);
+  const SampledSpectrum f = merged_scattering(here, from, arrived.hit.normal);
   if (f.is_zero()) return;
   set_joined(i, t, photon, at.number);
   joined_.merged = &y;
   joined_.passed = weights_.passed_between(x, photon.vertices[at.number - 1]);
   add(i, at_[i], std::get<LightVertex>(joined_.z.back()->at).light,
-      x.packet.throughput * y.packet.throughput * f * weight());
+      x.packet.throughput * y.packet.throughput * f * weight(),
+      merged_polarisation(here, x.packet.polarisation, from, y.packet.polarisation));
 }
 
 const RecordedPath& BidirectionalTracer::own_light_path(std::uint32_t i) {
@@ -232,7 +237,7 @@ void BidirectionalTracer::add_joined(std::uint32_t i, const FilmPoint& at) {
   joined_.passed = joint->density;
   const PathVertex& light = *joined_.z.back();
   add(i, at, std::get<LightVertex>(light.at).light,
-      a.packet.throughput * b.packet.throughput * joint->contribution * weight());
+      a.packet.throughput * b.packet.throughput * joint->contribution * weight(), joint->seen);
 }
 
 // Of the joined path; what its ends are drawn by depends on the light and what it lights.
@@ -254,32 +259,37 @@ FilmPoint BidirectionalTracer::film_point(std::uint32_t i, std::size_t t, const 
 }
 
 void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_t light,
-                              const SampledSpectrum& contribution) {
+                              const SampledSpectrum& contribution,
+                              const std::optional<StokesSpectrum>& seen) {
   const bool own =
       at.x == at_[i].x && at.y == at_[i].y && at.cos_film == at_[i].cos_film && at.images == at_[i].images;
   if (own)
-    found_[i] += contribution;
+    found_.add(i, contribution, pointer_to(seen));
   else
-    expose(i, at, contribution);
+    found_.tell(contribution, pointer_to(seen), [&](const auto& brought) { expose(i, at, brought); });
   if (!apart_) return;
   const LightHistory of{light, static_cast<int>(joined_.z.size()) - 2};
-  expose(i, at, contribution,
-         [&](const FilmPoint& pixel, std::span<const double> values) { apart_(pixel, of, values); });
+  found_.tell(contribution, pointer_to(seen), [&](const auto& brought) {
+    expose(i, at, brought,
+           [&](const FilmPoint& pixel, std::span<const double> values) { apart_(pixel, of, values); });
+  });
 }
 
-void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution) {
+template <typename Contribution>
+void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const Contribution& contribution) {
   expose(i, at, contribution, [&](const FilmPoint& pixel, std::span<const double> values) {
     (*deposit_)(first_ + i, pixel, values);
   });
 }
 
-template <typename DepositAt>
-void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution,
+template <typename Contribution, typename DepositAt>
+void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const Contribution& contribution,
                                  DepositAt deposit) {
   const SampledWavelengths& wavelengths = from_camera_.paths()[i].packet.wavelengths;
-  response_.expose(at, wavelengths,
-                   let_through(scene_.shutter, at, contribution) * static_cast<float>(scene_.exposure_s),
-                   values_, deposit);
+  response_.expose(
+      at, wavelengths,
+      let_through(scene_.shutter, at, contribution) * SampledSpectrum(static_cast<float>(scene_.exposure_s)),
+      values_, deposit);
 }
 
 }  // namespace abbe

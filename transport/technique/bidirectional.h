@@ -7,6 +7,7 @@
 
 #include "sampling/sampler.h"
 #include "transport/path/film_response.h"
+#include "transport/path/found_light.h"
 #include "transport/path/path_recorder.h"
 #include "transport/path/photon_map.h"
 #include "transport/path/strategies.h"
@@ -79,10 +80,12 @@ class BidirectionalTracer {
   void add_joined(std::uint32_t i, const FilmPoint& at);
   [[nodiscard]] float weight();
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
-  void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution);
-  void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution);
-  template <typename DepositAt>
-  void expose(std::uint32_t i, const FilmPoint& at, const SampledSpectrum& contribution, DepositAt deposit);
+  void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution,
+           const std::optional<StokesSpectrum>& seen);
+  template <typename Contribution>
+  void expose(std::uint32_t i, const FilmPoint& at, const Contribution& contribution);
+  template <typename Contribution, typename DepositAt>
+  void expose(std::uint32_t i, const FilmPoint& at, const Contribution& contribution, DepositAt deposit);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -99,7 +102,7 @@ class BidirectionalTracer {
   std::uint32_t first_ = 0;             // number of the first of the samples under way
   std::vector<FilmPoint> at_;           // where each exposes the film,
   std::vector<LaneImages> images_;      // and its lanes, behind a lens that displaces them,
-  std::vector<SampledSpectrum> found_;  // and with what
+  FoundLight found_;                    // and with what
   StrategyWeights weights_;
   JoinedPath joined_;
   std::vector<std::uint32_t> near_;  // vertices, at one place

@@ -6,6 +6,7 @@
 
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
+#include "transport/path/polarised_ends.h"
 #include "transport/technique/subpaths.h"
 
 namespace abbe {
@@ -40,6 +41,7 @@ BrutePhotonTracer::BrutePhotonTracer(const Plan& plan, RayCaster& caster, double
       caster_(caster),
       opening_(traits(plan.scene.camera).opening),
       scale_(static_cast<float>(share * plan.scene.exposure_s)),
+      measures_polarisation_(measures_polarisation(plan.scene)),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
       values_(response_.planes()) {}
@@ -79,12 +81,17 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
   if (!through) return;
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
                      path.ray.time, seen->images ? &*seen->images : nullptr};
-  response_.expose(at, path.packet.wavelengths,
-                   let_through(scene_.shutter, at,
-                               path.packet.throughput * seen->importance * through->transmittance * scale_),
-                   values_, [&](const FilmPoint& pixel, std::span<const double> values) {
-                     (*deposit_)(path.path, pixel, values);
-                   });
+  std::optional<StokesSpectrum> arrives;
+  if (path.packet.polarisation)
+    arrives = on_film(scene_, *path.packet.polarisation, path.ray.direction, path.ray.time);
+  with_seen(measures_polarisation_,
+            path.packet.throughput * seen->importance * through->transmittance * scale_, pointer_to(arrives),
+            [&](const auto& light) {
+              response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light), values_,
+                               [&](const FilmPoint& pixel, std::span<const double> values) {
+                                 (*deposit_)(path.path, pixel, values);
+                               });
+            });
 }
 
 AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
@@ -92,6 +99,7 @@ AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
       scene_(plan.scene),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
+      found_(plan.scene),
       values_(response_.planes()) {}
 
 // The estimate of a pixel's film value is what a path set out with, over its density, times the radiance of
@@ -101,7 +109,7 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
   paths.clear();
   at_.resize(samples.size());
   images_.resize(samples.size());
-  found_.assign(samples.size(), SampledSpectrum());
+  found_.reset(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     RecordedPath& path = paths.emplace_back(samples[i].sampler, i);
     const std::array<float, 4> film = path.sampler.group(kFilmGroup);
@@ -117,17 +125,20 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
     walks_.going().push_back(i);
   }
   walks_.run(*this);
-  for (const RecordedPath& path : paths) {
-    response_.expose(
-        at_[path.path], path.packet.wavelengths,
-        found_[path.path] * static_cast<float>(scene_.exposure_s * scene_.shutter.mean()), values_,
-        [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
-  }
+  const SampledSpectrum scale(static_cast<float>(scene_.exposure_s * scene_.shutter.mean()));
+  for (const RecordedPath& path : paths)
+    found_.tell(path.path, [&](const auto& found) {
+      response_.expose(
+          at_[path.path], path.packet.wavelengths, found * scale, values_,
+          [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
+    });
 }
 
 void AdjointBruteTracer::add_met(const RecordedPath& path, std::uint32_t light) {
-  found_[path.path] +=
-      path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm());
+  const Light& emitter = scene_.lights[light];
+  const Imath::V3f& towards = path.ray.direction;
+  found_.add(path.path, path.packet.throughput * emission_from(emitter, towards, path.lambda_nm()),
+             pointer_to(seen_of(emitter, path.packet, towards)));
 }
 
 void AdjointBruteTracer::escape(RecordedPath& path) {

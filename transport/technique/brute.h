@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "transport/path/film_response.h"
+#include "transport/path/found_light.h"
 #include "transport/path/path_recorder.h"
 #include "transport/path/random_walk.h"
 #include "transport/plan/plan.h"
@@ -70,6 +71,7 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
   RayCaster& caster_;
   std::optional<Opening> opening_;
   float scale_;
+  bool measures_polarisation_;
   FilmResponse response_;
   RandomWalks<BrutePhotonTracer> walks_;
   const Deposit* deposit_ = nullptr;
@@ -103,10 +105,10 @@ class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
   const Scene& scene_;
   FilmResponse response_;
   RandomWalks<AdjointBruteTracer> walks_;
-  std::vector<FilmPoint> at_;           // where each path exposes the film,
-  std::vector<LaneImages> images_;      // and its lanes, behind a lens that displaces them,
-  std::vector<SampledSpectrum> found_;  // and with what
-  std::vector<double> values_;          // of one deposit
+  std::vector<FilmPoint> at_;       // where each path exposes the film,
+  std::vector<LaneImages> images_;  // and its lanes, behind a lens that displaces them,
+  FoundLight found_;                // and with what
+  std::vector<double> values_;      // of one deposit
 };
 
 }  // namespace abbe

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "transport/path/mis_weight.h"
+#include "transport/path/polarised_ends.h"
 
 namespace abbe {
 
@@ -15,6 +16,7 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
       scale_(static_cast<float>(share * plan.scene.exposure_s)),
       alone_(!uses(plan.techniques, Technique::path)),
       response_(film_response_of(plan.scene)),
+      measures_polarisation_(measures_polarisation(plan.scene)),
       walks_(plan.scene, caster),
       values_(response_.planes()) {}
 
@@ -46,10 +48,12 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
   const Imath::V3f towards = (lens->lens_point - vertex.hit.point).normalized();
   const auto [wi, f, crosses] = vertex.towards(towards, kMode);
   if (f.is_zero()) return;
+  std::optional<StokesSpectrum> arrives;
+  if (path.packet.polarisation) arrives = arriving(path, vertex.mueller(wi, false), towards);
   Surroundings crossed;
   if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
   connect_to(path, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
-             crosses ? crossed : path.around);
+             crosses ? crossed : path.around, arrives);
 }
 
 void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
@@ -57,13 +61,27 @@ void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, co
       sample_towards(scene_.camera, path.ray.origin, {u[0], u[1]}, path.lambda_nm(), path.ray.time);
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - path.ray.origin).normalized();
+  std::optional<StokesSpectrum> arrives;
+  if (path.packet.polarisation)
+    arrives = arriving(path, mueller(phase, path.ray.direction, towards), towards);
   connect_to(path, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
-             ray_at(path.ray.origin, towards, path.ray.time), path.around);
+             ray_at(path.ray.origin, towards, path.ray.time), path.around, arrives);
 }
 
-// `scattered` is the share of the photon's power that leaves along `ray`, towards the lens [1/sr].
+// What an event of that matrix sends along `towards`, to the film, over what it would send were all of it
+// unpolarised.
+StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
+                                     const Imath::V3f& towards) const {
+  const Polarisation light =
+      path.packet.polarisation->through(matrix, light_travels(path.ray.direction, kMode), kMode);
+  return on_film(scene_, light, towards, path.ray.time);
+}
+
+// `scattered` is the share of the photon's power that leaves along `ray`, towards the lens [1/sr], were it
+// unpolarised, and `arrives` how it is polarised there, where that is carried.
 void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens,
-                             const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around) {
+                             const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
+                             const std::optional<StokesSpectrum>& arrives) {
   const BasicRay<double> way = way_between(ray.origin, lens.lens_point, ray.time);
   SampledSpectrum contribution =
       scattered * (path.packet.throughput * (lens.weight * mis_weight(path.packet.lane_pdf, 0, 0)));
@@ -82,6 +100,7 @@ void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens
        contribution,
        {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
   if (lens.images) images_.push_back(*lens.images);
+  if (arrives) arrives_.push_back(*arrives);
   ways_.push_back(way);
 }
 
@@ -92,16 +111,24 @@ void LightTracer::resolve_connections() {
     if (blocked_[i] != 0) continue;
     Connection& found = connections_[i];
     if (!images_.empty()) found.at.images = &images_[i];
-    response_.expose(found.at, walks_.paths()[found.path].packet.wavelengths,
-                     let_through(scene_.shutter, found.at, found.contribution * scale_), values_,
-                     [&](const FilmPoint& at, std::span<const double> values) {
-                       (*deposit_)(found.path, at, values);
-                       if (apart_) apart_(at, {starts_[found.path].light, found.events}, values);
-                     });
+    with_seen(measures_polarisation_, found.contribution, arrives_.empty() ? nullptr : &arrives_[i],
+              [&](const auto& light) { expose(found, light); });
   }
   connections_.clear();
   images_.clear();
+  arrives_.clear();
   ways_.clear();
+}
+
+template <typename Contribution>
+void LightTracer::expose(const Connection& found, Contribution contribution) {
+  contribution *= SampledSpectrum(scale_);
+  response_.expose(found.at, walks_.paths()[found.path].packet.wavelengths,
+                   let_through(scene_.shutter, found.at, contribution), values_,
+                   [&](const FilmPoint& at, std::span<const double> values) {
+                     (*deposit_)(found.path, at, values);
+                     if (apart_) apart_(at, {starts_[found.path].light, found.events}, values);
+                   });
 }
 
 }  // namespace abbe

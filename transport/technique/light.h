@@ -77,7 +77,11 @@ class LightTracer {
 
   [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || alone_; }
   void connect_to(const LightPath& path, const CameraConnection& lens, const SampledSpectrum& scattered,
-                  const Ray& ray, const Surroundings& around);
+                  const Ray& ray, const Surroundings& around, const std::optional<StokesSpectrum>& arrives);
+  [[nodiscard]] StokesSpectrum arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
+                                        const Imath::V3f& towards) const;
+  template <typename Contribution>
+  void expose(const Connection& found, Contribution contribution);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -85,11 +89,13 @@ class LightTracer {
   float scale_;
   bool alone_;  // owns all that photons bring
   FilmResponse response_;
+  bool measures_polarisation_;
   RandomWalks<LightTracer> walks_;
   const Deposit* deposit_ = nullptr;
   ContributionDeposit apart_;  // if it is told
   std::vector<PhotonStart> starts_;
   std::vector<Connection> connections_;  // of the step under way,
+  std::vector<StokesSpectrum> arrives_;  // how their light is polarised, where that is carried,
   std::vector<LaneImages> images_;       // where their lanes fall, behind a lens that displaces these,
   std::vector<BasicRay<double>> ways_;   // their ways to the lens,
   std::vector<std::uint8_t> blocked_;    // and whether something stands on them

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
+#include "scene/polarisation_need.h"
 #include "transport/path/equiangular.h"
 #include "transport/path/mis_weight.h"
+#include "transport/path/polarised_ends.h"
 #include "transport/technique/start_matter.h"
 
 namespace abbe {
@@ -30,6 +33,8 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
       camera_(traits(plan.scene.camera)),
       caster_(caster),
       response_(film_response_of(plan.scene)),
+      carries_polarisation_(carries_polarisation(plan.scene)),
+      measures_polarisation_(measures_polarisation(plan.scene)),
       walks_(plan.scene, caster),
       values_(response_.planes()) {}
 
@@ -48,6 +53,7 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
   std::vector<CameraPath>& paths = walks_.paths();
   paths.clear();
   if (camera_.displaces_lanes) images_.resize(samples.size());
+  if (measures_polarisation_) found_.assign(samples.size(), {});
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     paths.emplace_back(samples[i].sampler, i);
     if (start(samples[i], paths.back())) walks_.going().push_back(i);
@@ -55,10 +61,18 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
   resolve_connections();
   walks_.run(*this);
   for (const CameraPath& path : paths)
-    response_.expose(path.at, path.packet.wavelengths, path.found * path.scale, values_,
-                     [&](const FilmPoint& at, std::span<const double> values) {
-                       (*deposit_)(first_ + path.path, at, values);
-                     });
+    if (measures_polarisation_)
+      expose(path, found_[path.path] * path.scale);
+    else
+      expose(path, path.found * path.scale);
+}
+
+template <typename Contribution>
+void PathTracer::expose(const CameraPath& path, const Contribution& found) {
+  response_.expose(path.at, path.packet.wavelengths, found, values_,
+                   [&](const FilmPoint& at, std::span<const double> values) {
+                     (*deposit_)(first_ + path.path, at, values);
+                   });
 }
 
 bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
@@ -72,6 +86,8 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
                  {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
   path.ray = ray.ray;
+  if (carries_polarisation_)
+    path.packet.polarisation = polarisation_of_film(scene_, light_travels(path.ray.direction, kMode), time);
   path.at = {sample.x, sample.y, ray.cos_film, ray.ray.time};
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s * scene_.shutter.mean());
   enter_camera_matter(plan_, path);
@@ -96,6 +112,15 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
   return !openings.is_zero();
 }
 
+// What the sensor measures of light that comes from `wi` and that an event of that matrix sends along the
+// path, over what it would measure were all of it unpolarised.
+StokesSpectrum PathTracer::measured(const CameraPath& path, const std::optional<MuellerMatrix>& matrix,
+                                    const Light& light, const Imath::V3f& wi) {
+  const Polarisation rows =
+      path.packet.polarisation->through(matrix, light_travels(path.ray.direction, kMode), kMode);
+  return rows.of(polarisation_of_lamp(light, -wi), -wi);
+}
+
 // Whether photons bring what a light that the path has met sends along it.
 bool PathTracer::owned_by_photons(const CameraPath& path, std::uint32_t light) const {
   return path.events > 0 && path.connected == 0 && !path.first_delta && plan_.traced[light];
@@ -116,11 +141,7 @@ void PathTracer::escape(CameraPath& path) {
   for (const std::uint32_t light : scene_.background()) {
     const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
     if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_photons(path, light)) continue;
-    const float pdf = connection_pdf(path, light, Imath::V3f(0), Imath::V3f(0));
-    add(path, {light, path.events},
-        path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm()) *
-            mis_weight(path.packet.lane_pdf, pdf, path.connected),
-        path.at.cos_film);
+    add_met(path, light, Imath::V3f(0), Imath::V3f(0));
   }
 }
 
@@ -130,11 +151,19 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
   const auto light = static_cast<std::uint32_t>(index);
   if (!emits_towards(scene_.lights[light], hit.normal, -path.ray.direction) || owned_by_photons(path, light))
     return;
-  const float pdf = connection_pdf(path, light, hit.point, hit.normal);
-  add(path, {light, path.events},
-      path.packet.throughput * emission_from(scene_.lights[light], path.ray.direction, path.lambda_nm()) *
-          mis_weight(path.packet.lane_pdf, pdf, path.connected),
-      path.at.cos_film);
+  add_met(path, light, hit.point, hit.normal);
+}
+
+// Light that the path has come to by itself, at that place of it.
+void PathTracer::add_met(CameraPath& path, std::uint32_t light, const Imath::V3f& point,
+                         const Imath::V3f& normal) {
+  const float pdf = connection_pdf(path, light, point, normal);
+  const Imath::V3f& towards = path.ray.direction;
+  const SampledSpectrum contribution = path.packet.throughput *
+                                       emission_from(scene_.lights[light], towards, path.lambda_nm()) *
+                                       mis_weight(path.packet.lane_pdf, pdf, path.connected);
+  add(path, {light, path.events}, contribution, path.at.cos_film,
+      pointer_to(seen_of(scene_.lights[light], path.packet, towards)));
 }
 
 std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const LightSampleContext& place,
@@ -158,6 +187,8 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   SampledSpectrum contribution =
       f * (path.packet.throughput * emission_from(chosen->light, world, path.lambda_nm()) *
            (std::abs(wi.z) * chosen->towards.factor));
+  std::optional<StokesSpectrum> seen;
+  if (path.packet.polarisation) seen = measured(path, vertex.mueller(wi, false), chosen->light, world);
   SampledSpectrum scattering_pdf =
       chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
   if (!path.caustics.empty() && !chosen->light.is_delta())
@@ -167,7 +198,8 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   if (walks_.has_free_paths()) {
     Surroundings around = path.around;
     if (crosses) around.enter(scene_, vertex.behind(scene_, around.inside), path.lambda_nm());
-    connect_through_media(path, *chosen, contribution, scattering_pdf, ray, around, cos_film);
+    connect_through_media(path, *chosen, contribution, scattering_pdf, ray, around, cos_film,
+                          pointer_to(seen));
     return;
   }
   const float weight =
@@ -179,6 +211,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   else
     path.around.medium.attenuate(contribution, chosen->towards.distance);
   connections_.push_back({path.path, {chosen->index, path.events + 1}, contribution * weight, cos_film});
+  if (seen) seen_.push_back(*seen);
   ways_.push_back(way_to(ray, chosen->towards));
 }
 
@@ -207,15 +240,18 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   SampledSpectrum passed(1.0F);
   medium.attenuate(passed, t);
   const Imath::V3f& wi = towards->wi;
-  const SampledSpectrum contribution =
-      path.packet.throughput * passed * medium.scattering_per_m * emission_from(light, wi, path.lambda_nm()) *
-      (pdf(medium.scattering->phase, stretch.ray.direction, wi) * towards->factor);
+  SampledSpectrum contribution = path.packet.throughput * passed * medium.scattering_per_m *
+                                 emission_from(light, wi, path.lambda_nm()) *
+                                 (pdf(medium.scattering->phase, stretch.ray.direction, wi) * towards->factor);
+  std::optional<StokesSpectrum> seen;
+  if (path.packet.polarisation)
+    seen = measured(path, mueller(medium.scattering->phase, stretch.ray.direction, wi), light, wi);
   const float scattered = (path.packet.lane_pdf * passed * medium.extinction_per_m).sum() /
                           path.packet.lane_pdf.sum() *
                           plan_.path_lights.probability(pick.light, point, nullptr) * towards->pdf;
   connect_through_media(path, {pick.light, light, *towards, pick.probability * part->pdf(t) + scattered},
                         contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
-                        path.at.cos_film);
+                        path.at.cos_film, pointer_to(seen));
 }
 
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
@@ -230,9 +266,17 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
   const SampledSpectrum contribution =
       turned *
       (path.packet.throughput * emission_from(chosen->light, wi, path.lambda_nm()) * chosen->towards.factor);
-  connect_through_media(path, *chosen, contribution,
-                        chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned,
-                        ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film);
+  std::optional<StokesSpectrum> seen;
+  SampledSpectrum scattering_pdf = chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned;
+  if (path.packet.polarisation) {
+    const Polarisation rows = path.packet.polarisation->through(
+        mueller(phase, path.ray.direction, wi), light_travels(path.ray.direction, kMode), kMode);
+    seen = rows.of(polarisation_of_lamp(chosen->light, -wi), -wi);
+    scattering_pdf *= rows.of_unpolarised().i;  // it is drawn as polarised light has it
+  }
+  connect_through_media(path, *chosen, contribution, scattering_pdf,
+                        ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film,
+                        pointer_to(seen));
 }
 
 // Adds what is left of the light that comes along `ray`, the direction of which scattering would have drawn
@@ -241,14 +285,14 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
                                                          const SampledSpectrum& contribution,
                                                          const SampledSpectrum& scattering_pdf,
                                                          const Ray& ray, const Surroundings& around,
-                                                         float cos_film) {
+                                                         float cos_film, const StokesSpectrum* seen) {
   const std::optional<Transmission> way = unblocked_transmission(
       scene_, caster_, way_to(ray, chosen.towards), ray, around, path.lambda_nm(), chosen.towards.distance);
   if (!way) return;
   const float weight = mis_weight(path.packet.lane_pdf * scattering_pdf * way->density, chosen.pdf,
                                   path.packet.lane_pdf.sum());
   if (std::isfinite(weight))
-    add(path, {chosen.index, path.events + 1}, contribution * way->transmittance * weight, cos_film);
+    add(path, {chosen.index, path.events + 1}, contribution * way->transmittance * weight, cos_film, seen);
 }
 
 // The photons bring what comes through specular matter from traced lights, but for what is seen through it.
@@ -314,16 +358,29 @@ void PathTracer::resolve_connections() {
   for (std::size_t i = 0; i < ways_.size(); ++i)
     if (blocked_[i] == 0)
       add(walks_.paths()[connections_[i].path], connections_[i].of, connections_[i].contribution,
-          connections_[i].cos_film);
+          connections_[i].cos_film, seen_.empty() ? nullptr : &seen_[i]);
   connections_.clear();
+  seen_.clear();
   ways_.clear();
 }
 
-// Light that a meter sees directly comes in under an angle of its own.
+// The sensor measures `seen` of a contribution of 1, where polarisation is carried.
 void PathTracer::add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution,
-                     float cos_film) {
+                     float cos_film, const StokesSpectrum* seen) {
+  with_seen(measures_polarisation_, contribution, seen, [&](const auto& light) {
+    if constexpr (std::is_same_v<decltype(light), const StokesSpectrum&>)
+      add_to(found_[path.path], path, of, light, cos_film);
+    else
+      add_to(path.found, path, of, light, cos_film);
+  });
+}
+
+// Light that a meter sees directly comes in under an angle of its own.
+template <typename Contribution>
+void PathTracer::add_to(Contribution& found, CameraPath& path, const LightHistory& of,
+                        const Contribution& contribution, float cos_film) {
   const bool with_others = !response_.angular() || cos_film == path.at.cos_film;
-  if (with_others) path.found += contribution;
+  if (with_others) found += contribution;
   if (with_others && !apart_) return;
   FilmPoint at = path.at;
   at.cos_film = cos_film;

@@ -105,26 +105,41 @@ class PathTracer {
   [[nodiscard]] float pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const;
   [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
                                      const Imath::V3f& normal) const;
+  [[nodiscard]] static StokesSpectrum measured(const CameraPath& path,
+                                               const std::optional<MuellerMatrix>& matrix, const Light& light,
+                                               const Imath::V3f& wi);
   [[nodiscard]] bool owned_by_photons(const CameraPath& path, std::uint32_t light) const;
   void connect_through_media(CameraPath& path, const ChosenLight& chosen, const SampledSpectrum& contribution,
                              const SampledSpectrum& scattering_pdf, const Ray& ray,
-                             const Surroundings& around, float cos_film);
-  void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film);
+                             const Surroundings& around, float cos_film, const StokesSpectrum* seen);
+  void add_met(CameraPath& path, std::uint32_t light, const Imath::V3f& point, const Imath::V3f& normal);
+  void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film,
+           const StokesSpectrum* seen);
+  template <typename Contribution>
+  void add_to(Contribution& found, CameraPath& path, const LightHistory& of, const Contribution& contribution,
+              float cos_film);
+  template <typename Contribution>
+  void expose(const CameraPath& path, const Contribution& found);
 
   const Plan& plan_;
   const Scene& scene_;
   CameraTraits camera_;
   RayCaster& caster_;
   FilmResponse response_;
+  bool carries_polarisation_;
+  bool measures_polarisation_;
   RandomWalks<PathTracer> walks_;
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;              // number of the first of the paths under way
   std::vector<LaneImages> images_;       // of each, behind a lens that displaces lanes
   ContributionDeposit apart_;            // if it is told
+  std::vector<StokesSpectrum> found_;    // by each, where the sensor tells how light is polarised
   std::vector<Connection> connections_;  // of the step under way,
-  std::vector<BasicRay<double>> ways_;   // their ways to the light,
-  std::vector<std::uint8_t> blocked_;    // and whether something stands on them
-  std::vector<double> values_;           // of one deposit
+  std::vector<StokesSpectrum>
+      seen_;  // what the sensor measures of their light, where polarisation is carried,
+  std::vector<BasicRay<double>> ways_;  // their ways to the light,
+  std::vector<std::uint8_t> blocked_;   // and whether something stands on them
+  std::vector<double> values_;          // of one deposit
 };
 
 }  // namespace abbe

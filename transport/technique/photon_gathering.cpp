@@ -7,6 +7,7 @@
 #include "transport/path/connect.h"
 #include "transport/path/merge.h"
 #include "transport/path/mis_weight.h"
+#include "transport/path/polarised_ends.h"
 #include "transport/technique/subpaths.h"
 
 namespace abbe {
@@ -26,6 +27,7 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
       most_events_(most_events(plan.scene.render)),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
+      found_(plan.scene),
       values_(response_.planes()) {}
 
 // The estimate of a film value is, over paths from the camera that come to x with the throughput T_x over
@@ -49,6 +51,7 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
   paths.clear();
   at_.resize(samples.size());
   images_.resize(samples.size());
+  found_.reset(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     GatherPath& path = paths.emplace_back(samples[i].sampler, i);
     path.packet = cloud_->packet;
@@ -58,7 +61,8 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
     walks_.going().push_back(i);
   }
   walks_.run(*this);
-  for (const GatherPath& path : paths) deposit(path, at_[path.path], path.found);
+  for (const GatherPath& path : paths)
+    found_.tell(path.path, [&](const auto& found) { deposit(path, at_[path.path], found); });
 }
 
 // What a connection would have found is not counted again where a path meets it; from a meter both are
@@ -67,8 +71,10 @@ void PhotonGatherer::add_met(GatherPath& path, const LightVertex& light) {
   if (path.connected != 0 || path.final_gather) return;
   float weight = mis_weight(path.packet.lane_pdf, 0, 0);
   if (meter_ && path.events == 0) weight *= 1 - share_of_connecting(path.vertices.front(), {.at = light});
-  path.found += path.packet.throughput *
-                emission_from(scene_.lights[light.light], path.ray.direction, path.lambda_nm()) * weight;
+  const Light& emitter = scene_.lights[light.light];
+  const Imath::V3f& towards = path.ray.direction;
+  found_.add(path.path, path.packet.throughput * emission_from(emitter, towards, path.lambda_nm()) * weight,
+             pointer_to(seen_of(emitter, path.packet, towards)));
 }
 
 // By the balance heuristic over both ways in which a meter's path may come to a light.
@@ -122,8 +128,10 @@ void PhotonGatherer::connect_to_light(GatherPath& path, const PathVertex& vertex
   if (!light) return;
   const std::optional<Connection> joint = abbe::connect(scene_, caster_, vertex, *light);
   if (!joint) return;
-  path.found += vertex.packet.throughput * light->packet.throughput * joint->contribution *
-                mis_weight(vertex.packet.lane_pdf, 0, 0);
+  found_.add(path.path,
+             vertex.packet.throughput * light->packet.throughput * joint->contribution *
+                 mis_weight(vertex.packet.lane_pdf, 0, 0),
+             pointer_to(joint->seen));
 }
 
 // A light that a meter sees has an angle of its own.
@@ -141,13 +149,14 @@ void PhotonGatherer::connect_meter(GatherPath& path) {
               (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light)));
 }
 
-void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at,
-                             const SampledSpectrum& contribution) {
-  response_.expose(at, path.packet.wavelengths,
-                   let_through(scene_.shutter, at, contribution) * static_cast<float>(scene_.exposure_s),
-                   values_, [&](const FilmPoint& pixel, std::span<const double> values) {
-                     (*deposit_)(first_ + path.path, pixel, values);
-                   });
+template <typename Contribution>
+void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at, const Contribution& contribution) {
+  response_.expose(
+      at, path.packet.wavelengths,
+      let_through(scene_.shutter, at, contribution) * SampledSpectrum(static_cast<float>(scene_.exposure_s)),
+      values_, [&](const FilmPoint& pixel, std::span<const double> values) {
+        (*deposit_)(first_ + path.path, pixel, values);
+      });
 }
 
 bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {
@@ -170,21 +179,24 @@ void PhotonGatherer::gather(GatherPath& path, const SurfaceVertex& vertex) {
     radius = (cloud_->photons[near_.back()].point - x).length();
     near_.pop_back();
   }
+  const float all = disc_area(radius) * static_cast<float>(cloud_->paths);
+  if (!(all > 0)) return;
   const bool caustics_alone = kernel_.final_gather && !path.final_gather;
-  SampledSpectrum brought;
   for (const std::uint32_t i : near_)
     if (const Photon& photon = cloud_->photons[i]; photon.caustic || !caustics_alone)
-      brought += brought_by(photon, path, vertex);
-  const float all = disc_area(radius) * static_cast<float>(cloud_->paths);
-  if (all > 0) path.found += brought * (1 / all);
+      gather(photon, path, vertex, 1 / all);
 }
 
-SampledSpectrum PhotonGatherer::brought_by(const Photon& photon, const GatherPath& path,
-                                           const SurfaceVertex& vertex) const {
-  if (path.events + 1 + photon.events > most_events_) return {};
+void PhotonGatherer::gather(const Photon& photon, const GatherPath& path, const SurfaceVertex& vertex,
+                            float per_area) {
+  if (path.events + 1 + photon.events > most_events_) return;
   const SampledSpectrum f = merged_scattering(vertex, photon.from, photon.normal);
-  if (f.is_zero()) return {};
-  return path.packet.throughput * photon.power * f * mis_weight(path.packet.lane_pdf * photon.lane_pdf, 0, 0);
+  if (f.is_zero()) return;
+  found_.add(
+      path.path,
+      path.packet.throughput * photon.power * f *
+          (per_area * mis_weight(path.packet.lane_pdf * photon.lane_pdf, 0, 0)),
+      pointer_to(merged_polarisation(vertex, path.packet.polarisation, photon.from, photon.polarisation)));
 }
 
 }  // namespace abbe

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "transport/path/film_response.h"
+#include "transport/path/found_light.h"
 #include "transport/path/path_recorder.h"
 #include "transport/path/random_walk.h"
 #include "transport/plan/plan.h"
@@ -30,7 +31,6 @@ struct GatherKernel {
 /// A path from the camera that gathers photons, under way.
 struct GatherPath : RecordedPath {
   using RecordedPath::RecordedPath;
-  SampledSpectrum found;      ///< So far, balanced over lanes.
   bool final_gather = false;  ///< It has left the surface where only photons of caustics are gathered.
 };
 
@@ -78,10 +78,10 @@ class PhotonGatherer {
   void trace_together(std::span<const PixelSample> samples);
   void connect_to_light(GatherPath& path, const PathVertex& vertex, const std::array<float, 4>& u);
   void connect_meter(GatherPath& path);
-  void deposit(const GatherPath& path, const FilmPoint& at, const SampledSpectrum& contribution);
+  template <typename Contribution>
+  void deposit(const GatherPath& path, const FilmPoint& at, const Contribution& contribution);
   void gather(GatherPath& path, const SurfaceVertex& vertex);
-  [[nodiscard]] SampledSpectrum brought_by(const Photon& photon, const GatherPath& path,
-                                           const SurfaceVertex& vertex) const;
+  void gather(const Photon& photon, const GatherPath& path, const SurfaceVertex& vertex, float per_area);
   void add_met(GatherPath& path, const LightVertex& light);
   [[nodiscard]] float share_of_connecting(const PathVertex& meter, const PathVertex& light) const;
 
@@ -96,8 +96,9 @@ class PhotonGatherer {
   GatherKernel kernel_;
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;          // number of the first of the samples under way
-  std::vector<FilmPoint> at_;        // where each exposes the film
-  std::vector<LaneImages> images_;   // and its lanes, behind a lens that displaces them
+  std::vector<FilmPoint> at_;        // where each exposes the film,
+  std::vector<LaneImages> images_;   // and its lanes, behind a lens that displaces them,
+  FoundLight found_;                 // and with what, balanced over lanes
   std::vector<std::uint32_t> near_;  // photons, at one place
   std::vector<double> values_;       // of one deposit
 };

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/polarisation_need.h"
 #include "scene/shapes/basis.h"
 #include "transport/path/dimensions.h"
+#include "transport/path/polarised_ends.h"
 #include "transport/technique/start_matter.h"
 
 namespace abbe {
@@ -99,6 +101,8 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
     return {pick.light, start.cell};
   }
   photon.packet = draw_packet(plan.wavelengths, a[2]);
+  if (carries_polarisation(plan.scene))
+    photon.packet.polarisation = polarisation_of_lamp(plan.scene.lights[pick.light], start.ray.direction);
   photon.packet.throughput = plan.scene.lights[pick.light].emission(photon.lambda_nm()) * start.factor;
   photon.ray = start.ray;
   enter_light_matter(plan, pick.light, photon);

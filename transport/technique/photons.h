@@ -23,6 +23,7 @@ struct Photon {
   SampledSpectrum lane_pdf;  ///< See `PathPacket`.
   int events;                ///< That it has had before.
   bool caustic;              ///< They were of a single direction, all of them.
+  CarriedPolarisation polarisation = {};
 };
 
 /// Paths from lights that leave photons at every surface that scatters, but for the first they come to, which

@@ -4,8 +4,10 @@
 
 #include "scene/extent.h"
 #include "scene/lights/emission.h"
+#include "scene/polarisation_need.h"
 #include "scene/shapes/basis.h"
 #include "transport/path/dimensions.h"
+#include "transport/path/polarised_ends.h"
 #include "transport/technique/start_matter.h"
 
 namespace abbe {
@@ -84,6 +86,9 @@ FilmPoint start_from_camera(const Plan& plan, int x, int y, float time, Recorded
       sample_ray(scene.camera, {static_cast<float>(x) + film[0], static_cast<float>(y) + film[1]},
                  {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
   path.ray = start.ray;
+  if (carries_polarisation(scene))
+    path.packet.polarisation =
+        polarisation_of_film(scene, light_travels(path.ray.direction, TransportMode::radiance), time);
   enter_camera_matter(plan, path);
   const std::optional<CameraDensity> of =
       start.weight.is_zero() ? std::nullopt : density(scene.camera, start.ray, path.lambda_nm());
@@ -116,6 +121,7 @@ void start_from_light(const Plan& plan, RayCaster& caster, float time, RecordedP
   const float pdf_way =
       light.at_infinity() ? departure->density.pdf_position : departure->density.pdf_direction;
   path.ray = departure->ray;
+  if (carries_polarisation(scene)) path.packet.polarisation = polarisation_of_lamp(light, path.ray.direction);
   enter_light_matter(plan, pick.light, path);
 
   PathVertex& origin = first_vertex(path);

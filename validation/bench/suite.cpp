@@ -55,7 +55,11 @@ const std::vector<BenchSuite>& bench_suites() {
          R"("material": "pane"})"}}},
       {"bulb", "a lamp in a bulb of glass", "bench/bulb.json"},
       {"beam", "the beam of a spot in fog, seen from the side", "bench/beam.json"},
-      {"metals", "balls of polished and rough metal under a lamp and a sky", "bench/metals.json"},
+      {"metals",
+       "balls of polished and rough metal under a lamp and a sky, polarisation left out as the rival has it",
+       "bench/metals.json",
+       {{"/render/polarisation", "off"}}},
+      {"metals-polarised", "the same with polarisation", "bench/metals.json"},
       {"many-lights", "a hall with ten thousand lamps", "bench/hall.json", {{"/lights", make_lamps(100)}}},
       {"mesh",
        "a terrain and a bumpy ball of 1.05 million triangles each; the ball is diffuse, where the rivals' is "

@@ -5,6 +5,7 @@
 
 #include "materials/interface/fresnel.h"
 #include "spectral/colorimetry.h"
+#include "validation/cases/figures.h"
 #include "validation/cases/film_case.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
@@ -54,16 +55,22 @@ double pinhole_exposure(double fov_deg) {
   return std::numbers::pi / 4 * sum / (kSteps * kSteps);
 }
 
-// Transmittance and reflectance of a plate with all internal bounces, the unpolarised reflectance chained,
-// `internal` the transmittance of one crossing.
+// Transmittance and reflectance of a plate with all internal bounces, of light for which either face reflects
+// `r`, `internal` the transmittance of one crossing.
 struct Plate {
   double transmittance;
   double reflectance;
 };
-Plate plate(double angle_deg, double n, double internal) {
-  const double r = fresnel_dielectric(std::cos(angle_deg * std::numbers::pi / 180), n).R();
+Plate plate_of(double r, double internal) {
   const double loop = 1 - r * r * internal * internal;
   return {(1 - r) * (1 - r) * internal / loop, r + (1 - r) * (1 - r) * r * internal * internal / loop};
+}
+// Of unpolarised light: the mean of s and p, which each keep to themselves from face to face.
+Plate plate(double angle_deg, double n, double internal) {
+  const FresnelPower<double> face = fresnel_dielectric(std::cos(angle_deg * std::numbers::pi / 180), n);
+  const Plate s = plate_of(face.Rs, internal);
+  const Plate p = plate_of(face.Rp, internal);
+  return {(s.transmittance + p.transmittance) / 2, (s.reflectance + p.reflectance) / 2};
 }
 
 // From one face of a cube to the one opposite.
@@ -161,13 +168,16 @@ std::vector<Case> slab_cases() {
   const double unit = pinhole_exposure(0.2);
   const Override oblique{"/camera/from", "[-34.64101615137755, 0, -20]"};
   const Override absorbing{"/materials/glass/dielectric/absorption_per_m", "1"};
+  const double chained = fresnel_dielectric(std::cos(std::numbers::pi / 3), 1.5).R();
   const std::string bounces = "all internal bounces [Born1999, sec. 7.6]";
   return {
       film_case("T13-0", "plate along its normal", bounces, "slab.json", {},
                 unit * plate(0, 1.5, 1).transmittance, 64),
-      film_case("T13-60", "plate at 60°, polarisation not carried",
-                "chained unpolarised reflectances, " + bounces, "slab.json", {oblique},
+      film_case("T13-60", "plate at 60°, s and p kept apart", bounces, "slab.json", {oblique},
                 unit * plate(60, 1.5, 1).transmittance, 256),
+      film_case("T13-60-off", "plate at 60°, polarisation not carried",
+                "chained unpolarised reflectances, " + bounces, "slab.json",
+                {oblique, {"/render/polarisation", "off"}}, unit * plate_of(chained, 1).transmittance, 256),
       film_case("T14-2", "two plates along their normal", "pile of plates [Stokes1862]", "slab.json",
                 {plates(2)}, unit * pile_transmittance(2, 1.5), 64),
       film_case("T14-3", "three plates along their normal", "pile of plates [Stokes1862]", "slab.json",
@@ -188,6 +198,30 @@ std::vector<Case> slab_cases() {
                 {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}},
                 std::numbers::pi * 0.59634576, 64),
   };
+}
+
+// A prism of 60 degrees and the glass's index at the d line, seen through at least deviation: light crosses
+// both faces at the same angle, and what goes round within leaves out of sight.
+Case least_deviation_case(const char* glass) {
+  const double n = shipped_index(glass).catalogued_n(kLineD_nm);
+  const double entering = std::asin(n / 2);
+  const double rises = entering - std::numbers::pi / 6;
+  const double c = std::cos(rises);
+  const double s = std::sin(rises);
+  const FresnelPower<double> face = fresnel_dielectric(std::cos(entering), n);
+  const double through = (std::pow(1 - face.Rs, 2) + std::pow(1 - face.Rp, 2)) / 2;
+  const auto place = [](double x, double y, double z) { return fmt::format("[{}, {}, {}]", x, y, z); };
+  constexpr double kAway = 0.1;
+  constexpr double kHalf = 0.002;  // of the lamp
+  return film_case(fmt::format("prism-{}", glass), fmt::format("prism of {} at least deviation", glass),
+                   "Fresnel's formulas, s and p kept apart [Born1999, sec. 1.5.2]", "least_deviation.json",
+                   {{"/materials/glass/dielectric/ior", fmt::format(R"({{"n": {}}})", n)},
+                    {"/camera/from", place(-0.0075 - kAway * c, 0, 0.0043301270 - kAway * s)},
+                    {"/lights/0/quad/corner",
+                     place(0.0075 + kAway * c - kHalf * s, -kHalf, 0.0043301270 - kAway * s - kHalf * c)},
+                    {"/lights/0/quad/edge_u", place(2 * kHalf * s, 0, 2 * kHalf * c)},
+                    {"/lights/0/quad/edge_v", place(0, 2 * kHalf, 0)}},
+                   pinhole_exposure(0.2) * through, 256);
 }
 
 // A Lambertian sphere of radius 1 m, its lamp (1 lx there) and the camera both 10 km away, at a phase angle.
@@ -219,6 +253,7 @@ std::vector<Case> radiometry_cases() {
   std::vector<Case> all;
   for (std::vector<Case> (*group)() : {room_cases, form_factor_cases, dome_cases, slab_cases})
     for (Case& item : group()) all.push_back(std::move(item));
+  for (const char* glass : {"N-BK7", "N-SF11"}) all.push_back(least_deviation_case(glass));
   for (const double phase : {0.0, 60.0, 90.0}) all.push_back(phase_case(phase));
   return all;
 }

@@ -123,14 +123,14 @@ std::vector<Figure> edges_of_transmission() {
 
 std::vector<Figure> prism_throughput() {
   const double n = index_at("N-BK7", kD);
-  const std::vector<TraceEvent> events = through_prism(n, 60, least_incidence(n, 60)).trace.events;
-  const Passage& in = events.at(0).passage.value();
-  const Passage& out = events.at(1).passage.value();
+  const RayTrace trace = through_prism(n, 60, least_incidence(n, 60)).trace;
+  const Passage& in = trace.events.at(0).passage.value();
+  const Passage& out = trace.events.at(1).passage.value();
   const double s = (1 - in.Rs) * (1 - out.Rs);
   const double p = (1 - in.Rp) * (1 - out.Rp);
   const double chained = (1 - (in.Rs + in.Rp) / 2) * (1 - (out.Rs + out.Rp) / 2);
   return {exact_figure("s", 0.786084, s), exact_figure("p", 0.991278, p),
-          exact_figure("unpolarised", 0.888681, (s + p) / 2),
+          exact_figure("unpolarised", 0.888681, trace.way.mueller.rows[0][0]),
           exact_figure("polarisation not carried", 0.885710, chained)};
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "sampling/angle.h"
@@ -51,6 +53,19 @@ DisplayColor map_color(double share) {
     return all;
   }();
   return colors[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * (kSteps - 1)))];
+}
+
+DisplayColor cyclic_color(double turn, double strength) {
+  constexpr double kLightness = 65;
+  constexpr double kRed = 30 * kDegree;
+  static const double kMost = [] {
+    double most = std::numeric_limits<double>::infinity();
+    for (int degree = 0; degree < 360; ++degree)
+      most = std::min(most, gamut_chroma(kLightness, degree * kDegree));
+    return most;
+  }();
+  const double chroma = kMost * std::clamp(strength, 0.0, 1.0);
+  return display_code(linear_rgb_of(kLightness, chroma, kRed + 2 * std::numbers::pi * turn));
 }
 
 Image false_color(std::span<const double> values, int width, int height, double low, double high) {

@@ -5,6 +5,7 @@
 #include "calibration/output/color_spaces.h"
 #include "io/text.h"
 #include "sensor/film/recorded_white.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe {
 
@@ -20,7 +21,7 @@ FilmColors film_colors(const Image& image) {
   const bool mosaic = image.metadata.contains("mosaic");
   const auto names = image.metadata.find(mosaic ? "mosaic_channels" : "sensor_channels");
   if (matrix == image.metadata.end() || names == image.metadata.end()) return {rgb, {}, false, white};
-  const std::vector<std::string> channels = split(names->second, ',');
+  const std::vector<std::string> channels = intensities(split(names->second, ','));
   if (!std::is_permutation(channels.begin(), channels.end(), rgb.begin(), rgb.end()))
     return {rgb, {}, false, white};
   return {channels, parse_matrix3(matrix->second), true, white};

@@ -14,6 +14,7 @@
 #include "calibration/output/display.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/variance_name.h"
+#include "sensor/response/stokes_channels.h"
 #include "spectral/colorimetry.h"
 #include "validation/statistics/film_colors.h"
 
@@ -32,7 +33,7 @@ std::vector<Pair> common_channels(const Image& image, const Image& reference) {
                 fmt::format("the images differ in size (got {} x {} and {} x {})", image.width, image.height,
                             reference.width, reference.height));
   std::vector<Pair> pairs;
-  for (const std::string& plane : plane_names(reference)) {
+  for (const std::string& plane : intensities(plane_names(reference))) {
     const ImageChannel* own = reference.find(plane);
     const ImageChannel* other = image.find(plane);
     if (own != nullptr && other != nullptr)

@@ -22,7 +22,7 @@ struct ColorDifference {
   std::vector<double> pixels;
 };
 
-/// How far an image is from a reference, over their common channels except `Variance.*`.
+/// How far an image is from a reference, over their common channels of intensities.
 struct Comparison {
   double rel_mse;                        ///< As `rel_mse` with its defaults.
   double rmse;                           ///< Root mean square of x - r.

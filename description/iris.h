@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "description/load_context.h"
+#include "io/schema/fields.h"
+#include "lens/iris.h"
+
+namespace abbe::spec {
+
+/// The blades of a stop; round without any.
+struct Iris {
+  std::optional<int> blades;
+  std::optional<schema::Located<double>> blade_rotation_deg;
+};
+[[nodiscard]] schema::Fields fields(schema::Tag<Iris>);
+
+}  // namespace abbe::spec
+
+namespace abbe::description {
+
+/// What the blades leave; nothing of a round stop. Warns of a rotation without blades.
+[[nodiscard]] std::optional<lens::Iris> build(const spec::Iris& iris, const LoadContext& context);
+
+}  // namespace abbe::description

@@ -1,0 +1,94 @@
+#include "develop/polarisation_camera.h"
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/matrix3.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_mosaic.h"
+#include "sensor/readout/demosaic.h"
+#include "sensor/response/polariser_group.h"
+#include "sensor/response/stokes_channels.h"
+
+namespace abbe {
+namespace {
+
+struct Measurement {
+  PolariserRow row;
+  const ImageChannel* plane;
+};
+
+std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
+                                                          const std::vector<std::string>& names) {
+  std::map<std::string, std::vector<Measurement>> groups;
+  for (const std::string& name : names) {
+    const auto told = planes.metadata.find(kAnalyserKey + name);
+    const auto row = told != planes.metadata.end() ? parse_polariser_row(told->second) : std::nullopt;
+    const ImageChannel* plane = planes.find(name);
+    if (row && plane != nullptr) groups[row->group].push_back({*row, plane});
+  }
+  return groups;
+}
+
+std::array<double, 3> row_of(const Measurement& one) {
+  return {1, one.row.q, one.row.u};
+}
+
+// The inverse of the sum of r r^T over the rows r; nothing where they do not determine a Stokes vector.
+std::optional<Matrix3> inverse_normal(const std::vector<Measurement>& group) {
+  constexpr double kDetermined = 1e-3;  // three ideal polarisers 60 degrees apart give 27/4
+  Matrix3 normal(0.0);
+  for (const Measurement& one : group) {
+    const auto row = row_of(one);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        normal[i][j] += row.at(static_cast<std::size_t>(i)) * row.at(static_cast<std::size_t>(j));
+  }
+  if (!(normal.determinant() > kDetermined)) return std::nullopt;
+  return normal.inverse(true);
+}
+
+// What the group counts at a pixel, in units of its first channel, by rows.
+std::array<double, 3> projected(const std::vector<Measurement>& group, std::size_t pixel) {
+  std::array<double, 3> sum{};
+  for (const Measurement& one : group) {
+    const double counted = static_cast<double>(one.plane->values[pixel]) / one.row.weight;
+    const auto row = row_of(one);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum.at(i) += row.at(i) * counted;
+  }
+  return sum;
+}
+
+void add_stokes(const std::string& name, const std::vector<Measurement>& group, const Matrix3& solve,
+                Image& stokes) {
+  std::array<std::vector<float>, 3> planes;
+  for (std::size_t pixel = 0; pixel < stokes.pixels(); ++pixel) {
+    const std::array<double, 3> told = multiply(solve, projected(group, pixel));
+    for (std::size_t i = 0; i < planes.size(); ++i) planes.at(i).push_back(static_cast<float>(told.at(i)));
+  }
+  for (int component = 0; component < 3; ++component)
+    stokes.channels.push_back(
+        {name_of({component, name}), std::move(planes.at(static_cast<std::size_t>(component)))});
+}
+
+}  // namespace
+
+Image stokes_of_polarisers(const Image& film) {
+  const auto mosaic = recorded_mosaic(film.metadata);
+  const Image apart = mosaic ? demosaic(film, kRawPlane, mosaic->pattern, mosaic->channels) : Image{};
+  const Image& planes = mosaic ? apart : film;
+  Image stokes{film.width, film.height, {}, film.metadata};
+  for (const auto& [name, group] : groups_of(planes, mosaic ? mosaic->channels : plane_names(film)))
+    if (const auto solve = inverse_normal(group)) add_stokes(name, group, *solve, stokes);
+  std::vector<std::string> names;
+  for (const ImageChannel& channel : stokes.channels) names.push_back(channel.name);
+  stokes.metadata["sensor_channels"] = fmt::format("{}", fmt::join(names, ","));
+  for (const char* of_sensor : {"mosaic", "mosaic_channels", "to_xyz_d65"}) stokes.metadata.erase(of_sensor);
+  return stokes;
+}
+
+}  // namespace abbe

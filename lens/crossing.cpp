@@ -1,0 +1,136 @@
+#include "lens/crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "materials/interface/fresnel.h"
+#include "materials/interface/snell.h"
+
+namespace abbe::lens {
+namespace {
+
+using Imath::Vec3;
+
+template <typename Real>
+BasicRay<Real> to_local(const SystemAt::Frame& frame, const BasicRay<Real>& ray) {
+  const Vec3<Real> from = ray.origin - Vec3<Real>(frame.vertex);
+  if (!frame.tilted) return {from, ray.direction};
+  return {from * frame.to_local, ray.direction * frame.to_local};
+}
+
+template <typename Real>
+void to_world(const SystemAt::Frame& frame, BasicRayHit<Real>& hit) {
+  if (frame.tilted) {
+    hit.point = hit.point * frame.to_world;
+    hit.normal = hit.normal * frame.to_world;
+    hit.direction = hit.direction * frame.to_world;
+  }
+  hit.point += Vec3<Real>(frame.vertex);
+  hit.direction = unit(hit.direction);
+}
+
+template <typename Real>
+Truth<Real> within_aperture(const Surface& surface, const Vec3<Real>& point) {
+  if (!surface.semi_aperture_mm) return true;
+  const double radius = *surface.semi_aperture_mm;
+  const Truth<Real> round = point.x * point.x + point.y * point.y <= Real(radius * radius);
+  if (!surface.iris) return round;
+  const Real between_blades = by_lane<Real>([&](int j) {
+    return surface.iris->contains(Imath::V2d(lane_of(point.x, j), lane_of(point.y, j)) / radius) ? 1.0 : 0.0;
+  });
+  return round && between_blades > 0;
+}
+
+// In the surface's own coordinates, of a ray that leads towards +z; light goes along it, `sense` 1, or
+// against it, `sense` -1, from an index to one `eta` times as large.
+template <typename Real>
+Crossing<Real> cross_local(const Surface& surface, const BasicRay<Real>& ray, double sense, const Real& eta) {
+  const auto [met, length_mm] = surface.profile.meet(ray);
+  Crossing<Real> crossing{{ray.origin + ray.direction * length_mm, {}, {}, length_mm}, met, true, true};
+  BasicRayHit<Real>& hit = crossing.hit;
+  crossing.within = within_aperture(surface, hit.point);
+  hit.normal = surface.profile.normal(hit.point);
+  crossing.refracted = refraction_radicand(Real(hit.normal.dot(ray.direction)), eta) > 0;
+  const auto onwards = refract<Real>(-ray.direction * sense, -hit.normal * sense, eta);
+  hit.direction = onwards.value_or(ray.direction);
+  return crossing;
+}
+
+}  // namespace
+
+// What these call is laid into them: most of it is a few instructions on values that would go through memory
+// otherwise.
+template <typename Real>
+[[gnu::flatten]] Crossing<Real> cross(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray) {
+  auto crossing = cross_local<Real>(at.surface, to_local(at.frame, ray), 1, at.n_behind / at.n_before);
+  to_world(at.frame, crossing.hit);
+  return crossing;
+}
+
+template <typename Real>
+[[gnu::flatten]] Crossing<Real> cross_back(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray) {
+  const BasicRay<Real> reversed = to_local<Real>(at.frame, {ray.origin, -ray.direction});
+  auto crossing = cross_local<Real>(at.surface, reversed, -1, at.n_before / at.n_behind);
+  to_world(at.frame, crossing.hit);
+  return crossing;
+}
+
+namespace {
+
+// The surface of the denser side's glass, seen from where the light comes.
+FresnelPower<double> coated_surface(const SurfaceBetween<double>& at, double wavelength_nm, double cos_i) {
+  const bool leaving = !at.surface.behind;
+  return leaving ? coated_power(at.surface.coating, wavelength_nm, at.n_before, 0, cos_i, true, at.n_behind)
+                 : coated_power(at.surface.coating, wavelength_nm, at.n_behind, 0, cos_i, false, at.n_before);
+}
+FresnelPower<Doubles> coated_surface(const SurfaceBetween<Doubles>& at, const Doubles& wavelengths_nm,
+                                     const Doubles& cos_i) {
+  FresnelPower<Doubles> all{};
+  for (int j = 0; j < kLanes; ++j) {
+    const auto power =
+        coated_surface({at.surface, at.frame, at.n_before[j], at.n_behind[j]}, wavelengths_nm[j], cos_i[j]);
+    all.Ts.set(j, power.Ts);
+    all.Tp.set(j, power.Tp);
+  }
+  return all;
+}
+
+}  // namespace
+
+template <typename Real>
+WeakenedLight<Real>::WeakenedLight(const Vec3<Real>& direction) {
+  using std::abs;
+  const Truth<Real> steep = abs(direction.x) < 0.5;
+  first_ = unit(direction.cross(select<Real>(steep, {1, 0, 0}, {0, 1, 0})));
+  second_ = direction.cross(first_);
+}
+
+template <typename Real>
+[[gnu::flatten]] void WeakenedLight<Real>::cross(const SurfaceBetween<Real>& at, const Real& wavelength_nm,
+                                                 const Vec3<Real>& from, const BasicRayHit<Real>& hit) {
+  using std::sqrt;
+  const bool bare = at.surface.coating.layers.empty();
+  if (bare && !(at.n_before < at.n_behind || at.n_before > at.n_behind)) return;  // as at a stop
+  const Real cosine = from.dot(hit.normal);
+  const Real cos_i = select(cosine < 1, cosine, 1);
+  const auto power = bare ? fresnel_dielectric<Real>(cos_i, at.n_behind / at.n_before)
+                          : coated_surface(at, wavelength_nm, cos_i);
+  // Along s and p, whose lengths are those of what s is found from.
+  const Vec3<Real> across = from.cross(hit.normal);
+  const Vec3<Real> s = select<Real>(across.dot(across) > 0, across, hit.normal.cross(first_));
+  const Vec3<Real> p_before = s.cross(from);
+  const Real over_length2 = Real(1) / s.dot(s);
+  const Vec3<Real> s_behind = s * Real(sqrt(power.Ts) * over_length2);
+  const Vec3<Real> p_behind = s.cross(hit.direction) * Real(sqrt(power.Tp) * over_length2);
+  first_ = s_behind * first_.dot(s) + p_behind * first_.dot(p_before);
+  second_ = s_behind * second_.dot(s) + p_behind * second_.dot(p_before);
+}
+
+template Crossing<double> cross(const SurfaceBetween<double>&, const Ray&);
+template Crossing<Doubles> cross(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&);
+template Crossing<double> cross_back(const SurfaceBetween<double>&, const Ray&);
+template Crossing<Doubles> cross_back(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&);
+template class WeakenedLight<double>;
+template class WeakenedLight<Doubles>;
+
+}  // namespace abbe::lens
