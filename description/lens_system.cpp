@@ -47,15 +47,17 @@ Fields fields(Tag<LensSystem>) {
        field("f_number", &LensSystem::f_number, Range{0, 1e6, true, false},
              "Focal length over the diameter of the beam on the axis, to which the stop is closed; as wide "
              "as the prescription says when absent."),
-       lent(&LensSystem::iris)});
+       lent(&LensSystem::iris),
+       defaulted(
+           "ghosts", &LensSystem::ghosts,
+           "Whether light that surfaces of the lens reflect twice comes to the film too; surfaces without "
+           "a clear aperture then end where the light of the picture does.")});
 }
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
 namespace {
-
-constexpr double kMmPerM = 1000;
 
 std::optional<lens::System> load_prescription(const spec::LensSystem& said, LoadContext& context) {
   if (const auto* itself = std::get_if<spec::Lens>(&said.prescription.value)) return build(*itself, context);
@@ -91,7 +93,7 @@ std::optional<double> closed_stop(const spec::LensSystem& said, const lens::Syst
 bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius, LoadContext& context) {
   const auto* distance = std::get_if<double>(&*said.focus_distance);
   lens.object_distance_mm =
-      distance != nullptr ? std::optional(*distance * context.unit_m * kMmPerM) : std::nullopt;
+      distance != nullptr ? std::optional(*distance * context.unit_m * lens::kMmPerM) : std::nullopt;
   lens.fields = {0};
   lens.aperture = {lens::ApertureKind::stop, stop_radius};
   double& film = lens.surfaces.back().thickness_mm;
@@ -142,8 +144,10 @@ std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame&
     lens->surfaces[lens->stop].iris = build(said.iris, context);
     const Support counted = counted_range(sensor);
     const FilmGrid grid{sensor.width, sensor.height, sensor.pixel_pitch};
-    return LensSystem{frame,
-                      std::make_shared<LensOptics>(*std::move(lens), *stop, grid, counted.low, counted.high)};
+    using Ghosts = LensOptics::Ghosts;
+    const auto optics = std::make_shared<LensOptics>(*std::move(lens), *stop, grid, counted.low, counted.high,
+                                                     said.ghosts ? Ghosts::enumerated : Ghosts::left_out);
+    return LensSystem{frame, optics, optics->has_ghosts()};
   } catch (const Error& error) {
     context.diagnostics.error(said.where, error.what());
     return std::nullopt;

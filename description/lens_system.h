@@ -32,6 +32,7 @@ struct LensSystem {
   FilmPlane focus = FilmPlane::best;
   std::optional<schema::Located<double>> f_number;
   Iris iris;
+  bool ghosts = false;
   SourcePosition where;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<LensSystem>);

@@ -41,18 +41,32 @@ Truth<Real> within_aperture(const Surface& surface, const Vec3<Real>& point) {
   return round && between_blades > 0;
 }
 
-// In the surface's own coordinates, of a ray that leads towards +z; light goes along it, `sense` 1, or
-// against it, `sense` -1, from an index to one `eta` times as large.
+// In the surface's own coordinates, of a ray that leads towards +z, as all that follow.
 template <typename Real>
-Crossing<Real> cross_local(const Surface& surface, const BasicRay<Real>& ray, double sense, const Real& eta) {
+Crossing<Real> meet_local(const Surface& surface, const BasicRay<Real>& ray) {
   const auto [met, length_mm] = surface.profile.meet(ray);
   Crossing<Real> crossing{{ray.origin + ray.direction * length_mm, {}, {}, length_mm}, met, true, true};
+  crossing.within = within_aperture(surface, crossing.hit.point);
+  crossing.hit.normal = surface.profile.normal(crossing.hit.point);
+  return crossing;
+}
+
+// Light goes along the ray, `sense` 1, or against it, `sense` -1, from an index to one `eta` times as large.
+template <typename Real>
+Crossing<Real> cross_local(const Surface& surface, const BasicRay<Real>& ray, double sense, const Real& eta) {
+  auto crossing = meet_local(surface, ray);
   BasicRayHit<Real>& hit = crossing.hit;
-  crossing.within = within_aperture(surface, hit.point);
-  hit.normal = surface.profile.normal(hit.point);
   crossing.refracted = refraction_radicand(Real(hit.normal.dot(ray.direction)), eta) > 0;
   const auto onwards = refract<Real>(-ray.direction * sense, -hit.normal * sense, eta);
   hit.direction = onwards.value_or(ray.direction);
+  return crossing;
+}
+
+template <typename Real>
+Crossing<Real> reflect_local(const Surface& surface, const BasicRay<Real>& ray, double sense) {
+  auto crossing = meet_local(surface, ray);
+  BasicRayHit<Real>& hit = crossing.hit;
+  hit.direction = (ray.direction - hit.normal * Real(2 * ray.direction.dot(hit.normal))) * sense;
   return crossing;
 }
 
@@ -75,24 +89,49 @@ template <typename Real>
   return crossing;
 }
 
-namespace {
-
-// The surface of the denser side's glass, seen from where the light comes.
-FresnelPower<double> coated_surface(const SurfaceBetween<double>& at, double wavelength_nm, double cos_i) {
-  const bool leaving = !at.surface.behind;
-  return leaving ? coated_power(at.surface.coating, wavelength_nm, at.n_before, 0, cos_i, true, at.n_behind)
-                 : coated_power(at.surface.coating, wavelength_nm, at.n_behind, 0, cos_i, false, at.n_before);
+template <typename Real>
+[[gnu::flatten]] Crossing<Real> reflect(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray,
+                                        bool forwards) {
+  const double sense = forwards ? 1 : -1;
+  auto crossing =
+      reflect_local<Real>(at.surface, to_local<Real>(at.frame, {ray.origin, ray.direction * sense}), sense);
+  to_world(at.frame, crossing.hit);
+  return crossing;
 }
-FresnelPower<Doubles> coated_surface(const SurfaceBetween<Doubles>& at, const Doubles& wavelengths_nm,
-                                     const Doubles& cos_i) {
+
+// Coatings lie on glass, of two glasses on that behind.
+FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wavelength_nm, double cos_i,
+                                   bool forwards) {
+  const bool glass_before = !at.surface.behind;
+  const double glass = glass_before ? at.n_before : at.n_behind;
+  const double outside = glass_before ? at.n_behind : at.n_before;
+  return coated_power(at.surface.coating, wavelength_nm, glass, 0, cos_i, glass_before == forwards, outside);
+}
+
+FresnelPower<Doubles> surface_power(const SurfaceBetween<Doubles>& at, const Doubles& wavelengths_nm,
+                                    const Doubles& cos_i, bool forwards) {
   FresnelPower<Doubles> all{};
   for (int j = 0; j < kLanes; ++j) {
-    const auto power =
-        coated_surface({at.surface, at.frame, at.n_before[j], at.n_behind[j]}, wavelengths_nm[j], cos_i[j]);
+    const auto power = surface_power({at.surface, at.frame, at.n_before[j], at.n_behind[j]},
+                                     wavelengths_nm[j], cos_i[j], forwards);
+    all.Rs.set(j, power.Rs);
+    all.Rp.set(j, power.Rp);
     all.Ts.set(j, power.Ts);
     all.Tp.set(j, power.Tp);
   }
   return all;
+}
+
+namespace {
+
+// The amplitude of reflected p over that of s is negative below Brewster's angle, where the refracted ray and
+// the reflected one are at an obtuse angle.
+template <typename Real>
+Real reflected_p(const Real& Rp, const Real& cos_i, const Real& eta) {
+  using std::sqrt;
+  const Real cos_t = refracted_cosine(cos_i, eta);
+  const Real amplitude = sqrt(Rp);
+  return select(cos_i * cos_i + cos_t * cos_t < 1, amplitude, -amplitude);
 }
 
 }  // namespace
@@ -106,22 +145,29 @@ WeakenedLight<Real>::WeakenedLight(const Vec3<Real>& direction) {
 }
 
 template <typename Real>
-[[gnu::flatten]] void WeakenedLight<Real>::cross(const SurfaceBetween<Real>& at, const Real& wavelength_nm,
-                                                 const Vec3<Real>& from, const BasicRayHit<Real>& hit) {
+[[gnu::flatten]] void WeakenedLight<Real>::meet(const SurfaceBetween<Real>& at, const Real& wavelength_nm,
+                                                const Vec3<Real>& from, const BasicRayHit<Real>& hit,
+                                                Encounter how) {
   using std::sqrt;
   const bool bare = at.surface.coating.layers.empty();
-  if (bare && !(at.n_before < at.n_behind || at.n_before > at.n_behind)) return;  // as at a stop
-  const Real cosine = from.dot(hit.normal);
+  if (bare && !(at.n_before < at.n_behind || at.n_before > at.n_behind)) {  // as at a stop
+    if (how.reflects) first_ = second_ = Vec3<Real>(0);
+    return;
+  }
+  const Real cosine = how.forwards ? from.dot(hit.normal) : -from.dot(hit.normal);
   const Real cos_i = select(cosine < 1, cosine, 1);
-  const auto power = bare ? fresnel_dielectric<Real>(cos_i, at.n_behind / at.n_before)
-                          : coated_surface(at, wavelength_nm, cos_i);
+  const Real eta = how.forwards ? at.n_behind / at.n_before : at.n_before / at.n_behind;
+  const auto power =
+      bare ? fresnel_dielectric<Real>(cos_i, eta) : surface_power(at, wavelength_nm, cos_i, how.forwards);
+  const Real along_s = sqrt(how.reflects ? power.Rs : power.Ts);
+  const Real along_p = how.reflects ? reflected_p(power.Rp, cos_i, eta) : Real(sqrt(power.Tp));
   // Along s and p, whose lengths are those of what s is found from.
   const Vec3<Real> across = from.cross(hit.normal);
   const Vec3<Real> s = select<Real>(across.dot(across) > 0, across, hit.normal.cross(first_));
   const Vec3<Real> p_before = s.cross(from);
   const Real over_length2 = Real(1) / s.dot(s);
-  const Vec3<Real> s_behind = s * Real(sqrt(power.Ts) * over_length2);
-  const Vec3<Real> p_behind = s.cross(hit.direction) * Real(sqrt(power.Tp) * over_length2);
+  const Vec3<Real> s_behind = s * Real(along_s * over_length2);
+  const Vec3<Real> p_behind = s.cross(hit.direction) * Real(along_p * over_length2);
   first_ = s_behind * first_.dot(s) + p_behind * first_.dot(p_before);
   second_ = s_behind * second_.dot(s) + p_behind * second_.dot(p_before);
 }
@@ -130,6 +176,8 @@ template Crossing<double> cross(const SurfaceBetween<double>&, const Ray&);
 template Crossing<Doubles> cross(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&);
 template Crossing<double> cross_back(const SurfaceBetween<double>&, const Ray&);
 template Crossing<Doubles> cross_back(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&);
+template Crossing<double> reflect(const SurfaceBetween<double>&, const Ray&, bool);
+template Crossing<Doubles> reflect(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&, bool);
 template class WeakenedLight<double>;
 template class WeakenedLight<Doubles>;
 

@@ -7,7 +7,6 @@
 namespace abbe::lens {
 namespace {
 
-constexpr double kMmPerM = 1000;
 constexpr int kTableCells = kMaxWavelengthNm - kMinWavelengthNm;
 
 }  // namespace

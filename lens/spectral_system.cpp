@@ -15,10 +15,19 @@ BasicRay<Real> in_all_lanes(const Ray& ray) {
   return {Imath::Vec3<Real>(ray.origin), Imath::Vec3<Real>(ray.direction)};
 }
 
+template <typename Real>
+Crossing<Real> meet(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray, Encounter how) {
+  if (how.reflects) return reflect(at, ray, how.forwards);
+  return how.forwards ? cross(at, ray) : cross_back(at, ray);
+}
+
 }  // namespace
 
 SpectralSystem::SpectralSystem(System system, double stop_radius_mm)
-    : system_(std::move(system)), stop_radius_mm_(stop_radius_mm), media_(system_) {
+    : system_(std::move(system)),
+      stop_radius_mm_(stop_radius_mm),
+      media_(system_),
+      direct_(direct_route(system_.surfaces.size())) {
   std::optional<double>& aperture = system_.surfaces[system_.stop].semi_aperture_mm;
   aperture = std::min(stop_radius_mm, aperture.value_or(stop_radius_mm));
   const SystemAt at(system_, system_.primary_nm());
@@ -28,49 +37,60 @@ SpectralSystem::SpectralSystem(System system, double stop_radius_mm)
 
 // Lanes that have ended stay where they were.
 template <typename Real>
-BasicArrival<Real> SpectralSystem::follow(BasicRay<Real> ray, const Real& wavelength_nm) const {
+BasicArrival<Real> SpectralSystem::follow(BasicRay<Real> ray, const Real& wavelength_nm,
+                                          const Route& route) const {
   const auto place = media_.place(wavelength_nm);
   WeakenedLight<Real> light(ray.direction);
   Truth<Real> passes = true;
   Real depth = 0;
-  Real n_before = 1;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const SurfaceBetween<Real> at{system_.surfaces[i], frames_[i], n_before, media_.n(i + 1, place)};
-    const auto [hit, met, within, refracted] = cross(at, ray);
+  Real n_here = 1;
+  for (const auto& [i, how] : route) {
+    const std::size_t medium = how.forwards ? i : i + 1;
+    const Real n_beyond = media_.n(how.forwards ? i + 1 : i, place);
+    const SurfaceBetween<Real> at{system_.surfaces[i], frames_[i], how.forwards ? n_here : n_beyond,
+                                  how.forwards ? n_beyond : n_here};
+    const auto [hit, met, within, refracted] = meet(at, ray, how);
     passes = passes && met && within && refracted;
-    if (!passes) return {passes, {}, {}, {}};
-    light.cross(at, wavelength_nm, ray.direction, hit);
-    if (i > 0 && media_.absorbs(i)) depth += media_.absorption_per_mm(i, place) * hit.length_mm;
+    if (!passes) return {passes, {}, {}, {}, {}, {}, {}};
+    light.meet(at, wavelength_nm, ray.direction, hit, how);
+    if (medium > 0 && media_.absorbs(medium))
+      depth += media_.absorption_per_mm(medium, place) * (how.forwards ? hit.length_mm : -hit.length_mm);
     ray = {select<Real>(passes, hit.point, ray.origin), select<Real>(passes, hit.direction, ray.direction)};
-    n_before = at.n_behind;
+    if (!how.reflects) n_here = n_beyond;
   }
   const Vec3<Real>& d = ray.direction;
   const Vec3<Real> there = ray.origin + d * Real((image_z() - ray.origin.z) / d.z);
   const Real passed = by_lane<Real>([&](int j) { return std::exp(-lane_of(depth, j)); });
-  return {passes && d.z > 0, {there.x, there.y}, d, light.power() * passed};
+  return {passes && d.z > 0, {there.x, there.y}, d, light.power() * passed, ray.origin,
+          light.first(),     light.second()};
 }
 
 std::optional<Arrival> SpectralSystem::to_image(const Ray& ray, double wavelength_nm) const {
-  const Arrival arrival = follow(ray, wavelength_nm);
+  const Arrival arrival = follow(ray, wavelength_nm, direct_);
   return arrival.arrived ? std::optional(arrival) : std::nullopt;
 }
 
-BasicArrival<Doubles> SpectralSystem::to_image(const Ray& ray, const SampledSpectrum& wavelengths_nm) const {
-  return follow(in_all_lanes<Doubles>(ray), Doubles(wavelengths_nm));
+BasicArrival<Doubles> SpectralSystem::to_image(const Ray& ray, const SampledSpectrum& wavelengths_nm,
+                                               const Route& route) const {
+  return follow(in_all_lanes<Doubles>(ray), Doubles(wavelengths_nm), route);
 }
 
-Crossing<double> SpectralSystem::cross_next(std::size_t surface, const MediaTable::Place<double>& place,
-                                            const Ray& ray) const {
-  return cross_back<double>(
-      {system_.surfaces[surface], frames_[surface], media_.n(surface, place), media_.n(surface + 1, place)},
-      ray);
+Crossing<double> SpectralSystem::meet_next(const Step& step, const MediaTable::Place<double>& place,
+                                           const Ray& ray) const {
+  const auto& [i, how] = step;
+  return meet<double>({system_.surfaces[i], frames_[i], media_.n(i, place), media_.n(i + 1, place)}, ray,
+                      how);
 }
 
-std::optional<Ray> SpectralSystem::to_object(const Ray& start, double wavelength_nm) const {
+// Backwards, what was crossed forwards is crossed back, and what was reflected comes from the same side.
+std::optional<Ray> SpectralSystem::to_object(const Ray& start, double wavelength_nm,
+                                             const Route& route) const {
   const auto place = media_.place(wavelength_nm);
   Ray ray = start;
-  for (std::size_t i = frames_.size(); i-- > 0;) {
-    const auto [hit, met, within, refracted] = cross_next(i, place, ray);
+  for (auto step = route.rbegin(); step != route.rend(); ++step) {
+    const auto [of, how] = *step;
+    const auto [hit, met, within, refracted] =
+        meet_next({of, {how.reflects == how.forwards, how.reflects}}, place, ray);
     if (!met || !within || !refracted) return std::nullopt;
     ray = {hit.point, hit.direction};
   }
@@ -81,7 +101,7 @@ std::optional<Imath::V2d> SpectralSystem::at_stop(const Ray& start, double wavel
   const auto place = media_.place(wavelength_nm);
   Ray ray = start;
   for (std::size_t i = frames_.size(); i-- > system_.stop + 1;) {
-    const auto [hit, met, within, refracted] = cross_next(i, place, ray);
+    const auto [hit, met, within, refracted] = meet_next({i, {false, false}}, place, ray);
     if (!met || !refracted) return std::nullopt;
     ray = {hit.point, hit.direction};
   }
@@ -91,6 +111,19 @@ std::optional<Imath::V2d> SpectralSystem::at_stop(const Ray& start, double wavel
   if (!t) return std::nullopt;
   const V3d point = local.origin + *t * local.direction;
   return Imath::V2d(point.x, point.y) / stop_radius_mm_;
+}
+
+SurfacePoint SpectralSystem::point_of(std::size_t surface, const Imath::V2d& local) const {
+  const SystemAt::Frame& frame = frames_[surface];
+  const Profile& profile = system_.surfaces[surface].profile;
+  const V3d point(local.x, local.y, profile.sag(local.length2()));
+  const V3d normal = profile.normal(point);
+  return {point * frame.to_world + frame.vertex, normal * frame.to_world, normal.z};
+}
+
+Imath::V2d SpectralSystem::local_of(std::size_t surface, const V3d& point) const {
+  const V3d local = (point - frames_[surface].vertex) * frames_[surface].to_local;
+  return {local.x, local.y};
 }
 
 }  // namespace abbe::lens

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lens/media_table.h"
+#include "lens/route.h"
 #include "lens/trace.h"
 
 namespace abbe::lens {
@@ -15,8 +16,18 @@ struct BasicArrival {
   Imath::Vec2<Real> point;      ///< [mm]
   Imath::Vec3<Real> direction;  ///< Unit.
   Real transmittance;           ///< Of unpolarised light on its way there, by surfaces and glass.
+  Imath::Vec3<Real> last;       ///< The point of the last surface that it comes from.
+  Imath::Vec3<Real> first;      ///< What surfaces leave of the fields that `WeakenedLight` starts with.
+  Imath::Vec3<Real> second;
 };
 using Arrival = BasicArrival<double>;
+
+/// A point of a surface, and its unit normal towards +z.
+struct SurfacePoint {
+  Imath::V3d point;
+  Imath::V3d normal;
+  double cos_axis;  ///< Of the angle between the normal and the surface's own axis.
+};
 
 /// A system to be traced at any wavelength, many times: what it is at one is looked up in a `MediaTable`,
 /// and nothing is allocated.
@@ -31,28 +42,41 @@ class SpectralSystem {
   [[nodiscard]] double last_z() const { return vertex_z_[vertex_z_.size() - 2]; }
   [[nodiscard]] double image_z() const { return vertex_z_.back(); }
 
+  /// The way by which light makes the image.
+  [[nodiscard]] const Route& direct() const { return direct_; }
   /// Follows a ray of the object's side to the image, clear apertures obeyed; nothing if it does not get
   /// there.
   [[nodiscard]] std::optional<Arrival> to_image(const Ray& ray, double wavelength_nm) const;
-  /// The same of all lanes of a packet, which come along the same ray.
-  [[nodiscard]] BasicArrival<Doubles> to_image(const Ray& ray, const SampledSpectrum& wavelengths_nm) const;
-  /// Follows a ray that comes from the image, towards -z, out to the object's side.
-  [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm) const;
+  /// The same of all lanes of a packet, which come along the same ray, and by any way.
+  [[nodiscard]] BasicArrival<Doubles> to_image(const Ray& ray, const SampledSpectrum& wavelengths_nm,
+                                               const Route& route) const;
+  /// Follows a ray that comes from the image, towards -z, out to the object's side, the route backwards.
+  [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm, const Route& route) const;
+  [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm) const {
+    return to_object(ray, wavelength_nm, direct_);
+  }
   /// Where such a ray passes the stop, in radii of the stop from its middle, whatever clear apertures say;
   /// nothing if it does not get there.
   [[nodiscard]] std::optional<Imath::V2d> at_stop(const Ray& ray, double wavelength_nm) const;
 
+  /// The point of a surface that lies at (x, y) in the surface's own coordinates, no further from its axis
+  /// than its edge, and the reverse.
+  [[nodiscard]] SurfacePoint point_of(std::size_t surface, const Imath::V2d& local) const;
+  [[nodiscard]] Imath::V2d local_of(std::size_t surface, const Imath::V3d& point) const;
+
  private:
   template <typename Real>
-  [[nodiscard]] BasicArrival<Real> follow(BasicRay<Real> ray, const Real& wavelength_nm) const;
-  [[nodiscard]] Crossing<double> cross_next(std::size_t surface, const MediaTable::Place<double>& place,
-                                            const Ray& ray) const;
+  [[nodiscard]] BasicArrival<Real> follow(BasicRay<Real> ray, const Real& wavelength_nm,
+                                          const Route& route) const;
+  [[nodiscard]] Crossing<double> meet_next(const Step& step, const MediaTable::Place<double>& place,
+                                           const Ray& ray) const;
 
   System system_;
   double stop_radius_mm_;
   std::vector<SystemAt::Frame> frames_;
   std::vector<double> vertex_z_;
   MediaTable media_;
+  Route direct_;
 };
 
 }  // namespace abbe::lens

@@ -17,6 +17,8 @@
 // the origin, lengths are millimetres, angles degrees, indices relative to air, in which the lens stands.
 namespace abbe::lens {
 
+inline constexpr double kMmPerM = 1000;
+
 /// What lies behind a surface.
 struct Glass {
   std::string name;

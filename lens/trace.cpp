@@ -59,7 +59,7 @@ double transmittance(const SystemAt& at, const Ray& start, const RayPath& path) 
   double depth = 0;
   for (std::size_t i = 0; i < path.hits.size(); ++i) {
     const RayHit& hit = path.hits[i];
-    light.cross(surface_between(at, i), at.wavelength_nm, from, hit);
+    light.meet(surface_between(at, i), at.wavelength_nm, from, hit, {});
     if (i > 0) depth += at.absorption_per_mm[i] * hit.length_mm;
     from = hit.direction;
   }

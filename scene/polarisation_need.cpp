@@ -58,7 +58,8 @@ int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
 
 }  // namespace
 
-// A sensor that tells how light is polarised is told; a polarised lamp stands for a first event.
+// A sensor that tells how light is polarised is told; a polarised lamp stands for a first event, a lens that
+// polarises for a last one.
 std::optional<PolarisationNeed> polarisation_need(const Scene& scene) {
   const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
                                       [](const Channel& channel) { return channel.analyser.has_value(); });
@@ -68,7 +69,7 @@ std::optional<PolarisationNeed> polarisation_need(const Scene& scene) {
   const bool comes_back = std::any_of(
       scene.shapes.begin(), scene.shapes.end(),
       [&scene](const ShapeInstance& instance) { return hands_on(scene.materials[instance.material]); });
-  int events = polarised_lamp ? 1 : 0;
+  int events = (polarised_lamp ? 1 : 0) + (traits(scene.camera).polarises ? 1 : 0);
   for (const ShapeInstance& instance : scene.shapes) {
     const int here = events_in_a_row(scene, instance);
     events += here;

@@ -13,9 +13,9 @@ struct PolarisationNeed {
   std::string name;
 };
 
-/// Where the light of some path may be polarised by one event and then meet another whose power depends on
-/// that, without anything between that depolarises for certain; nothing where no path can, so that what is
-/// worked out for unpolarised light is exact.
+/// Where the light of some path may be polarised by one event and then meet another, in the scene or in the
+/// camera's lens, whose power depends on that, without anything between that depolarises for certain; nothing
+/// where no path can, so that what is worked out for unpolarised light is exact.
 [[nodiscard]] std::optional<PolarisationNeed> polarisation_need(const Scene& scene);
 
 /// Whether paths of the scene carry polarisation: where it matters, unless its settings leave it out.

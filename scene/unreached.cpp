@@ -64,6 +64,9 @@ void add_of_light_tracing(const Scene& scene, Classes& classes) {
               "all light of an environment");
   classes.add([&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }, "E L",
               "lights seen directly");
+  if (traits(scene.camera).ghosts)
+    classes.add([&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); }, "E L",
+                "a point, spot or directional light seen by way of the lens's ghosts");
   if (has_specular_shapes(scene))
     classes.add([&](std::size_t i) { return !lights[i].is_environment(); }, "E S (S|D)* L",
                 "everything seen in mirrors or through glass");
@@ -121,6 +124,8 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
             "a point, spot or directional light where only matter scatters, and no two events in a row");
       break;
     case Integrator::photon_brute:
+      if (traits(scene.camera).ghosts)
+        classes.add(any, "E (S|D)* L", "what comes by way of the lens's ghosts");
       if (!traits(scene.camera).opening)
         classes.add(any, "E (S|D)* L", "everything: no photon comes in through a point by itself");
       break;

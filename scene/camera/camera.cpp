@@ -18,6 +18,10 @@ Ray moved_ray(const Ray& ray, const Imath::M44d& by) {
           ray.time};
 }
 
+void turn(std::optional<LaneImages>& images, const Imath::M44d& by) {
+  if (images) images->jones.axis = Imath::V3f(turned_direction(Imath::V3d(images->jones.axis), by));
+}
+
 Imath::M44d motion_until(const Camera& camera, float time) {
   return camera.motion->since_opening(static_cast<double>(time));
 }
@@ -31,7 +35,10 @@ CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
         return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, hero, time);
       },
       camera.kind);
-  if (camera.motion) ray.ray = moved_ray(ray.ray, motion_until(camera, time));
+  if (!camera.motion) return ray;
+  const Imath::M44d since_opening = motion_until(camera, time);
+  ray.ray = moved_ray(ray.ray, since_opening);
+  turn(ray.images, since_opening);
   return ray;
 }
 
@@ -47,15 +54,35 @@ std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath
   if (!camera.motion) return connect(point);
   const Imath::M44d since_opening = motion_until(camera, time);
   std::optional<CameraConnection> found = connect(moved_point(point, rigid_inverse(since_opening)));
-  if (found) found->lens_point = moved_point(found->lens_point, since_opening);
+  if (!found) return found;
+  found->lens_point = moved_point(found->lens_point, since_opening);
+  turn(found->images, since_opening);
   return found;
 }
 
 std::optional<CameraDensity> density(const Camera& camera, const Ray& ray,
-                                     const SampledSpectrum& wavelengths_nm) {
+                                     const SampledSpectrum& wavelengths_nm, LensRoute route) {
   const Ray& seen = camera.motion ? seen_at_rest(camera, ray) : ray;
-  return std::visit([&](const auto& kind) { return kind.density(camera.film(), seen, wavelengths_nm); },
-                    camera.kind);
+  std::optional<CameraDensity> of =
+      std::visit([&](const auto& kind) { return kind.density(camera.film(), seen, wavelengths_nm, route); },
+                 camera.kind);
+  if (camera.motion && of) turn(of->images, motion_until(camera, ray.time));
+  return of;
+}
+
+std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time) {
+  const auto* kind = std::get_if<LensSystem>(&camera.kind);
+  auto found = kind != nullptr ? kind->sample_ghost(lens) : std::nullopt;
+  if (!camera.motion || !found) return found;
+  const Imath::M44d since_opening = motion_until(camera, time);
+  found->point = moved_point(found->point, since_opening);
+  found->normal = Imath::V3f(turned_direction(Imath::V3d(found->normal), since_opening));
+  return found;
+}
+
+Camera without_ghosts(Camera camera) {
+  if (auto* lens = std::get_if<LensSystem>(&camera.kind)) lens->ghosts = false;
+  return camera;
 }
 
 Ray seen_at_rest(const Camera& camera, const Ray& ray) {
@@ -99,7 +126,7 @@ std::optional<Imath::V3f> film_right(const Camera& camera, float time) {
 double central_weight(const Camera& camera, Imath::V2f film) {
   constexpr float kMiddleNm = 550;
   return static_cast<double>(
-      sample_ray(camera, film, {0.5F, 0.5F}, SampledSpectrum(kMiddleNm), 0, 0).weight[0]);
+      sample_ray(without_ghosts(camera), film, {0.5F, 0.5F}, SampledSpectrum(kMiddleNm), 0, 0).weight[0]);
 }
 
 }  // namespace abbe

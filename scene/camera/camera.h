@@ -36,12 +36,18 @@ struct Camera {
                                                              const SampledSpectrum& wavelengths_nm,
                                                              float time);
 [[nodiscard]] std::optional<CameraDensity> density(const Camera& camera, const Ray& ray,
-                                                   const SampledSpectrum& wavelengths_nm);
+                                                   const SampledSpectrum& wavelengths_nm,
+                                                   LensRoute route = 0);
 [[nodiscard]] double least_film_cosine(const Camera& camera);
 [[nodiscard]] CameraTraits traits(const Camera& camera);
 [[nodiscard]] const Imath::V3d& position(const Camera& camera);
 [[nodiscard]] Imath::V3d middle(const Camera& camera);
 void translate(Camera& camera, const Imath::V3d& by);
+
+/// Draws a point where light comes in by way of a ghost; nothing of a camera without any.
+[[nodiscard]] std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time);
+/// The camera, seeing by way of the image alone.
+[[nodiscard]] Camera without_ghosts(Camera camera);
 
 /// The ray as it runs beside a camera that moves, seen from where that is at time 0.
 [[nodiscard]] Ray seen_at_rest(const Camera& camera, const Ray& ray);

@@ -49,7 +49,8 @@ std::optional<CameraConnection> IrradianceProbe::sample_towards(const FilmGrid& 
 }
 
 std::optional<CameraDensity> IrradianceProbe::density(const FilmGrid& grid, const Ray& ray,
-                                                      const SampledSpectrum& /*wavelengths_nm*/) const {
+                                                      const SampledSpectrum& /*wavelengths_nm*/,
+                                                      LensRoute /*route*/) const {
   const double cos_theta = normal.dot(Imath::V3d(ray.direction));
   if (!(cos_theta > 0)) return std::nullopt;
   const double patch_area = edge_u.cross(edge_v).length() / (static_cast<double>(grid.width) * grid.height);

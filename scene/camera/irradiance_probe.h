@@ -20,7 +20,8 @@ struct IrradianceProbe {
                                                                float time) const;
   /// The film position of a point meter is the middle of the film, wherever it was drawn.
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
-                                                     const SampledSpectrum& wavelengths_nm) const;
+                                                     const SampledSpectrum& wavelengths_nm,
+                                                     LensRoute route) const;
   [[nodiscard]] double least_film_cosine(const FilmGrid& grid) const;
   [[nodiscard]] CameraTraits traits() const;
   [[nodiscard]] const Imath::V3d& position() const { return corner; }

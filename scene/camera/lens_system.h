@@ -14,6 +14,7 @@ struct LensOptics;
 struct LensSystem {
   CameraFrame frame;
   std::shared_ptr<const LensOptics> optics;
+  bool ghosts = false;  ///< Whether light comes by the routes of ghosts too, of which the optics must be.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
                                      const SampledSpectrum& wavelengths_nm, int hero, float time) const;
@@ -22,7 +23,10 @@ struct LensSystem {
                                                                const SampledSpectrum& wavelengths_nm,
                                                                float time) const;
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
-                                                     const SampledSpectrum& wavelengths_nm) const;
+                                                     const SampledSpectrum& wavelengths_nm,
+                                                     LensRoute route) const;
+  /// Nothing of a lens without ghosts.
+  [[nodiscard]] std::optional<GhostEntrance> sample_ghost(Imath::V2f lens) const;
   [[nodiscard]] double least_film_cosine(const FilmGrid& grid) const;
   [[nodiscard]] CameraTraits traits() const;
   [[nodiscard]] const Imath::V3d& position() const { return frame.position; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <optional>
 
 #include <ImathVec.h>
@@ -18,13 +19,27 @@ struct FilmGrid {
   double pixel_pitch = 1;  ///< [m]
 };
 
+/// What a lens does to polarised light: for each lane the Jones matrix [[xx, xy], [yx, yy]], over the root of
+/// its transmittance for unpolarised light, from the frame of `axis` across the ray of the scene to that of
+/// the film, whose x is the picture's right, made perpendicular to the way of the light there. The second
+/// axis of each is the way of the light x the first. [Born1999, sec. 10.9]
+struct LensJones {
+  Imath::V3f axis{0, 0, 0};
+  SampledSpectrum xx, xy, yx, yy;
+};
+
 /// What each lane of a packet has of its own behind a dispersive lens, before which all of them share one
 /// ray. A lane that does not come to the film has the position of another one that does.
 struct LaneImages {
   SampledSpectrum x;         ///< Film position,
   SampledSpectrum y;         ///< likewise.
   SampledSpectrum cos_film;  ///< Of the angle of incidence on the film.
+  LensJones jones = {};
 };
+
+/// By which way light comes through a lens: 0 is that of the image, others are of its ghosts, by their
+/// number.
+using LensRoute = std::uint32_t;
 
 /// A ray into the scene, at the time asked for. Radiance L along it adds `weight` L to the spectral
 /// irradiance at its film position, balanced over the lanes: each would have drawn the ray with a density of
@@ -35,6 +50,7 @@ struct CameraRay {
   float cos_film;          ///< Cosine of the angle of incidence on the film, for responses that depend on it.
   SampledSpectrum lane_pdf{1.0F};         ///< Density of the ray, were the lane the hero, over the hero's.
   std::optional<LaneImages> images = {};  ///< Where the lens displaces lanes.
+  LensRoute route = 0;
 };
 
 /// A connection from a scene point through the lens to the film. Intensity I [W/sr] leaving the point towards
@@ -46,6 +62,15 @@ struct CameraConnection {
   float cos_film;
   std::optional<LaneImages> images =
       {};  ///< Where the lens displaces lanes; `film` is then that of one of them.
+  LensRoute route = 0;
+};
+
+/// A point where light comes into a lens by way of a ghost.
+struct GhostEntrance {
+  Imath::V3f point;
+  Imath::V3f normal;  ///< Outward, unit.
+  LensRoute route;
+  float pdf;  ///< Of both [1/m^2].
 };
 
 /// What a camera sees along a ray that leaves it at an angle theta with its axis or normal, and how densely
@@ -64,6 +89,12 @@ struct CameraDensity {
   std::optional<LaneImages> images =
       {};  ///< Where the lens displaces lanes; `film` is then that of one of them.
 };
+
+/// Where the lanes of a ray, connection or density fall, if the lens displaces them.
+template <typename Of>
+[[nodiscard]] const LaneImages* images_of(const Of& of) {
+  return of.images ? &*of.images : nullptr;
+}
 
 /// What light comes in through, or falls on: the points center + a u + b v, of a round one with a^2 + b^2 <=
 /// 1, else with |a|, |b| <= 1; of one with an iris those of them that this has at (a, b).
@@ -86,6 +117,10 @@ struct CameraTraits {
   /// Wavelengths of a ray of the scene fall on film positions of their own, which rays, connections and
   /// densities then tell.
   bool displaces_lanes = false;
+  /// Light comes by ways other than that of the image too.
+  bool ghosts = false;
+  /// The lens changes how light is polarised.
+  bool polarises = false;
   std::optional<double> image_distance = {};  ///< Film behind a lens, to it [m].
   std::optional<double> f_number = {};        ///< Of the opening, without the losses of the lens.
   std::optional<Imath::V3d> axis = {};        ///< Unit direction in which a lens looks.
@@ -100,15 +135,17 @@ struct CameraTraits {
 /// share of the exposure that has gone by; see `BasicRay`.
 template <typename Model>
 concept CameraModel = requires(const Model& camera, Model& movable, const FilmGrid& film, Imath::V2f u,
-                               const Ray& ray, const SampledSpectrum& wavelengths_nm, int hero, float time) {
+                               const Ray& ray, const SampledSpectrum& wavelengths_nm, int hero, float time,
+                               LensRoute route) {
   /// The ray of a film position, which it is at the hero's wavelength.
   { camera.sample_ray(film, u, u, wavelengths_nm, hero, time) } -> std::same_as<CameraRay>;
   /// From a point to the film; nothing if the point is behind the lens or its image beyond the film.
   {
     camera.sample_towards(film, ray.origin, u, wavelengths_nm, time)
     } -> std::same_as<std::optional<CameraConnection>>;
-  /// Of a ray that starts on the lens or the meter; nothing if it comes from beyond the film.
-  { camera.density(film, ray, wavelengths_nm) } -> std::same_as<std::optional<CameraDensity>>;
+  /// Of a ray that starts on the lens or the meter and comes by that way; nothing if it comes from beyond the
+  /// film.
+  { camera.density(film, ray, wavelengths_nm, route) } -> std::same_as<std::optional<CameraDensity>>;
   /// The least cosine of an angle of incidence on the film that rays and connections may report.
   { camera.least_film_cosine(film) } -> std::same_as<double>;
   { camera.traits() } -> std::same_as<CameraTraits>;

@@ -35,7 +35,8 @@ std::optional<CameraConnection> Pinhole::sample_towards(const FilmGrid& grid, co
 }
 
 std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& ray,
-                                              const SampledSpectrum& /*wavelengths_nm*/) const {
+                                              const SampledSpectrum& /*wavelengths_nm*/,
+                                              LensRoute /*route*/) const {
   const std::optional<PlanePoint> tangent = tangent_of(frame, ray.direction);
   if (!tangent) return std::nullopt;
   const std::optional<Imath::V2f> film = film_position(grid, *tangent * image_distance);

@@ -19,7 +19,8 @@ struct Pinhole {
                                                                const SampledSpectrum& wavelengths_nm,
                                                                float time) const;
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
-                                                     const SampledSpectrum& wavelengths_nm) const;
+                                                     const SampledSpectrum& wavelengths_nm,
+                                                     LensRoute route) const;
   [[nodiscard]] double least_film_cosine(const FilmGrid& grid) const;
   [[nodiscard]] CameraTraits traits() const;
   [[nodiscard]] const Imath::V3d& position() const { return frame.position; }

@@ -57,7 +57,8 @@ std::optional<CameraConnection> ThinLens::sample_towards(const FilmGrid& grid, c
 }
 
 std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& ray,
-                                               const SampledSpectrum& /*wavelengths_nm*/) const {
+                                               const SampledSpectrum& /*wavelengths_nm*/,
+                                               LensRoute /*route*/) const {
   const std::optional<PlanePoint> tangent = tangent_of(frame, ray.direction);
   if (!tangent) return std::nullopt;
   const PlanePoint on_lens = seen_from(frame, ray.origin).across;

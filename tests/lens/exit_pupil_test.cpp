@@ -6,6 +6,7 @@
 #include <random>
 
 #include "lens/beam.h"
+#include "lens/clear_apertures.h"
 #include "lens/exit_pupil.h"
 #include "lens/paraxial.h"
 #include "lenses.h"
@@ -59,6 +60,34 @@ TEST_P(ShippedLens, IsTracedAsOnTheBench) {
 bool has_clear_apertures(const System& lens) {
   return std::all_of(lens.surfaces.begin(), lens.surfaces.end(),
                      [](const Surface& surface) { return surface.semi_aperture_mm.has_value(); });
+}
+
+// What they stop is none of the light of the image, and no more than that passes them.
+TEST_P(ShippedLens, EndsWhereTheLightOfItsPictureDoes) {
+  System bare = lens;
+  for (Surface& surface : bare.surfaces) surface.semi_aperture_mm.reset();
+  bare.surfaces[bare.stop].semi_aperture_mm = system.stop_radius_mm();
+  const V2d half(0.5 * image_height, 0.3 * image_height);
+  const SpectralSystem open(bare, system.stop_radius_mm());
+  const System ended = with_clear_apertures(open, half, 400, 700);
+  std::vector<double> reach(ended.surfaces.size(), 0);
+  const ExitPupil pupil(open, half, 400, 700);
+  for (int i = 0; i < 20000; ++i) {
+    const V2d image(uniform(-half.x, half.x), uniform(-half.y, half.y));
+    const double nm = uniform(400, 700);
+    const V2d to = pupil.bound(image).point(V2d(uniform(-1, 1), uniform(-1, 1)));
+    const V3d from(image.x, image.y, open.image_z());
+    const auto out = open.to_object({from, (V3d(to.x, to.y, open.last_z()) - from).normalized()}, nm);
+    if (!out) continue;
+    const RayPath path = trace(SystemAt(bare, nm), {out->origin, -out->direction}, Apertures::ignored);
+    for (std::size_t k = 0; k < path.hits.size(); ++k)
+      reach[k] = std::max(reach[k], open.local_of(k, path.hits[k].point).length());
+  }
+  for (std::size_t k = 0; k < reach.size(); ++k) {
+    ASSERT_TRUE(ended.surfaces[k].semi_aperture_mm);
+    EXPECT_GE(*ended.surfaces[k].semi_aperture_mm, reach[k] * (1 - 1e-3)) << "surface " << k + 1;
+    EXPECT_LE(*ended.surfaces[k].semi_aperture_mm, reach[k] * 1.1) << "surface " << k + 1;
+  }
 }
 
 // Rays all over the last element and beyond, from all over the image, at wavelengths between those that the

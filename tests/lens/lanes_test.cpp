@@ -57,7 +57,7 @@ TEST(Lanes, GoThroughALensAsEachDoesAlone) {
     const double reach = 2 * system.stop_radius_mm();
     for (int i = 0; i < 6000; ++i) {
       const Ray ray{{uniform(reach), uniform(reach), -5}, V3d(uniform(0.3), uniform(0.3), 1).normalized()};
-      const auto lanes = system.to_image(ray, nm);
+      const auto lanes = system.to_image(ray, nm, system.direct());
       int lanes_arrived = 0;
       for (int j = 0; j < kLanes; ++j) {
         const auto alone = system.to_image(ray, static_cast<double>(nm[j]));

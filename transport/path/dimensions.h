@@ -13,6 +13,9 @@ inline constexpr std::uint32_t kLensGroup = 1;
 inline constexpr std::uint32_t kAimGroup = 0;
 inline constexpr std::uint32_t kEmissionGroup = 1;
 inline constexpr std::size_t kTimeNumber = 3;
+/// A point of the lens and, in the next group, a light that it sees by way of a ghost; no camera that has
+/// these is a meter.
+inline constexpr std::uint32_t kGhostGroup = 2;
 
 /// Number of the event at a meter, where camera paths scatter before they meet the first surface.
 inline constexpr int kMeterEvent = -1;

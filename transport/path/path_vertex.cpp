@@ -18,7 +18,8 @@ struct Asked {
 };
 
 std::optional<CameraDensity> seen(const CameraVertex& at, const Asked& asked) {
-  return density(asked.scene.camera, ray_at(at.point, asked.w, asked.vertex.time), asked.vertex.lambda_nm());
+  return density(asked.scene.camera, ray_at(at.point, asked.w, asked.vertex.time), asked.vertex.lambda_nm(),
+                 at.route);
 }
 
 SampledSpectrum sent(const CameraVertex& at, const Asked& asked, TransportMode /*mode*/) {
@@ -94,6 +95,11 @@ Way way_from(const PathVertex& a, const PathVertex& b) {
   return {Imath::V3f(d * (1 / distance)), distance};
 }
 
+bool on_ghost(const PathVertex& vertex) {
+  const auto* camera = std::get_if<CameraVertex>(&vertex.at);
+  return camera != nullptr && camera->route > 0;
+}
+
 SampledSpectrum sent_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                              TransportMode mode) {
   return std::visit([&](const auto& at) { return sent(at, {scene, vertex, w}, mode); }, vertex.at);
@@ -109,7 +115,8 @@ Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex, 
                             light_travels(-surface->frame.to_world(surface->wo), mode), mode);
   if (const auto* medium = std::get_if<MediumVertex>(&vertex.at))
     return carried->through(mueller(medium->phase, medium->from, w), light_travels(medium->from, mode), mode);
-  return polarisation_of_film(scene, -w, vertex.time);
+  const auto camera = seen(std::get<CameraVertex>(vertex.at), {scene, vertex, w});
+  return polarisation_of_film(scene, -w, vertex.time, camera ? images_of(*camera) : nullptr);
 }
 
 SampledSpectrum direction_pdf(const Scene& scene, const PathVertex& vertex, const Imath::V3f& before,

@@ -15,6 +15,7 @@ namespace abbe {
 /// Where a path meets the camera: on its lens or its meter.
 struct CameraVertex {
   Imath::V3f point;
+  LensRoute route = 0;  ///< By which light goes on from there.
 };
 
 /// Where a path meets a light: a point of it, with the outward normal of an area light, else (0, 0, 0). Of a
@@ -61,6 +62,8 @@ struct PathVertex {
   }
 };
 
+/// Whether it is where light comes into a lens by way of a ghost.
+[[nodiscard]] bool on_ghost(const PathVertex& vertex);
 /// Where the vertex is; of one at infinity the direction to it.
 [[nodiscard]] const Imath::V3f& point_of(const PathVertex& vertex);
 /// The geometric normal of what has one.

@@ -25,14 +25,10 @@ float ratio(float part, float whole) {
 }  // namespace
 
 Polarisation Polarisation::all_elements(const Imath::V3f& axis) {
-  Polarisation all;
   const SampledSpectrum one(1.0F);
-  all.axis_ = axis;
-  all.count_ = 4;
-  all.neutral_ = false;
-  all.rows_ = {StokesSpectrum{.i = one}, StokesSpectrum{.q = one}, StokesSpectrum{.u = one},
-               StokesSpectrum{.v = one}};
-  return all;
+  return {axis,
+          {StokesSpectrum{.i = one}, StokesSpectrum{.q = one}, StokesSpectrum{.u = one},
+           StokesSpectrum{.v = one}}};
 }
 
 void Polarisation::turn_to(const Imath::V3f& axis, const Imath::V3f& travels) {

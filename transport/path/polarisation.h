@@ -29,6 +29,9 @@ class Polarisation {
   /// A Stokes vector, or row.
   Polarisation(const Imath::V3f& axis, const StokesSpectrum& values)
       : axis_(axis), neutral_(false), rows_{values} {}
+  /// The rows of a sensor that measures all elements.
+  Polarisation(const Imath::V3f& axis, const std::array<StokesSpectrum, 4>& rows)
+      : axis_(axis), count_(4), neutral_(false), rows_(rows) {}
   /// The rows of a sensor that measures I, Q, U and V in the frame of that axis.
   [[nodiscard]] static Polarisation all_elements(const Imath::V3f& axis);
 

@@ -13,15 +13,39 @@ Imath::V3f film_axis(const Scene& scene, const Imath::V3f& travels, float time) 
   return up.cross(travels);
 }
 
+// The rows of the Mueller matrix of real Jones matrices, of which the first element is 1: with field
+// components E_x = xx e_1 + xy e_2 and E_y = yx e_1 + yy e_2, I' = |E_x|^2 + |E_y|^2, Q' = |E_x|^2 - |E_y|^2,
+// U' = 2 Re(E_x E_y*) and V' = det V. [Born1999, sec. 10.9]
+Polarisation through_lens(const LensJones& of, bool all_elements) {
+  const SampledSpectrum x1 = of.xx * of.xx;
+  const SampledSpectrum x2 = of.xy * of.xy;
+  const SampledSpectrum y1 = of.yx * of.yx;
+  const SampledSpectrum y2 = of.yy * of.yy;
+  const SampledSpectrum x12 = of.xx * of.xy;
+  const SampledSpectrum y12 = of.yx * of.yy;
+  const SampledSpectrum half(0.5F);
+  const SampledSpectrum none;
+  const StokesSpectrum power{SampledSpectrum(1.0F), (x1 - x2 + y1 - y2) * half, x12 + y12, none};
+  if (!all_elements) return {of.axis, power};
+  return {
+      of.axis,
+      {power,
+       {(x1 + x2 - y1 - y2) * half, (x1 - x2 - y1 + y2) * half, x12 - y12, none},
+       {of.xx * of.yx + of.xy * of.yy, of.xx * of.yx - of.xy * of.yy, of.xx * of.yy + of.xy * of.yx, none},
+       {none, none, none, of.xx * of.yy - of.xy * of.yx}}};
+}
+
 }  // namespace
 
 bool measures_polarisation(const Scene& scene) {
   return carries_polarisation(scene) && any_analyser(scene.channels);
 }
 
-Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time) {
-  return measures_polarisation(scene) ? Polarisation::all_elements(film_axis(scene, travels, time))
-                                      : Polarisation();
+Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time,
+                                  const LaneImages* images) {
+  const bool measures = measures_polarisation(scene);
+  if (images != nullptr) return through_lens(images->jones, measures);
+  return measures ? Polarisation::all_elements(film_axis(scene, travels, time)) : Polarisation();
 }
 
 Polarisation polarisation_of_lamp(const Light& light, const Imath::V3f& travels) {
@@ -35,11 +59,6 @@ std::optional<StokesSpectrum> seen_of(const Light& light, const PathPacket& pack
                                       const Imath::V3f& towards) {
   if (!packet.polarisation) return std::nullopt;
   return packet.polarisation->of(polarisation_of_lamp(light, -towards), -towards);
-}
-
-StokesSpectrum on_film(const Scene& scene, const Polarisation& light, const Imath::V3f& travels, float time) {
-  if (!measures_polarisation(scene)) return light.of_unpolarised();
-  return light.in_frame(film_axis(scene, travels, time), travels);
 }
 
 }  // namespace abbe

@@ -11,8 +11,10 @@ namespace abbe {
 [[nodiscard]] bool measures_polarisation(const Scene& scene);
 
 /// The rows of the scene's sensor for light that comes in along the unit vector `travels` at that time: those
-/// of all four elements in the frame of the film, or of power alone where that is all it measures.
-[[nodiscard]] Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time);
+/// of all four elements in the frame of the film, or of power alone where that is all it measures; through a
+/// lens that takes lanes to `images`, which is nullptr without one, as that changes them.
+[[nodiscard]] Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time,
+                                                const LaneImages* images);
 
 /// That of light which leaves a lamp along the unit vector `travels`.
 [[nodiscard]] Polarisation polarisation_of_lamp(const Light& light, const Imath::V3f& travels);
@@ -21,11 +23,6 @@ namespace abbe {
 /// it would measure of unpolarised light did it carry no polarisation; nothing if it carries none.
 [[nodiscard]] std::optional<StokesSpectrum> seen_of(const Light& light, const PathPacket& packet,
                                                     const Imath::V3f& towards);
-
-/// A Stokes vector of light that comes in likewise, in the frame of the film; of a sensor that measures power
-/// alone its first element.
-[[nodiscard]] StokesSpectrum on_film(const Scene& scene, const Polarisation& light, const Imath::V3f& travels,
-                                     float time);
 
 /// Nothing of what is not there.
 [[nodiscard]] inline const StokesSpectrum* pointer_to(const std::optional<StokesSpectrum>& of) {

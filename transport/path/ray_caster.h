@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "scene/lights/light.h"
 #include "scene/scene.h"
 #include "scene/shapes/ray.h"
 #include "transport/path/truncated_paths.h"
@@ -19,6 +21,10 @@ namespace abbe {
 }
 [[nodiscard]] inline BasicRay<double> way_along(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
+}
+/// The way of a ray to what it was drawn for.
+[[nodiscard]] inline BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
+  return std::isfinite(light.distance) ? way_between(ray.origin, light.end, ray.time) : way_along(ray);
 }
 
 /// Asks the scene on behalf of one thread, counting, and logging where a log is given.

@@ -53,6 +53,7 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
       response_(film_response_of(plan.scene)),
       from_camera_(plan.scene, caster),
       from_light_(plan.scene, caster),
+      ghosts_(plan, caster),
       found_(plan.scene),
       weights_(plan.scene, caster),
       values_(response_.planes()) {}
@@ -109,7 +110,9 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
     } else {
       eye.packet = from_lights_->packet;
     }
-    if (sample.seen) at_[i] = start_from_camera(plan_, sample.x, sample.y, time, eye, images_[i]);
+    if (!sample.seen) continue;
+    at_[i] = start_from_camera(plan_, sample.x, sample.y, time, eye, images_[i]);
+    if (ghosts_.any()) ghosts_.connect(sample.camera, eye.packet.wavelengths, first_ + i, *deposit_, apart_);
   }
   from_camera_.run();
   from_light_.run();
@@ -135,6 +138,7 @@ void BidirectionalTracer::join(std::uint32_t i) {
 }
 
 void BidirectionalTracer::meet(std::uint32_t i, const MetLight& met) {
+  if (met.after == 1 && on_ghost(from_camera_.paths()[i].vertices.front())) return;  // see `GhostLights`
   set_joined(i, met.after, own_light_path(i), 0);
   joined_.z.push_back(&met.vertex);
   joined_.t = joined_.z.size();
@@ -170,9 +174,9 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   const auto seen = sample_towards(scene_.camera, point_of(from), {u[0], u[1]}, from.lambda_nm(), from.time);
   if (!seen) return;
   PathVertex lens;
-  lens.at = CameraVertex{seen->lens_point};
+  lens.at = CameraVertex{seen->lens_point, seen->route};
   const auto of = density(scene_.camera, ray_at(seen->lens_point, way_from(lens, from).direction, from.time),
-                          from.lambda_nm());
+                          from.lambda_nm(), seen->route);
   if (!of) return;
   lens.packet.wavelengths = from.packet.wavelengths;
   lens.packet.hero = from.packet.hero;
@@ -183,7 +187,7 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   joined_.z.insert(joined_.z.begin(), &lens);
   joined_.t = 1;
   add_joined(i, {static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, from.time,
-                 seen->images ? &*seen->images : nullptr});
+                 images_of(*seen)});
 }
 
 void BidirectionalTracer::merge(std::uint32_t i, std::size_t t) {

@@ -12,6 +12,7 @@
 #include "transport/path/photon_map.h"
 #include "transport/path/strategies.h"
 #include "transport/plan/plan.h"
+#include "transport/technique/ghost_lights.h"
 
 namespace abbe {
 
@@ -95,6 +96,7 @@ class BidirectionalTracer {
   FilmResponse response_;
   PathRecorder<TransportMode::radiance> from_camera_;
   PathRecorder<TransportMode::power> from_light_;
+  GhostLights ghosts_;
   const LightPaths* from_lights_ = nullptr;  // if they are given
   const Deposit* deposit_ = nullptr;
   ContributionDeposit apart_;           // if it is told

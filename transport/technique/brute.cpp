@@ -80,10 +80,11 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
                              path.around, path.lambda_nm(), static_cast<float>(*distance));
   if (!through) return;
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
-                     path.ray.time, seen->images ? &*seen->images : nullptr};
+                     path.ray.time, images_of(*seen)};
   std::optional<StokesSpectrum> arrives;
   if (path.packet.polarisation)
-    arrives = on_film(scene_, *path.packet.polarisation, path.ray.direction, path.ray.time);
+    arrives = polarisation_of_film(scene_, path.ray.direction, path.ray.time, images_of(*seen))
+                  .of(*path.packet.polarisation, path.ray.direction);
   with_seen(measures_polarisation_,
             path.packet.throughput * seen->importance * through->transmittance * scale_, pointer_to(arrives),
             [&](const auto& light) {

@@ -51,6 +51,7 @@ FeatureTracer::FeatureTracer(const Plan& plan, std::span<const Feature> features
     : plan_(plan),
       scene_(plan.scene),
       camera_(traits(plan.scene.camera)),
+      of_image_(without_ghosts(plan.scene.camera)),
       caster_(caster),
       features_(features.begin(), features.end()),
       planes_(feature_planes(features, plan.scene.film_planes()).size()) {
@@ -85,11 +86,11 @@ Walk FeatureTracer::start(const PixelSample& sample) const {
   const std::array<float, 4> film = sample.sampler.group(kFilmGroup);
   const std::array<float, 4> lens = sample.sampler.group(kLensGroup);
   walk.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
-  walk.ray = sample_ray(scene_.camera,
-                        {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                        {lens[0], lens[1]}, walk.lambda_nm(), walk.packet.hero,
-                        scene_.shutter.draw(sample.y, film[kTimeNumber]))
-                 .ray;
+  walk.ray =
+      sample_ray(of_image_, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
+                 {lens[0], lens[1]}, walk.lambda_nm(), walk.packet.hero,
+                 scene_.shutter.draw(sample.y, film[kTimeNumber]))
+          .ray;
   enter_camera_matter(plan_, walk);
   return walk;
 }

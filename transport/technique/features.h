@@ -47,6 +47,7 @@ class FeatureTracer {
   const Plan& plan_;
   const Scene& scene_;
   CameraTraits camera_;
+  Camera of_image_;  // without its ghosts
   RayCaster& caster_;
   std::vector<Feature> features_;
   std::size_t planes_;

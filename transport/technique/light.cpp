@@ -49,7 +49,7 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
   const auto [wi, f, crosses] = vertex.towards(towards, kMode);
   if (f.is_zero()) return;
   std::optional<StokesSpectrum> arrives;
-  if (path.packet.polarisation) arrives = arriving(path, vertex.mueller(wi, false), towards);
+  if (path.packet.polarisation) arrives = arriving(path, vertex.mueller(wi, false), towards, *lens);
   Surroundings crossed;
   if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
   connect_to(path, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
@@ -63,7 +63,7 @@ void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, co
   const Imath::V3f towards = (lens->lens_point - path.ray.origin).normalized();
   std::optional<StokesSpectrum> arrives;
   if (path.packet.polarisation)
-    arrives = arriving(path, mueller(phase, path.ray.direction, towards), towards);
+    arrives = arriving(path, mueller(phase, path.ray.direction, towards), towards, *lens);
   connect_to(path, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
              ray_at(path.ray.origin, towards, path.ray.time), path.around, arrives);
 }
@@ -71,10 +71,10 @@ void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, co
 // What an event of that matrix sends along `towards`, to the film, over what it would send were all of it
 // unpolarised.
 StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
-                                     const Imath::V3f& towards) const {
+                                     const Imath::V3f& towards, const CameraConnection& lens) const {
   const Polarisation light =
       path.packet.polarisation->through(matrix, light_travels(path.ray.direction, kMode), kMode);
-  return on_film(scene_, light, towards, path.ray.time);
+  return polarisation_of_film(scene_, towards, path.ray.time, images_of(lens)).of(light, towards);
 }
 
 // `scattered` is the share of the photon's power that leaves along `ray`, towards the lens [1/sr], were it

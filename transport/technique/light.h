@@ -79,7 +79,7 @@ class LightTracer {
   void connect_to(const LightPath& path, const CameraConnection& lens, const SampledSpectrum& scattered,
                   const Ray& ray, const Surroundings& around, const std::optional<StokesSpectrum>& arrives);
   [[nodiscard]] StokesSpectrum arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
-                                        const Imath::V3f& towards) const;
+                                        const Imath::V3f& towards, const CameraConnection& lens) const;
   template <typename Contribution>
   void expose(const Connection& found, Contribution contribution);
 

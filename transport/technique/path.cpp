@@ -21,10 +21,6 @@ SampledSpectrum mixed_pdf(const SampledSpectrum& scattering, const CausticLobes&
          SampledSpectrum(caustics.share() * caustics.pdf(point, direction));
 }
 
-BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
-  return std::isfinite(light.distance) ? way_between(ray.origin, light.end, ray.time) : way_along(ray);
-}
-
 }  // namespace
 
 PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
@@ -36,6 +32,7 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
       carries_polarisation_(carries_polarisation(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       walks_(plan.scene, caster),
+      ghosts_(plan, caster),
       values_(response_.planes()) {}
 
 // The estimate of a pixel's film value is, over its paths x_0 x_1 ... from the film,
@@ -57,6 +54,8 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     paths.emplace_back(samples[i].sampler, i);
     if (start(samples[i], paths.back())) walks_.going().push_back(i);
+    if (ghosts_.any())
+      ghosts_.connect(samples[i].sampler, paths.back().packet.wavelengths, first_ + i, *deposit_, apart_);
   }
   resolve_connections();
   walks_.run(*this);
@@ -86,8 +85,10 @@ bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
       sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
                  {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
   path.ray = ray.ray;
+  path.route = ray.route;
   if (carries_polarisation_)
-    path.packet.polarisation = polarisation_of_film(scene_, light_travels(path.ray.direction, kMode), time);
+    path.packet.polarisation =
+        polarisation_of_film(scene_, light_travels(path.ray.direction, kMode), time, images_of(ray));
   path.at = {sample.x, sample.y, ray.cos_film, ray.ray.time};
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s * scene_.shutter.mean());
   enter_camera_matter(plan_, path);
@@ -121,8 +122,9 @@ StokesSpectrum PathTracer::measured(const CameraPath& path, const std::optional<
   return rows.of(polarisation_of_lamp(light, -wi), -wi);
 }
 
-// Whether photons bring what a light that the path has met sends along it.
-bool PathTracer::owned_by_photons(const CameraPath& path, std::uint32_t light) const {
+// Whether photons, or connections of the lens, bring what a light that the path has met sends along it.
+bool PathTracer::owned_by_others(const CameraPath& path, std::uint32_t light) const {
+  if (path.events == 0) return path.route > 0;
   return path.events > 0 && path.connected == 0 && !path.first_delta && plan_.traced[light];
 }
 
@@ -140,7 +142,7 @@ void PathTracer::escape(CameraPath& path) {
   path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
   for (const std::uint32_t light : scene_.background()) {
     const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
-    if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_photons(path, light)) continue;
+    if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_others(path, light)) continue;
     add_met(path, light, Imath::V3f(0), Imath::V3f(0));
   }
 }
@@ -149,7 +151,7 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
   const std::int32_t index = scene_.shapes[hit.shape].light;
   if (index < 0) return;
   const auto light = static_cast<std::uint32_t>(index);
-  if (!emits_towards(scene_.lights[light], hit.normal, -path.ray.direction) || owned_by_photons(path, light))
+  if (!emits_towards(scene_.lights[light], hit.normal, -path.ray.direction) || owned_by_others(path, light))
     return;
   add_met(path, light, hit.point, hit.normal);
 }

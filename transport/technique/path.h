@@ -12,6 +12,7 @@
 #include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
+#include "transport/technique/ghost_lights.h"
 
 namespace abbe {
 
@@ -24,6 +25,7 @@ struct CameraPath : Walk {
   float eta_scale = 1;       ///< What refraction and guiding have taken off radiance.
   bool first_delta = false;  ///< The event next to the camera was of a single direction.
   CausticLobes caustics;     ///< Where to look for them from the vertex it has come to.
+  LensRoute route = 0;       ///< By which it left the film.
 };
 
 /// One sample of a pixel.
@@ -108,7 +110,7 @@ class PathTracer {
   [[nodiscard]] static StokesSpectrum measured(const CameraPath& path,
                                                const std::optional<MuellerMatrix>& matrix, const Light& light,
                                                const Imath::V3f& wi);
-  [[nodiscard]] bool owned_by_photons(const CameraPath& path, std::uint32_t light) const;
+  [[nodiscard]] bool owned_by_others(const CameraPath& path, std::uint32_t light) const;
   void connect_through_media(CameraPath& path, const ChosenLight& chosen, const SampledSpectrum& contribution,
                              const SampledSpectrum& scattering_pdf, const Ray& ray,
                              const Surroundings& around, float cos_film, const StokesSpectrum* seen);
@@ -129,6 +131,7 @@ class PathTracer {
   bool carries_polarisation_;
   bool measures_polarisation_;
   RandomWalks<PathTracer> walks_;
+  GhostLights ghosts_;
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;              // number of the first of the paths under way
   std::vector<LaneImages> images_;       // of each, behind a lens that displaces lanes

@@ -27,6 +27,7 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
       most_events_(most_events(plan.scene.render)),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
+      ghosts_(plan, caster),
       found_(plan.scene),
       values_(response_.planes()) {}
 
@@ -56,6 +57,8 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
     GatherPath& path = paths.emplace_back(samples[i].sampler, i);
     path.packet = cloud_->packet;
     at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, cloud_->time, path, images_[i]);
+    if (ghosts_.any())
+      ghosts_.connect(samples[i].sampler, path.packet.wavelengths, first_ + i, *deposit_, {});
     if (path.vertices.empty()) continue;
     if (meter_) connect_meter(path);
     walks_.going().push_back(i);
@@ -69,6 +72,7 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
 // balanced.
 void PhotonGatherer::add_met(GatherPath& path, const LightVertex& light) {
   if (path.connected != 0 || path.final_gather) return;
+  if (path.events == 0 && on_ghost(path.vertices.front())) return;  // see `GhostLights`
   float weight = mis_weight(path.packet.lane_pdf, 0, 0);
   if (meter_ && path.events == 0) weight *= 1 - share_of_connecting(path.vertices.front(), {.at = light});
   const Light& emitter = scene_.lights[light.light];

@@ -11,6 +11,7 @@
 #include "transport/path/path_recorder.h"
 #include "transport/path/random_walk.h"
 #include "transport/plan/plan.h"
+#include "transport/technique/ghost_lights.h"
 #include "transport/technique/path.h"
 #include "transport/technique/photons.h"
 
@@ -92,6 +93,7 @@ class PhotonGatherer {
   int most_events_;
   FilmResponse response_;
   RandomWalks<PhotonGatherer> walks_;
+  GhostLights ghosts_;
   const PhotonCloud* cloud_ = nullptr;
   GatherKernel kernel_;
   const Deposit* deposit_ = nullptr;

@@ -87,14 +87,14 @@ FilmPoint start_from_camera(const Plan& plan, int x, int y, float time, Recorded
                  {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
   path.ray = start.ray;
   if (carries_polarisation(scene))
-    path.packet.polarisation =
-        polarisation_of_film(scene, light_travels(path.ray.direction, TransportMode::radiance), time);
+    path.packet.polarisation = polarisation_of_film(
+        scene, light_travels(path.ray.direction, TransportMode::radiance), time, images_of(start));
   enter_camera_matter(plan, path);
   const std::optional<CameraDensity> of =
-      start.weight.is_zero() ? std::nullopt : density(scene.camera, start.ray, path.lambda_nm());
+      start.weight.is_zero() ? std::nullopt : density(scene.camera, start.ray, path.lambda_nm(), start.route);
   if (of) {
     PathVertex& lens_point = first_vertex(path);
-    lens_point.at = CameraVertex{start.ray.origin};
+    lens_point.at = CameraVertex{start.ray.origin, start.route};
     lens_point.packet.throughput *= 1 / of->pdf_position;
     lens_point.pdf_forward = SampledSpectrum(of->pdf_position);
     path.direction_pdf = of->pdf_direction;

@@ -35,7 +35,8 @@ void trace_lens_packet(benchmark::State& state) {
   const lens::SpectralSystem system = double_gauss();
   micro::Stream u;
   const SampledSpectrum wavelengths_nm = u.packet();
-  for (auto _ : state) benchmark::DoNotOptimize(system.to_image(next_ray(system, u), wavelengths_nm));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(system.to_image(next_ray(system, u), wavelengths_nm, system.direct()));
   state.SetItemsProcessed(state.iterations() * kLanes);
 }
 BENCHMARK(trace_lens_packet);

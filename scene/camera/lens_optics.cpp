@@ -1,0 +1,63 @@
+#include "scene/camera/lens_optics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lens/clear_apertures.h"
+#include "lens/paraxial.h"
+
+namespace abbe {
+namespace {
+
+using Imath::V2d;
+
+V2d half_size_mm(const FilmGrid& grid) {
+  return V2d(grid.width, grid.height) * (grid.pixel_pitch * lens::kMmPerM / 2);
+}
+
+// From the far corner of the film to the edge of the last surface, wherever displacement moves that.
+double steepest_cosine(const lens::SpectralSystem& system, const V2d& half_film_mm) {
+  const lens::Surface& last = system.system().surfaces.back();
+  const double reach = *last.semi_aperture_mm;
+  const double tilt = (std::abs(last.tilt_deg.x) + std::abs(last.tilt_deg.y)) * std::numbers::pi / 180;
+  const double edge = std::max(0.0, last.profile.sag(reach * reach)) + reach * std::sin(tilt);
+  const double depth = std::max(0.0, system.image_z() - system.last_z() - edge);
+  const double across = half_film_mm.length() + reach + last.decenter_mm.length();
+  return depth / std::hypot(depth, across);
+}
+
+}  // namespace
+
+LensOptics::LensOptics(lens::System lens, double stop_radius_mm, const FilmGrid& grid, double low_nm,
+                       double high_nm, Ghosts ghosts)
+    : system(std::move(lens), stop_radius_mm),
+      pupil(system, half_size_mm(grid), low_nm, high_nm),
+      routes{system.direct()},
+      route_share{1},
+      least_cosine(pupil.least_cosine()) {
+  const lens::System& of = system.system();
+  constexpr int kSpeedCells = 64;  // across the axial beam
+  const lens::SystemAt at(of, of.primary_nm());
+  image_distance_mm = std::abs(of.surfaces.back().thickness_mm - lens::first_order(at).rear_principal_mm);
+  speed = lens::speed(at, stop_radius_mm, kSpeedCells);
+  if (ghosts == Ghosts::enumerated) enumerate_ghosts(half_size_mm(grid), low_nm, high_nm);
+}
+
+void LensOptics::enumerate_ghosts(const V2d& half_film_mm, double low_nm, double high_nm) {
+  const std::vector<lens::Ghost> all = lens::ghosts(system.system(), low_nm, high_nm);
+  if (all.empty()) return;
+  system = lens::SpectralSystem(lens::with_clear_apertures(system, half_film_mm, low_nm, high_nm),
+                                system.stop_radius_mm());
+  double sum = 0;
+  for (const lens::Ghost& ghost : all) sum += ghost.reflectance;
+  route_share = {1 - kGhostShare};
+  for (const lens::Ghost& ghost : all) {
+    routes.push_back(lens::route_of(ghost, system.system().surfaces.size()));
+    const double even = 1 / static_cast<double>(all.size());
+    route_share.push_back(kGhostShare * (ghost.reflectance / sum + even) / 2);
+  }
+  least_cosine = std::min(least_cosine, steepest_cosine(system, half_film_mm));
+}
+
+}  // namespace abbe
