@@ -42,8 +42,8 @@ std::string turned(const Json& columns) {
 
 void print_tables(const LensFigures& figures) {
   const LensTables tables = lens_tables(figures);
-  fmt::print("{}\n{}\n{}\n{}", text(tables.whole, false), turned(tables.wavelengths),
-             text(tables.surfaces, false), text(tables.fields, false));
+  fmt::print("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false), turned(tables.wavelengths),
+             text(tables.surfaces, false), text(tables.fields, false), text(tables.ghosts, false));
 }
 
 }  // namespace

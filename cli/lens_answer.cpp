@@ -1,5 +1,6 @@
 #include "cli/lens_answer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -151,6 +152,22 @@ void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& ta
   }
 }
 
+// The first of them, as columns.
+Json ghosts_answer(const LensFigures& figures, std::size_t most) {
+  Json answer = Json::object();
+  for (const char* name : {"surface", "then", "reflectance", "focus_mm", "diameter_mm"})
+    answer[name] = Json::array();
+  for (std::size_t i = 0; i < std::min(most, figures.ghosts.size()); ++i) {
+    const GhostFigures& of = figures.ghosts[i];
+    answer["surface"].push_back(of.ghost.first + 1);
+    answer["then"].push_back(of.ghost.second + 1);
+    answer["reflectance"].push_back(of.ghost.reflectance);
+    answer["focus_mm"].push_back(finite(of.focus_mm));
+    answer["diameter_mm"].push_back(finite(of.diameter_mm));
+  }
+  return answer;
+}
+
 // Digits that a table has room for.
 Json rounded(Json table) {
   for (auto& [name, values] : table.items())
@@ -169,11 +186,17 @@ Json lens_answer(const LensFigures& figures) {
   answer["fields"] = Json::array();
   for (const LensFieldFigures& field : figures.fields)
     answer["fields"].push_back(field_answer(figures, field));
+  answer["ghosts"] = ghosts_answer(figures, figures.ghosts.size());
   return answer;
 }
 
 LensTables lens_tables(const LensFigures& figures) {
-  LensTables tables{whole_answer(figures), {}, rounded(seidel_answer(figures.seidel)), {}};
+  constexpr std::size_t kGhosts = 10;
+  LensTables tables{whole_answer(figures),
+                    {},
+                    rounded(seidel_answer(figures.seidel)),
+                    {},
+                    rounded(ghosts_answer(figures, kGhosts))};
   const Json wavelengths = wavelength_answer(figures);
   tables.wavelengths = rounded(wavelengths);
   for (const LensFieldFigures& field : figures.fields) add_row(figures, field, tables.fields);

@@ -10,12 +10,14 @@ namespace abbe::cli {
 /// All figures of a lens, for scripts.
 [[nodiscard]] Json lens_answer(const LensFigures& figures);
 
-/// The figures of a lens for reading: of the whole lens, by wavelength, by surface, by field.
+/// The figures of a lens for reading: of the whole lens, by wavelength, by surface, by field, and of the
+/// brightest ghosts.
 struct LensTables {
   Json whole;
   Json wavelengths;
   Json surfaces;
   Json fields;
+  Json ghosts;
 };
 [[nodiscard]] LensTables lens_tables(const LensFigures& figures);
 

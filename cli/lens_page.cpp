@@ -46,6 +46,7 @@ std::string lens_page(const LensFigures& figures) {
       "<h2>By field</h2>\n<p>Diffraction is left out: of lines as fine as the Airy disc the modulation is "
       "less than this.</p>\n" +
       columns_table(tables.fields);
+  html += "<h2>Brightest ghosts of a point on the axis</h2>\n" + columns_table(tables.ghosts);
   html += inline_svg(spot_plot(figures)) + inline_svg(lens_mtf_plot(figures));
   for (const LensFieldFigures& field : figures.fields) html += inline_svg(fan_plot(figures, field));
   return html + kPageEnd;

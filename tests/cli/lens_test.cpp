@@ -23,12 +23,35 @@ TEST(Lens, JsonHasEveryFigure) {
   EXPECT_GT(answer["t_stop"][1].get<double>(), answer["f_number"][1].get<double>());
 }
 
+// Of a thin lens of n = 1.5 and f = 100 mm the only ghost has its focus at f/7, and spreads six beams wide.
+TEST(Lens, TellsItsGhosts) {
+  const auto file = scratch().write("thin.json", R"({"f_number": 10, "wavelengths_nm": [550], "surfaces": [
+    {"radius": 100, "thickness": 1e-6, "glass": 1.5, "stop": true}, [-100, 100]]})");
+  const Outcome run = abbe("lens " + file.string() + " --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto ghosts = run.json()["ghosts"];
+  ASSERT_EQ(ghosts["surface"], nlohmann::json({2}));
+  EXPECT_EQ(ghosts["then"], nlohmann::json({1}));
+  EXPECT_NEAR(ghosts["reflectance"][0].get<double>(), 0.0016, 1e-9);
+  EXPECT_NEAR(ghosts["focus_mm"][0].get<double>(), 100 / 7.0 - 100, 1e-3);
+  EXPECT_NEAR(ghosts["diameter_mm"][0].get<double>(), 60, 0.2);
+
+  const auto all = abbe("lens double_gauss --json").json()["ghosts"];
+  EXPECT_EQ(all["surface"].size(), 45U);
+  const auto brightness = [&](std::size_t i) {
+    const double diameter = all["diameter_mm"][i].get<double>();
+    return all["reflectance"][i].get<double>() / diameter / diameter;
+  };
+  for (std::size_t i = 1; i < 45; ++i) EXPECT_GE(brightness(i - 1), brightness(i));
+}
+
 TEST(Lens, TablesTellWavelengthsSurfacesAndFields) {
   const Outcome run = abbe("lens achromat --lambda 500,550,600");
   ASSERT_EQ(run.code, 0) << run.err;
   for (const char* line :
        {"title  Cemented achromat", "wavelength_nm                    500           550           600",
-        "focal_length_mm", "surface ", "    sum ", "field_deg  image_mm"})
+        "focal_length_mm", "surface ", "    sum ", "field_deg  image_mm", "brightest ghosts",
+        "surface  then"})
     EXPECT_NE(run.out.find(line), std::string::npos) << line << '\n' << run.out;
 }
 

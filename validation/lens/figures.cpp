@@ -71,6 +71,22 @@ void add_illumination(LensFigures& figures, int cells) {
                                                               field.spots[figures.system.primary], on_axis);
 }
 
+std::vector<GhostFigures> ghosts_of(const lens::System& system, double stop_radius_mm) {
+  const auto [blue, red] = ends(system.wavelengths_nm);
+  const SystemAt at(system, system.primary_nm());
+  std::vector<GhostFigures> all;
+  for (const lens::Ghost& ghost : lens::ghosts(system, blue, red)) {
+    const lens::GhostFocus focus = lens::ghost_focus(at, ghost, stop_radius_mm);
+    all.push_back({ghost, focus.image_distance_mm - system.surfaces.back().thickness_mm, focus.diameter_mm});
+  }
+  const auto brightness = [](const GhostFigures& of) {
+    return of.ghost.reflectance / (of.diameter_mm * of.diameter_mm);
+  };
+  std::sort(all.begin(), all.end(),
+            [&](const GhostFigures& a, const GhostFigures& b) { return brightness(a) > brightness(b); });
+  return all;
+}
+
 }  // namespace
 
 std::optional<double> LensFieldFigures::lateral_color_mm() const {
@@ -93,13 +109,15 @@ LensFigures lens_figures(const lens::System& system, const LensLook& look) {
                       .seidel = {},
                       .best_focus_mm = 0,
                       .frequencies_per_mm = look.frequencies_per_mm,
-                      .fields = {}};
+                      .fields = {},
+                      .ghosts = {}};
   for (const double nm : system.wavelengths_nm) {
     const SystemAt at(system, nm);
     figures.first_order.push_back(lens::first_order(at));
     figures.speed.push_back(lens::speed(at, figures.stop_radius_mm, look.cells));
   }
   figures.seidel = seidel_of(system, figures);
+  figures.ghosts = ghosts_of(system, figures.stop_radius_mm);
   auto spots = lens::all_spots(system, figures.stop_radius_mm, look.cells);
   figures.best_focus_mm = lens::best_focus(spots);
   for (std::size_t i = 0; i < spots.size(); ++i)

@@ -6,6 +6,7 @@
 
 #include "lens/field.h"
 #include "lens/paraxial.h"
+#include "lens/route.h"
 #include "lens/seidel.h"
 
 namespace abbe {
@@ -24,6 +25,13 @@ struct LensFieldFigures {
   [[nodiscard]] std::optional<double> lateral_color_mm() const;
 };
 
+/// What a ghost of a point on the axis is like in the plane of the image, at the primary wavelength.
+struct GhostFigures {
+  lens::Ghost ghost;
+  double focus_mm;     ///< Of its light behind that plane, paraxially.
+  double diameter_mm;  ///< Of its light there, as in `lens::GhostFocus`.
+};
+
 /// All that is worked out of a lens.
 struct LensFigures {
   lens::System system;
@@ -34,6 +42,7 @@ struct LensFigures {
   double best_focus_mm;     ///< How far the image would have to move for the least spots.
   std::vector<double> frequencies_per_mm;
   std::vector<LensFieldFigures> fields;
+  std::vector<GhostFigures> ghosts;  ///< The brightest first, by reflectance over area.
 
   /// How a field is told: degrees of objects at infinity, millimetres of near ones.
   [[nodiscard]] std::string field_name(double field) const;
