@@ -64,7 +64,8 @@ Json lens_answer(const Camera& camera) {
               {"wavelength_nm", at.wavelength_nm},
               {"focal_length_mm", lens::first_order(at).focal_length_mm},
               {"stop_radius_mm", system.stop_radius_mm()},
-              {"image_mm", system.system().surfaces.back().thickness_mm}};
+              {"image_mm", system.system().surfaces.back().thickness_mm},
+              {"ghosts", kind->optics->routes.size() - 1}};
   if (const auto& speed = kind->optics->speed)
     answer.update({{"f_number", speed->f_number},
                    {"working_f_number", speed->working_f_number},
@@ -128,6 +129,8 @@ std::string lens_line(const Json& lens) {
   std::string line = fmt::format("lens         {}: focal length {:.5g} mm, film {:.5g} mm behind it",
                                  lens["title"].get<std::string>(), lens["focal_length_mm"].get<double>(),
                                  lens["image_mm"].get<double>());
+  if (const auto ghosts = lens["ghosts"].get<std::size_t>(); ghosts > 0)
+    line += fmt::format(", {} {}", ghosts, ghosts == 1 ? "ghost" : "ghosts");
   if (lens.contains("f_number"))
     line += fmt::format(", f/{:.4g} (T/{:.4g}), Airy radius {:.3g} um at {:g} nm, which no picture shows",
                         lens["f_number"].get<double>(), lens["t_stop"].get<double>(),
