@@ -49,11 +49,11 @@ std::vector<Ghost> ghosts(const System& system, double low_nm, double high_nm) {
     for (std::size_t i = 0; i < count; ++i) of.push_back(reflectance(at, i));
   }
   std::vector<Ghost> all;
-  for (std::size_t back = 1; back < count; ++back)
-    for (std::size_t forwards = 0; forwards < back; ++forwards) {
+  for (std::size_t first = 1; first < count; ++first)
+    for (std::size_t second = 0; second < first; ++second) {
       double both = 0;
-      for (const std::vector<double>& of : reflectances) both += of[back] * of[forwards] / kWavelengths;
-      if (both > 0) all.push_back({back, forwards, both});
+      for (const std::vector<double>& of : reflectances) both += of[first] * of[second] / kWavelengths;
+      if (both > 0) all.push_back({first, second, both});
     }
   return all;
 }

@@ -75,33 +75,45 @@ BasicArrival<Doubles> SpectralSystem::to_image(const Ray& ray, const SampledSpec
   return follow(in_all_lanes<Doubles>(ray), Doubles(wavelengths_nm), route);
 }
 
-Crossing<double> SpectralSystem::meet_next(const Step& step, const MediaTable::Place<double>& place,
-                                           const Ray& ray) const {
+template <typename Real>
+Crossing<Real> SpectralSystem::meet_next(const Step& step, const MediaTable::Place<Real>& place,
+                                         const BasicRay<Real>& ray) const {
   const auto& [i, how] = step;
-  return meet<double>({system_.surfaces[i], frames_[i], media_.n(i, place), media_.n(i + 1, place)}, ray,
-                      how);
+  return meet<Real>({system_.surfaces[i], frames_[i], media_.n(i, place), media_.n(i + 1, place)}, ray, how);
 }
 
 // Backwards, what was crossed forwards is crossed back, and what was reflected comes from the same side.
-std::optional<Ray> SpectralSystem::to_object(const Ray& start, double wavelength_nm,
-                                             const Route& route) const {
+template <typename Real>
+BasicDeparture<Real> SpectralSystem::leave(BasicRay<Real> ray, const Real& wavelength_nm,
+                                           const Route& route) const {
   const auto place = media_.place(wavelength_nm);
-  Ray ray = start;
+  Truth<Real> passes = true;
   for (auto step = route.rbegin(); step != route.rend(); ++step) {
     const auto [of, how] = *step;
     const auto [hit, met, within, refracted] =
-        meet_next({of, {how.reflects == how.forwards, how.reflects}}, place, ray);
-    if (!met || !within || !refracted) return std::nullopt;
-    ray = {hit.point, hit.direction};
+        meet_next<Real>({of, {how.reflects == how.forwards, how.reflects}}, place, ray);
+    passes = passes && met && within && refracted;
+    if (!passes) return {passes, ray};
+    ray = {select<Real>(passes, hit.point, ray.origin), select<Real>(passes, hit.direction, ray.direction)};
   }
-  return ray.direction.z < 0 ? std::optional(ray) : std::nullopt;
+  return {passes && ray.direction.z < 0, ray};
+}
+
+std::optional<Ray> SpectralSystem::to_object(const Ray& ray, double wavelength_nm, const Route& route) const {
+  const auto [left, out] = leave(ray, wavelength_nm, route);
+  return left ? std::optional(out) : std::nullopt;
+}
+
+BasicDeparture<Doubles> SpectralSystem::to_object(const BasicRay<Doubles>& rays,
+                                                  const Doubles& wavelengths_nm) const {
+  return leave(rays, wavelengths_nm, direct_);
 }
 
 std::optional<Imath::V2d> SpectralSystem::at_stop(const Ray& start, double wavelength_nm) const {
   const auto place = media_.place(wavelength_nm);
   Ray ray = start;
   for (std::size_t i = frames_.size(); i-- > system_.stop + 1;) {
-    const auto [hit, met, within, refracted] = meet_next({i, {false, false}}, place, ray);
+    const auto [hit, met, within, refracted] = meet_next<double>({i, {false, false}}, place, ray);
     if (!met || !refracted) return std::nullopt;
     ray = {hit.point, hit.direction};
   }

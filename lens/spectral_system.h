@@ -22,6 +22,13 @@ struct BasicArrival {
 };
 using Arrival = BasicArrival<double>;
 
+/// A ray of the object's side that has come from the image, or the lanes of some.
+template <typename Real>
+struct BasicDeparture {
+  Truth<Real> left;    ///< Nothing else is told of what does not get there.
+  BasicRay<Real> ray;  ///< From the first surface.
+};
+
 /// A point of a surface, and its unit normal towards +z.
 struct SurfacePoint {
   Imath::V3d point;
@@ -55,6 +62,9 @@ class SpectralSystem {
   [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm) const {
     return to_object(ray, wavelength_nm, direct_);
   }
+  /// The same, by the direct way, of as many rays as there are lanes, each of its own wavelength.
+  [[nodiscard]] BasicDeparture<Doubles> to_object(const BasicRay<Doubles>& rays,
+                                                  const Doubles& wavelengths_nm) const;
   /// Where such a ray passes the stop, in radii of the stop from its middle, whatever clear apertures say;
   /// nothing if it does not get there.
   [[nodiscard]] std::optional<Imath::V2d> at_stop(const Ray& ray, double wavelength_nm) const;
@@ -68,8 +78,12 @@ class SpectralSystem {
   template <typename Real>
   [[nodiscard]] BasicArrival<Real> follow(BasicRay<Real> ray, const Real& wavelength_nm,
                                           const Route& route) const;
-  [[nodiscard]] Crossing<double> meet_next(const Step& step, const MediaTable::Place<double>& place,
-                                           const Ray& ray) const;
+  template <typename Real>
+  [[nodiscard]] BasicDeparture<Real> leave(BasicRay<Real> ray, const Real& wavelength_nm,
+                                           const Route& route) const;
+  template <typename Real>
+  [[nodiscard]] Crossing<Real> meet_next(const Step& step, const MediaTable::Place<Real>& place,
+                                         const BasicRay<Real>& ray) const;
 
   System system_;
   double stop_radius_mm_;

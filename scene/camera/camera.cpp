@@ -1,5 +1,7 @@
 #include "scene/camera/camera.h"
 
+#include "scene/camera/camera_rays.h"
+
 namespace abbe {
 namespace {
 
@@ -26,6 +28,12 @@ Imath::M44d motion_until(const Camera& camera, float time) {
   return camera.motion->since_opening(static_cast<double>(time));
 }
 
+void move(CameraRay& ray, const Camera& camera, float time) {
+  const Imath::M44d since_opening = motion_until(camera, time);
+  ray.ray = moved_ray(ray.ray, since_opening);
+  turn(ray.images, since_opening);
+}
+
 }  // namespace
 
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
@@ -35,11 +43,22 @@ CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
         return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, hero, time);
       },
       camera.kind);
-  if (!camera.motion) return ray;
-  const Imath::M44d since_opening = motion_until(camera, time);
-  ray.ray = moved_ray(ray.ray, since_opening);
-  turn(ray.images, since_opening);
+  if (camera.motion) move(ray, camera, time);
   return ray;
+}
+
+void sample_rays(const Camera& camera, std::span<const CameraSample> samples, std::span<CameraRay> rays) {
+  const auto* lens = std::get_if<LensSystem>(&camera.kind);
+  if (lens == nullptr) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const auto& [film, on_lens, wavelengths_nm, hero, time] = samples[i];
+      rays[i] = sample_ray(camera, film, on_lens, wavelengths_nm, hero, time);
+    }
+    return;
+  }
+  sample_rays(*lens, camera.film(), samples, rays);
+  if (camera.motion)
+    for (std::size_t i = 0; i < samples.size(); ++i) move(rays[i], camera, samples[i].time);
 }
 
 std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point, Imath::V2f lens,

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "materials/bsdf/warp.h"
+#include "scene/camera/camera_rays.h"
+#include "scene/camera/lens_landing.h"
 #include "scene/camera/lens_optics.h"
 #include "scene/camera/perspective.h"
 
@@ -44,21 +46,9 @@ using Imath::V3d;
 using Imath::V3f;
 using lens::kMmPerM;
 
-// The axes of the lens in the scene: x to the right, y up, z with the light.
-V3d in_lens(const CameraFrame& frame, const V3d& v) {
-  return {v.dot(frame.right), v.dot(frame.up), -v.dot(frame.forward)};
-}
-V3d lens_in_scene(const CameraFrame& frame, const V3d& v) {
-  return frame.right * v.x + frame.up * v.y - frame.forward * v.z;
-}
-
 // The real image is upside down.
 V2d image_of_film(const FilmGrid& grid, const V2f& film) {
   return -kMmPerM * film_plane(grid, film);
-}
-
-double disc_area(double radius) {
-  return std::numbers::pi * radius * radius;
 }
 
 V3d entrance_center(const LensSystem& camera) {
@@ -71,10 +61,6 @@ struct EntrancePoint {
   V3d normal;  // outward, unit
   double pdf;  // of it and the route [1/m^2]
 };
-
-double share_of(const LensSystem& camera, LensRoute route) {
-  return camera.ghosts ? camera.optics->route_share[route] : 1;
-}
 
 EntrancePoint first_surface_point(const LensSystem& camera, const V2d& local, LensRoute route) {
   const lens::SurfacePoint at = camera.optics->system.point_of(0, local);
@@ -129,113 +115,9 @@ DrawnRoute draw_route(const LensSystem& camera, const V2f& u) {
   return draw_ghost(*camera.optics, x < before ? x : x - image, u.y);
 }
 
-// A lane of a ray where it comes to the film.
-struct Landing {
-  V2f film;
-  double cos_film;
-  double transmittance;
-  double pdf;  // a p_j [1/sr]
-};
-
-V3d lane_of(const Imath::Vec3<lens::Doubles>& v, int lane) {
-  return {v.x[lane], v.y[lane], v.z[lane]};
-}
-
-// Of the direction in which a lane comes from the lens to a film point: nothing where it would not be drawn
-// by way of the image, beside the bound of its exit pupil.
-std::optional<double> exit_pdf(const LensOptics& optics, const V2d& image, const V3d& d) {
-  const double depth = optics.system.image_z() - optics.system.last_z();
-  const lens::PupilBound bound = optics.pupil.bound(image);
-  if (!bound.contains(image - V2d(d.x, d.y) * (depth / d.z))) return std::nullopt;
-  const double cos2 = d.z * d.z;
-  return depth * depth / (bound.area() * cos2 * cos2);
-}
-
-// By way of a ghost, from a point of the last surface.
-double ghost_exit_pdf(const LensOptics& optics, const V2d& image, const V3d& d, const V3d& last) {
-  const std::size_t surface = optics.last_surface();
-  const lens::SurfacePoint at = optics.system.point_of(surface, optics.system.local_of(surface, last));
-  const double distance2 = (V3d(image.x, image.y, optics.system.image_z()) - last).length2();
-  return at.cos_axis * distance2 / (disc_area(optics.semi_aperture_mm(surface)) * d.z * at.normal.dot(d));
-}
-
-// Nothing for a lane that does not get to the film, or would not be drawn.
-std::optional<Landing> landing(const LensSystem& camera, const FilmGrid& grid,
-                               const lens::BasicArrival<lens::Doubles>& arrival, LensRoute route, int lane) {
-  if (!arrival.arrived[lane]) return std::nullopt;
-  const V2d point(arrival.point.x[lane], arrival.point.y[lane]);
-  const auto film = film_position(grid, -point / kMmPerM);
-  if (!film) return std::nullopt;
-  const V3d d = lane_of(arrival.direction, lane);
-  const LensOptics& optics = *camera.optics;
-  const auto pdf =
-      route == 0 ? exit_pdf(optics, point, d) : ghost_exit_pdf(optics, point, d, lane_of(arrival.last, lane));
-  if (!pdf) return std::nullopt;
-  return Landing{*film, d.z, arrival.transmittance[lane], share_of(camera, route) * *pdf};
-}
-
-SampledSpectrum to_floats(const lens::Doubles& lanes) {
-  SampledSpectrum::Values values{};
-  for (int j = 0; j < kLanes; ++j) values[static_cast<std::size_t>(j)] = static_cast<float>(lanes[j]);
-  return SampledSpectrum(values);
-}
-
-// From the fields that a lens leaves of those along the first axis, in the scene, and across it.
-LensJones jones(const V3f& axis, const lens::BasicArrival<lens::Doubles>& arrival) {
-  using Lanes = Imath::Vec3<lens::Doubles>;
-  const lens::Doubles power = arrival.first.dot(arrival.first) + arrival.second.dot(arrival.second);
-  const lens::Doubles over_root = 1 / sqrt(select(power > 0, power * 0.5, 1));
-  const Lanes y = lens::unit(arrival.direction.cross(Lanes(1, 0, 0)));  // x is the picture's right
-  const Lanes x = y.cross(arrival.direction);
-  const auto element = [&](const Lanes& to, const Lanes& field) {
-    return to_floats(to.dot(field) * over_root);
-  };
-  return {axis, element(x, arrival.first), element(x, arrival.second), element(y, arrival.first),
-          element(y, arrival.second)};
-}
-
-// All lanes of a ray.
-struct Landings {
-  LaneImages images;
-  SampledSpectrum transmittance;
-  SampledSpectrum pdf;
-};
-
-// Light comes along the ray against its direction. Nothing where no lane comes to the film.
-std::optional<Landings> land(const LensSystem& camera, const FilmGrid& grid, const Ray& ray,
-                             const SampledSpectrum& wavelengths_nm, LensRoute route) {
-  const lens::Ray of_lens{in_lens(camera.frame, V3d(ray.origin) - camera.frame.position) * kMmPerM,
-                          -in_lens(camera.frame, V3d(ray.direction)).normalized()};
-  const auto arrival = camera.optics->system.to_image(of_lens, wavelengths_nm, camera.optics->routes[route]);
-  std::array<std::optional<Landing>, kLanes> lanes;
-  const Landing* any = nullptr;
-  for (std::size_t j = 0; j < kLanes; ++j) {
-    lanes[j] = landing(camera, grid, arrival, route, static_cast<int>(j));
-    if (lanes[j] && any == nullptr) any = &*lanes[j];
-  }
-  if (any == nullptr) return std::nullopt;
-  std::array<SampledSpectrum::Values, 5> of{};
-  for (std::size_t j = 0; j < kLanes; ++j) {
-    const Landing& lane = lanes[j] ? *lanes[j] : *any;
-    of[0][j] = lane.film.x;
-    of[1][j] = lane.film.y;
-    of[2][j] = static_cast<float>(lane.cos_film);
-    if (!lanes[j]) continue;
-    of[3][j] = static_cast<float>(lane.transmittance);
-    of[4][j] = static_cast<float>(lane.pdf);
-  }
-  const V3f axis(lens_in_scene(camera.frame, lens::WeakenedLight<double>(of_lens.direction).first()));
-  return Landings{
-      {SampledSpectrum(of[0]), SampledSpectrum(of[1]), SampledSpectrum(of[2]), jones(axis, arrival)},
-      SampledSpectrum(of[3]),
-      SampledSpectrum(of[4])};
-}
-
-// The ray in the scene of one from a film point to where it leaves the film's side: a point of the bound of
-// its exit pupil, of a ghost one of the last surface, that a point of the unit disc stands for. It starts
-// where light comes in.
-std::optional<Ray> scene_ray(const LensSystem& camera, const V2d& image, const V2d& disc, LensRoute route,
-                             double wavelength_nm, float time) {
+// From a film point to where it leaves the film's side: a point of the bound of its exit pupil, of a ghost
+// one of the last surface, that a point of the unit disc stands for.
+lens::Ray from_film(const LensSystem& camera, const V2d& image, const V2d& disc, LensRoute route) {
   const LensOptics& optics = *camera.optics;
   const V3d from(image.x, image.y, optics.system.image_z());
   V3d to;
@@ -246,33 +128,106 @@ std::optional<Ray> scene_ray(const LensSystem& camera, const V2d& image, const V
     const std::size_t last = optics.last_surface();
     to = optics.system.point_of(last, disc * optics.semi_aperture_mm(last)).point;
   }
-  const auto out =
-      optics.system.to_object({from, (to - from).normalized()}, wavelength_nm, optics.routes[route]);
-  if (!out) return std::nullopt;
-  const V3d& d = out->direction;
-  const V3d start =
-      route == 0 ? out->origin + (optics.pupil.entrance().z - out->origin.z) / d.z * d : out->origin;
+  return {from, (to - from).normalized()};
+}
+
+// Of one that has left the lens, from where light comes in by its route.
+Ray in_scene(const LensSystem& camera, const lens::Ray& out, LensRoute route, float time) {
+  const V3d& d = out.direction;
+  const double entrance_z = camera.optics->pupil.entrance().z;
+  const V3d start = route == 0 ? out.origin + (entrance_z - out.origin.z) / d.z * d : out.origin;
   return ray_at(V3f(camera.frame.position + lens_in_scene(camera.frame, start) / kMmPerM),
                 V3f(lens_in_scene(camera.frame, d)), time);
 }
 
+// Of a sample whose ray has left the lens, or has not. Where the lens lets nothing through, the ray is that
+// of the middle of the pupil, and weighs nothing.
+CameraRay camera_ray(const LensSystem& camera, const FilmGrid& grid, const CameraSample& sample,
+                     LensRoute route, const std::optional<lens::Ray>& out) {
+  const auto& [film, u, wavelengths_nm, hero, time] = sample;
+  if (out) {
+    const Ray ray = in_scene(camera, *out, route, time);
+    const auto lanes = land(camera, grid, ray, wavelengths_nm, route);
+    if (lanes && lanes->pdf[hero] > 0) {
+      const SampledSpectrum drawn(lanes->pdf[hero]);
+      return {
+          ray,  lanes->transmittance / drawn, lanes->images.cos_film[hero], lanes->pdf / drawn, lanes->images,
+          route};
+    }
+  }
+  const auto middle = camera.optics->system.to_object(from_film(camera, image_of_film(grid, film), {0, 0}, 0),
+                                                      static_cast<double>(wavelengths_nm[hero]));
+  const Ray ray = middle ? in_scene(camera, *middle, 0, time)
+                         : ray_at(V3f(camera.middle()), V3f(camera.frame.forward), time);
+  return {ray, SampledSpectrum(), 1};
+}
+
+// Rays of the image, as many as there are lanes.
+class RaysTogether {
+ public:
+  [[nodiscard]] bool full() const { return count_ == kLanes; }
+  void add(std::size_t sample, const lens::Ray& ray, double wavelength_nm) {
+    samples_[static_cast<std::size_t>(count_)] = sample;
+    for (int lane = count_++; lane < kLanes; ++lane) {  // what is never filled is like the last
+      set(rays_.origin, lane, ray.origin);
+      set(rays_.direction, lane, ray.direction);
+      wavelengths_nm_.set(lane, wavelength_nm);
+    }
+  }
+  // Calls `use` with each sample and its ray, if that has left the lens, and empties them.
+  template <typename Use>
+  void leave(const lens::SpectralSystem& system, Use use) {
+    if (count_ == 0) return;
+    const auto [left, out] = system.to_object(rays_, wavelengths_nm_);
+    for (int lane = 0; lane < count_; ++lane)
+      use(samples_[static_cast<std::size_t>(lane)],
+          left[lane] ? std::optional(lens::Ray{lane_of(out.origin, lane), lane_of(out.direction, lane)})
+                     : std::nullopt);
+    count_ = 0;
+  }
+
+ private:
+  static void set(Imath::Vec3<lens::Doubles>& lanes, int lane, const V3d& v) {
+    lanes.x.set(lane, v.x);
+    lanes.y.set(lane, v.y);
+    lanes.z.set(lane, v.z);
+  }
+
+  int count_ = 0;
+  std::array<std::size_t, kLanes> samples_{};
+  lens::BasicRay<lens::Doubles> rays_;
+  lens::Doubles wavelengths_nm_;
+};
+
 }  // namespace
 
-// Where the lens lets nothing through, the ray is that of the middle of the pupil, and weighs nothing.
 CameraRay LensSystem::sample_ray(const FilmGrid& grid, V2f film, V2f lens,
                                  const SampledSpectrum& wavelengths_nm, int hero, float time) const {
-  const auto nm = static_cast<double>(wavelengths_nm[hero]);
-  const V2d image = image_of_film(grid, film);
   const auto [route, u] = draw_route(*this, lens);
-  const auto ray = scene_ray(*this, image, V2d(concentric_disc(u)), route, nm, time);
-  const auto lanes = ray ? land(*this, grid, *ray, wavelengths_nm, route) : std::nullopt;
-  if (!lanes || !(lanes->pdf[hero] > 0)) {
-    const auto middle_ray = scene_ray(*this, image, {0, 0}, 0, nm, time);
-    return {middle_ray.value_or(ray_at(V3f(middle()), V3f(frame.forward), time)), SampledSpectrum(), 1};
+  const lens::Ray ray = from_film(*this, image_of_film(grid, film), V2d(concentric_disc(u)), route);
+  const auto out =
+      optics->system.to_object(ray, static_cast<double>(wavelengths_nm[hero]), optics->routes[route]);
+  return camera_ray(*this, grid, {film, lens, wavelengths_nm, hero, time}, route, out);
+}
+
+void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const CameraSample> samples,
+                 std::span<CameraRay> rays) {
+  RaysTogether together;
+  const auto take = [&](std::size_t i, const std::optional<lens::Ray>& out) {
+    rays[i] = camera_ray(camera, grid, samples[i], 0, out);
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto& [film, lens, wavelengths_nm, hero, time] = samples[i];
+    const auto [route, u] = draw_route(camera, lens);
+    if (route > 0) {
+      rays[i] = camera.sample_ray(grid, film, lens, wavelengths_nm, hero, time);
+      continue;
+    }
+    together.add(i, from_film(camera, image_of_film(grid, film), V2d(concentric_disc(u)), route),
+                 static_cast<double>(wavelengths_nm[hero]));
+    if (together.full()) together.leave(camera.optics->system, take);
   }
-  const SampledSpectrum drawn(lanes->pdf[hero]);
-  return {*ray, lanes->transmittance / drawn, lanes->images.cos_film[hero], lanes->pdf / drawn, lanes->images,
-          route};
+  together.leave(camera.optics->system, take);
 }
 
 std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid, const V3f& point, V2f lens,

@@ -9,6 +9,7 @@
 #include "lens/field.h"
 #include "lens/paraxial.h"
 #include "lens/spot.h"
+#include "scene/camera/camera_rays.h"
 #include "scene/camera/lens_optics.h"
 #include "scenes.h"
 
@@ -135,6 +136,39 @@ TEST(LensCamera, GhostsTellTheSameOfARayFromBothEnds) {
     EXPECT_TRUE(passed[route] > 0 || came[route] < 50)
         << "route " << route << " of " << came[route] << " rays";
   EXPECT_GT(std::count_if(came.begin(), came.end(), [](int count) { return count > 0; }), 18);
+}
+
+// Those that are traced together are what each is alone, however many there are.
+TEST(LensCamera, RaysTogetherAreThoseAlone) {
+  const lens::System lens = dense_tessar();
+  Camera camera = looking_through(lens, lens::stop_radius(lens), 100, Ghosts::enumerated);
+  camera.motion = std::make_shared<const Motion>(
+      std::vector<Motion::Keyframe>{{0, {0, 1, 0}, 0, {0, 0, 0}}, {1, {0, 1, 0}, 1.2, {0, 0, 0}}});
+  Random random(12);
+  std::vector<CameraSample> samples;
+  for (int i = 0; i < 333; ++i)
+    samples.push_back({{100 * random.uniform(), 100 * random.uniform()},
+                       random.pair(),
+                       spread_wavelengths(),
+                       i % kLanes,
+                       random.uniform()});
+  std::vector<CameraRay> rays(samples.size());
+  sample_rays(camera, samples, rays);
+  int ghosts = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto& [film, on_lens, wavelengths_nm, hero, time] = samples[i];
+    const CameraRay alone = sample_ray(camera, film, on_lens, wavelengths_nm, hero, time);
+    EXPECT_LT((rays[i].ray.direction - alone.ray.direction).length(), 1e-6F);
+    EXPECT_LT((rays[i].ray.origin - alone.ray.origin).length(), 1e-6F);
+    EXPECT_EQ(rays[i].ray.time, time);
+    EXPECT_EQ(rays[i].route, alone.route);
+    ASSERT_EQ(rays[i].weight.is_zero(), alone.weight.is_zero());
+    if (alone.weight.is_zero()) continue;
+    ghosts += alone.route > 0;
+    EXPECT_NEAR(rays[i].images->x[2], alone.images->x[2], 0.1);
+    EXPECT_NEAR(rays[i].weight[2] / alone.weight[2], 1, 1e-3);
+  }
+  EXPECT_GT(ghosts, 3);
 }
 
 // What stands for a pixel where nothing is drawn is the image.

@@ -49,13 +49,16 @@ void PathTracer::trace(std::span<const PixelSample> samples, const Deposit& depo
 void PathTracer::trace_together(std::span<const PixelSample> samples) {
   std::vector<CameraPath>& paths = walks_.paths();
   paths.clear();
-  if (camera_.displaces_lanes) images_.resize(samples.size());
   if (measures_polarisation_) found_.assign(samples.size(), {});
-  for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    paths.emplace_back(samples[i].sampler, i);
-    if (start(samples[i], paths.back())) walks_.going().push_back(i);
-    if (ghosts_.any())
-      ghosts_.connect(samples[i].sampler, paths.back().packet.wavelengths, first_ + i, *deposit_, apart_);
+  if (camera_.displaces_lanes) {
+    start_together(samples);
+  } else {
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+      CameraPath& path = paths.emplace_back(samples[i].sampler, i);
+      const auto [film, lens, wavelengths_nm, hero, time] = ask(samples[i], path);
+      if (start(samples[i], sample_ray(scene_.camera, film, lens, wavelengths_nm, hero, time), path))
+        walks_.going().push_back(i);
+    }
   }
   resolve_connections();
   walks_.run(*this);
@@ -74,21 +77,40 @@ void PathTracer::expose(const CameraPath& path, const Contribution& found) {
                    });
 }
 
-bool PathTracer::start(const PixelSample& sample, CameraPath& path) {
+// Rays through a lens are traced several at once.
+void PathTracer::start_together(std::span<const PixelSample> samples) {
+  std::vector<CameraPath>& paths = walks_.paths();
+  asked_.clear();
+  rays_.resize(samples.size());
+  images_.resize(samples.size());
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    asked_.push_back(ask(samples[i], paths.emplace_back(samples[i].sampler, i)));
+  sample_rays(scene_.camera, asked_, rays_);
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    if (start(samples[i], rays_[i], paths[i])) walks_.going().push_back(i);
+    if (ghosts_.any())
+      ghosts_.connect(samples[i].sampler, paths[i].packet.wavelengths, first_ + i, *deposit_, apart_);
+  }
+}
+
+CameraSample PathTracer::ask(const PixelSample& sample, CameraPath& path) const {
   const std::array<float, 4> film = sample.sampler.group(kFilmGroup);
-  const Camera& camera = scene_.camera;
   const std::array<float, 4> lens =
       camera_.depth_of_field ? sample.sampler.group(kLensGroup) : std::array<float, 4>{};
   path.packet = draw_packet(plan_.wavelengths_at(sample.x, sample.y), film[2]);
-  const float time = scene_.shutter.draw(sample.y, film[kTimeNumber]);
-  const CameraRay ray =
-      sample_ray(camera, {static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
-                 {lens[0], lens[1]}, path.lambda_nm(), path.packet.hero, time);
+  return {{static_cast<float>(sample.x) + film[0], static_cast<float>(sample.y) + film[1]},
+          {lens[0], lens[1]},
+          path.lambda_nm(),
+          path.packet.hero,
+          scene_.shutter.draw(sample.y, film[kTimeNumber])};
+}
+
+bool PathTracer::start(const PixelSample& sample, const CameraRay& ray, CameraPath& path) {
   path.ray = ray.ray;
   path.route = ray.route;
   if (carries_polarisation_)
     path.packet.polarisation =
-        polarisation_of_film(scene_, light_travels(path.ray.direction, kMode), time, images_of(ray));
+        polarisation_of_film(scene_, light_travels(path.ray.direction, kMode), ray.ray.time, images_of(ray));
   path.at = {sample.x, sample.y, ray.cos_film, ray.ray.time};
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s * scene_.shutter.mean());
   enter_camera_matter(plan_, path);

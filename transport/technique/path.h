@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sampling/sampler.h"
+#include "scene/camera/camera_rays.h"
 #include "transport/path/film_response.h"
 #include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
@@ -97,10 +98,13 @@ class PathTracer {
   };
 
   void trace_together(std::span<const PixelSample> samples);
+  void start_together(std::span<const PixelSample> samples);
   [[nodiscard]] static std::optional<BsdfSample> scatter_guided(CameraPath& path, const SurfaceVertex& vertex,
                                                                 BsdfRandom u);
+  // Draws the wavelengths of a path, and tells by what its ray is asked for.
+  [[nodiscard]] CameraSample ask(const PixelSample& sample, CameraPath& path) const;
   // Whether there is more to find than what a meter sees directly.
-  bool start(const PixelSample& sample, CameraPath& path);
+  bool start(const PixelSample& sample, const CameraRay& ray, CameraPath& path);
   bool part_lanes(const CameraRay& ray, CameraPath& path);
   [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
                                                         const std::array<float, 4>& u, float time) const;
@@ -134,7 +138,9 @@ class PathTracer {
   GhostLights ghosts_;
   const Deposit* deposit_ = nullptr;
   std::uint32_t first_ = 0;              // number of the first of the paths under way
-  std::vector<LaneImages> images_;       // of each, behind a lens that displaces lanes
+  std::vector<CameraSample> asked_;      // of each, behind a lens that displaces lanes,
+  std::vector<CameraRay> rays_;          // the ray that it leaves the film by,
+  std::vector<LaneImages> images_;       // and where its lanes fall
   ContributionDeposit apart_;            // if it is told
   std::vector<StokesSpectrum> found_;    // by each, where the sensor tells how light is polarised
   std::vector<Connection> connections_;  // of the step under way,
