@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <bit>
 #include <boost/locale/utf.hpp>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <system_error>
 
@@ -161,7 +163,7 @@ bool append_utf8(const std::u16string& units, std::string& text) {
 // The same text in UTF-8, up to the first byte that is no letter; all of it is taken from `bytes`.
 std::string taken_from_windows_1252(std::string_view& bytes) {
   const iconv_t converter = ::iconv_open("UTF-8", "WINDOWS-1252");
-  if (converter == reinterpret_cast<iconv_t>(-1))
+  if (std::bit_cast<std::intptr_t>(converter) == -1)  // which it says by a pointer
     throw Error(ErrorCode::input, "", "the C library of this system does not convert Windows-1252");
   std::string text(3 * bytes.size(), '\0');  // no letter of it takes more
   auto* from = const_cast<char*>(bytes.data());

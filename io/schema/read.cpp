@@ -285,7 +285,7 @@ std::optional<JsonValue> object_of_row(const JsonValue& json, const JsonValue::A
   JsonValue::Object object;
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (std::holds_alternative<std::nullptr_t>(row[i].value)) continue;
-    JsonValue& value = object.emplace_back(std::string(keys[i]), row[i]).second;
+    JsonValue& value = object.emplace_back(JsonValue::Member{std::string(keys[i]), row[i]}).second;
     value.key_offset = value.where.offset;
   }
   JsonValue whole = json;
