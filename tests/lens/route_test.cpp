@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <random>
 
@@ -112,6 +113,45 @@ TEST(Ghosts, OfAPlateHavePowerAndPlaceInClosedForm) {
     const double further = 2 * thickness * std::sin(angle) / n / of.cos_t;
     EXPECT_NEAR(ghost.point.x[3] - image.point.x[3], 0.6 * further, 1e-10);
     EXPECT_NEAR(ghost.point.y[3] - image.point.y[3], 0.8 * further, 1e-10);
+  }
+}
+
+// Airy's sum for one film between two media, of refracted angles that Snell's law gives: the same from both
+// sides.
+double film_reflectance(const std::array<double, 3>& n, double thickness_nm, double sine, bool p) {
+  std::array<double, 3> cosine{};
+  for (std::size_t i = 0; i < 3; ++i) cosine[i] = std::sqrt(1 - std::pow(sine / n[i], 2));
+  const auto amplitude = [&](std::size_t i, std::size_t j) {
+    const double a = p ? n[j] * cosine[i] : n[i] * cosine[i];
+    const double b = p ? n[i] * cosine[j] : n[j] * cosine[j];
+    return (a - b) / (a + b);
+  };
+  const auto turn = std::polar(1.0, 4 * std::numbers::pi * n[1] * thickness_nm * cosine[1] / kNm);
+  const double first = amplitude(0, 1);
+  const double second = amplitude(1, 2);
+  return std::norm((first + second * turn) / (1.0 + first * second * turn));
+}
+
+TEST(Ghosts, OfACoatedPlateHavePowerInClosedForm) {
+  const double n = 1.9;
+  System lens = plate(n, 3);
+  lens.surfaces[1].coating = {{{"film", RefractiveIndex(1.38)}}, {{0, 80}}};
+  lens.surfaces[2].coating = lens.surfaces[1].coating;
+  const SpectralSystem system(lens, 10);
+  for (const double angle : {0.0, 0.6, 1.1}) {
+    const Ray ray{{0, 0, 0}, {std::sin(angle), 0, std::cos(angle)}};
+    double image = 0;
+    double ghost = 0;
+    for (const bool p : {false, true}) {
+      const double R = film_reflectance({1, 1.38, n}, 80, std::sin(angle), p);
+      image += (1 - R) * (1 - R) / 2;
+      ghost += std::pow((1 - R) * R, 2) / 2;
+    }
+    const auto left = [&](const Route& by) {
+      return system.to_image(ray, SampledSpectrum(kNm), by).transmittance[5];
+    };
+    EXPECT_NEAR(left(system.direct()), image, 1e-9) << angle;
+    EXPECT_NEAR(left(route_of({2, 1, 0}, 3)), ghost, 1e-9) << angle;
   }
 }
 
