@@ -279,7 +279,8 @@ class MuellerChain {
 // amplitudes, on either side of Brewster's angle.
 TEST(Ghosts, ReflectedFieldsHaveFresnelsSigns) {
   const double n = 1.7;
-  const SystemAt at(plate(n, 3), kNm);
+  const System lens = plate(n, 3);
+  const SystemAt at(lens, kNm);
   const SurfaceBetween<double> front{at.surface(1), at.frames[1], 1, n};
   for (const double angle : {1e-4, 0.5, 0.9, 1.2, 1.5}) {  // Brewster's is 1.04
     const V3d from(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle));
