@@ -59,6 +59,9 @@ TEST(Ghosts, AreTheSameByEveryTechnique) {
     EXPECT_LT(c.largest_z, 5.5) << integrator;  // 1e-6 over 3 channels x 16 regions x 2 techniques
     EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
   }
+  const double gathered = test::compare_regions(path, bright_ghosts("sppm", 256), 4).ratio;
+  std::printf("sppm: ratio of the means %.5f\n", gathered);
+  EXPECT_NEAR(gathered, 1, 0.02);
 }
 
 // No path from the camera meets a lamp without size.
