@@ -204,6 +204,25 @@ TEST(LensPolarisation, OfAPlateIsWhatFresnelSays) {
   EXPECT_NEAR(seen.v / seen.i, 0, 2e-3);
 }
 
+// Fields along both axes keep their phases: light that is polarised half-way between them, or circularly, has
+// 2 T_s T_p/(T_s^2 + T_p^2) left of that.
+TEST(LensPolarisation, KeepsPhases) {
+  const auto of = fresnel_dielectric<double>(std::cos(50 * std::numbers::pi / 180), 3.0);
+  const double kept = 2 * of.Ts * of.Tp / (of.Ts * of.Ts + of.Tp * of.Tp);
+  const auto seen = [](const char* how) {
+    return test::stokes_of(render(test::load_text(kTiltedPlate, {{"/sensor/stokes", "true"},
+                                                                 {"/lights/0/emission/polarised", how}}),
+                                  {})
+                               .film);
+  };
+  const test::StokesMean slanted = seen(R"({"axis": [1, 0, 1]})");
+  EXPECT_NEAR(slanted.u / slanted.i, kept, 2e-3);
+  EXPECT_NEAR(slanted.v / slanted.i, 0, 2e-3);
+  const test::StokesMean circular = seen(R"({"circular": "right"})");
+  EXPECT_NEAR(circular.v / circular.i, kept, 2e-3);
+  EXPECT_NEAR(circular.u / circular.i, 0, 2e-3);
+}
+
 // So it does where the sensor measures power alone, of light that is polarised when it comes.
 TEST(LensPolarisation, IsWhatAPolarisedLampShows) {
   const auto of = fresnel_dielectric<double>(std::cos(50 * std::numbers::pi / 180), 3.0);
