@@ -80,6 +80,27 @@ TEST(Ghosts, OfPointsAreTheSameByEveryTechnique) {
   EXPECT_GT(test::compare_regions(bright_ghosts("path", 64, without), path, 4).ratio, 1.02);
 }
 
+// Of what a mirror lights by a lamp without size, photons are connected to the lens by its ghosts.
+TEST(Ghosts, OfWhatPhotonsLightAreTheSameByEveryTechnique) {
+  const V3d at(1, -0.2, 0.5);
+  const V3d normal = ((-at).normalized() - V3d(1, 0, 0)).normalized();
+  const std::vector<Override> mirrored{
+      {"/lights",
+       R"([{"spot": {"at": [0.6, -0.2, 0.5], "direction": [1, 0, 0], "half_angle_deg": 12}, "emission": {"illuminant": "A", "luminous_intensity": 300}}])"},
+      {"/materials/mirror", R"({"mirror": {"reflectance": 1}})"},
+      {"/shapes/1", fmt::format(R"({{"quad": {}, "material": "mirror"}})", test::square(at, normal, 0.3))}};
+  const Film light = bright_ghosts("light", 512, mirrored);
+  ASSERT_GT(frame_mean_error(light), 0);
+  for (const auto& [integrator, samples] : {std::pair("bdpt", 512), {"vcm", 256}}) {
+    const test::Comparison c = test::compare_regions(light, bright_ghosts(integrator, samples, mirrored), 4);
+    std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
+    EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
+  }
+  std::vector<Override> without = mirrored;
+  without.push_back({"/camera/lens_system/ghosts", "false"});
+  EXPECT_GT(test::compare_regions(bright_ghosts("light", 256, without), light, 4).ratio, 1.04);
+}
+
 // A small lamp's light that is reflected within the lens: of the flux through the stop the share that a trace
 // of even rays finds, spread over the film as these rays are.
 TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
