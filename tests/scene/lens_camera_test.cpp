@@ -171,6 +171,47 @@ TEST(LensCamera, RaysTogetherAreThoseAlone) {
   EXPECT_GT(ghosts, 3);
 }
 
+// The flux of a far point that ghosts bring through a curved front to the film, by a grid of parallel rays.
+TEST(LensCamera, GhostsTakeInTheFluxOfAFarPoint) {
+  lens::System lens = shipped("achromat");
+  for (lens::Surface& surface : lens.surfaces)
+    if (surface.behind) surface.behind->index = RefractiveIndex(surface.behind->index.n(550) + 0.7);
+  lens.surfaces[0].profile.curvature *= 2;
+  const Camera camera = looking_through(lens, lens::stop_radius(lens), 400, Ghosts::enumerated);
+  const LensOptics& optics = *std::get<LensSystem>(camera.kind).optics;
+  const double angle = 0.1;
+  constexpr double kFar = 1e5;
+  const V3f point(V3d(1, 2, 3) + kFar * V3d(0, -std::cos(angle), std::sin(angle)));
+  constexpr int kSide = 600;
+  Random random(6);
+  double drawn = 0;
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) {
+      const V2f u = (V2f(static_cast<float>(i), static_cast<float>(j)) + random.pair()) / kSide;
+      const auto seen = sample_towards(camera, point, u, SampledSpectrum(550), 0);
+      if (seen && seen->route > 0) drawn += static_cast<double>(seen->weight[0]) / (kSide * kSide);
+    }
+  drawn *= kFar * kFar * camera.pixel_pitch * camera.pixel_pitch * 1e6;  // mm^2 of the beam
+  const double half = 1.5 * optics.semi_aperture_mm(0);
+  const double cell = 2 * half / kSide;
+  const double half_film = camera.width * camera.pixel_pitch * 1e3 / 2;
+  const V3d direction(0, -std::sin(angle), std::cos(angle));
+  double flux = 0;
+  for (std::size_t route = 1; route < optics.routes.size(); ++route)
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i) {
+        const V3d through(-half + (i + 0.5) * cell, -half + (j + 0.5) * cell, 0);
+        const auto there = optics.system.to_image({through - 50.0 * direction, direction},
+                                                  SampledSpectrum(550), optics.routes[route]);
+        if (!there.arrived[0] || std::abs(there.point.x[0]) > half_film ||
+            std::abs(there.point.y[0]) > half_film)
+          continue;
+        flux += there.transmittance[0] * std::cos(angle) * cell * cell;
+      }
+  EXPECT_GT(flux, 0);
+  EXPECT_NEAR(drawn / flux, 1, 0.01);
+}
+
 // What stands for a pixel where nothing is drawn is the image, of which the middle numbers draw the middle.
 TEST(LensCamera, GhostsLeaveTheCentralRay) {
   const lens::System lens = dense_tessar();
