@@ -24,6 +24,11 @@ struct SineCosine {
           1 + x * (-0.5F + x * (1.0F / 24 + x * (-1.0F / 720 + x * (1.0F / 40320))))};
 }
 
+template <typename Real>
+[[nodiscard]] Real disc_area(Real radius) {
+  return std::numbers::pi_v<Real> * radius * radius;
+}
+
 /// Uniform on the unit disc from `u` in [0, 1)^2, keeping neighbours together: squares go to rings.
 /// [Shirley1997]
 [[nodiscard]] inline Imath::V2f concentric_disc(const Imath::V2f& u) {

@@ -128,8 +128,8 @@ TEST(NeedsCost, OnlyWhatIsNeededRuns) {
 TEST(NeedsCost, OnlyFiltersThatShiftAreWeighedByTheAngle) {
   const Profile tilting =
       profile({.filters = R"(, "filters": [{"transmittance": {"band": [400, 700]}, "effective_index": 2}])"});
-  EXPECT_FALSE(plain().ran("FilmResponse::weight_by_angle"));
-  EXPECT_TRUE(tilting.ran("FilmResponse::weight_by_angle"));
+  EXPECT_FALSE(plain().ran("FilmResponse::weight_unpolarised"));
+  EXPECT_TRUE(tilting.ran("FilmResponse::weight_unpolarised"));
 }
 
 TEST(NeedsCost, APinholeDrawsNoLensPoint) {

@@ -16,11 +16,21 @@ SampledWavelengths all_at(double nm) {
 
 const std::vector<Channel> kChannels{energy_channel("a", Curve(1.0)), energy_channel("b", Curve(3.0))};
 
+template <typename Contribution>
+std::vector<double> exposed_by(const Contribution& contribution, FilmResponse response, const FilmPoint& at,
+                               double nm) {
+  std::vector<double> exposed;
+  response.expose(at, all_at(nm), contribution, [&](const FilmPoint&, std::span<const double> values) {
+    exposed.assign(values.begin(), values.end());
+  });
+  return exposed;
+}
 std::vector<double> exposed(const FilmResponse& response, const FilmPoint& at, double nm,
-                            float contribution) {
-  std::vector<double> values(response.planes(), 0.0);
-  response.add(at, all_at(nm), SampledSpectrum(contribution), values);
-  return values;
+                            const StokesSpectrum& light) {
+  return exposed_by(light, response, at, nm);
+}
+std::vector<double> exposed(const FilmResponse& response, const FilmPoint& at, double nm, float power) {
+  return exposed_by(SampledSpectrum(power), response, at, nm);
 }
 
 TEST(FilmResponse, AMosaicExposesThePixelsOwnChannel) {
@@ -35,13 +45,6 @@ TEST(FilmResponse, WithoutAMosaicEveryPixelHasAllChannels) {
   ASSERT_EQ(values.size(), 2U);
   EXPECT_EQ(values[0], 8 * 0.5 / 0.5);
   EXPECT_EQ(values[1], 3 * values[0]);
-}
-
-TEST(FilmResponse, AddsUp) {
-  const FilmResponse response(kChannels);
-  std::vector<double> values{1, 2};
-  response.add({}, all_at(500), SampledSpectrum(0.5F), values);
-  EXPECT_EQ(values, (std::vector<double>{9, 26}));
 }
 
 TEST(FilmResponse, AngularChannelsFollowTheAngle) {
@@ -67,15 +70,13 @@ TEST(FilmResponse, ChannelsMeasureTheirRowOfTheStokesVector) {
   channels.push_back(behind(energy_channel("up", Curve(1.0)), Polariser{90}));
   const FilmResponse response(channels);
   EXPECT_TRUE(response.polarised());
-  std::vector<double> values(channels.size(), 0.0);
-  response.add({}, all_at(500), slanted(1), values);
+  const std::vector<double> values = exposed(response, {}, 500, slanted(1));
+  ASSERT_EQ(values.size(), channels.size());
   const std::vector<double> of_unit{1, 3, 0.5, 1.5, 0.25, 0.75, 0.125, 0.375, (1 - 0.5) / 2};
   for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], 16 * of_unit[k], 1e-6) << k;
   // What has no polarisation is a vector without it.
   EXPECT_EQ(exposed(response, {}, 500, 1), (std::vector<double>{16, 48, 0, 0, 0, 0, 0, 0, 8}));
-  std::vector<double> unpolarised(channels.size(), 0.0);
-  response.add({}, all_at(500), StokesSpectrum{SampledSpectrum(1.0F)}, unpolarised);
-  EXPECT_EQ(unpolarised, exposed(response, {}, 500, 1));
+  EXPECT_EQ(exposed(response, {}, 500, StokesSpectrum{SampledSpectrum(1.0F)}), exposed(response, {}, 500, 1));
 }
 
 // As unpolarised light does, and a mosaic of polarisers has each at its own pixel.
@@ -87,9 +88,7 @@ TEST(FilmResponse, PolarisedLightFallsOnPixelsAndAngles) {
   const Mosaic mosaic{2, 1, {0, 1}};
   const FilmResponse response(channels, &mosaic);
   const auto at = [&](int x, float cos_film) {
-    std::vector<double> values(1, 0.0);
-    response.add({x, 0, cos_film}, all_at(640), slanted(1), values);
-    return values[0];
+    return exposed(response, {x, 0, cos_film}, 640, slanted(1)).at(0);
   };
   const auto tilt = static_cast<float>(std::sqrt(1 - 4 * (1 - std::pow(640.0 / 650, 2))));
   EXPECT_EQ(at(0, 1), 0);
@@ -97,14 +96,36 @@ TEST(FilmResponse, PolarisedLightFallsOnPixelsAndAngles) {
   EXPECT_NEAR(at(1, tilt), 16 * 0.25, 1e-6);
 }
 
+// Four lanes on each of two pixels.
+TEST(FilmResponse, LanesExposeTheChannelAndTheAngleOfTheirOwnPixel) {
+  LaneImages images{SampledSpectrum(SampledSpectrum::Values{2, 3, 2, 3, 2, 3, 2, 3}), SampledSpectrum(0.5F),
+                    SampledSpectrum(SampledSpectrum::Values{1, 0.5F, 1, 0.5F, 1, 0.5F, 1, 0.5F})};
+  const auto fallen = [&](FilmResponse response) {
+    std::vector<std::pair<int, double>> fell;
+    response.expose(
+        {0, 0, 1, 0, &images}, all_at(640), SampledSpectrum(1.0F),
+        [&](const FilmPoint& at, std::span<const double> values) { fell.emplace_back(at.x, values[0]); });
+    return fell;
+  };
+  using Fallen = std::vector<std::pair<int, double>>;
+  EXPECT_EQ(fallen(FilmResponse(kChannels)), (Fallen{{2, 8}, {3, 8}}));
+  const Mosaic mosaic{2, 1, {1, 0}};
+  EXPECT_EQ(fallen(FilmResponse(kChannels, &mosaic)), (Fallen{{2, 24}, {3, 8}}));
+  const std::vector<Channel> line{
+      behind(energy_channel("line", Curve(1.0)), {Curve(1.0), {{band(635, 645), 1e9}}})};
+  EXPECT_EQ(fallen(FilmResponse(line)), (Fallen{{2, 8}, {3, 8}})) << "a filter that no angle shifts";
+  const std::vector<Channel> shifting{
+      behind(energy_channel("line", Curve(1.0)), {Curve(1.0), {{band(635, 645), 1.5}}})};
+  EXPECT_EQ(fallen(FilmResponse(shifting)), (Fallen{{2, 8}, {3, 0}}));
+}
+
 TEST(FilmResponse, LanesOfPolarisedLightFallApart) {
   const std::vector<Channel> channels = with_stokes({energy_channel("a", Curve(1.0))});
-  const FilmResponse response(channels);
+  FilmResponse response(channels);
   LaneImages images{SampledSpectrum(2.5F), SampledSpectrum(0.5F), SampledSpectrum(1.0F)};
   images.x = SampledSpectrum(SampledSpectrum::Values{2.5F, 2.5F, 2.5F, 2.5F, 2.5F, 2.5F, 4.5F, 4.5F});
-  std::vector<double> values(4, 0.0);
   std::vector<std::pair<int, std::vector<double>>> fell;
-  response.expose({0, 0, 1, 0, &images}, all_at(500), slanted(1), values,
+  response.expose({0, 0, 1, 0, &images}, all_at(500), slanted(1),
                   [&](const FilmPoint& at, std::span<const double> exposed) {
                     fell.emplace_back(at.x, std::vector<double>(exposed.begin(), exposed.end()));
                   });

@@ -54,8 +54,8 @@ Found glass_event(const PathPacket& drawn, float lobe) {
   advance(packet, *event);
   const std::vector<Channel> channels{energy_channel("flat", band(400, 700))};
   double value = 0;
-  FilmResponse(channels).add({}, packet.wavelengths, packet.throughput * (1 / packet.lane_pdf.sum()),
-                             {&value, 1});
+  FilmResponse(channels).expose({}, packet.wavelengths, packet.throughput * (1 / packet.lane_pdf.sum()),
+                                [&](const FilmPoint&, std::span<const double> values) { value = values[0]; });
   return event->transmitted ? Found{0, value} : Found{value, 0};
 }
 

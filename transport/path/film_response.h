@@ -97,7 +97,9 @@ class FilmResponse {
         angular_(std::any_of(channels.begin(), channels.end(),
                              [](const Channel& channel) { return channel.angular.has_value(); })),
         polarised_(any_analyser(channels)),
-        plain_(!angular_ && !polarised_) {}
+        plain_(!angular_ && !polarised_),
+        values_(planes()),
+        told_(planes()) {}
 
   /// How many values a contribution makes.
   [[nodiscard]] std::size_t planes() const { return mosaic_ == nullptr ? sensor_.size() : 1; }
@@ -106,44 +108,28 @@ class FilmResponse {
   /// Whether some value depends on how the light is polarised.
   [[nodiscard]] bool polarised() const { return polarised_; }
 
-  /// Tells `deposit` of each pixel on which lanes of a contribution fall, and of the values that these expose
-  /// there, which `values` then holds, as many as `planes`: once in any case, where no lane has anything.
+  /// Tells `deposit` of each pixel on which lanes of a contribution, already divided by its balance over
+  /// lanes and techniques, fall, and of the values, as many as `planes`, that these expose there: once in any
+  /// case, where no lane has anything.
   template <typename Contribution, typename DepositAt>
   void expose(const FilmPoint& at, const SampledWavelengths& wavelengths, const Contribution& contribution,
-              std::span<double> values, DepositAt deposit) const {
-    if (at.images != nullptr) return expose_apart(at, wavelengths, contribution, values, deposit);
-    std::fill(values.begin(), values.end(), 0.0);
-    add(at, wavelengths, contribution, values);
-    deposit(at, values);
-  }
-
-  /// Adds to `values`, as many as `planes`, what `contribution` exposes, already divided by its balance over
-  /// lanes and techniques.
-  void add(const FilmPoint& at, const SampledWavelengths& wavelengths, const SampledSpectrum& contribution,
-           std::span<double> values) const {
-    const SampledSpectrum share = contribution / wavelengths.pdf;
-    const std::size_t first = mosaic_ == nullptr ? 0 : static_cast<std::size_t>(mosaic_->at(at.x, at.y));
-    for (std::size_t k = 0; k < values.size(); ++k)
-      values[k] += static_cast<double>((share * weight(sensor_[first + k], at, wavelengths.lambda_nm)).sum());
-  }
-  void add(const FilmPoint& at, const SampledWavelengths& wavelengths, const StokesSpectrum& contribution,
-           std::span<double> values) const {
-    const std::size_t first = mosaic_ == nullptr ? 0 : static_cast<std::size_t>(mosaic_->at(at.x, at.y));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const Channel& channel = sensor_[first + k];
-      const SampledSpectrum& nm = wavelengths.lambda_nm;
-      const SampledSpectrum told =
-          channel.analyser ? measured(row_of(*channel.analyser, nm), contribution) : contribution.i;
-      values[k] += static_cast<double>((told / wavelengths.pdf * weight_at(channel, nm, at.cos_film)).sum());
-    }
+              DepositAt deposit) {
+    if (at.images != nullptr) return expose_apart(at, wavelengths, contribution, deposit);
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      values_[k] = static_cast<double>(told(k, at, wavelengths, contribution).sum());
+    deposit(at, std::span<const double>(values_));
   }
 
  private:
   // Lanes of one pixel, and of one angle where that matters, expose it together.
   template <typename Contribution, typename DepositAt>
   [[gnu::noinline]] void expose_apart(const FilmPoint& at, const SampledWavelengths& wavelengths,
-                                      const Contribution& contribution, std::span<double> values,
-                                      DepositAt deposit) const {
+                                      const Contribution& contribution, DepositAt deposit) {
+    const auto tell = [&](const FilmPoint& pixel) {
+      for (std::size_t k = 0; k < told_.size(); ++k) told_[k] = told(k, pixel, wavelengths, contribution);
+    };
+    const bool same_everywhere = mosaic_ == nullptr && !angular_;
+    if (same_everywhere) tell(at);
     std::array<bool, kLanes> done{};
     bool any = false;
     for (int first = 0; first < kLanes; ++first) {
@@ -157,26 +143,43 @@ class FilmResponse {
         falling[static_cast<std::size_t>(lane)] = 1;  // not multiplied by: others need not be finite
         done[static_cast<std::size_t>(lane)] = true;
       }
-      std::fill(values.begin(), values.end(), 0.0);
-      add(pixel, wavelengths, only(contribution, SampledSpectrum(falling)), values);
-      deposit(pixel, values);
+      if (!same_everywhere) tell(pixel);
+      for (std::size_t k = 0; k < values_.size(); ++k)
+        values_[k] = static_cast<double>(only(told_[k], SampledSpectrum(falling)).sum());
+      deposit(pixel, std::span<const double>(values_));
       any = true;
     }
     if (any) return;
-    std::fill(values.begin(), values.end(), 0.0);
-    deposit(FilmPoint{at.x, at.y, at.cos_film, at.time}, values);
+    std::fill(values_.begin(), values_.end(), 0.0);
+    deposit(FilmPoint{at.x, at.y, at.cos_film, at.time}, std::span<const double>(values_));
   }
   [[nodiscard]] static const SampledSpectrum& intensity(const SampledSpectrum& of) { return of; }
   [[nodiscard]] static const SampledSpectrum& intensity(const StokesSpectrum& of) { return of.i; }
   [[nodiscard]] static SampledSpectrum only(const SampledSpectrum& of, const SampledSpectrum& lanes) {
     return SampledSpectrum::map(of, lanes, [](float value, float kept) { return kept > 0 ? value : 0; });
   }
-  [[nodiscard]] static StokesSpectrum only(const StokesSpectrum& of, const SampledSpectrum& lanes) {
-    return {only(of.i, lanes), only(of.q, lanes), only(of.u, lanes), only(of.v, lanes)};
-  }
   [[nodiscard]] static FilmPoint image_of(const FilmPoint& at, int lane) {
     return {static_cast<int>(at.images->x[lane]), static_cast<int>(at.images->y[lane]),
             at.images->cos_film[lane], at.time};
+  }
+
+  // What each lane exposes plane k with.
+  [[nodiscard]] SampledSpectrum told(std::size_t k, const FilmPoint& at,
+                                     const SampledWavelengths& wavelengths,
+                                     const SampledSpectrum& contribution) const {
+    return contribution / wavelengths.pdf * weight(channel(k, at), at, wavelengths.lambda_nm);
+  }
+  [[nodiscard]] SampledSpectrum told(std::size_t k, const FilmPoint& at,
+                                     const SampledWavelengths& wavelengths,
+                                     const StokesSpectrum& contribution) const {
+    const Channel& of = channel(k, at);
+    const SampledSpectrum& nm = wavelengths.lambda_nm;
+    const SampledSpectrum measured_here =
+        of.analyser ? measured(row_of(*of.analyser, nm), contribution) : contribution.i;
+    return measured_here / wavelengths.pdf * weight_at(of, nm, at.cos_film);
+  }
+  [[nodiscard]] const Channel& channel(std::size_t k, const FilmPoint& at) const {
+    return sensor_[mosaic_ == nullptr ? k : static_cast<std::size_t>(mosaic_->at(at.x, at.y))];
   }
 
   [[nodiscard]] SampledSpectrum weight(const Channel& channel, const FilmPoint& at,
@@ -194,6 +197,8 @@ class FilmResponse {
   bool angular_;
   bool polarised_;
   bool plain_;
+  std::vector<double> values_;         // of one deposit
+  std::vector<SampledSpectrum> told_;  // lane by lane
 };
 
 /// The response of the scene's sensor; refers to the scene, which must outlive it.

@@ -1,16 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include "transport/path/vertex.h"
 
 namespace abbe {
-
-/// The area within which what has come to a surface counts as having come to one point of it [m^2].
-[[nodiscard]] inline float disc_area(float radius) {
-  return std::numbers::pi_v<float> * radius * radius;
-}
 
 /// What a surface makes of flux that has come to a place close by, over the area it counts for: f [1/sr]
 /// towards where the path of radiance came from, `from` being the unit direction to where the flux did, and

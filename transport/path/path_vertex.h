@@ -83,8 +83,8 @@ struct Way {
                                            TransportMode mode);
 
 /// The polarisation with which the packet that the vertex holds leaves it towards the unit vector `w`, by no
-/// event of a single direction, relative to what it has come with; that of a lamp's own light, and power
-/// alone at a camera.
+/// event of a single direction, relative to what it has come with; that of a lamp's own light, and at a
+/// camera the rows that its sensor measures.
 [[nodiscard]] Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex,
                                                 const Imath::V3f& w, TransportMode mode);
 

@@ -48,10 +48,10 @@ class Polarisation {
   [[nodiscard]] StokesSpectrum of_unpolarised() const;
   /// What rows measure, likewise, of light of the Stokes vector `light` that travels along the unit vector.
   [[nodiscard]] StokesSpectrum of(const Polarisation& light, const Imath::V3f& travels) const;
-  /// The Stokes vector in the frame of another axis.
-  [[nodiscard]] StokesSpectrum in_frame(const Imath::V3f& axis, const Imath::V3f& travels) const;
 
  private:
+  // The Stokes vector in the frame of another axis.
+  [[nodiscard]] StokesSpectrum in_frame(const Imath::V3f& axis, const Imath::V3f& travels) const;
   void turn_to(const Imath::V3f& axis, const Imath::V3f& travels);
   void multiply(const std::optional<MuellerMatrix>& matrix, const Imath::V3f& travels, TransportMode mode);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "materials/bsdf/warp.h"
 #include "transport/path/connect.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/merge.h"
@@ -55,8 +56,7 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
       from_light_(plan.scene, caster),
       ghosts_(plan, caster),
       found_(plan.scene),
-      weights_(plan.scene, caster),
-      values_(response_.planes()) {}
+      weights_(plan.scene, caster) {}
 
 LightPaths::LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of, float at)
     : paths(std::move(traced)),
@@ -293,7 +293,7 @@ void BidirectionalTracer::expose(std::uint32_t i, const FilmPoint& at, const Con
   response_.expose(
       at, wavelengths,
       let_through(scene_.shutter, at, contribution) * SampledSpectrum(static_cast<float>(scene_.exposure_s)),
-      values_, deposit);
+      deposit);
 }
 
 }  // namespace abbe

@@ -108,7 +108,6 @@ class BidirectionalTracer {
   StrategyWeights weights_;
   JoinedPath joined_;
   std::vector<std::uint32_t> near_;  // vertices, at one place
-  std::vector<double> values_;       // of one deposit
 };
 
 }  // namespace abbe

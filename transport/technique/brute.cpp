@@ -43,8 +43,7 @@ BrutePhotonTracer::BrutePhotonTracer(const Plan& plan, RayCaster& caster, double
       scale_(static_cast<float>(share * plan.scene.exposure_s)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       response_(film_response_of(plan.scene)),
-      walks_(plan.scene, caster),
-      values_(response_.planes()) {}
+      walks_(plan.scene, caster) {}
 
 // The estimate of a film value is the sum over photons of the power Phi that each set out with, over its
 // density, times what the camera makes of a flux that comes in: sum Phi W.
@@ -88,7 +87,7 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
   with_seen(measures_polarisation_,
             path.packet.throughput * seen->importance * through->transmittance * scale_, pointer_to(arrives),
             [&](const auto& light) {
-              response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light), values_,
+              response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light),
                                [&](const FilmPoint& pixel, std::span<const double> values) {
                                  (*deposit_)(path.path, pixel, values);
                                });
@@ -100,8 +99,7 @@ AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
       scene_(plan.scene),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
-      found_(plan.scene),
-      values_(response_.planes()) {}
+      found_(plan.scene) {}
 
 // The estimate of a pixel's film value is what a path set out with, over its density, times the radiance of
 // the lights it meets.
@@ -130,7 +128,7 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
   for (const RecordedPath& path : paths)
     found_.tell(path.path, [&](const auto& found) {
       response_.expose(
-          at_[path.path], path.packet.wavelengths, found * scale, values_,
+          at_[path.path], path.packet.wavelengths, found * scale,
           [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
     });
 }

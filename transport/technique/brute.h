@@ -75,7 +75,6 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
   FilmResponse response_;
   RandomWalks<BrutePhotonTracer> walks_;
   const Deposit* deposit_ = nullptr;
-  std::vector<double> values_;  // of one deposit
 };
 
 /// Brute-force adjoint photons, which run the other way in time: from the pixels, of one wavelength each, to
@@ -108,7 +107,6 @@ class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
   std::vector<FilmPoint> at_;       // where each path exposes the film,
   std::vector<LaneImages> images_;  // and its lanes, behind a lens that displaces them,
   FoundLight found_;                // and with what
-  std::vector<double> values_;      // of one deposit
 };
 
 }  // namespace abbe

@@ -22,8 +22,8 @@ GhostLights::GhostLights(const Plan& plan, RayCaster& caster)
       response_(film_response_of(plan.scene)),
       carries_polarisation_(carries_polarisation(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
-      scale_(static_cast<float>(plan.scene.exposure_s / plan.scene.camera.width / plan.scene.camera.height)),
-      values_(response_.planes()) {}
+      scale_(static_cast<float>(plan.scene.exposure_s / plan.scene.camera.width / plan.scene.camera.height)) {
+}
 
 // With y a point of the lens and a route, drawn together with the density p(y), and w a direction to a light,
 // drawn with p(w), a sample of each of N pixels adds
@@ -65,7 +65,7 @@ void GhostLights::connect(const Sampler& sampler, const SampledWavelengths& wave
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, time,
                      images_of(*seen)};
   with_seen(measures_polarisation_, found, pointer_to(measured), [&](const auto& arriving) {
-    response_.expose(at, wavelengths, let_through(scene_.shutter, at, arriving), values_,
+    response_.expose(at, wavelengths, let_through(scene_.shutter, at, arriving),
                      [&](const FilmPoint& pixel, std::span<const double> values) {
                        deposit(path, pixel, values);
                        if (apart) apart(pixel, {pick.light, 0}, values);

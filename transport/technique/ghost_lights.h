@@ -34,7 +34,6 @@ class GhostLights {
   bool carries_polarisation_;
   bool measures_polarisation_;
   float scale_;
-  std::vector<double> values_;
 };
 
 }  // namespace abbe

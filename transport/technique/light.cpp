@@ -17,8 +17,7 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
       alone_(!uses(plan.techniques, Technique::path)),
       response_(film_response_of(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
-      walks_(plan.scene, caster),
-      values_(response_.planes()) {}
+      walks_(plan.scene, caster) {}
 
 // The estimate of a film value is, over photons y_0 y_1 ... of power Phi from the lights,
 //     sum_n w_n Phi [T_n / P_n] f cos W,
@@ -124,7 +123,7 @@ template <typename Contribution>
 void LightTracer::expose(const Connection& found, Contribution contribution) {
   contribution *= SampledSpectrum(scale_);
   response_.expose(found.at, walks_.paths()[found.path].packet.wavelengths,
-                   let_through(scene_.shutter, found.at, contribution), values_,
+                   let_through(scene_.shutter, found.at, contribution),
                    [&](const FilmPoint& at, std::span<const double> values) {
                      (*deposit_)(found.path, at, values);
                      if (apart_) apart_(at, {starts_[found.path].light, found.events}, values);

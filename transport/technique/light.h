@@ -99,7 +99,6 @@ class LightTracer {
   std::vector<LaneImages> images_;       // where their lanes fall, behind a lens that displaces these,
   std::vector<BasicRay<double>> ways_;   // their ways to the lens,
   std::vector<std::uint8_t> blocked_;    // and whether something stands on them
-  std::vector<double> values_;           // of one deposit
 };
 
 }  // namespace abbe

@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "scene/polarisation_need.h"
-#include "transport/path/equiangular.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/start_matter.h"
@@ -32,8 +31,7 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
       carries_polarisation_(carries_polarisation(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       walks_(plan.scene, caster),
-      ghosts_(plan, caster),
-      values_(response_.planes()) {}
+      ghosts_(plan, caster) {}
 
 // The estimate of a pixel's film value is, over its paths x_0 x_1 ... from the film,
 //     sum_n w_n [T_n / P_n] L_e(x_n -> x_{n-1}) + sum_n w'_n [T_n / P_n] f cos L_e / p_light,
@@ -71,7 +69,7 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
 
 template <typename Contribution>
 void PathTracer::expose(const CameraPath& path, const Contribution& found) {
-  response_.expose(path.at, path.packet.wavelengths, found, values_,
+  response_.expose(path.at, path.packet.wavelengths, found,
                    [&](const FilmPoint& at, std::span<const double> values) {
                      (*deposit_)(first_ + path.path, at, values);
                    });
@@ -239,86 +237,6 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   ways_.push_back(way_to(ray, chosen->towards));
 }
 
-// With which `connect_along` would have connected that place of the stretch to the light.
-float PathTracer::pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const {
-  const float picked = plan_.lights_along.probability(light);
-  if (!(picked > 0)) return 0;
-  const auto part = Equiangular::along(stretch.ray, stretch.length, scene_.lights[light]);
-  return part ? picked * part->pdf(distance) : 0;
-}
-
-// At t along matter of the extinction s_k and scattering s'_k, with q the probability of the light and p the
-// density of t, the light brought to the path is
-//     w sum_j [T_j / P_hero] s'_j e^(-s_j t) f_phase L_e / (q p),
-// balanced with what comes of scattering there, of the density s_k e^(-s_k t), and connecting then.
-void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const Imath::V2f& u) {
-  const PowerLightSampler::SampledLight pick = plan_.lights_along.pick(u.x);
-  const Light& light = scene_.lights[pick.light];
-  const auto part = Equiangular::along(stretch.ray, stretch.length, light);
-  if (!part) return;
-  const float t = part->sample(u.y);
-  const Imath::V3f point = stretch.ray.origin + stretch.ray.direction * t;
-  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {0, 0}, path.ray.time);
-  if (!towards) return;
-  const MediumAt& medium = path.around.medium;
-  SampledSpectrum passed(1.0F);
-  medium.attenuate(passed, t);
-  const Imath::V3f& wi = towards->wi;
-  SampledSpectrum contribution = path.packet.throughput * passed * medium.scattering_per_m *
-                                 emission_from(light, wi, path.lambda_nm()) *
-                                 (pdf(medium.scattering->phase, stretch.ray.direction, wi) * towards->factor);
-  std::optional<StokesSpectrum> seen;
-  if (path.packet.polarisation)
-    seen = measured(path, mueller(medium.scattering->phase, stretch.ray.direction, wi), light, wi);
-  const float scattered = (path.packet.lane_pdf * passed * medium.extinction_per_m).sum() /
-                          path.packet.lane_pdf.sum() *
-                          plan_.path_lights.probability(pick.light, point, nullptr) * towards->pdf;
-  connect_through_media(path, {pick.light, light, *towards, pick.probability * part->pdf(t) + scattered},
-                        contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
-                        path.at.cos_film, pointer_to(seen));
-}
-
-void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
-  std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u, path.ray.time);
-  if (!chosen) return;
-  if (connects_along() && path.stretch.length > 0)
-    chosen->pdf +=
-        pdf_along(path.stretch, (path.ray.origin - path.stretch.ray.origin).length(), chosen->index) *
-        path.stretch.lanes / path.packet.lane_pdf.sum();
-  const Imath::V3f& wi = chosen->towards.wi;
-  const SampledSpectrum turned(pdf(phase, path.ray.direction, wi));
-  const SampledSpectrum contribution =
-      turned *
-      (path.packet.throughput * emission_from(chosen->light, wi, path.lambda_nm()) * chosen->towards.factor);
-  std::optional<StokesSpectrum> seen;
-  SampledSpectrum scattering_pdf = chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned;
-  if (path.packet.polarisation) {
-    const Polarisation rows = path.packet.polarisation->through(
-        mueller(phase, path.ray.direction, wi), light_travels(path.ray.direction, kMode), kMode);
-    seen = rows.of(polarisation_of_lamp(chosen->light, -wi), -wi);
-    scattering_pdf *= rows.of_unpolarised().i;  // it is drawn as polarised light has it
-  }
-  connect_through_media(path, *chosen, contribution, scattering_pdf,
-                        ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film,
-                        pointer_to(seen));
-}
-
-// Adds what is left of the light that comes along `ray`, the direction of which scattering would have drawn
-// with `scattering_pdf`.
-[[gnu::noinline]] void PathTracer::connect_through_media(CameraPath& path, const ChosenLight& chosen,
-                                                         const SampledSpectrum& contribution,
-                                                         const SampledSpectrum& scattering_pdf,
-                                                         const Ray& ray, const Surroundings& around,
-                                                         float cos_film, const StokesSpectrum* seen) {
-  const std::optional<Transmission> way = unblocked_transmission(
-      scene_, caster_, way_to(ray, chosen.towards), ray, around, path.lambda_nm(), chosen.towards.distance);
-  if (!way) return;
-  const float weight = mis_weight(path.packet.lane_pdf * scattering_pdf * way->density, chosen.pdf,
-                                  path.packet.lane_pdf.sum());
-  if (std::isfinite(weight))
-    add(path, {chosen.index, path.events + 1}, contribution * way->transmittance * weight, cos_film, seen);
-}
-
 // The photons bring what comes through specular matter from traced lights, but for what is seen through it.
 void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
   const CausticGuide& guide = path.first_delta ? plan_.caustics_seen_through : plan_.caustics_of_paths;
@@ -408,7 +326,7 @@ void PathTracer::add_to(Contribution& found, CameraPath& path, const LightHistor
   if (with_others && !apart_) return;
   FilmPoint at = path.at;
   at.cos_film = cos_film;
-  response_.expose(at, path.packet.wavelengths, contribution * path.scale, values_,
+  response_.expose(at, path.packet.wavelengths, contribution * path.scale,
                    [&](const FilmPoint& pixel, std::span<const double> values) {
                      if (apart_) apart_(pixel, of, values);
                      if (!with_others) (*deposit_)(first_ + path.path, pixel, values);

@@ -148,7 +148,6 @@ class PathTracer {
       seen_;  // what the sensor measures of their light, where polarisation is carried,
   std::vector<BasicRay<double>> ways_;  // their ways to the light,
   std::vector<std::uint8_t> blocked_;   // and whether something stands on them
-  std::vector<double> values_;          // of one deposit
 };
 
 }  // namespace abbe

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "materials/bsdf/warp.h"
 #include "transport/path/connect.h"
 #include "transport/path/merge.h"
 #include "transport/path/mis_weight.h"
@@ -28,8 +29,7 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),
       ghosts_(plan, caster),
-      found_(plan.scene),
-      values_(response_.planes()) {}
+      found_(plan.scene) {}
 
 // The estimate of a film value is, over paths from the camera that come to x with the throughput T_x over
 // their density, and N paths from lights that left photons of the power T_y over theirs within r of x,
@@ -158,7 +158,7 @@ void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at, const 
   response_.expose(
       at, path.packet.wavelengths,
       let_through(scene_.shutter, at, contribution) * SampledSpectrum(static_cast<float>(scene_.exposure_s)),
-      values_, [&](const FilmPoint& pixel, std::span<const double> values) {
+      [&](const FilmPoint& pixel, std::span<const double> values) {
         (*deposit_)(first_ + path.path, pixel, values);
       });
 }

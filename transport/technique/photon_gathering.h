@@ -102,7 +102,6 @@ class PhotonGatherer {
   std::vector<LaneImages> images_;   // and its lanes, behind a lens that displaces them,
   FoundLight found_;                 // and with what, balanced over lanes
   std::vector<std::uint32_t> near_;  // photons, at one place
-  std::vector<double> values_;       // of one deposit
 };
 
 }  // namespace abbe
