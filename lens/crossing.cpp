@@ -26,7 +26,8 @@ void to_world(const SystemAt::Frame& frame, BasicRayHit<Real>& hit) {
     hit.direction = hit.direction * frame.to_world;
   }
   hit.point += Vec3<Real>(frame.vertex);
-  hit.direction = unit(hit.direction);
+  // Its length is 1 to rounding; a step of Newton's method keeps it so from surface to surface.
+  hit.direction *= Real(1.5) - 0.5 * hit.direction.dot(hit.direction);
 }
 
 template <typename Real>
@@ -108,16 +109,17 @@ FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wave
   return coated_power(at.surface.coating, wavelength_nm, glass, 0, cos_i, glass_before == forwards, outside);
 }
 
-FresnelPower<Doubles> surface_power(const SurfaceBetween<Doubles>& at, const Doubles& wavelengths_nm,
-                                    const Doubles& cos_i, bool forwards) {
-  FresnelPower<Doubles> all{};
-  for (int j = 0; j < kLanes; ++j) {
-    const auto power = surface_power({at.surface, at.frame, at.n_before[j], at.n_behind[j]},
-                                     wavelengths_nm[j], cos_i[j], forwards);
-    all.Rs.set(j, power.Rs);
-    all.Rp.set(j, power.Rp);
-    all.Ts.set(j, power.Ts);
-    all.Tp.set(j, power.Tp);
+FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at, const Floats& wavelengths_nm,
+                                   const Floats& cos_i, bool forwards) {
+  FresnelPower<Floats> all{};
+  for (int j = 0; j < Floats::kCount; ++j) {
+    const auto power = surface_power(
+        {at.surface, at.frame, static_cast<double>(at.n_before[j]), static_cast<double>(at.n_behind[j])},
+        static_cast<double>(wavelengths_nm[j]), static_cast<double>(cos_i[j]), forwards);
+    all.Rs.set(j, static_cast<float>(power.Rs));
+    all.Rp.set(j, static_cast<float>(power.Rp));
+    all.Ts.set(j, static_cast<float>(power.Ts));
+    all.Tp.set(j, static_cast<float>(power.Tp));
   }
   return all;
 }
@@ -128,6 +130,7 @@ namespace {
 // the reflected one are at an obtuse angle.
 template <typename Real>
 Real reflected_p(const Real& Rp, const Real& cos_i, const Real& eta) {
+  using abbe::refracted_cosine;
   using std::sqrt;
   const Real cos_t = refracted_cosine(cos_i, eta);
   const Real amplitude = sqrt(Rp);
@@ -150,7 +153,8 @@ template <typename Real>
                                                 Encounter how) {
   using std::sqrt;
   const bool bare = at.surface.coating.layers.empty();
-  if (bare && !(at.n_before < at.n_behind || at.n_before > at.n_behind)) {  // as at a stop
+  const Truth<Real> differs = at.n_before < at.n_behind || at.n_before > at.n_behind;
+  if (bare && !differs) {  // as at a stop
     if (how.reflects) first_ = second_ = Vec3<Real>(0);
     return;
   }
@@ -168,17 +172,24 @@ template <typename Real>
   const Real over_length2 = Real(1) / s.dot(s);
   const Vec3<Real> s_behind = s * Real(along_s * over_length2);
   const Vec3<Real> p_behind = s.cross(hit.direction) * Real(along_p * over_length2);
-  first_ = s_behind * first_.dot(s) + p_behind * first_.dot(p_before);
-  second_ = s_behind * second_.dot(s) + p_behind * second_.dot(p_before);
+  const Truth<Real> acts = differs || Truth<Real>(!bare || how.reflects);
+  const auto behind = [&](const Vec3<Real>& field) {
+    return select<Real>(acts, s_behind * field.dot(s) + p_behind * field.dot(p_before), field);
+  };
+  first_ = behind(first_);
+  second_ = behind(second_);
 }
 
 template Crossing<double> cross(const SurfaceBetween<double>&, const Ray&);
 template Crossing<Doubles> cross(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&);
+template Crossing<Floats> cross(const SurfaceBetween<Floats>&, const BasicRay<Floats>&);
 template Crossing<double> cross_back(const SurfaceBetween<double>&, const Ray&);
 template Crossing<Doubles> cross_back(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&);
+template Crossing<Floats> cross_back(const SurfaceBetween<Floats>&, const BasicRay<Floats>&);
 template Crossing<double> reflect(const SurfaceBetween<double>&, const Ray&, bool);
 template Crossing<Doubles> reflect(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&, bool);
+template Crossing<Floats> reflect(const SurfaceBetween<Floats>&, const BasicRay<Floats>&, bool);
 template class WeakenedLight<double>;
-template class WeakenedLight<Doubles>;
+template class WeakenedLight<Floats>;
 
 }  // namespace abbe::lens

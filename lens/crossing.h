@@ -3,8 +3,8 @@
 #include "lens/route.h"
 #include "lens/system.h"
 
-// What a surface does to a ray, for one ray or for the lanes of a packet: templates are there for `double`
-// and `Doubles`.
+// What a surface does to a ray, for one ray or for several: templates are there for `double`, `Doubles` and
+// `Floats`, of light for `double` and `Floats`.
 namespace abbe::lens {
 
 /// A surface where it stands, between the indices before and behind it.
@@ -54,9 +54,9 @@ template <typename Real>
 [[nodiscard]] FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wavelength_nm,
                                                  double cos_i, bool forwards);
 /// The same of the lanes of a packet.
-[[nodiscard]] FresnelPower<Doubles> surface_power(const SurfaceBetween<Doubles>& at,
-                                                  const Doubles& wavelengths_nm, const Doubles& cos_i,
-                                                  bool forwards);
+[[nodiscard]] FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at,
+                                                 const Floats& wavelengths_nm, const Floats& cos_i,
+                                                 bool forwards);
 
 /// Unpolarised light on its way through surfaces: two fields across each other, s and p of which every
 /// surface weakens by its own amplitudes. Of coatings and of total reflection the phases are left out, so

@@ -32,7 +32,8 @@ template <typename Real>
 MediaTable::Place<Real> MediaTable::place(const Real& wavelength_nm) const {
   Place<Real> place;
   place.share = by_lane<Real>([&](int j) {
-    const double x = std::clamp<double>(lane_of(wavelength_nm, j) - kMinWavelengthNm, 0, kTableCells);
+    const double x = std::clamp(static_cast<double>(lane_of(wavelength_nm, j)) - kMinWavelengthNm, 0.0,
+                                double{kTableCells});
     const int cell = std::min(static_cast<int>(x), kTableCells - 1);
     place.row[static_cast<std::size_t>(j)] = &values_[columns() * static_cast<std::size_t>(cell)];
     return x - cell;
@@ -42,5 +43,6 @@ MediaTable::Place<Real> MediaTable::place(const Real& wavelength_nm) const {
 
 template MediaTable::Place<double> MediaTable::place(const double&) const;
 template MediaTable::Place<Doubles> MediaTable::place(const Doubles&) const;
+template MediaTable::Place<Floats> MediaTable::place(const Floats&) const;
 
 }  // namespace abbe::lens

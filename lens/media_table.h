@@ -17,7 +17,7 @@ class MediaTable {
   /// A wavelength in the tables, or one for each lane.
   template <typename Real>
   struct Place {
-    std::array<const double*, std::is_same_v<Real, double> ? 1 : kLanes> row;
+    std::array<const double*, sizeof(Real) / sizeof(ScalarOf<Real>)> row;
     Real share;  ///< Of the way to the next row.
   };
   /// Wavelengths beyond the tables are those of their ends.

@@ -10,7 +10,9 @@ namespace {
 using Imath::Vec3;
 
 constexpr int kMaxNewtonSteps = 60;
-constexpr double kConverged = 1e-14;  // of the distance, or of a millimetre
+// Of the distance, or of a millimetre.
+template <typename Scalar>
+constexpr Scalar kConverged = 45 * std::numeric_limits<Scalar>::epsilon();
 
 // The conic is c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0; of the ray's two points on it the one is taken where
 // the gradient (-c x, -c y, 1 - (1 + k) c z) has the ray's sense, which must be on the vertex's sheet.
@@ -63,9 +65,9 @@ Meeting<Real> meet_asphere(const Profile& of, const BasicRay<Real>& ray, const R
     const Real r2 = p.x * p.x + p.y * p.y;
     const Real towards = d.z - 2 * slope_at(of, r2) * (p.x * d.x + p.y * d.y);
     const Real change = (p.z - sag_at(of, r2)) / towards;
-    seeking = seeking && abs(change) <= std::numeric_limits<double>::max();
+    seeking = seeking && abs(change) <= Real(std::numeric_limits<ScalarOf<Real>>::max());
     t -= select(seeking, change, 0);
-    const Real close = kConverged * select(abs(t) > 1, abs(t), 1);
+    const Real close = kConverged<ScalarOf<Real>> * select(abs(t) > 1, abs(t), 1);
     meeting.met = meeting.met || (seeking && abs(change) <= close && towards > 0);
     seeking = seeking && abs(change) > close;
   }
@@ -113,7 +115,9 @@ std::optional<double> Profile::intersect(const Ray& ray) const {
 
 template Vec3<double> Profile::normal(const Vec3<double>&) const;
 template Vec3<Doubles> Profile::normal(const Vec3<Doubles>&) const;
+template Vec3<Floats> Profile::normal(const Vec3<Floats>&) const;
 template Meeting<double> Profile::meet(const Ray&) const;
 template Meeting<Doubles> Profile::meet(const BasicRay<Doubles>&) const;
+template Meeting<Floats> Profile::meet(const BasicRay<Floats>&) const;
 
 }  // namespace abbe::lens

@@ -5,7 +5,7 @@
 
 #include <ImathVec.h>
 
-#include "lens/doubles.h"
+#include "lens/numbers.h"
 
 namespace abbe::lens {
 
@@ -29,7 +29,7 @@ struct Meeting {
 ///
 ///   z(r) = c r^2/(1 + sqrt(1 - (1 + k) c^2 r^2)) + a_1 r^2 + a_2 r^4 + ... + a_10 r^20.
 ///
-/// Lengths are millimetres. Templates are there for `double` and `Doubles`. [Welford1986]
+/// Lengths are millimetres. Templates are there for `double`, `Doubles` and `Floats`. [Welford1986]
 struct Profile {
   double curvature = 0;           ///< 1/radius, positive where the centre lies towards +z; 0 for a plane.
   double conic = 0;               ///< 0 for a sphere, -1 for a paraboloid.

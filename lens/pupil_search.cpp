@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -33,8 +35,11 @@ struct PupilRays {
     const V3d from(image.x, image.y, system.image_z());
     return {from, (V3d(point.x, point.y, system.last_z()) - from).normalized()};
   }
-  [[nodiscard]] std::optional<Ray> leaving(const V2d& point) const {
-    return system.to_object(through(point), wavelength_nm);
+  [[nodiscard]] std::vector<std::optional<Ray>> leaving(std::span<const V2d> points) const {
+    std::vector<ColouredRay> rays;
+    rays.reserve(points.size());
+    for (const V2d& point : points) rays.push_back({through(point), wavelength_nm});
+    return system.to_object(rays);
   }
   // In radii of the stop.
   [[nodiscard]] double off_axis(const V2d& point) const {
@@ -63,14 +68,21 @@ struct Grid {
   [[nodiscard]] V2d middle(int i, int j) const {
     return box.min + V2d((i + 0.5) * cell().x, (j + 0.5) * cell().y);
   }
+  [[nodiscard]] std::vector<V2d> middles() const {
+    std::vector<V2d> all;
+    for (int j = 0; j < kGridSide; ++j)
+      for (int i = 0; i < kGridSide; ++i) all.push_back(middle(i, j));
+    return all;
+  }
 };
 
 // The box of the cells whose middles pass; empty where none does.
 Box passing_cells(const PupilRays& rays, const Grid& grid) {
   Box passing;
-  for (int j = 0; j < kGridSide; ++j)
-    for (int i = 0; i < kGridSide; ++i)
-      if (const V2d at = grid.middle(i, j); rays.leaving(at)) passing.extendBy(at);
+  const std::vector<V2d> middles = grid.middles();
+  const std::vector<std::optional<Ray>> leaving = rays.leaving(middles);
+  for (std::size_t i = 0; i < middles.size(); ++i)
+    if (leaving[i]) passing.extendBy(middles[i]);
   return passing;
 }
 
@@ -78,12 +90,11 @@ Box passing_cells(const PupilRays& rays, const Grid& grid) {
 Box towards_stop(const PupilRays& rays, const Grid& grid) {
   double nearest = std::numeric_limits<double>::infinity();
   V2d there = grid.box.center();
-  for (int j = 0; j < kGridSide; ++j)
-    for (int i = 0; i < kGridSide; ++i)
-      if (const double off = rays.off_axis(grid.middle(i, j)); off < nearest) {
-        nearest = off;
-        there = grid.middle(i, j);
-      }
+  for (const V2d& middle : grid.middles())
+    if (const double off = rays.off_axis(middle); off < nearest) {
+      nearest = off;
+      there = middle;
+    }
   const V2d half = std::isfinite(nearest) ? 3.0 * grid.cell() : grid.box.size();
   return {there - half, there + half};
 }
@@ -124,14 +135,30 @@ std::optional<Grid> holding_grid(const PupilRays& rays) {
                           rays.image.x, rays.image.y));
 }
 
-// The farthest point that passes from an inner one in a direction, no farther than `far`.
-V2d rim_towards(const PupilRays& rays, const V2d& inner, const V2d& direction, double far) {
-  double within = 0;
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = (within + far) / 2;
-    (rays.leaving(inner + middle * direction) ? within : far) = middle;
+// The farthest points that pass from an inner one all around, no farther than `far`.
+std::vector<V2d> rim_around(const PupilRays& rays, const V2d& inner, double far) {
+  struct Search {
+    V2d direction;
+    double within;
+    double beyond;
+    [[nodiscard]] double middle() const { return (within + beyond) / 2; }
+  };
+  std::vector<Search> searches;
+  for (int i = 0; i < kRimDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kRimDirections;
+    searches.push_back({{std::cos(angle), std::sin(angle)}, 0, far});
   }
-  return inner + far * direction;
+  std::vector<V2d> points(searches.size());
+  for (int step = 0; step < kBisections; ++step) {
+    std::transform(searches.begin(), searches.end(), points.begin(),
+                   [&](const Search& search) { return inner + search.middle() * search.direction; });
+    const std::vector<std::optional<Ray>> leaving = rays.leaving(points);
+    for (std::size_t i = 0; i < searches.size(); ++i)
+      (leaving[i] ? searches[i].within : searches[i].beyond) = searches[i].middle();
+  }
+  std::transform(searches.begin(), searches.end(), points.begin(),
+                 [&](const Search& search) { return inner + search.beyond * search.direction; });
+  return points;
 }
 
 }  // namespace
@@ -141,24 +168,21 @@ SeenPupil search_pupil(const SpectralSystem& system, const V2d& image, double wa
   const std::optional<Grid> grid = holding_grid(rays);
   SeenPupil seen;
   if (!grid) return seen;
-  const auto add = [&](const V2d& point, const Ray& ray) {
-    seen.points.push_back(point);
-    seen.leaving.push_back(ray);
-  };
-  V2d middle(0, 0);
-  for (int j = 0; j < kGridSide; ++j)
-    for (int i = 0; i < kGridSide; ++i)
-      if (const auto ray = rays.leaving(grid->middle(i, j))) {
-        add(grid->middle(i, j), *ray);
-        middle += grid->middle(i, j);
-      }
-  middle /= static_cast<double>(seen.points.size());
-  for (int i = 0; i < kRimDirections; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kRimDirections;
-    const V2d rim = rim_towards(rays, middle, {std::cos(angle), std::sin(angle)}, grid->box.size().length());
-    seen.points.push_back(rim);
-    if (const auto ray = rays.leaving(middle + 0.999 * (rim - middle))) seen.leaving.push_back(*ray);
+  const std::vector<V2d> middles = grid->middles();
+  const std::vector<std::optional<Ray>> inner_rays = rays.leaving(middles);
+  V2d inner(0, 0);
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    if (!inner_rays[i]) continue;
+    seen.points.push_back(middles[i]);
+    seen.leaving.push_back(*inner_rays[i]);
+    inner += middles[i];
   }
+  inner /= static_cast<double>(seen.points.size());
+  std::vector<V2d> rim = rim_around(rays, inner, grid->box.size().length());
+  seen.points.insert(seen.points.end(), rim.begin(), rim.end());
+  for (V2d& point : rim) point = inner + 0.999 * (point - inner);
+  for (const auto& ray : rays.leaving(rim))
+    if (ray) seen.leaving.push_back(*ray);
   return seen;
 }
 

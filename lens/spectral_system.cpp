@@ -9,12 +9,6 @@ namespace {
 using Imath::Vec3;
 using V3d = Imath::V3d;
 
-// Of a ray without lanes.
-template <typename Real>
-BasicRay<Real> in_all_lanes(const Ray& ray) {
-  return {Imath::Vec3<Real>(ray.origin), Imath::Vec3<Real>(ray.direction)};
-}
-
 template <typename Real>
 Crossing<Real> meet(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray, Encounter how) {
   if (how.reflects) return reflect(at, ray, how.forwards);
@@ -65,14 +59,23 @@ BasicArrival<Real> SpectralSystem::follow(BasicRay<Real> ray, const Real& wavele
           light.first(),     light.second()};
 }
 
-std::optional<Arrival> SpectralSystem::to_image(const Ray& ray, double wavelength_nm) const {
-  const Arrival arrival = follow(ray, wavelength_nm, direct_);
+std::optional<Arrival> SpectralSystem::to_image(const Ray& ray, double wavelength_nm,
+                                                const Route& route) const {
+  const Arrival arrival = follow(ray, wavelength_nm, route);
   return arrival.arrived ? std::optional(arrival) : std::nullopt;
 }
 
-BasicArrival<Doubles> SpectralSystem::to_image(const Ray& ray, const SampledSpectrum& wavelengths_nm,
-                                               const Route& route) const {
-  return follow(in_all_lanes<Doubles>(ray), Doubles(wavelengths_nm), route);
+BasicArrival<Floats> SpectralSystem::to_image(const std::array<PacketRay, 2>& rays,
+                                              const Route& route) const {
+  BasicRay<Floats> together;
+  Floats wavelengths_nm;
+  for (int lane = 0; lane < Floats::kCount; ++lane) {
+    const auto& [ray, of_packet_nm] = rays[static_cast<std::size_t>(lane / kLanes)];
+    set_lane(together.origin, lane, Imath::V3f(ray.origin));
+    set_lane(together.direction, lane, Imath::V3f(ray.direction));
+    wavelengths_nm.set(lane, of_packet_nm[lane % kLanes]);
+  }
+  return follow(together, wavelengths_nm, route);
 }
 
 template <typename Real>
@@ -104,9 +107,25 @@ std::optional<Ray> SpectralSystem::to_object(const Ray& ray, double wavelength_n
   return left ? std::optional(out) : std::nullopt;
 }
 
-BasicDeparture<Doubles> SpectralSystem::to_object(const BasicRay<Doubles>& rays,
-                                                  const Doubles& wavelengths_nm) const {
-  return leave(rays, wavelengths_nm, direct_);
+std::vector<std::optional<Ray>> SpectralSystem::to_object(std::span<const ColouredRay> rays) const {
+  std::vector<std::optional<Ray>> all(rays.size());
+  for (std::size_t first = 0; first < rays.size(); first += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, rays.size() - first);
+    BasicRay<Doubles> together;
+    Doubles wavelengths_nm;
+    for (std::size_t i = 0; i < kLanes; ++i) {  // lanes beyond the last ray are like it
+      const auto& [ray, wavelength_nm] = rays[first + std::min(i, count - 1)];
+      const int lane = static_cast<int>(i);
+      set_lane(together.origin, lane, ray.origin);
+      set_lane(together.direction, lane, ray.direction);
+      wavelengths_nm.set(lane, wavelength_nm);
+    }
+    const auto [left, out] = leave(together, wavelengths_nm, direct_);
+    for (std::size_t i = 0; i < count; ++i)
+      if (const int lane = static_cast<int>(i); left[lane])
+        all[first + i] = Ray{lane_of(out.origin, lane), lane_of(out.direction, lane)};
+  }
+  return all;
 }
 
 std::optional<Imath::V2d> SpectralSystem::at_stop(const Ray& start, double wavelength_nm) const {

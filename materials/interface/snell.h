@@ -71,7 +71,8 @@ std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec
   const T cos_i = n.dot(wo);
   const T cos_t = refracted_cosine(cos_i, eta);
   if (!(cos_t > T(0))) return std::nullopt;
-  return n * (cos_i / eta - cos_t) - wo / eta;
+  const T inverse = T(1) / eta;
+  return n * (cos_i * inverse - cos_t) - wo * inverse;
 }
 
 }  // namespace abbe

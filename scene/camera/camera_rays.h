@@ -15,7 +15,8 @@ struct CameraSample {
   float time = 0;
 };
 
-/// `sample_ray` for many samples, at less cost where a lens is traced; as many rays.
+/// `sample_ray` for many samples, at less cost where a lens is traced; as many rays. Those that weigh nothing
+/// are any.
 void sample_rays(const Camera& camera, std::span<const CameraSample> samples, std::span<CameraRay> rays);
 /// Those of a lens at rest.
 void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const CameraSample> samples,

@@ -1,7 +1,9 @@
 #include "scene/camera/lens_landing.h"
 
 #include <array>
+#include <bit>
 
+#include "materials/bsdf/warp.h"
 #include "scene/camera/lens_optics.h"
 #include "scene/camera/perspective.h"
 
@@ -20,7 +22,6 @@ using lens::kMmPerM;
 struct Landing {
   V2f film;
   double cos_film;
-  double transmittance;
   double pdf;  // a p_j [1/sr]
 };
 
@@ -44,37 +45,42 @@ double ghost_exit_pdf(const LensOptics& optics, const V2d& image, const V3d& d, 
 
 // Nothing for a lane that does not get to the film, or would not be drawn.
 std::optional<Landing> landing(const LensSystem& camera, const FilmGrid& grid,
-                               const lens::BasicArrival<lens::Doubles>& arrival, LensRoute route, int lane) {
+                               const lens::BasicArrival<lens::Floats>& arrival, LensRoute route, int lane) {
   if (!arrival.arrived[lane]) return std::nullopt;
-  const V2d point(arrival.point.x[lane], arrival.point.y[lane]);
+  const V2d point(V2f(arrival.point.x[lane], arrival.point.y[lane]));
   const auto film = film_position(grid, -point / kMmPerM);
   if (!film) return std::nullopt;
-  const V3d d = lane_of(arrival.direction, lane);
+  const V3d d(lane_of(arrival.direction, lane));
   const LensOptics& optics = *camera.optics;
-  const auto pdf =
-      route == 0 ? exit_pdf(optics, point, d) : ghost_exit_pdf(optics, point, d, lane_of(arrival.last, lane));
+  const auto pdf = route == 0 ? exit_pdf(optics, point, d)
+                              : ghost_exit_pdf(optics, point, d, V3d(lane_of(arrival.last, lane)));
   if (!pdf) return std::nullopt;
-  return Landing{*film, d.z, arrival.transmittance[lane], share_of(camera, route) * *pdf};
+  return Landing{*film, d.z, share_of(camera, route) * *pdf};
 }
 
-SampledSpectrum to_floats(const lens::Doubles& lanes) {
-  SampledSpectrum::Values values{};
-  for (int j = 0; j < kLanes; ++j) values[static_cast<std::size_t>(j)] = static_cast<float>(lanes[j]);
-  return SampledSpectrum(values);
+// Of the first packet, or of the second.
+SampledSpectrum spectrum(const lens::Floats& lanes, std::size_t packet) {
+  return std::bit_cast<std::array<SampledSpectrum, 2>>(lanes)[packet];
 }
 
 // From the fields that a lens leaves of those along the first axis, in the scene, and across it.
-LensJones jones(const V3f& axis, const lens::BasicArrival<lens::Doubles>& arrival) {
-  using Lanes = Imath::Vec3<lens::Doubles>;
-  const lens::Doubles power = arrival.first.dot(arrival.first) + arrival.second.dot(arrival.second);
-  const lens::Doubles over_root = 1 / sqrt(select(power > 0, power * 0.5, 1));
+std::array<LensJones, 2> jones(const std::array<V3f, 2>& axes,
+                               const lens::BasicArrival<lens::Floats>& arrival) {
+  using Lanes = Imath::Vec3<lens::Floats>;
+  const lens::Floats power = arrival.first.dot(arrival.first) + arrival.second.dot(arrival.second);
+  const lens::Floats over_root = 1 / sqrt(select(power > 0, power * 0.5, 1));
   const Lanes y = lens::unit(arrival.direction.cross(Lanes(1, 0, 0)));  // x is the picture's right
   const Lanes x = y.cross(arrival.direction);
-  const auto element = [&](const Lanes& to, const Lanes& field) {
-    return to_floats(to.dot(field) * over_root);
+  const auto element = [&](const Lanes& to, const Lanes& field) { return to.dot(field) * over_root; };
+  const lens::Floats xx = element(x, arrival.first);
+  const lens::Floats xy = element(x, arrival.second);
+  const lens::Floats yx = element(y, arrival.first);
+  const lens::Floats yy = element(y, arrival.second);
+  const auto of = [&](std::size_t packet) {
+    return LensJones{axes[packet], spectrum(xx, packet), spectrum(xy, packet), spectrum(yx, packet),
+                     spectrum(yy, packet)};
   };
-  return {axis, element(x, arrival.first), element(x, arrival.second), element(y, arrival.first),
-          element(y, arrival.second)};
+  return {of(0), of(1)};
 }
 
 }  // namespace
@@ -90,33 +96,61 @@ double share_of(const LensSystem& camera, LensRoute route) {
   return camera.ghosts ? camera.optics->route_share[route] : 1;
 }
 
-std::optional<Landings> land(const LensSystem& camera, const FilmGrid& grid, const Ray& ray,
-                             const SampledSpectrum& wavelengths_nm, LensRoute route) {
-  const lens::Ray of_lens{in_lens(camera.frame, V3d(ray.origin) - camera.frame.position) * kMmPerM,
-                          -in_lens(camera.frame, V3d(ray.direction)).normalized()};
-  const auto arrival = camera.optics->system.to_image(of_lens, wavelengths_nm, camera.optics->routes[route]);
+namespace {
+
+lens::Ray towards_film(const LensSystem& camera, const Ray& ray) {
+  return {in_lens(camera.frame, V3d(ray.origin) - camera.frame.position) * kMmPerM,
+          -in_lens(camera.frame, V3d(ray.direction)).normalized()};
+}
+
+// Of the first packet, or of the second; its polarisation is left open.
+std::optional<Landings> landings(const LensSystem& camera, const FilmGrid& grid,
+                                 const lens::BasicArrival<lens::Floats>& arrival, LensRoute route,
+                                 std::size_t packet) {
   std::array<std::optional<Landing>, kLanes> lanes;
   const Landing* any = nullptr;
   for (std::size_t j = 0; j < kLanes; ++j) {
-    lanes[j] = landing(camera, grid, arrival, route, static_cast<int>(j));
+    lanes[j] = landing(camera, grid, arrival, route, static_cast<int>(packet * kLanes + j));
     if (lanes[j] && any == nullptr) any = &*lanes[j];
   }
   if (any == nullptr) return std::nullopt;
-  std::array<SampledSpectrum::Values, 5> of{};
+  std::array<SampledSpectrum::Values, 4> of{};
+  SampledSpectrum::Values drawn{};
   for (std::size_t j = 0; j < kLanes; ++j) {
     const Landing& lane = lanes[j] ? *lanes[j] : *any;
     of[0][j] = lane.film.x;
     of[1][j] = lane.film.y;
     of[2][j] = static_cast<float>(lane.cos_film);
     if (!lanes[j]) continue;
-    of[3][j] = static_cast<float>(lane.transmittance);
-    of[4][j] = static_cast<float>(lane.pdf);
+    of[3][j] = static_cast<float>(lane.pdf);
+    drawn[j] = 1;
   }
-  const V3f axis(lens_in_scene(camera.frame, lens::WeakenedLight<double>(of_lens.direction).first()));
-  return Landings{
-      {SampledSpectrum(of[0]), SampledSpectrum(of[1]), SampledSpectrum(of[2]), jones(axis, arrival)},
-      SampledSpectrum(of[3]),
-      SampledSpectrum(of[4])};
+  const SampledSpectrum transmittance =
+      SampledSpectrum::map(spectrum(arrival.transmittance, packet), SampledSpectrum(drawn),
+                           [](float passes, float there) { return there > 0 ? passes : 0; });
+  return Landings{{SampledSpectrum(of[0]), SampledSpectrum(of[1]), SampledSpectrum(of[2])},
+                  transmittance,
+                  SampledSpectrum(of[3])};
+}
+
+}  // namespace
+
+std::array<std::optional<Landings>, 2> land_two(const LensSystem& camera, const FilmGrid& grid,
+                                                const std::array<LandingRay, 2>& rays, LensRoute route) {
+  const lens::Ray first = towards_film(camera, rays[0].ray);
+  const lens::Ray second = towards_film(camera, rays[1].ray);
+  const auto arrival = camera.optics->system.to_image(
+      {{{first, rays[0].wavelengths_nm}, {second, rays[1].wavelengths_nm}}}, camera.optics->routes[route]);
+  const auto axis = [&](const lens::Ray& ray) {
+    return V3f(lens_in_scene(camera.frame, lens::WeakenedLight<double>(ray.direction).first()));
+  };
+  const std::array<LensJones, 2> matrices = jones({axis(first), axis(second)}, arrival);
+  std::array<std::optional<Landings>, 2> landed;
+  for (std::size_t packet : {0U, 1U}) {
+    landed[packet] = landings(camera, grid, arrival, route, packet);
+    if (landed[packet]) landed[packet]->images.jones = matrices[packet];
+  }
+  return landed;
 }
 
 }  // namespace abbe

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <numbers>
+#include <array>
 #include <optional>
 
-#include "lens/doubles.h"
+#include "lens/numbers.h"
 #include "scene/camera/lens_system.h"
 
 // Where the lanes of a ray come to the film of a lens camera: what its rays and its connections share.
@@ -12,15 +12,6 @@ namespace abbe {
 /// The axes of the lens in the scene: x to the right, y up, z with the light.
 [[nodiscard]] Imath::V3d in_lens(const CameraFrame& frame, const Imath::V3d& v);
 [[nodiscard]] Imath::V3d lens_in_scene(const CameraFrame& frame, const Imath::V3d& v);
-
-/// The vector of a lane.
-[[nodiscard]] inline Imath::V3d lane_of(const Imath::Vec3<lens::Doubles>& v, int lane) {
-  return {v.x[lane], v.y[lane], v.z[lane]};
-}
-
-[[nodiscard]] inline double disc_area(double radius) {
-  return std::numbers::pi * radius * radius;
-}
 
 /// The share of a camera's rays that goes by a route.
 [[nodiscard]] double share_of(const LensSystem& camera, LensRoute route);
@@ -31,9 +22,20 @@ struct Landings {
   SampledSpectrum transmittance;
   SampledSpectrum pdf;  ///< Of étendue, were each the hero, times the area of a pixel [1/sr].
 };
-/// Of light that comes along the ray against its direction, by that route. Nothing where no lane comes to the
-/// film.
-[[nodiscard]] std::optional<Landings> land(const LensSystem& camera, const FilmGrid& grid, const Ray& ray,
-                                           const SampledSpectrum& wavelengths_nm, LensRoute route);
+/// A ray of the scene, and the lanes along it.
+struct LandingRay {
+  Ray ray;
+  SampledSpectrum wavelengths_nm;
+};
+/// Of light that comes along two rays against their directions, by that route. Nothing where no lane comes to
+/// the film.
+[[nodiscard]] std::array<std::optional<Landings>, 2> land_two(const LensSystem& camera, const FilmGrid& grid,
+                                                              const std::array<LandingRay, 2>& rays,
+                                                              LensRoute route);
+/// Of one ray.
+[[nodiscard]] inline std::optional<Landings> land(const LensSystem& camera, const FilmGrid& grid,
+                                                  const LandingRay& ray, LensRoute route) {
+  return land_two(camera, grid, {ray, ray}, route)[0];
+}
 
 }  // namespace abbe

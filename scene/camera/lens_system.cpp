@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <vector>
 
 #include "materials/bsdf/warp.h"
 #include "scene/camera/camera_rays.h"
@@ -140,94 +140,74 @@ Ray in_scene(const LensSystem& camera, const lens::Ray& out, LensRoute route, fl
                 V3f(lens_in_scene(camera.frame, d)), time);
 }
 
-// Of a sample whose ray has left the lens, or has not. Where the lens lets nothing through, the ray is that
-// of the middle of the pupil, and weighs nothing.
-CameraRay camera_ray(const LensSystem& camera, const FilmGrid& grid, const CameraSample& sample,
-                     LensRoute route, const std::optional<lens::Ray>& out) {
-  const auto& [film, u, wavelengths_nm, hero, time] = sample;
-  if (out) {
-    const Ray ray = in_scene(camera, *out, route, time);
-    const auto lanes = land(camera, grid, ray, wavelengths_nm, route);
-    if (lanes && lanes->pdf[hero] > 0) {
-      const SampledSpectrum drawn(lanes->pdf[hero]);
-      return {
-          ray,  lanes->transmittance / drawn, lanes->images.cos_film[hero], lanes->pdf / drawn, lanes->images,
-          route};
-    }
-  }
-  const auto middle = camera.optics->system.to_object(from_film(camera, image_of_film(grid, film), {0, 0}, 0),
-                                                      static_cast<double>(wavelengths_nm[hero]));
-  const Ray ray = middle ? in_scene(camera, *middle, 0, time)
-                         : ray_at(V3f(camera.middle()), V3f(camera.frame.forward), time);
-  return {ray, SampledSpectrum(), 1};
+// Of a sample whose ray comes to the film as its lanes do; nothing where light would not be drawn.
+std::optional<CameraRay> camera_ray(const CameraSample& sample, LensRoute route, const Ray& ray,
+                                    const std::optional<Landings>& lanes) {
+  if (!lanes || !(lanes->pdf[sample.hero] > 0)) return std::nullopt;
+  const SampledSpectrum drawn(lanes->pdf[sample.hero]);
+  return CameraRay{ray,
+                   lanes->transmittance / drawn,
+                   lanes->images.cos_film[sample.hero],
+                   lanes->pdf / drawn,
+                   lanes->images,
+                   route};
 }
 
-// Rays of the image, as many as there are lanes.
-class RaysTogether {
- public:
-  [[nodiscard]] bool full() const { return count_ == kLanes; }
-  void add(std::size_t sample, const lens::Ray& ray, double wavelength_nm) {
-    samples_[static_cast<std::size_t>(count_)] = sample;
-    for (int lane = count_++; lane < kLanes; ++lane) {  // what is never filled is like the last
-      set(rays_.origin, lane, ray.origin);
-      set(rays_.direction, lane, ray.direction);
-      wavelengths_nm_.set(lane, wavelength_nm);
-    }
-  }
-  // Calls `use` with each sample and its ray, if that has left the lens, and empties them.
-  template <typename Use>
-  void leave(const lens::SpectralSystem& system, Use use) {
-    if (count_ == 0) return;
-    const auto [left, out] = system.to_object(rays_, wavelengths_nm_);
-    for (int lane = 0; lane < count_; ++lane)
-      use(samples_[static_cast<std::size_t>(lane)],
-          left[lane] ? std::optional(lens::Ray{lane_of(out.origin, lane), lane_of(out.direction, lane)})
-                     : std::nullopt);
-    count_ = 0;
-  }
-
- private:
-  static void set(Imath::Vec3<lens::Doubles>& lanes, int lane, const V3d& v) {
-    lanes.x.set(lane, v.x);
-    lanes.y.set(lane, v.y);
-    lanes.z.set(lane, v.z);
-  }
-
-  int count_ = 0;
-  std::array<std::size_t, kLanes> samples_{};
-  lens::BasicRay<lens::Doubles> rays_;
-  lens::Doubles wavelengths_nm_;
-};
+// Of a sample for which nothing comes through the lens: that of the middle of the pupil, which weighs
+// nothing.
+CameraRay dark_ray(const LensSystem& camera, const FilmGrid& grid, const CameraSample& sample) {
+  const auto middle =
+      camera.optics->system.to_object(from_film(camera, image_of_film(grid, sample.film), {0, 0}, 0),
+                                      static_cast<double>(sample.wavelengths_nm[sample.hero]));
+  const Ray ray = middle ? in_scene(camera, *middle, 0, sample.time)
+                         : ray_at(V3f(camera.middle()), V3f(camera.frame.forward), sample.time);
+  return {ray, SampledSpectrum(), 1};
+}
 
 }  // namespace
 
 CameraRay LensSystem::sample_ray(const FilmGrid& grid, V2f film, V2f lens,
                                  const SampledSpectrum& wavelengths_nm, int hero, float time) const {
+  const CameraSample sample{film, lens, wavelengths_nm, hero, time};
   const auto [route, u] = draw_route(*this, lens);
-  const lens::Ray ray = from_film(*this, image_of_film(grid, film), V2d(concentric_disc(u)), route);
   const auto out =
-      optics->system.to_object(ray, static_cast<double>(wavelengths_nm[hero]), optics->routes[route]);
-  return camera_ray(*this, grid, {film, lens, wavelengths_nm, hero, time}, route, out);
+      optics->system.to_object(from_film(*this, image_of_film(grid, film), V2d(concentric_disc(u)), route),
+                               static_cast<double>(wavelengths_nm[hero]), optics->routes[route]);
+  if (!out) return dark_ray(*this, grid, sample);
+  const Ray ray = in_scene(*this, *out, route, time);
+  const auto drawn = camera_ray(sample, route, ray, land(*this, grid, {ray, wavelengths_nm}, route));
+  return drawn ? *drawn : dark_ray(*this, grid, sample);
 }
 
 void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const CameraSample> samples,
                  std::span<CameraRay> rays) {
-  RaysTogether together;
-  const auto take = [&](std::size_t i, const std::optional<lens::Ray>& out) {
-    rays[i] = camera_ray(camera, grid, samples[i], 0, out);
-  };
+  const CameraRay dark{ray_at(V3f(camera.middle()), V3f(camera.frame.forward), 0), SampledSpectrum(), 1};
+  std::vector<lens::ColouredRay> of_image;
+  std::vector<std::size_t> sample_of;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto& [film, lens, wavelengths_nm, hero, time] = samples[i];
     const auto [route, u] = draw_route(camera, lens);
-    if (route > 0) {
-      rays[i] = camera.sample_ray(grid, film, lens, wavelengths_nm, hero, time);
-      continue;
-    }
-    together.add(i, from_film(camera, image_of_film(grid, film), V2d(concentric_disc(u)), route),
-                 static_cast<double>(wavelengths_nm[hero]));
-    if (together.full()) together.leave(camera.optics->system, take);
+    rays[i] = route > 0 ? camera.sample_ray(grid, film, lens, wavelengths_nm, hero, time) : dark;
+    if (route > 0) continue;
+    of_image.push_back({from_film(camera, image_of_film(grid, film), V2d(concentric_disc(u)), route),
+                        static_cast<double>(wavelengths_nm[hero])});
+    sample_of.push_back(i);
   }
-  together.leave(camera.optics->system, take);
+  std::vector<std::size_t> left;  // the lens
+  std::vector<LandingRay> out;
+  const auto leaving = camera.optics->system.to_object(of_image);
+  for (std::size_t k = 0; k < leaving.size(); ++k) {
+    if (!leaving[k]) continue;
+    const CameraSample& sample = samples[left.emplace_back(sample_of[k])];
+    out.push_back({in_scene(camera, *leaving[k], 0, sample.time), sample.wavelengths_nm});
+  }
+  for (std::size_t k = 0; k < out.size(); k += 2) {
+    const std::size_t other = std::min(k + 1, out.size() - 1);
+    const auto lanes = land_two(camera, grid, {out[k], out[other]}, 0);
+    for (const std::size_t of : {k, other})
+      if (const auto ray = camera_ray(samples[left[of]], 0, out[of].ray, lanes[of - k]))
+        rays[left[of]] = *ray;
+  }
 }
 
 std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid, const V3f& point, V2f lens,
@@ -240,7 +220,8 @@ std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid,
   const double distance = way.length();
   const double cos_theta = way.dot(entrance.normal) / distance;
   if (!(cos_theta > 0)) return std::nullopt;
-  const auto lanes = land(*this, grid, ray_at(lens_point, V3f(way / distance), time), wavelengths_nm, route);
+  const auto lanes =
+      land(*this, grid, {ray_at(lens_point, V3f(way / distance), time), wavelengths_nm}, route);
   if (!lanes) return std::nullopt;
   const double weight =
       cos_theta / (entrance.pdf * distance * distance * grid.pixel_pitch * grid.pixel_pitch);
@@ -266,7 +247,7 @@ std::optional<CameraDensity> LensSystem::density(const FilmGrid& grid, const Ray
   const EntrancePoint entrance = entrance_at(*this, V3d(ray.origin), route);
   const double cos_theta = V3d(ray.direction).dot(entrance.normal);
   if (!(cos_theta > 0)) return std::nullopt;
-  const auto lanes = land(*this, grid, ray, wavelengths_nm, route);
+  const auto lanes = land(*this, grid, {ray, wavelengths_nm}, route);
   if (!lanes) return std::nullopt;
   const double pixel_area = grid.pixel_pitch * grid.pixel_pitch;
   return CameraDensity{{lanes->images.x[0], lanes->images.y[0]},

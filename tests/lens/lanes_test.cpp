@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -42,38 +43,87 @@ System with_coating() {
   return lens;
 }
 
+std::vector<Case> cases() {
+  return {{"fisheye", abbe::testing::lens_named("fisheye")},
+          {"tilted", with_tilt()},
+          {"aspheric", with_asphere()},
+          {"coated", with_coating()}};
+}
+
+// In floats, by way of the image and of a ghost.
 TEST(Lanes, GoThroughALensAsEachDoesAlone) {
-  const std::vector<Case> cases{{"fisheye", abbe::testing::lens_named("fisheye")},
-                                {"tilted", with_tilt()},
-                                {"aspheric", with_asphere()},
-                                {"coated", with_coating()}};
   const SampledSpectrum nm(SampledSpectrum::Values{382, 431.5F, 478, 520, 561.25F, 610, 668, 779});
   int parted = 0;  // rays of which some lanes arrive and others do not
-  for (const Case& of : cases) {
+  for (const Case& of : cases()) {
     const SpectralSystem system(of.lens, stop_radius(of.lens));
+    const std::size_t surfaces = of.lens.surfaces.size();
+    const std::vector<Route> routes{system.direct(), route_of(ghosts(of.lens, 400, 700).back(), surfaces)};
+    int apart = 0;
+    std::array<double, 2> furthest{};
     std::mt19937 numbers(11);
     const auto uniform = [&](double reach) { return std::uniform_real_distribution(-reach, reach)(numbers); };
     int arrived = 0;
     const double reach = 2 * system.stop_radius_mm();
     for (int i = 0; i < 6000; ++i) {
       const Ray ray{{uniform(reach), uniform(reach), -5}, V3d(uniform(0.3), uniform(0.3), 1).normalized()};
-      const auto lanes = system.to_image(ray, nm, system.direct());
+      const Route& route = routes[static_cast<std::size_t>(i % 2)];
+      const Ray other{ray.origin, V3d(-ray.direction.x, ray.direction.y, ray.direction.z)};
+      const auto lanes = system.to_image({{{ray, nm}, {other, nm}}}, route);
+      const auto in_own_company = system.to_image({{{ray, nm}, {ray, nm}}}, system.direct());
       int lanes_arrived = 0;
-      for (int j = 0; j < kLanes; ++j) {
-        const auto alone = system.to_image(ray, static_cast<double>(nm[j]));
-        ASSERT_EQ(lanes.arrived[j], alone.has_value()) << of.name << ", lane " << j;
-        if (!alone) continue;
+      for (int j = 0; j < 2 * kLanes; ++j) {
+        const auto alone =
+            system.to_image(j < kLanes ? ray : other, static_cast<double>(nm[j % kLanes]), route);
+        apart += lanes.arrived[j] != alone.has_value();
+        if (i % 2 == 0 && j < kLanes && lanes.arrived[j]) {
+          EXPECT_EQ(lanes.point.x[j], in_own_company.point.x[j]) << "to the bit, whatever goes with it";
+          EXPECT_EQ(lanes.transmittance[j], in_own_company.transmittance[j]);
+        }
+        if (!alone || !lanes.arrived[j]) continue;
         ++lanes_arrived;
-        EXPECT_LT((V2d(lanes.point.x[j], lanes.point.y[j]) - alone->point).length(), 1e-10) << of.name;
-        EXPECT_NEAR(lanes.direction.z[j], alone->direction.z, 1e-13) << of.name;
-        EXPECT_NEAR(lanes.transmittance[j] / alone->transmittance, 1, 1e-12) << of.name;
+        if (alone->direction.z < 0.7) continue;  // of ghosts alone, which magnify what rounding leaves
+        const V2d point(Imath::V2f(lanes.point.x[j], lanes.point.y[j]));
+        double& distance = furthest[static_cast<std::size_t>(i % 2)];
+        distance = std::max(distance, (point - alone->point).length());
+        EXPECT_LT((V3d(lane_of(lanes.direction, j)) - alone->direction).length(), 3e-6) << of.name;
+        EXPECT_NEAR(static_cast<double>(lanes.transmittance[j]) / alone->transmittance, 1, 5e-6) << of.name;
       }
       arrived += lanes_arrived;
-      parted += lanes_arrived > 0 && lanes_arrived < kLanes;
+      parted += lanes_arrived % kLanes != 0;
     }
     EXPECT_GT(arrived, 500) << of.name;
+    EXPECT_LT(furthest[0], 5e-5) << of.name << " [mm]";
+    EXPECT_LT(furthest[1], 3e-4) << of.name << " [mm], by way of a ghost";
+    EXPECT_LE(apart, arrived / 1000) << of.name << ": at rims";
   }
   EXPECT_GT(parted, 20);
+}
+
+TEST(RaysTogether, LeaveALensAsEachDoesAlone) {
+  for (const Case& of : cases()) {
+    const SpectralSystem system(of.lens, stop_radius(of.lens));
+    std::mt19937 numbers(12);
+    const auto uniform = [&](double reach) { return std::uniform_real_distribution(-reach, reach)(numbers); };
+    const double reach = 2 * system.stop_radius_mm();
+    std::vector<ColouredRay> rays;
+    for (int i = 0; i < 1001; ++i) {
+      const V3d from(uniform(5), uniform(5), system.image_z());
+      const V3d to(uniform(reach), uniform(reach), system.last_z());
+      rays.push_back({{from, (to - from).normalized()}, 550 + uniform(160)});
+    }
+    const auto together = system.to_object(rays);
+    ASSERT_EQ(together.size(), rays.size());
+    int left = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto alone = system.to_object(rays[i].ray, rays[i].wavelength_nm);
+      ASSERT_EQ(together[i].has_value(), alone.has_value()) << of.name << ", ray " << i;
+      if (!alone) continue;
+      ++left;
+      EXPECT_LT((together[i]->origin - alone->origin).length(), 1e-10) << of.name;
+      EXPECT_LT((together[i]->direction - alone->direction).length(), 1e-12) << of.name;
+    }
+    EXPECT_GT(left, 50) << of.name;
+  }
 }
 
 }  // namespace

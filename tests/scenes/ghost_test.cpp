@@ -135,9 +135,8 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
       const V3d from(0, 30, -900);
       const lens::Ray ray{from, (V3d(stop.x, stop.y, 0) - from).normalized()};
       for (const std::size_t route : {0, 1}) {
-        const auto there = optics.system.to_image(ray, SampledSpectrum(550), optics.routes[route]);
-        if (there.arrived[0])
-          (route == 0 ? image : traced).add(there.transmittance[0], {there.point.x[0], there.point.y[0]});
+        const auto there = optics.system.to_image(ray, 550, optics.routes[route]);
+        if (there) (route == 0 ? image : traced).add(there->transmittance, there->point);
       }
     }
   const auto film_moments = [&](const Film& film) {
