@@ -126,15 +126,27 @@ FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at, const Float
 
 namespace {
 
+// What becomes of unit fields along s and p.
+template <typename Real>
+struct Amplitudes {
+  Real s, p;
+};
+
+template <typename Real>
+Amplitudes<Real> transmitted(const FresnelPower<Real>& power) {
+  using std::sqrt;
+  return {sqrt(power.Ts), sqrt(power.Tp)};
+}
+
 // The amplitude of reflected p over that of s is negative below Brewster's angle, where the refracted ray and
 // the reflected one are at an obtuse angle.
 template <typename Real>
-Real reflected_p(const Real& Rp, const Real& cos_i, const Real& eta) {
+Amplitudes<Real> reflected(const FresnelPower<Real>& power, const Real& cos_i, const Real& eta) {
   using abbe::refracted_cosine;
   using std::sqrt;
   const Real cos_t = refracted_cosine(cos_i, eta);
-  const Real amplitude = sqrt(Rp);
-  return select(cos_i * cos_i + cos_t * cos_t < 1, amplitude, -amplitude);
+  const Real p = sqrt(power.Rp);
+  return {sqrt(power.Rs), select(cos_i * cos_i + cos_t * cos_t < 1, p, -p)};
 }
 
 }  // namespace
@@ -151,7 +163,6 @@ template <typename Real>
 [[gnu::flatten]] void WeakenedLight<Real>::meet(const SurfaceBetween<Real>& at, const Real& wavelength_nm,
                                                 const Vec3<Real>& from, const BasicRayHit<Real>& hit,
                                                 Encounter how) {
-  using std::sqrt;
   const bool bare = at.surface.coating.layers.empty();
   const Truth<Real> differs = at.n_before < at.n_behind || at.n_before > at.n_behind;
   if (bare && !differs) {  // as at a stop
@@ -161,17 +172,19 @@ template <typename Real>
   const Real cosine = how.forwards ? from.dot(hit.normal) : -from.dot(hit.normal);
   const Real cos_i = select(cosine < 1, cosine, 1);
   const Real eta = how.forwards ? at.n_behind / at.n_before : at.n_before / at.n_behind;
-  const auto power =
-      bare ? fresnel_dielectric<Real>(cos_i, eta) : surface_power(at, wavelength_nm, cos_i, how.forwards);
-  const Real along_s = sqrt(how.reflects ? power.Rs : power.Ts);
-  const Real along_p = how.reflects ? reflected_p(power.Rp, cos_i, eta) : Real(sqrt(power.Tp));
+  const auto power = [&] {
+    return bare ? fresnel_dielectric<Real>(cos_i, eta)
+                : surface_power(at, wavelength_nm, cos_i, how.forwards);
+  };
+  const Amplitudes<Real> along =
+      how.reflects ? reflected<Real>(power(), cos_i, eta) : transmitted<Real>(power());
   // Along s and p, whose lengths are those of what s is found from.
   const Vec3<Real> across = from.cross(hit.normal);
   const Vec3<Real> s = select<Real>(across.dot(across) > 0, across, hit.normal.cross(first_));
   const Vec3<Real> p_before = s.cross(from);
   const Real over_length2 = Real(1) / s.dot(s);
-  const Vec3<Real> s_behind = s * Real(along_s * over_length2);
-  const Vec3<Real> p_behind = s.cross(hit.direction) * Real(along_p * over_length2);
+  const Vec3<Real> s_behind = s * Real(along.s * over_length2);
+  const Vec3<Real> p_behind = s.cross(hit.direction) * Real(along.p * over_length2);
   const Truth<Real> acts = differs || Truth<Real>(!bare || how.reflects);
   const auto behind = [&](const Vec3<Real>& field) {
     return select<Real>(acts, s_behind * field.dot(s) + p_behind * field.dot(p_before), field);

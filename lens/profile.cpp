@@ -1,6 +1,5 @@
 #include "lens/profile.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -77,7 +76,9 @@ Meeting<Real> meet_asphere(const Profile& of, const BasicRay<Real>& ray, const R
 }  // namespace
 
 bool Profile::aspheric() const {
-  return std::any_of(even.begin(), even.end(), [](double a) { return a != 0; });
+  bool any = false;
+  for (const double a : even) any |= a != 0;  // all of them, as vectors, at less than a search would cost
+  return any;
 }
 
 double Profile::sag(double r2) const {
