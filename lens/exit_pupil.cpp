@@ -104,14 +104,16 @@ V2d PupilBound::point(const V2d& disc) const {
 
 bool PupilBound::contains(const V2d& point) const {
   const V2d off(point.dot(along) - center.x, point.y * along.x - point.x * along.y - center.y);
-  return semi.x > 0 && (off / semi).length2() <= 1;
+  const V2d scaled(off.x * semi.y, off.y * semi.x);
+  return semi.x > 0 && scaled.length2() <= semi.x * semi.x * semi.y * semi.y;
 }
 
 ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, double low_nm, double high_nm)
     : half_image_(half_image_mm),
       centred_(!system.system().displaced()),
       columns_(centred_ ? kRadii : kCells),
-      rows_(centred_ ? 1 : kCells) {
+      rows_(centred_ ? 1 : kCells),
+      columns_per_mm_(columns_ / half_image_mm.length()) {
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
   const SpectralSystem round = without_blades(system);
   centred_ ? bound_along_radius(round, wavelengths_nm) : bound_all_over(round, wavelengths_nm);
@@ -150,16 +152,17 @@ void ExitPupil::bound_all_over(const SpectralSystem& system, std::span<const dou
 }
 
 PupilBound ExitPupil::bound(const V2d& image) const {
-  const auto cell = [](double share, int count) {
-    return static_cast<std::size_t>(std::clamp(static_cast<int>(share * count), 0, count - 1));
+  const auto cell = [](double at, int count) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(at), 0, count - 1));
   };
   if (!centred_) {
     const V2d share = (image / half_image_ + V2d(1)) / 2;
-    return bounds_[cell(share.y, rows_) * static_cast<std::size_t>(columns_) + cell(share.x, columns_)];
+    return bounds_[cell(share.y * rows_, rows_) * static_cast<std::size_t>(columns_) +
+                   cell(share.x * columns_, columns_)];
   }
-  const double radius = image.length();
-  PupilBound bound = bounds_[cell(radius / half_image_.length(), columns_)];
-  if (radius > 0) bound.along = image / radius;
+  const double radius = std::sqrt(image.length2());
+  PupilBound bound = bounds_[cell(radius * columns_per_mm_, columns_)];
+  if (radius > 0) bound.along = image * (1 / radius);
   return bound;
 }
 

@@ -52,6 +52,7 @@ class ExitPupil {
   bool centred_;  // so that the distance from the axis alone matters
   int columns_;   // of the bounds; along the radius these are all there are
   int rows_ = 1;
+  double columns_per_mm_;  // of the radius
   std::vector<PupilBound> bounds_;
   EntranceDisc entrance_{0, 0};
   double least_cosine_ = 1;
