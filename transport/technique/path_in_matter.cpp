@@ -4,6 +4,7 @@
 
 #include "transport/path/equiangular.h"
 #include "transport/path/mis_weight.h"
+#include "transport/path/polarised_ends.h"
 
 // Path tracing where matter scatters: connections from within, along stretches, and through what lies
 // between.
