@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include "io/json_values.h"
 #include "io/text.h"
+#include "validation/statistics/students_interval.h"
 
 namespace abbe {
 namespace {
@@ -49,8 +48,8 @@ Ratio geometric_mean(const std::vector<double>& logs) {
   double squares = 0;
   for (const double l : logs) squares += (l - mean) * (l - mean);
   if (logs.size() < 2) return {std::exp(mean), std::numeric_limits<double>::infinity()};
-  const double t = boost::math::quantile(boost::math::students_t(n - 1), 1 - kSignificance / 2);
-  return {std::exp(mean), std::expm1(t * std::sqrt(squares / (n - 1) / n))};
+  return {std::exp(mean),
+          std::expm1(half_interval(std::sqrt(squares / (n - 1) / n), n - 1, 1 - kSignificance))};
 }
 
 }  // namespace
