@@ -73,6 +73,16 @@ void print(const Json& answer, bool as_json) {
   fmt::print("{}", text(answer, as_json));
 }
 
+std::string csv_quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + '"';
+}
+
+std::string csv_cell(const std::string& text) {
+  return text.find_first_of(",\"") == std::string::npos ? text : csv_quoted(text);
+}
+
 Json one_or_all(Json list) {
   return list.size() == 1 ? list.front() : list;
 }

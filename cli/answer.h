@@ -27,6 +27,11 @@ void print(const Json& answer, bool as_json);
 /// The answer with every list of one element, within lists too, replaced by that element.
 [[nodiscard]] Json without_lists_of_one(Json answer);
 
+/// A text as a cell of a table of commas: within quotes; and within these only where it needs them, as bands
+/// do that have a comma in their names.
+[[nodiscard]] std::string csv_quoted(const std::string& text);
+[[nodiscard]] std::string csv_cell(const std::string& text);
+
 /// Writes to stderr. Nothing fails because nobody reads it.
 void tell(const std::string& text);
 

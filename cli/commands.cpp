@@ -19,7 +19,7 @@
 #include "cli/material_commands.h"
 #include "cli/merge.h"
 #include "cli/ray_commands.h"
-#include "cli/render.h"
+#include "cli/render_commands.h"
 #include "cli/slurm_help.h"
 #include "cli/usage.h"
 #include "cli/validate.h"
@@ -29,113 +29,6 @@
 
 namespace abbe::cli {
 namespace {
-
-// How many samples, and which of them.
-void add_samples(CLI::App& render, RenderOptions& asked) {
-  CLI::Option* spp =
-      add_parsed(render, "--spp", asked.samples, integer_in<int>(1, kMaxSamples), "Samples per pixel", "N");
-  CLI::Option* error = add_parsed(
-      render, "--error", asked.target_error, parse_share,
-      "Stop when the median relative error of lit values is this small, as 0.5% or 0.005", "SHARE");
-  CLI::Option* time =
-      add_parsed(render, "--time", asked.time_limit_s, parse_seconds,
-                 "Stop after this time, as 60s, 2m or 1h; with --error, at whichever comes first", "TIME");
-  spp->excludes(error)->excludes(time);
-  CLI::Option* range = add_parsed(render, "--sample-range", asked.sample_range, parse_sample_range,
-                                  "Render only samples A to B - 1 of every pixel", "A:B");
-  range->excludes(error)->excludes(time);
-}
-
-// By which technique, of which part of the film, and what it tells.
-void add_technique(CLI::App& render, RenderOptions& asked) {
-  add_parsed(render, "--integrator", asked.integrator,
-             one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}), "Technique",
-             fmt::format("{}", fmt::join(kIntegratorNames, "|")));
-  render.add_flag("--consistent", asked.consistent,
-                  "Let auto choose what blurs, ever less, where nothing else finds the light");
-  add_parsed(render, "--seed", asked.seed, integer_in<std::uint64_t>(0, kMaxSeed),
-             "Seed of the random numbers", "N");
-  add_parsed(render, "--threads", asked.threads, integer_in<int>(0, kMaxThreads),
-             "Threads, 0 for one per processor", "N");
-  add_parsed(render, "--crop", asked.crop, parse_crop, "Part of the film to render, in pixels",
-             "X0,Y0,X1,Y1");
-  add_parsed(
-      render, "--layers", asked.layers, parse_layer_choice,
-      "Also tell the film apart, as channels that add up to it: by the lights' names (lights; of some alone "
-      "lights:NAME,...) or by the number of events (bounces; N and more in one layer bounces:N, default 8)",
-      "lights|bounces");
-  add_parsed(
-      render, "--aov", asked.features, parse_feature_list,
-      "Also tell, of the surface that each pixel sees first, some of: depth (depth.Z), position (P), normal "
-      "(N), "
-      "shading-normal (Ns), albedo (Albedo), id (Id), and the share of samples that see one (Coverage)",
-      "NAME[,NAME...]");
-}
-
-void add_checkpoints(CLI::App& render, RenderOptions& asked) {
-  CLI::Option* checkpoint =
-      render.add_option("--checkpoint", asked.checkpoint, "Where to save what is finished")
-          ->type_name("FILE.abbepart");
-  add_parsed(render, "--checkpoint-every", asked.checkpoint_interval_s, parse_seconds,
-             "How often, at most a hundredth of the time (default 60s)", "TIME")
-      ->needs(checkpoint);
-  render.add_flag("--resume", asked.resume, "Go on from the checkpoint, if there is one")->needs(checkpoint);
-}
-
-void add_pictures(CLI::App& render, RenderOptions& asked) {
-  render.add_option("--display", asked.display, "Also write a picture for displays")->type_name("FILE.png");
-  render
-      .add_option("--screen", asked.view.display,
-                  "Display of the picture (default: the configuration's first)")
-      ->type_name("NAME");
-  render.add_option("--view", asked.view.view, "View on that display (default: its first)")
-      ->type_name("NAME");
-  render
-      .add_option("--ocio", asked.view.config,
-                  "OpenColorIO configuration of the picture (default: $OCIO, else Abbe's own)")
-      ->type_name("FILE.ocio");
-  render
-      .add_option("--gamut", asked.gamut,
-                  "Also write, in white, which colours lay outside the display's gamut")
-      ->type_name("FILE.png");
-}
-
-void add_watchers(CLI::App& render, RenderOptions& asked) {
-  add_parsed(render, "--preview", asked.preview, parse_server_address,
-             "Show the render on a page while it runs, on a port of this machine (0: any free one) or of an "
-             "address",
-             "[ADDRESS:]PORT");
-  add_parsed(render, "--tev", asked.tev, parse_viewer_address,
-             "Show the render in the viewer tev, which listens there", "[HOST:]PORT");
-}
-
-void add_render(CLI::App& app, Command& command) {
-  const Sub<RenderOptions> sub(app, "render", "Render a scene", command, render);
-  CLI::App& render = *sub.app;
-  render.add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  render
-      .add_option("-o,--output", sub->output,
-                  "Film to write, or its exact sums (default: the scene's, else SCENE.exr)")
-      ->type_name("FILE.exr|FILE.abbepart");
-  add_samples(render, *sub.options);
-  add_technique(render, *sub.options);
-  add_overrides(render, sub.options, "Replace a value of the scene file; may be repeated");
-  add_checkpoints(render, *sub.options);
-  add_pictures(render, *sub.options);
-  render.add_option("--stats", sub->stats, "Write what the render did as JSON, - for standard output")
-      ->type_name("FILE.json");
-  add_watchers(render, *sub.options);
-  add_max_memory(render, sub.options);
-  render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
-  render.add_flag(
-      "--strict", sub->strict,
-      "Refuse a scene of which a warning means a wrong image (exit 3): no light, a lamp that emits nothing, "
-      "matter in an open mesh or with vertex normals, a camera in opaque matter, light that the chosen "
-      "integrator loses; exit with 70 if any sample was not finite");
-  render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
-}
 
 void add_info(CLI::App& app, Command& command) {
   const Sub<InfoOptions> sub(app, "info", "Say what a scene contains, needs and skips", command, info);
@@ -372,6 +265,7 @@ void add_commands(CLI::App& app, Command& command) {
   app.set_version_flag("--version", version_text, "Show the version, the data and the libraries");
   app.require_subcommand(1);
   add_render(app, command);
+  add_meter(app, command);
   add_merge(app, command);
   add_convert(app, command);
   add_info(app, command);

@@ -4,6 +4,9 @@
 
 namespace abbe::cli {
 
+/// What is added to a signal's number where it ends a command early.
+inline constexpr int kSignalExit = 128;
+
 /// While it lives, the first SIGINT, SIGTERM or SIGHUP is remembered, and another SIGINT or SIGTERM kills as
 /// usual. A SIGHUP that was ignored stays so. One at a time.
 class InterruptWatch {

@@ -148,28 +148,17 @@ Json json_of(const Measurement& measured) {
   return told;
 }
 
-std::string quoted(const std::string& text) {
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-  return cell + '"';
-}
-
-// Bands have a comma in their names.
-std::string cell(const std::string& text) {
-  return text.find_first_of(",\"") == std::string::npos ? text : quoted(text);
-}
-
 // As `calibrate --measured` takes it; of several images a line each, told by the first column.
 std::string csv_of(const std::vector<Measurement>& all) {
   const bool several = all.size() > 1;
   std::string text = fmt::format("# unit: {}\n{}patch", all.front().unit, several ? "image," : "");
   for (const char* of : {"", "_deviation", "_pixels", "_saturated"})
-    for (const std::string& channel : all.front().channels) text += "," + cell(channel + of);
+    for (const std::string& channel : all.front().channels) text += "," + csv_cell(channel + of);
   text += '\n';
   for (const Measurement& measured : all)
     for (const PatchValues& patch : measured.patches) {
-      text += several ? quoted(measured.file.string()) + "," : "";
-      text += quoted(patch.name);
+      text += several ? csv_quoted(measured.file.string()) + "," : "";
+      text += csv_quoted(patch.name);
       for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.mean);
       for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.deviation);
       for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.pixels);

@@ -37,20 +37,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSignalExit = 128;
-
 Scene load(const RenderOptions& options, Inputs& inputs) {
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
-  scene.render.samples = options.samples.value_or(scene.render.samples);
-  scene.render.integrator = options.integrator.value_or(scene.render.integrator);
-  scene.render.seed = options.seed.value_or(scene.render.seed);
-  scene.render.consistent = scene.render.consistent || options.consistent;
-  if (options.consistent && scene.render.integrator != Integrator::automatic)
-    throw Error(ErrorCode::usage, "--consistent",
-                fmt::format("lets auto choose among more integrators, and this one is chosen already (got "
-                            "--integrator {}, allowed auto)",
-                            integrator_name(scene.render.integrator)));
+  set_sampling(options, scene.render);
   return scene;
 }
 

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/output/display.h"
-#include "description/load.h"
-#include "io/inputs.h"
+#include "cli/sampling_options.h"
 #include "preview/page_server.h"
-#include "transport/render/render.h"
 
 namespace abbe::cli {
 
@@ -21,35 +18,23 @@ struct LayerChoice {
 };
 
 /// What `abbe render` was asked for; what is absent is as the scene says.
-struct RenderOptions {
+struct RenderOptions : SamplingOptions {
   std::filesystem::path scene;  ///< "-" is standard input.
   std::filesystem::path output;
   std::filesystem::path display;
   ViewOptions view;             ///< Of the display; without a configuration here that of $OCIO, if it is set.
   std::filesystem::path gamut;  ///< Picture of what the display could not show as it is.
   std::filesystem::path stats;  ///< "-" is standard output.
-  std::optional<int> samples;
-  std::optional<double> target_error;
-  std::optional<double> time_limit_s;
   std::optional<SampleRange> sample_range;
   std::filesystem::path checkpoint;
   double checkpoint_interval_s = 60;
   bool resume = false;  ///< Goes on from the checkpoint where there is one.
-  std::optional<Integrator> integrator;
-  bool consistent = false;  ///< Besides what the scene says.
-  std::optional<std::uint64_t> seed;
   std::optional<Crop> crop;
   std::optional<LayerChoice> layers;
-  std::vector<Feature> features;  ///< Of the first surfaces that are met, as channels of the film.
-  int threads = 0;
-  std::size_t max_memory_bytes = default_memory_limit();
-  std::vector<Override> overrides;
+  std::vector<Feature> features;         ///< Of the first surfaces that are met, as channels of the film.
   std::optional<ServerAddress> preview;  ///< Where a page shows the render; nowhere unless asked.
   std::optional<ServerAddress> tev;      ///< Of a viewer that is shown the render; none unless asked.
   bool explain = false;
-  bool strict = false;  ///< What makes the image wrong ends the command: of the scene before it starts (3), a
-                        ///< sample that is not finite after the image is written (70).
-  bool quiet = false;
 };
 
 /// Scene file to pictures. Returns the exit code: 0, or 128 plus the signal that stopped the render early,

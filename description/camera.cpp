@@ -65,27 +65,12 @@ Fields fields(Tag<Sighted<Lens>>) {
   return describe("", "", {field(fields_of<Lens>().name, &Sighted<Lens>::lens), lent(&Sighted<Lens>::view)});
 }
 
-static Fields fields(Tag<PointProbe>) {
-  return describe("point_probe", "",
-                  {field("at", &PointProbe::at, kCoordinate, "Position of a point that measures irradiance."),
-                   field("normal", &PointProbe::normal, direction(), "Direction the point faces.")});
-}
-
-static Fields fields(Tag<IrradianceProbe>) {
-  return describe(
-      "irradiance_probe", "A meter of irradiance.",
-      {one_of(
-          &IrradianceProbe::surface, beside<PointProbe>("at"),
-          under<Quad>(
-              "quad",
-              "A parallelogram that measures irradiance, one patch per pixel; it faces edge_u x edge_v."))});
-}
-
 Fields fields(Tag<Camera>) {
   return describe(
       "camera", "What looks at the scene.",
       {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
-              beside<LensSystemCamera>("lens_system"), under<IrradianceProbe>("irradiance_probe")),
+              beside<LensSystemCamera>("lens_system"),
+              under<Probe>("irradiance_probe", "A meter of irradiance.")),
        field("motion", &Camera::motion, "How it moves, from where it is described; a probe does not.")});
 }
 
@@ -191,16 +176,6 @@ std::optional<LensSystem> build(const spec::LensSystemCamera& camera, const Sour
   return placed ? build(camera.lens, placed->frame, sensor, context) : std::nullopt;
 }
 
-std::optional<IrradianceProbe> build(const spec::IrradianceProbe& probe, const LoadContext& context) {
-  if (const auto* point = std::get_if<spec::PointProbe>(&probe.surface))
-    return IrradianceProbe{point->at * context.unit_m, Imath::V3d(0), Imath::V3d(0),
-                           point->normal.normalized()};
-  const auto quad = build(std::get<spec::Quad>(probe.surface), context);
-  if (!quad) return std::nullopt;
-  return IrradianceProbe{quad->corner, quad->edge_u, quad->edge_v,
-                         quad->edge_u.cross(quad->edge_v).normalized()};
-}
-
 }  // namespace
 
 std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, LoadContext& context) {
@@ -212,7 +187,7 @@ std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, Lo
   else if (const auto* system = std::get_if<spec::LensSystemCamera>(&camera.kind))
     kind = build(*system, camera.where, sensor, context);
   else
-    kind = build(std::get<spec::IrradianceProbe>(camera.kind), context);
+    kind = build(std::get<spec::Probe>(camera.kind), context);
   if (!kind) return std::nullopt;
   return Camera{*kind, sensor.width, sensor.height, sensor.pixel_pitch};
 }
@@ -227,7 +202,7 @@ void set_moving(const spec::Motion& said, Camera& camera, LoadContext& context) 
         moving.opening.multDirMatrix(before, *axis);
       }
     } else {
-      context.diagnostics.error(said.where, "a meter of irradiance does not move");
+      context.diagnostics.error(said.where, "a meter does not move");
     }
   };
   std::visit(bring, camera.kind);

@@ -7,6 +7,7 @@
 #include "description/lens_system.h"
 #include "description/load_context.h"
 #include "description/motion.h"
+#include "description/probe.h"
 #include "description/sensor.h"
 #include "description/surface.h"
 #include "io/schema/fields.h"
@@ -48,15 +49,8 @@ struct Sighted {
 using PinholeCamera = Sighted<Pinhole>;
 using ThinLensCamera = Sighted<ThinLens>;
 using LensSystemCamera = Sighted<LensSystem>;
-struct PointProbe {
-  Imath::V3d at{0, 0, 0};
-  Imath::V3d normal{0, 0, 0};
-};
-struct IrradianceProbe {
-  std::variant<std::monostate, PointProbe, Quad> surface;
-};
 struct Camera {
-  std::variant<std::monostate, PinholeCamera, ThinLensCamera, LensSystemCamera, IrradianceProbe> kind;
+  std::variant<std::monostate, PinholeCamera, ThinLensCamera, LensSystemCamera, Probe> kind;
   SourcePosition where;
   std::optional<Motion> motion = {};
 };

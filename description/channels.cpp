@@ -157,17 +157,6 @@ const SourcePosition* place(const std::optional<T>& said) {
   return said ? &said->where : nullptr;
 }
 
-std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& context) {
-  const double bins = (said.to_nm - said.from_nm) / said.step_nm;
-  if (bins > kFewestBins - 0.5 && bins < kMostBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
-    return SpectralBins{said.from_nm, said.step_nm, static_cast<int>(std::round(bins))};
-  context.diagnostics.error(
-      said.where,
-      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
-                  said.step_nm, said.from_nm, said.to_nm, kFewestBins, kMostBins));
-  return std::nullopt;
-}
-
 /// Makes the channels of each way to say what pixels count. Those of a faulty detector are left out.
 struct ChannelBuilder {
   const spec::Sensor& said;
@@ -258,6 +247,17 @@ void check_stokes(const spec::Sensor& said, const Sensor& sensor, LoadContext& c
 }
 
 }  // namespace
+
+std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& context) {
+  const double bins = (said.to_nm - said.from_nm) / said.step_nm;
+  if (bins > kFewestBins - 0.5 && bins < kMostBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
+    return SpectralBins{said.from_nm, said.step_nm, static_cast<int>(std::round(bins))};
+  context.diagnostics.error(
+      said.where,
+      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
+                  said.step_nm, said.from_nm, said.to_nm, kFewestBins, kMostBins));
+  return std::nullopt;
+}
 
 void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
   const std::optional<Detector> detector = build_detector(said, context);

@@ -41,6 +41,31 @@ std::string hash(const SourceText& source, std::span<const Override> overrides, 
   return sha256(all);
 }
 
+// The text of a scene, from a file or from standard input.
+std::shared_ptr<const SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                              Inputs* inputs) {
+  // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
+  std::error_code error;
+  const bool there = std::filesystem::is_regular_file(path, error);
+  const auto source = path == kStandardStream
+                          ? read_standard_input(diagnostics, ErrorCode::scene)
+                          : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  if (source && inputs && path != kStandardStream) inputs->add_file(path);
+  return source;
+}
+
+// What a text says, in so far as it is sound; false for what is no scene at all.
+bool read(const std::shared_ptr<const SourceText>& source, std::span<const Override> overrides,
+          LoadContext& context, spec::Scene& said) {
+  std::optional<JsonValue> root = parse_json(source, context.diagnostics);
+  if (!root) return false;
+  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, context.diagnostics);
+  if (!check_version(*root, context.diagnostics)) return false;
+  include_sensor_model(*root, context);
+  (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said, context.diagnostics);
+  return true;
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> LoadContext::file(const std::string& name, const SourcePosition& where) {
@@ -75,36 +100,48 @@ std::optional<std::string> LoadContext::table(const std::string& name, const Sou
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
                                 Diagnostics& diagnostics, Inputs* inputs, spec::Scene* asked) {
-  // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
-  std::error_code error;
-  const bool there = std::filesystem::is_regular_file(path, error);
-  const auto source = path == kStandardStream
-                          ? read_standard_input(diagnostics, ErrorCode::scene)
-                          : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  const auto source = description::read_source(path, diagnostics, inputs);
   if (!source) return std::nullopt;
-  if (inputs && path != kStandardStream) inputs->add_file(path);
   return load_scene(source, path.parent_path(), overrides, diagnostics, inputs, asked);
 }
 
 std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
                                 const std::filesystem::path& folder, std::span<const Override> overrides,
                                 Diagnostics& diagnostics, Inputs* inputs, spec::Scene* asked) {
-  std::optional<JsonValue> root = parse_json(source, diagnostics);
-  if (!root) return std::nullopt;
-  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, diagnostics);
   description::LoadContext context{diagnostics, folder, inputs};
-  if (!description::check_version(*root, diagnostics)) return std::nullopt;
-  description::include_sensor_model(*root, context);
   spec::Scene own;
   spec::Scene& said = asked != nullptr ? *asked : own;
-  (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said,
-                     diagnostics);  // what is sound of it is built
-  root.reset();                     // of a large scene as large as what follows
+  if (!description::read(source, overrides, context, said)) return std::nullopt;
   Scene scene = build(said, context);
   if (diagnostics.has_errors()) return std::nullopt;
   scene.sha256 = description::hash(*source, overrides, context);
   scene.commit();
   return scene;
+}
+
+std::optional<MeteredScene> load_meters(const std::filesystem::path& path,
+                                        std::span<const Override> overrides, Diagnostics& diagnostics,
+                                        Inputs* inputs) {
+  const auto source = description::read_source(path, diagnostics, inputs);
+  if (!source) return std::nullopt;
+  MeteredScene scene{{}, {}, path.parent_path()};
+  description::LoadContext context{diagnostics, scene.folder, inputs};
+  const auto said = std::make_shared<spec::Scene>();
+  if (!description::read(source, overrides, context, *said)) return std::nullopt;
+  scene.said = said;
+  scene.meters = build_meters(*said, context);
+  if (scene.meters.empty() && !diagnostics.has_errors())
+    diagnostics.error(said->where, "the scene has no meters");
+  return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(scene));
+}
+
+std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter, Diagnostics& diagnostics,
+                              Inputs* inputs) {
+  description::LoadContext context{diagnostics, scene.folder, inputs};
+  Scene built = build(*scene.said, context, &meter);
+  if (diagnostics.has_errors()) return std::nullopt;
+  built.commit();
+  return built;
 }
 
 }  // namespace abbe

@@ -5,10 +5,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/diagnostics.h"
 #include "io/inputs.h"
 #include "io/json.h"
+#include "scene/camera/meter.h"
 #include "scene/scene.h"
 
 namespace abbe::spec {
@@ -31,5 +33,19 @@ namespace abbe {
                                               const std::filesystem::path& folder,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
                                               Inputs* inputs = nullptr, spec::Scene* said = nullptr);
+
+/// A scene that has been read for its meters.
+struct MeteredScene {
+  std::shared_ptr<const spec::Scene> said;
+  std::vector<Meter> meters;     ///< In their order; at least one.
+  std::filesystem::path folder;  ///< Where the files it names are looked for.
+};
+/// Reads a scene for its meters, as `load_scene` does; it needs no camera. One without meters is an error.
+[[nodiscard]] std::optional<MeteredScene> load_meters(const std::filesystem::path& path,
+                                                      std::span<const Override> overrides,
+                                                      Diagnostics& diagnostics, Inputs* inputs = nullptr);
+/// Builds the scene as that meter sees it, with its camera and channels. Reports as `load_scene` does.
+[[nodiscard]] std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter,
+                                            Diagnostics& diagnostics, Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -33,14 +33,17 @@ Fields fields(Tag<Scene>) {
        field("abbe", &Scene::version, {kFormatVersion, kFormatVersion}, "Version of the scene format."),
        defaulted("units", &Scene::units, word<Unit>("unit of length", {"m", "cm", "mm", "um", "in"}),
                  "Unit of length."),
-       field("camera", &Scene::camera).with(Presence::required),
-       field("sensor", &Scene::sensor).with(Presence::required),
+       field("camera", &Scene::camera),
+       field("sensor", &Scene::sensor, "The pixels, and what they count; required with a camera."),
+       defaulted("meters", &Scene::meters, by_name<Meter>("an object of meters by name", 0),
+                 "What measures light, by name, for `abbe meter`."),
        defaulted("materials", &Scene::materials, materials(), "Materials by name."),
        defaulted("objects", &Scene::objects, by_name<Object>("an object of objects by name", 0),
                  "Shapes by name, for instances to place."),
        defaulted("shapes", &Scene::shapes, list<Shape>("shapes", 0), "What is there."),
        defaulted("lights", &Scene::lights, list<Light>("lights", 0), "What shines."),
-       field("render", &Scene::render), field("output", &Scene::output)});
+       field("render", &Scene::render), field("output", &Scene::output)},
+      {"camera", "meters"});
 }
 
 }  // namespace abbe::spec
@@ -63,9 +66,18 @@ OutputSettings build(const spec::Output& said, LoadContext& context, const Scene
   return output;
 }
 
+// Of a scene of which nothing has been left out for a fault.
+void require_camera(const spec::Scene& said, LoadContext& context) {
+  if (!said.camera)
+    context.diagnostics.error(said.where, "the scene has meters alone, for abbe meter: it has no camera");
+  else if (!said.sensor)
+    context.diagnostics.error(said.where, "missing key \"sensor\"");
+}
+
 void build_sensor(const spec::Scene& said, LoadContext& context, Scene& scene) {
+  if (!context.diagnostics.has_errors()) require_camera(said, context);
   Sensor sensor;
-  const bool probe = said.camera && std::holds_alternative<spec::IrradianceProbe>(said.camera->kind);
+  const bool probe = said.camera && std::holds_alternative<spec::Probe>(said.camera->kind);
   if (said.sensor) {
     sensor = build(*said.sensor, probe, context);
     scene.sensor_text = to_text(schema::write(*said.sensor));
@@ -83,6 +95,15 @@ void build_sensor(const spec::Scene& said, LoadContext& context, Scene& scene) {
   scene.spectral = sensor.spectral;
   scene.channels = std::move(sensor.channels);
   for (Channel& channel : scene.channels) limit_angles(channel, least_film_cosine(scene.camera));
+}
+
+// A meter sees what moves for as long as the first row of the sensor does.
+void set_meter(const spec::Scene& said, const Meter& meter, LoadContext& context, Scene& scene) {
+  if (said.sensor) scene.exposure_s = said.sensor->exposure_s;
+  if (said.sensor && said.sensor->shutter) context.open_s = said.sensor->shutter->open_s;
+  context.span_s = scene.exposure_s;
+  scene.camera = camera_of(meter);
+  scene.channels = channels_of(meter);
 }
 
 // Exposures of channels that follow each other see what moves at different times.
@@ -120,14 +141,26 @@ void recentre(Scene& scene, const LoadContext& context) {
   translate(scene.camera, -scene.origin_m);
 }
 
+double unit_m(const spec::Scene& said) {
+  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
+  return kMetres.at(static_cast<std::size_t>(said.units));
+}
+
 }  // namespace
 
-Scene build(const spec::Scene& said, LoadContext& context) {
-  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
+std::vector<Meter> build_meters(const spec::Scene& said, LoadContext& context) {
+  context.unit_m = unit_m(said);
+  return build(said.meters, context);
+}
+
+Scene build(const spec::Scene& said, LoadContext& context, const Meter* meter) {
   Scene scene{};
-  context.unit_m = kMetres.at(static_cast<std::size_t>(said.units));
-  scene.unit_m = context.unit_m;
-  build_sensor(said, context, scene);  // before the lights, which may be sampled by what they expose
+  scene.unit_m = context.unit_m = unit_m(said);
+  // Before the lights, which may be sampled by what they expose.
+  if (meter != nullptr)
+    set_meter(said, *meter, context, scene);
+  else
+    build_sensor(said, context, scene);
   build_materials(said.materials, context, scene);
   build_objects(said.objects, context, scene);
   build_shapes(said.shapes, context, scene);
@@ -135,12 +168,13 @@ Scene build(const spec::Scene& said, LoadContext& context) {
   if (!context.diagnostics.has_errors()) recentre(scene, context);
   build_lights(said.lights, surfaces, context, scene);
   if (said.render) scene.render = build(*said.render, context.unit_m, context.diagnostics);
-  if (said.output) scene.output = build(*said.output, context, scene);
+  if (said.output && meter == nullptr) scene.output = build(*said.output, context, scene);
+  if (meter == nullptr) (void)build_meters(said, context);
   check_exposures(said, context, scene);
   if (context.diagnostics.has_errors()) return scene;
   check_validity(said.materials, context, scene);
   check_lamps(context, scene);
-  check_precision(said.camera->where, context, scene);
+  check_precision(meter == nullptr ? said.camera->where : said.where, context, scene);
   if (scene.lights.empty())
     context.diagnostics.error_if_strict(said.where, "no light: the image will be black");
   return scene;

@@ -7,6 +7,7 @@
 #include "description/camera.h"
 #include "description/light.h"
 #include "description/material.h"
+#include "description/meter.h"
 #include "description/render.h"
 #include "description/sensor.h"
 #include "description/shape.h"
@@ -33,6 +34,7 @@ struct Scene {
   Unit units = Unit::m;
   std::optional<Camera> camera;
   std::optional<Sensor> sensor;
+  Meters meters;
   Materials materials;
   std::vector<schema::Named<Object>> objects;
   std::vector<Shape> shapes;
@@ -47,8 +49,10 @@ struct Scene {
 
 namespace abbe::description {
 
-/// The scene, not yet recentred. Everything wrong with it is reported, of what is sound of it when some is
-/// not.
-[[nodiscard]] abbe::Scene build(const spec::Scene& scene, LoadContext& context);
+/// The scene, not yet recentred, as its camera sees it, or as one of its meters does. Everything wrong with
+/// it is reported, of what is sound of it when some is not.
+[[nodiscard]] abbe::Scene build(const spec::Scene& scene, LoadContext& context, const Meter* meter = nullptr);
+/// The meters of the scene, likewise.
+[[nodiscard]] std::vector<Meter> build_meters(const spec::Scene& scene, LoadContext& context);
 
 }  // namespace abbe::description

@@ -76,9 +76,9 @@ static Fields fields(Tag<FilteredChannel>) {
       {"filters", "polariser"});
 }
 
-static Fields fields(Tag<Bins>) {
+Fields fields(Tag<Bins>) {
   return describe("spectral",
-                  "Bins of wavelength that fill a range, 2 to 1000 of them: the film holds radiances.",
+                  "Bins of wavelength that fill a range, 2 to 1000 of them: a film of them holds radiances.",
                   {field("from_nm", &Bins::from_nm, kWavelength, "Where the first bin begins."),
                    field("to_nm", &Bins::to_nm, kWavelength, "Where the last bin ends."),
                    field("step_nm", &Bins::step_nm, kStep, "Width of each bin.")});

@@ -47,6 +47,8 @@ struct Bins {
   SourcePosition where;
 };
 
+[[nodiscard]] schema::Fields fields(schema::Tag<Bins>);
+
 /// The film: its pixels, and what they count.
 struct Sensor {
   std::optional<std::string> model;  ///< Which was put in here before the scene was read.
@@ -91,6 +93,9 @@ struct Sensor {
 /// Reports what no table can say. `probe`: the sensor of an irradiance probe has one pixel unless it says
 /// otherwise.
 [[nodiscard]] Sensor build(const spec::Sensor& sensor, bool probe, LoadContext& context);
+
+/// Reports bins that do not fill their range, or are too few or too many; nothing then.
+[[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& context);
 
 /// What the pixels of a sensor count, with its filters: its channels or its bins; the sensor's exposure is
 /// that of channels without their own.

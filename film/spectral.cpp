@@ -32,7 +32,7 @@ std::optional<double> image_distance(const Camera& camera) {
 // A camera that weighs radiance as the one that made a film did.
 Camera camera_of(const Image& film) {
   const double axis = parse_number(film.metadata.at(kAxisKey)).value();
-  Camera camera{IrradianceProbe{}, film.width, film.height, 1};
+  Camera camera{Probe{}, film.width, film.height, 1};
   if (const auto distance = film.metadata.find(kDistanceKey); distance != film.metadata.end()) {
     Pinhole lens;
     lens.image_distance = parse_number(distance->second).value();

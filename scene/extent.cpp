@@ -32,7 +32,7 @@ Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes) {
     by_reach.emplace_back(furthest(box, from), box);
   }
   std::sort(by_reach.begin(), by_reach.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  const bool meter = traits(camera).surface_normal.has_value();
+  const bool meter = is_meter(camera);
   Extent extent;
   double reach = 0;
   double nearest = 0;

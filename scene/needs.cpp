@@ -114,7 +114,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
 }
 
 void analyse_lights(const Scene& scene, Needs& needs) {
-  const bool connectable = !traits(scene.camera).surface_normal;
+  const bool connectable = !is_meter(scene.camera);
   const std::vector<SpecularCenter> centers = specular_centers(scene);
   std::set<const Curve*> examined;  // which many lights may share
   for (const Light& light : scene.lights) {

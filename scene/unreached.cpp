@@ -58,7 +58,7 @@ bool has_specular_shapes(const Scene& scene) {
 // Light tracing reaches every path whose vertex next to the eye scatters.
 void add_of_light_tracing(const Scene& scene, Classes& classes) {
   const auto& lights = scene.lights;
-  if (traits(scene.camera).surface_normal)
+  if (is_meter(scene.camera))
     return classes.add(any, "E (S|D)* L", "everything: photons are not connected to a meter");
   classes.add([&](std::size_t i) { return lights[i].is_environment(); }, "E (S|D)* L",
               "all light of an environment");
@@ -127,7 +127,8 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
       if (traits(scene.camera).ghosts)
         classes.add(any, "E (S|D)* L", "what comes by way of the lens's ghosts");
       if (!traits(scene.camera).opening)
-        classes.add(any, "E (S|D)* L", "everything: no photon comes in through a point by itself");
+        classes.add(any, "E (S|D)* L",
+                    "everything: photons come in through flat openings alone, not to a point or a sphere");
       break;
     case Integrator::adjoint_brute:
       classes.add(delta, "E (S|D)* L", "all light of a point, spot or directional light");

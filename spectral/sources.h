@@ -11,6 +11,7 @@ inline constexpr double kPlanck = 6.62607015e-34;             ///< h [J s]
 inline constexpr double kSpeedOfLight = 299792458.0;          ///< c [m/s]
 inline constexpr double kBoltzmann = 1.380649e-23;            ///< k [J/K]
 inline constexpr double kElementaryCharge = 1.602176634e-19;  ///< e [C]
+inline constexpr double kAvogadro = 6.02214076e23;            ///< N_A [1/mol]
 
 /// Energy of a photon whose label is `wavelength_nm` [J]: hc/lambda.
 [[nodiscard]] constexpr double photon_energy(double wavelength_nm) {

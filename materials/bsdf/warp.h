@@ -42,11 +42,27 @@ template <typename Real>
   return {radius * (along_x ? cosine : sine), radius * (along_x ? sine : cosine)};
 }
 
+/// The place in [0, 1]^2 that `concentric_disc` takes to a point of the unit disc.
+[[nodiscard]] inline Imath::V2d square_of_disc(const Imath::V2d& at) {
+  const bool along_x = std::abs(at.x) > std::abs(at.y);
+  const double axis = along_x ? at.x : at.y;
+  const double across = along_x ? at.y : at.x;
+  const double radius = std::copysign(at.length(), axis);
+  const double other = axis == 0 ? 0 : radius * std::atan(across / axis) * 4 / std::numbers::pi;
+  return {((along_x ? radius : other) + 1) / 2, ((along_x ? other : radius) + 1) / 2};
+}
+
+/// Direction with z >= 0 and density cos/(pi sine^2) [1/sr] within an angle of that sine about z.
+[[nodiscard]] inline Imath::V3f cosine_cone(const Imath::V2f& u, float sine) {
+  const float radius =
+      sine * std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));  // that of the disc point
+  const Imath::V2f disc = concentric_disc(u) * sine;
+  return {disc.x, disc.y, std::sqrt((1 - radius) * (1 + radius))};
+}
+
 /// Direction with z >= 0 and density cos/pi [1/sr] about z.
 [[nodiscard]] inline Imath::V3f cosine_hemisphere(const Imath::V2f& u) {
-  const float radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));  // that of the disc point
-  const Imath::V2f disc = concentric_disc(u);
-  return {disc.x, disc.y, std::sqrt((1 - radius) * (1 + radius))};
+  return cosine_cone(u, 1);
 }
 
 }  // namespace abbe

@@ -132,6 +132,14 @@ void translate(Camera& camera, const Imath::V3d& by) {
   std::visit([&](auto& kind) { kind.translate(by); }, camera.kind);
 }
 
+bool is_meter(const Camera& camera) {
+  return std::holds_alternative<Probe>(camera.kind);
+}
+
+Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point) {
+  return std::get<Probe>(meter.kind).normal_at(point);
+}
+
 std::optional<Imath::V3f> film_right(const Camera& camera, float time) {
   const auto right = [&](const auto& kind) -> std::optional<Imath::V3f> {
     if constexpr (requires { kind.frame; })

@@ -6,10 +6,10 @@
 
 #include <ImathVec.h>
 
-#include "scene/camera/irradiance_probe.h"
 #include "scene/camera/lens_system.h"
 #include "scene/camera/model.h"
 #include "scene/camera/pinhole.h"
+#include "scene/camera/probe.h"
 #include "scene/camera/thin_lens.h"
 #include "scene/shapes/motion.h"
 
@@ -18,7 +18,7 @@ namespace abbe {
 /// What turns film positions into rays: the closed list of kinds, each a `CameraModel`, and the pixels. The
 /// kind says how a camera that moves stands at time 0.
 struct Camera {
-  std::variant<Pinhole, ThinLens, IrradianceProbe, LensSystem> kind;
+  std::variant<Pinhole, ThinLens, Probe, LensSystem> kind;
   int width = 1;
   int height = 1;
   double pixel_pitch = 1;  ///< [m]
@@ -43,6 +43,11 @@ struct Camera {
 [[nodiscard]] const Imath::V3d& position(const Camera& camera);
 [[nodiscard]] Imath::V3d middle(const Camera& camera);
 void translate(Camera& camera, const Imath::V3d& by);
+
+/// Whether the camera is a meter; see `CameraTraits::meter_acceptance`.
+[[nodiscard]] bool is_meter(const Camera& camera);
+/// The outward unit normal of a meter at one of its points.
+[[nodiscard]] Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point);
 
 /// Draws a point where light comes in by way of a ghost; nothing of a camera without any.
 [[nodiscard]] std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time);

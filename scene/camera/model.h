@@ -124,11 +124,20 @@ struct CameraTraits {
   std::optional<double> image_distance = {};  ///< Film behind a lens, to it [m].
   std::optional<double> f_number = {};        ///< Of the opening, without the losses of the lens.
   std::optional<Imath::V3d> axis = {};        ///< Unit direction in which a lens looks.
-  /// Outward unit normal of what takes light from a hemisphere itself. Light is then connected to it as to a
-  /// surface, and `sample_towards` connects nothing; every other camera connects.
-  std::optional<Imath::V3d> surface_normal = {};
+  /// Of a meter, which takes light itself: the sine of the greatest angle with its normal that counts. Light
+  /// is then connected to it as to a surface, and `sample_towards` connects nothing; every other camera
+  /// connects.
+  std::optional<float> meter_acceptance = {};
   std::optional<Opening> opening = {};  ///< That rays come in through by themselves, unless it is a point.
 };
+
+/// Whether a meter counts what comes from a unit direction, by the part of it across the normal, which keeps
+/// its digits where that is small.
+[[nodiscard]] inline bool within_acceptance(float acceptance, const Imath::V3f& normal,
+                                            const Imath::V3f& direction) {
+  const float cos_theta = normal.dot(direction);
+  return cos_theta > 0 && (acceptance >= 1 || (direction - normal * cos_theta).length() <= acceptance);
+}
 
 /// What a kind of camera has to answer, all of it. Film positions lie within [0, width] x [0, height], the
 /// two numbers in [0, 1) pick the lens point (or a meter's direction) uniformly by area, and the time is the

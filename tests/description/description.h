@@ -136,6 +136,9 @@ inline std::string shaped(const std::string& members) {
 inline std::string sensed(const std::string& members) {
   return fmt::format(R"({{"sensor": {{{}}}}})", members);
 }
+inline std::string metered(const std::string& members) {
+  return fmt::format(R"({{"meters": {{"m": {{{}}}}}}})", members);
+}
 inline std::string lit(const std::string& emission) {
   return fmt::format(R"({{"lights": [{{"point": {{"at": [0, 0, 1]}}, "emission": {}}}]}})", emission);
 }

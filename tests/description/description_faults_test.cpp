@@ -16,6 +16,7 @@ using DescriptionFaultsTest = testing::DescriptionTest;
 using testing::Fault;
 using testing::lit;
 using testing::Loaded;
+using testing::metered;
 using testing::painted;
 using testing::sensed;
 using testing::shaped;
@@ -214,6 +215,18 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene,
        "expected exactly one key (got pinhole, thin_lens, allowed pinhole, thin_lens, lens_system, "
        "irradiance_probe)"},
+      {"flux through a point", metered(R"("measures": "flux", "at": [0, 0, 0], "normal": [0, 0, 1])"),
+       ErrorCode::scene,
+       "/meters/m: error: no light goes through a point: its flux needs a quad, disc or sphere"},
+      {"radiance from all sides", metered(R"("measures": "radiance", "at": [0, 0, 0], "normal": [0, 0, 1])"),
+       ErrorCode::scene, "a meter of radiance takes light from a cone: it needs an acceptance_deg"},
+      {"cells of a disc",
+       metered(R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}, "cells": [2, 2])"),
+       ErrorCode::scene, "/meters/m/cells: error: cells are parts of a quad"},
+      {"a moving meter",
+       R"({"camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]},
+           "motion": {"keyframes": [{"time_s": 0}, {"time_s": 1, "translate": [1, 0, 0]}]}}})",
+       ErrorCode::scene, "a meter does not move"},
       {"up along the sight",
        R"({"camera": {"pinhole": {"fov_deg": 9}, "from": [0, 0, 1], "to": [0, 0, 0], "up": [0, 0, 1]}})",
        ErrorCode::scene, "up is parallel"},
@@ -338,9 +351,9 @@ TEST_F(DescriptionFaultsTest, NamesThePlaceAndTheKeysThatAreMissing) {
       "  \"render\": {\"samples\": 0}\n}");
   EXPECT_EQ(
       loaded.text(),
-      fmt::format("{0}:1:1: error: missing key \"camera\"\n{{\n^\n"
-                  "{0}:4:25: /render/samples: error: expected an integer (got 0, allowed [1, 16777216])\n"
-                  "  \"render\": {{\"samples\": 0}}\n                        ^\n",
+      fmt::format("{0}:4:25: /render/samples: error: expected an integer (got 0, allowed [1, 16777216])\n"
+                  "  \"render\": {{\"samples\": 0}}\n                        ^\n"
+                  "{0}:1:1: error: missing key \"camera\" or \"meters\"\n{{\n^\n",
                   (folder_ / "scene.json").string()));
   Diagnostics missing;
   EXPECT_FALSE(load_scene(folder_ / "none.json", {}, missing));

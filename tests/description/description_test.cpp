@@ -109,16 +109,16 @@ TEST_F(DescriptionTest, PlacesProbes) {
       R"({"camera": {"irradiance_probe": {"quad": {"corner": [1, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 3, 0]}}},
     "sensor": {"observer": "1964"}})");
   ASSERT_TRUE(loaded.scene) << loaded.text();
-  ASSERT_TRUE(std::holds_alternative<IrradianceProbe>(loaded->camera.kind));
+  ASSERT_TRUE(std::holds_alternative<Probe>(loaded->camera.kind));
   EXPECT_EQ(loaded->camera.width * loaded->camera.height, 1);
-  const auto& probe = std::get<IrradianceProbe>(loaded->camera.kind);
+  const auto& probe = std::get<Quad>(std::get<Probe>(loaded->camera.kind).surface);
   expect_near(probe.corner + loaded->origin_m, {1, 0, 0});
   expect_near(probe.edge_u, {2, 0, 0});
-  expect_near(probe.normal, {0, 0, 1});
+  expect_near(probe.edge_v, {0, 3, 0});
   const Loaded point = load(R"({"camera": {"irradiance_probe": {"at": [1, 0, 0], "normal": [0, 0, -2]}}})");
   ASSERT_TRUE(point.scene) << point.text();
-  expect_near(std::get<IrradianceProbe>(point->camera.kind).normal, {0, 0, -1});
-  EXPECT_EQ(std::get<IrradianceProbe>(point->camera.kind).edge_u.length(), 0);
+  expect_near(std::get<PointOfMeter>(std::get<Probe>(point->camera.kind).surface).normal, {0, 0, -1});
+  EXPECT_EQ(std::get<Probe>(point->camera.kind).area(), 0);
 }
 
 TEST_F(DescriptionTest, ReadsCurves) {

@@ -40,10 +40,10 @@ Camera wide_lens() {
 }
 // The parallelogram meter's pixels are skew.
 Camera meter() {
-  return {IrradianceProbe{{1, 1, 1}, {2, 0, 0}, {1, 4, 0}, {0, 0, -1}}, 2, 4, 1};
+  return {Probe{Quad{{1, 1, 1}, {2, 0, 0}, {1, -4, 0}}}, 2, 4, 1};
 }
 Camera point_meter() {
-  return {IrradianceProbe{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, -1}}, 2, 4, 1};
+  return {Probe{PointOfMeter{{1, 1, 1}, {0, 0, -1}}}, 2, 4, 1};
 }
 
 const SampledSpectrum kWavelengths(550);
@@ -198,7 +198,7 @@ TEST(Camera, NothingBehindOrBesideIsImaged) {
   EXPECT_FALSE(connection(pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
   EXPECT_FALSE(connection(pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
   EXPECT_TRUE(connection(pinhole(), {0.75F, 1, 3}, {0, 0}));
-  const Camera probe{IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 1, 1};
+  const Camera probe{Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1, 1, 1};
   EXPECT_FALSE(connection(probe, {0, 0, 1}, {0, 0}));
 }
 
@@ -334,8 +334,8 @@ TEST(Camera, NothingIsSeenBackwardsOrBesideTheFilm) {
     EXPECT_FALSE(density(camera, {{1, 2, 3}, V3f(1, -1, 0).normalized()}, kWavelengths));
 }
 
-TEST(IrradianceProbe, MeasuresTheHemisphere) {
-  const Camera probe{IrradianceProbe{{1, 1, 1}, {2, 0, 0}, {0, 4, 0}, {0, 0, -1}}, 2, 4, 1};
+TEST(Probe, MeasuresTheHemisphere) {
+  const Camera probe{Probe{Quad{{1, 1, 1}, {2, 0, 0}, {0, -4, 0}}}, 2, 4, 1};
   Random random(5);
   double mean_cosine = 0;
   constexpr int kCount = 20000;
@@ -343,7 +343,7 @@ TEST(IrradianceProbe, MeasuresTheHemisphere) {
     const CameraRay start = ray_of(probe, {1.5F, 3.5F}, random.pair());
     EXPECT_FLOAT_EQ(start.weight[0], static_cast<float>(kPi));
     EXPECT_NEAR(start.ray.origin.x, 2.5, 1e-6);
-    EXPECT_NEAR(start.ray.origin.y, 4.5, 1e-6);
+    EXPECT_NEAR(start.ray.origin.y, -2.5, 1e-6);
     EXPECT_LT(start.ray.origin.z, 1) << "on the side it looks to";
     EXPECT_NEAR(start.ray.direction.z, -start.cos_film, 1e-6);
     mean_cosine += static_cast<double>(start.cos_film) / kCount;

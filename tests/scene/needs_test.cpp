@@ -52,7 +52,7 @@ using Expressions = std::vector<std::string>;
 
 TEST(Needs, PhotonsAloneDoNotReachAMeter) {
   Scene scene{};
-  scene.camera = {IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 1, 0.01};
+  scene.camera = {Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1, 1, 0.01};
   scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, Curve(1.0)});
   scene.render.integrator = Integrator::light;
   scene.commit();
@@ -177,7 +177,7 @@ TEST(Needs, SmallLightsAreTraced) {
   scene.commit();
   EXPECT_FALSE(scene.needs.light_is_traced[0]) << "a lamp that is off";
 
-  scene.camera.kind = IrradianceProbe{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  scene.camera.kind = Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   scene.commit();
   EXPECT_TRUE(scene.needs.caustics);
   EXPECT_FALSE(scene.needs.light_tracing) << "no lens to connect to";
@@ -297,7 +297,7 @@ TEST(Extent, WhatIsNearDecides) {
   const Sphere distant{{0, 0, 1e5}, 1};
   EXPECT_EQ(near_of({distant}).first, abbe::bounds(Shape(distant))) << "what a lens sees first";
   Scene meter = testing::scene_of({distant});
-  meter.camera.kind = IrradianceProbe{};
+  meter.camera.kind = Probe{};
   EXPECT_TRUE(extent_of(meter.camera, meter.shapes).near.isEmpty()) << "a meter is lit where it is";
 }
 

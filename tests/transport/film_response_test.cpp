@@ -136,7 +136,7 @@ TEST(FilmResponse, LanesOfPolarisedLightFallApart) {
 
 Scene card_in_a_line(const std::vector<Channel>& channels) {
   Scene scene{};
-  scene.camera = {IrradianceProbe{}, 2, 1, 1};
+  scene.camera = {Probe{}, 2, 1, 1};
   scene.channels = channels;
   scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, band(630, 640)});
   scene.commit();

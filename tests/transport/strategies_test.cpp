@@ -71,7 +71,7 @@ Scene room(const Look& look) {
 const CameraFrame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const Camera kPinhole{Pinhole{kFrame, 0.05, 0.005}, 1, 1, 0.04};
 const Camera kLens{ThinLens{kFrame, 0.05, 2, 0.05}, 1, 1, 0.04};
-const Camera kMeter{IrradianceProbe{{0, 0, 0}, {0, 0, 1}}, 1, 1, 0.04};
+const Camera kMeter{Probe{}, 1, 1, 0.04};
 
 RecordedPath camera_path(const Plan& plan, const Sampler& sampler, std::uint32_t i) {
   RecordedPath path(sampler, i);

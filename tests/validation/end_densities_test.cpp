@@ -27,7 +27,7 @@ void expect_drawn_by(const LobeSampler& sampler, const SphereDensity& density, d
 }
 
 TEST(EndDensities, DirectionsOfAMeter) {
-  const Camera meter{IrradianceProbe{{1, 1, 1}, {2, 0, 0}, {1, 4, 0}, {0, 0, 1}}, 6, 4, 0.005};
+  const Camera meter{Probe{Quad{{1, 1, 1}, {2, 0, 0}, {1, 4, 0}}}, 6, 4, 0.005};
   const V2f film(2.5F, 1.5F);
   const auto ray = [&](V2f u) { return sample_ray(meter, film, u, kWavelengths, 0, 0).ray; };
   const V3f from = ray({0.5F, 0.5F}).origin;

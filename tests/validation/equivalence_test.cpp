@@ -40,6 +40,7 @@ TEST(Cases, ExpectedValuesAreTheKnownFigures) {
                                                           {"T5-axis", .5 * pi},
                                                           {"T5-off", .06587843 * pi},
                                                           {"T6-adjacent", .20004378 * pi},
+                                                          {"T6-discs", .38196601 * pi},
                                                           {"T8", 100 / (4 * pi) * 32.885906 / .98},
                                                           {"T9-outer", .4},
                                                           {"T9-inner", .2},

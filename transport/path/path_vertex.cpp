@@ -80,8 +80,8 @@ std::optional<Imath::V3f> normal_of(const Scene& scene, const PathVertex& vertex
   if (const auto* light = std::get_if<LightVertex>(&vertex.at))
     return light->normal.length2() > 0 ? std::optional(light->normal) : std::nullopt;
   if (!std::holds_alternative<CameraVertex>(vertex.at)) return std::nullopt;
+  if (is_meter(scene.camera)) return meter_normal(scene.camera, point_of(vertex));
   const CameraTraits camera = traits(scene.camera);
-  if (camera.surface_normal) return Imath::V3f(*camera.surface_normal);
   if (!camera.axis) return std::nullopt;
   return Imath::V3f(direction_at(scene.camera, *camera.axis, vertex.time));
 }

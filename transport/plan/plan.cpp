@@ -120,17 +120,26 @@ std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniqu
 Imath::Box3d camera_box(const Camera& camera) {
   const Imath::V3d center = middle(camera);
   const std::optional<Opening> opening = traits(camera).opening;
-  const double reach =
-      opening ? opening->u.length() + opening->v.length() : (center - position(camera)).length();
+  const auto* meter = std::get_if<Probe>(&camera.kind);
+  const double reach = opening ? opening->u.length() + opening->v.length()
+                       : meter ? std::sqrt(meter->area())  // beyond the radius of a sphere
+                               : (center - position(camera)).length();
   Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
   if (!camera.motion) return box;
   const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);
   return {path.min - Imath::V3d(reach), path.max + Imath::V3d(reach)};
 }
 
+// A meter of some size may stand in several kinds of matter at once.
+bool camera_matter_varies(const Scene& scene) {
+  const auto* meter = std::get_if<Probe>(&scene.camera.kind);
+  const bool extended = meter != nullptr && meter->area() > 0;
+  return (scene.needs.motion || extended) &&
+         matter_moves(scene, camera_box(scene.camera), scene.camera.motion != nullptr || extended);
+}
+
 void look_for_moving_matter(Plan& plan) {
   const Scene& scene = plan.scene;
-  plan.camera_matter_moves = matter_moves(scene, camera_box(scene.camera), scene.camera.motion != nullptr);
   for (const Light& light : scene.lights)
     plan.light_matter_moves.push_back(
         !light.at_infinity() && !scene.is_far(light) &&
@@ -164,6 +173,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
       around_camera(scene),
       std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
   plan.gather_radius = static_cast<float>(first_gather_radius(scene, photons));
+  plan.camera_matter_varies = camera_matter_varies(scene);
   if (scene.needs.motion) look_for_moving_matter(plan);
   if (uses(plan.techniques, Technique::path)) plan.lights_along = lamps_along_matter(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)

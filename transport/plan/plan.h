@@ -34,8 +34,8 @@ struct Plan {
   std::vector<WavelengthDistribution> own_wavelengths;
   MediumStack camera_inside;                  ///< Where camera paths start,
   std::vector<MediumStack> light_inside;      ///< and photons, likewise.
-  bool camera_matter_moves = false;           ///< Whether that depends on time,
-  std::vector<bool> light_matter_moves = {};  ///< and per light; none where nothing moves.
+  bool camera_matter_varies = false;          ///< Whether that depends on time, or on where on a meter,
+  std::vector<bool> light_matter_moves = {};  ///< and per light on time; none where nothing moves.
   float gather_radius = 0;                    ///< Of the first sample [m].
   /// Those at points that camera paths connect to along matter that scatters.
   PowerLightSampler lights_along{std::vector<double>()};

@@ -84,7 +84,7 @@ bool sees_specular(const Scene& scene) {
 // of a traced one, where the camera sees it through such matter.
 std::vector<bool> lights_to_find(const Plan& plan) {
   const Scene& scene = plan.scene;
-  const bool through = !traits(scene.camera).surface_normal && sees_specular(scene);
+  const bool through = !is_meter(scene.camera) && sees_specular(scene);
   std::vector<bool> found;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     found.push_back(scene.lights[i].is<AreaLight, SunLight>() && scene.lights[i].emission.max() > 0 &&

@@ -245,17 +245,18 @@ class Rendering {
   [[nodiscard]] double share() const {
     double share = static_cast<double>(samples()) / static_cast<double>(wanted_.last - wanted_.first);
     if (options_.time_limit_s) share = std::max(share, elapsed() / *options_.time_limit_s);
-    if (options_.target_error)
-      share = std::max(share, std::pow(*options_.target_error / result_.stats.error.median, 2));
+    if (options_.target_error) share = std::max(share, std::pow(*options_.target_error / targeted(), 2));
     return std::min(share, 1.0);
   }
+
+  [[nodiscard]] double targeted() const { return result_.stats.error.*options_.target_figure; }
 
   [[nodiscard]] bool finished() {
     result_.stats.interrupted = samples() > 0 && stop_asked();
     if (result_.stats.interrupted) return true;
     if (options_.time_limit_s && samples() > 0 && elapsed() >= *options_.time_limit_s) return true;
     const bool unlit = lit_ && lit_->empty();  // there is no error to wait for
-    return options_.target_error && (unlit || result_.stats.error.median <= *options_.target_error);
+    return options_.target_error && (unlit || targeted() <= *options_.target_error);
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

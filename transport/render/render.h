@@ -39,7 +39,8 @@ struct UnfinishedPass {
 struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
   std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends later.
-  std::optional<double> target_error = {};  ///< Stops after a pass whose median relative error is no larger.
+  std::optional<double> target_error = {};  ///< Stops after a pass whose relative error is no larger:
+  double RelativeError::*target_figure = &RelativeError::median;  ///< this figure of it.
   std::optional<Crop> crop = {};
   bool measure_error = false;  ///< Also find `error` where neither a target nor progress asks for it.
   bool measure_replay =

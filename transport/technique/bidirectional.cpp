@@ -49,7 +49,7 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
     : plan_(plan),
       scene_(plan.scene),
       caster_(caster),
-      meter_(traits(plan.scene.camera).surface_normal.has_value()),
+      meter_(is_meter(plan.scene.camera)),
       most_vertices_(static_cast<std::size_t>(most_events(plan.scene.render)) + 2),
       response_(film_response_of(plan.scene)),
       from_camera_(plan.scene, caster),

@@ -114,8 +114,10 @@ void FeatureTracer::look(const PixelSample& sample, bool first, const SurfaceHit
                          const std::optional<Interface>& met, Walk& walk) {
   const SurfaceVertex vertex(scene_, hit, met, walk);
   const Imath::V3f back = -walk.ray.direction;
-  const Imath::V3d axis = camera_.axis ? direction_at(scene_.camera, *camera_.axis, walk.ray.time)
-                                       : camera_.surface_normal.value_or(Imath::V3d(walk.ray.direction));
+  const Imath::V3d axis =
+      camera_.axis ? direction_at(scene_.camera, *camera_.axis, walk.ray.time)
+                   : Imath::V3d(is_meter(scene_.camera) ? meter_normal(scene_.camera, Imath::V3f(lens_point_))
+                                                        : walk.ray.direction);
   values_.push_back(1);
   for (const Feature feature : features_) {
     if (feature == Feature::depth)

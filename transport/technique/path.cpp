@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "materials/bsdf/warp.h"
 #include "scene/polarisation_need.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
@@ -30,6 +31,7 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
       response_(film_response_of(plan.scene)),
       carries_polarisation_(carries_polarisation(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
+      narrow_(camera_.meter_acceptance && *camera_.meter_acceptance < 1),
       walks_(plan.scene, caster),
       ghosts_(plan, caster) {}
 
@@ -113,8 +115,8 @@ bool PathTracer::start(const PixelSample& sample, const CameraRay& ray, CameraPa
   path.scale = ray.weight * static_cast<float>(scene_.exposure_s * scene_.shutter.mean());
   enter_camera_matter(plan_, path);
   if (camera_.displaces_lanes && !part_lanes(ray, path)) return false;
-  if (!camera_.surface_normal) return true;
-  const Imath::V3f normal(*camera_.surface_normal);
+  if (!camera_.meter_acceptance) return true;
+  const Imath::V3f normal = meter_normal(scene_.camera, path.ray.origin);
   path.events = kMeterEvent;
   const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(path.ray.origin, normal));
   path.at.cos_film = path.ray.direction.dot(normal);
@@ -213,6 +215,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   if (path.packet.polarisation) seen = measured(path, vertex.mueller(wi, false), chosen->light, world);
   SampledSpectrum scattering_pdf =
       chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
+  if (path.events == kMeterEvent && !accepted(world, vertex.hit.normal, contribution, scattering_pdf)) return;
   if (!path.caustics.empty() && !chosen->light.is_delta())
     scattering_pdf = mixed_pdf(scattering_pdf, path.caustics, vertex.hit.point, world);
   const Ray ray = spawn(vertex.hit, world, path.ray.time);
@@ -237,8 +240,26 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   ways_.push_back(way_to(ray, chosen->towards));
 }
 
+// A meter counts what comes within an angle as a white surface would what comes from its hemisphere: both
+// that and the density of its directions are over pi sin^2.
+bool PathTracer::accepted(const Imath::V3f& direction, const Imath::V3f& normal,
+                          SampledSpectrum& contribution, SampledSpectrum& pdf) const {
+  const float acceptance = *camera_.meter_acceptance;
+  if (!within_acceptance(acceptance, normal, direction)) return false;
+  contribution *= 1 / (acceptance * acceptance);
+  pdf *= 1 / (acceptance * acceptance);
+  return true;
+}
+
+[[gnu::noinline]] BsdfSample PathTracer::leave_meter(const Imath::V2f& u) const {
+  const float acceptance = *camera_.meter_acceptance;
+  const Imath::V3f wi = cosine_cone(u, acceptance);
+  return BsdfSample{.wi = wi, .weight = SampledSpectrum(1.0F), .pdf = wi.z / disc_area(acceptance)};
+}
+
 // The photons bring what comes through specular matter from traced lights, but for what is seen through it.
 void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
+  if (narrow_ && path.events == kMeterEvent) return;
   const CausticGuide& guide = path.first_delta ? plan_.caustics_seen_through : plan_.caustics_of_paths;
   path.caustics = !guide.empty() && scatters(vertex.bsdf) ? guide.at(vertex.hit.point) : CausticLobes();
 }

@@ -68,6 +68,7 @@ class PathTracer {
   void connect_along(CameraPath& path, const Stretch& stretch, const Imath::V2f& u);
   [[nodiscard]] std::optional<BsdfSample> scatter(CameraPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
+    if (narrow_ && path.events == kMeterEvent) return leave_meter(u.direction);
     return path.caustics.empty() ? vertex.scatter(u, path.packet.hero, kMode)
                                  : scatter_guided(path, vertex, u);
   }
@@ -101,6 +102,10 @@ class PathTracer {
   void start_together(std::span<const PixelSample> samples);
   [[nodiscard]] static std::optional<BsdfSample> scatter_guided(CameraPath& path, const SurfaceVertex& vertex,
                                                                 BsdfRandom u);
+  // Whether a meter counts light from there; then what stands for it.
+  [[nodiscard]] bool accepted(const Imath::V3f& direction, const Imath::V3f& normal,
+                              SampledSpectrum& contribution, SampledSpectrum& pdf) const;
+  [[nodiscard]] BsdfSample leave_meter(const Imath::V2f& u) const;
   // Draws the wavelengths of a path, and tells by what its ray is asked for.
   [[nodiscard]] CameraSample ask(const PixelSample& sample, CameraPath& path) const;
   // Whether there is more to find than what a meter sees directly.
@@ -134,6 +139,7 @@ class PathTracer {
   FilmResponse response_;
   bool carries_polarisation_;
   bool measures_polarisation_;
+  bool narrow_;  // a meter that does not count all of its hemisphere
   RandomWalks<PathTracer> walks_;
   GhostLights ghosts_;
   const Deposit* deposit_ = nullptr;

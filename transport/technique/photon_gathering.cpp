@@ -24,7 +24,7 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
     : plan_(plan),
       scene_(plan.scene),
       caster_(caster),
-      meter_(traits(plan.scene.camera).surface_normal.has_value()),
+      meter_(is_meter(plan.scene.camera)),
       most_events_(most_events(plan.scene.render)),
       response_(film_response_of(plan.scene)),
       walks_(plan.scene, caster),

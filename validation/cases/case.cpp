@@ -119,7 +119,6 @@ const std::vector<Case>& all_cases() {
 
 const std::vector<Uncovered>& uncovered() {
   static const std::vector<Uncovered> all{
-      {Suite::radiometry, "view factor of coaxial discs (T6)", "a probe is a point or a parallelogram"},
       {Suite::optics, "lenses L1 to L4: double Gauss, Edmund, Cooke, Thorlabs",
        "there is no lens of given surfaces yet"},
       {Suite::optics, "Airy's shift of the rainbow", "light is followed as rays, not as waves"},

@@ -75,6 +75,8 @@ Plate plate(double angle_deg, double n, double internal) {
 
 // From one face of a cube to the one opposite.
 constexpr double kOppositeFaces = 0.19982490;
+// Between coaxial discs of radius 1 at distance 1: (3 - sqrt(5)) / 2.
+constexpr double kCoaxialDiscs = 0.3819660113;
 
 // N plates one after the other, all reflections between them counted: (1 - R)/(1 + (2N - 1) R).
 double pile_transmittance(int plates, double n) {
@@ -143,6 +145,8 @@ std::vector<Case> form_factor_cases() {
                 {{"/camera/irradiance_probe/quad",
                   R"({"corner": [0, 0, 0], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]})"}},
                 std::numbers::pi * (1 - kOppositeFaces) / 4, 64),
+      film_case("T6-discs", "coaxial discs", "view factor [Howell2010, C-41]", "coaxial_discs.json", {},
+                std::numbers::pi * kCoaxialDiscs, 64),
   };
 }
 

@@ -137,7 +137,7 @@ std::string camera_elements(const Scene& scene, const Projection& to) {
   const V3d at = position(camera);
   std::string elements = svg_circle(to.x(at), to.y(at), 4, "class=\"camera\" fill=\"#3060c0\"");
   elements += svg_text(to.x(at) + 7, to.y(at) + 12, "camera", "fill=\"#3060c0\" font-size=\"10\"");
-  if (traits(camera).surface_normal) return elements;
+  if (is_meter(camera)) return elements;
   const auto width = static_cast<float>(camera.width);
   const auto height = static_cast<float>(camera.height);
   const double reach = to.box.size().length();

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/command_options.h"
+
+namespace abbe::cli {
+
+/// `abbe render`.
+void add_render(CLI::App& app, Command& command);
+/// `abbe meter`.
+void add_meter(CLI::App& app, Command& command);
+
+}  // namespace abbe::cli

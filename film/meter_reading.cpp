@@ -1,0 +1,43 @@
+#include "film/meter_reading.h"
+
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+Film::Average scaled(Film::Average value, double factor) {
+  value.mean *= factor;
+  value.standard_error *= factor;
+  return value;
+}
+
+// Of a cell, or of all of them where `part` is the whole film.
+LightReading light_in(const Film& film, const Crop& part, double factor) {
+  const auto read = [&](int plane) {
+    return scaled(film.average(plane, part.x0, part.y0, part.x1, part.y1), factor);
+  };
+  return {read(kRadiantPlane), read(kLuminousPlane), scaled(read(kPhotonPlane), kAvogadro / 1e6)};
+}
+
+}  // namespace
+
+MeterReading read_meter(const Meter& meter, const Film& film, double exposure_s) {
+  const double factor = per_irradiance(meter) / exposure_s;
+  const auto& [columns, rows] = meter.cells;
+  const int width = film.width() / columns;
+  const int height = film.height() / rows;
+  MeterReading reading{light_in(film, film.crop(), factor), {}, {}};
+  // A flux is told of each cell by itself, all else per area.
+  const double of_cell = meter.quantity == MeterQuantity::flux || meter.quantity == MeterQuantity::intensity
+                             ? factor / (columns * rows)
+                             : factor;
+  for (int y = 0; y < rows && columns * rows > 1; ++y)
+    for (int x = 0; x < columns; ++x)
+      reading.cells.push_back(
+          light_in(film, {x * width, y * height, (x + 1) * width, (y + 1) * height}, of_cell));
+  for (int bin = 0; meter.spectrum && bin < meter.spectrum->count; ++bin)
+    reading.spectrum.push_back(scaled(film.average(kSpectrumPlane + bin), factor / meter.spectrum->step_nm));
+  return reading;
+}
+
+}  // namespace abbe

@@ -1,0 +1,167 @@
+#include "scene/camera/probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "materials/bsdf/warp.h"
+#include "scene/shapes/basis.h"
+#include "scene/shapes/disc.h"
+#include "scene/shapes/quad.h"
+#include "scene/shapes/sphere.h"
+
+namespace abbe {
+namespace {
+
+// Of each surface the point at a place of the unit square, which keeps areas, and the place of a point.
+
+Imath::V3d point_at(const PointOfMeter& point, Imath::V2d /*place*/) {
+  return point.at;
+}
+
+Imath::V3d point_at(const Quad& quad, Imath::V2d place) {
+  return quad.corner + quad.edge_u * place.x + quad.edge_v * place.y;
+}
+
+Imath::V3d point_at(const Disc& disc, Imath::V2d place) {
+  return Imath::V3d(sample_area(disc, Imath::V2f(place)).point);
+}
+
+Imath::V3d point_at(const SphereOfMeter& side, Imath::V2d place) {
+  return Imath::V3d(sample_area(side.sphere, Imath::V2f(place)).point);
+}
+
+Imath::V2d place_of(const PointOfMeter& /*point*/, const Imath::V3d& /*at*/) {
+  return {0.5, 0.5};
+}
+
+// The solution of (u edge_u + v edge_v) . edge = (at - corner) . edge for both edges.
+Imath::V2d place_of(const Quad& quad, const Imath::V3d& at) {
+  const Imath::V3d d = at - quad.corner;
+  const double uu = quad.edge_u.length2();
+  const double uv = quad.edge_u.dot(quad.edge_v);
+  const double vv = quad.edge_v.length2();
+  const double determinant = uu * vv - uv * uv;
+  const double du = d.dot(quad.edge_u);
+  const double dv = d.dot(quad.edge_v);
+  return {(du * vv - dv * uv) / determinant, (dv * uu - du * uv) / determinant};
+}
+
+Imath::V2d place_of(const Disc& disc, const Imath::V3d& at) {
+  const Imath::V3d local = Basis<double>(disc.normal).to_local(at - disc.center) / disc.radius;
+  return square_of_disc({local.x, local.y});
+}
+
+Imath::V2d place_of(const SphereOfMeter& side, const Imath::V3d& at) {
+  const Imath::V3d outward = (at - side.sphere.center) / side.sphere.radius;
+  const double turn = std::atan2(outward.y, outward.x) / (2 * std::numbers::pi);
+  return {(1 - outward.z) / 2, turn < 0 ? turn + 1 : turn};
+}
+
+Imath::V2f film_at(const Probe& probe, const FilmGrid& grid, const Imath::V3f& point) {
+  const Imath::V2d place =
+      std::visit([&](const auto& surface) { return place_of(surface, Imath::V3d(point)); }, probe.surface);
+  return {static_cast<float>(std::clamp(place.x, 0.0, 1.0) * grid.width),
+          static_cast<float>(std::clamp(place.y, 0.0, 1.0) * grid.height)};
+}
+
+std::optional<Opening> opening_of(const PointOfMeter& /*point*/) {
+  return std::nullopt;
+}
+
+std::optional<Opening> opening_of(const Quad& quad) {
+  return Opening{quad.corner + (quad.edge_u + quad.edge_v) * 0.5, quad.edge_u * 0.5, quad.edge_v * 0.5,
+                 normal_of(quad), false};
+}
+
+std::optional<Opening> opening_of(const Disc& disc) {
+  const Basis<double> axes(disc.normal);
+  return Opening{disc.center, axes.x * disc.radius, axes.y * disc.radius, disc.normal, true};
+}
+
+// No single plane is where light comes in.
+std::optional<Opening> opening_of(const SphereOfMeter& /*side*/) {
+  return std::nullopt;
+}
+
+}  // namespace
+
+CameraRay Probe::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
+                            const SampledSpectrum& /*wavelengths_nm*/, int /*hero*/, float time) const {
+  const Imath::V2d place(static_cast<double>(film.x) / grid.width, static_cast<double>(film.y) / grid.height);
+  const Imath::V3f point(std::visit([&](const auto& of) { return point_at(of, place); }, surface));
+  const Imath::V3f normal = normal_at(point);
+  const Imath::V3f local = cosine_cone(direction, static_cast<float>(acceptance));
+  return {spawn(point, normal, Basis<float>(normal).to_world(local), time),
+          SampledSpectrum(static_cast<float>(disc_area(acceptance))), local.z};
+}
+
+std::optional<CameraConnection> Probe::sample_towards(const FilmGrid& /*grid*/, const Imath::V3f& /*point*/,
+                                                      Imath::V2f /*lens*/,
+                                                      const SampledSpectrum& /*wavelengths_nm*/,
+                                                      float /*time*/) const {
+  return std::nullopt;
+}
+
+std::optional<CameraDensity> Probe::density(const FilmGrid& grid, const Ray& ray,
+                                            const SampledSpectrum& /*wavelengths_nm*/,
+                                            LensRoute /*route*/) const {
+  const Imath::V3f normal = normal_at(ray.origin);
+  const float cos_theta = normal.dot(ray.direction);
+  if (!within_acceptance(static_cast<float>(acceptance), normal, ray.direction)) return std::nullopt;
+  const double patch_area = area() / (static_cast<double>(grid.width) * grid.height);
+  const double pdf_position = patch_area > 0 ? 1 / patch_area : 1;
+  return CameraDensity{film_at(*this, grid, ray.origin),
+                       SampledSpectrum(static_cast<float>(pdf_position)),
+                       static_cast<float>(pdf_position),
+                       SampledSpectrum(cos_theta / static_cast<float>(disc_area(acceptance))),
+                       cos_theta,
+                       cos_theta};
+}
+
+double Probe::least_film_cosine(const FilmGrid& /*grid*/) const {
+  return std::sqrt((1 - acceptance) * (1 + acceptance));
+}
+
+CameraTraits Probe::traits() const {
+  CameraTraits of{.meter_acceptance = static_cast<float>(acceptance)};
+  of.opening = std::visit([](const auto& surface) { return opening_of(surface); }, surface);
+  return of;
+}
+
+const Imath::V3d& Probe::position() const {
+  if (const auto* point = std::get_if<PointOfMeter>(&surface)) return point->at;
+  if (const auto* quad = std::get_if<Quad>(&surface)) return quad->corner;
+  if (const auto* disc = std::get_if<Disc>(&surface)) return disc->center;
+  return std::get<SphereOfMeter>(surface).sphere.center;
+}
+
+Imath::V3d Probe::middle() const {
+  const auto* quad = std::get_if<Quad>(&surface);
+  return quad != nullptr ? point_at(*quad, {0.5, 0.5}) : position();
+}
+
+void Probe::translate(const Imath::V3d& by) {
+  if (auto* point = std::get_if<PointOfMeter>(&surface)) point->at += by;
+  if (auto* quad = std::get_if<Quad>(&surface)) quad->corner += by;
+  if (auto* disc = std::get_if<Disc>(&surface)) disc->center += by;
+  if (auto* side = std::get_if<SphereOfMeter>(&surface)) side->sphere.center += by;
+}
+
+Imath::V3f Probe::normal_at(const Imath::V3f& point) const {
+  if (const auto* single = std::get_if<PointOfMeter>(&surface)) return Imath::V3f(single->normal);
+  if (const auto* quad = std::get_if<Quad>(&surface)) return Imath::V3f(normal_of(*quad));
+  if (const auto* disc = std::get_if<Disc>(&surface)) return Imath::V3f(disc->normal);
+  const auto& side = std::get<SphereOfMeter>(surface);
+  const Imath::V3d outward = (Imath::V3d(point) - side.sphere.center).normalized();
+  return Imath::V3f(side.inwards ? -outward : outward);
+}
+
+double Probe::area() const {
+  if (const auto* quad = std::get_if<Quad>(&surface)) return abbe::area(*quad);
+  if (const auto* disc = std::get_if<Disc>(&surface)) return abbe::area(*disc);
+  if (const auto* side = std::get_if<SphereOfMeter>(&surface)) return abbe::area(side->sphere);
+  return 0;
+}
+
+}  // namespace abbe

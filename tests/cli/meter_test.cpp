@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/cli/program.h"
+
+namespace abbe::test {
+namespace {
+
+// A lamp of 100 lm in the middle of a white sphere, and three meters.
+std::string hall() {
+  return scratch()
+      .write("hall.json", R"({
+  "abbe": 1,
+  "materials": {"wall": {"diffuse": {"reflectance": 0.5}}},
+  "lights": [{"point": {"at": [0, 0, 0]}, "emission": {"illuminant": "E", "luminous_flux_lm": 100}}],
+  "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 2}, "material": "wall"}],
+  "meters": {
+    "wall": {"at": [0, 0, -1.9999], "normal": [0, 0, 1]},
+    "bulb": {"measures": "flux", "sphere": {"center": [0, 0, 0], "radius": 0.1, "facing": "inwards"},
+             "spectrum": {"from_nm": 400, "to_nm": 700, "step_nm": 50}},
+    "table": {"quad": {"corner": [-0.5, -0.5, -1], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]}, "cells": [4, 2]}
+  },
+  "render": {"samples": 16}
+})")
+      .string();
+}
+
+TEST(MeterCommand, TellsEachMeterWithItsUncertainty) {
+  const Outcome run = abbe("meter " + hall() + " --json --quiet --integrator path");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto meters = run.json()["meters"];
+  ASSERT_EQ(meters.size(), 3U);
+  const auto& wall = meters[0];
+  EXPECT_EQ(wall["name"], "wall");
+  EXPECT_EQ(wall["measures"], "irradiance");
+  EXPECT_EQ(wall["luminous"]["unit"], "lx");
+  const double half = wall["luminous"]["half_interval_95"].get<double>();
+  // Phi / (4 pi r^2 (1 - rho)) at the wall of an integrating sphere.
+  EXPECT_NEAR(wall["luminous"]["value"].get<double>(), 100 / (16 * std::numbers::pi) / 0.5, 3 * half);
+  EXPECT_GT(half, 1.9 * wall["luminous"]["standard_error"].get<double>());
+  EXPECT_EQ(meters[1]["spectrum"]["wavelength_nm"], nlohmann::json({425, 475, 525, 575, 625, 675}));
+  EXPECT_EQ(meters[2]["cells"]["columns"], 4);
+  EXPECT_EQ(meters[2]["cells"]["luminous"].size(), 8U);
+}
+
+TEST(MeterCommand, ReadsThoseThatAreNamed) {
+  const Outcome run = abbe("meter " + hall() + " --only bulb --quiet");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out.rfind("bulb  flux  ", 0), 0U) << run.out;
+  EXPECT_EQ(run.out.find("wall"), std::string::npos);
+  const Outcome unknown = abbe("meter " + hall() + " --only lamp");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("--only: no such meter (got \"lamp\", allowed wall, bulb, table)"),
+            std::string::npos)
+      << unknown.err;
+}
+
+TEST(MeterCommand, WritesSpectra) {
+  const std::string table = (scratch() / "spectra.csv").string();
+  const Outcome run = abbe("meter " + hall() + " --quiet --spectra " + table);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string text = read_file(table);
+  EXPECT_EQ(text.rfind("meter,from_nm,to_nm,per_nm,standard_error,unit\nbulb,400,450,", 0), 0U) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
+  EXPECT_EQ(abbe("meter " + hall() + " --only wall --spectra " + table).code, 2) << "it has none";
+}
+
+TEST(MeterCommand, StopsAtTheErrorAskedFor) {
+  const Outcome run = abbe("meter " + hall() + " --only wall --error 0.3% --json --quiet");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto luminous = run.json()["meters"][0]["luminous"];
+  EXPECT_LT(luminous["standard_error"].get<double>(), 0.0045 * luminous["value"].get<double>());
+}
+
+TEST(MeterCommand, NeedsMetersAndNoCamera) {
+  const Outcome picture = abbe("render " + hall());
+  EXPECT_EQ(picture.code, 3);
+  EXPECT_NE(picture.err.find("meters alone"), std::string::npos) << picture.err;
+  const Outcome none = abbe("meter " + scratch().write("none.json", R"({"abbe": 1, "meters": {}})").string());
+  EXPECT_EQ(none.code, 3);
+  EXPECT_NE(none.err.find("the scene has no meters"), std::string::npos) << none.err;
+}
+
+}  // namespace
+}  // namespace abbe::test
