@@ -106,7 +106,6 @@ abbe::RenderOptions how_to_render(const RenderOptions& options, const Scene& sce
   how.target_error = options.target_error;
   how.crop = options.crop;
   if (const std::optional<LayerChoice>& layers = options.layers) {
-    require_layers(scene);
     how.layers = layers->bounces ? bounce_layers(*layers->bounces) : light_layers(scene, layers->lights);
   }
   how.features = options.features;

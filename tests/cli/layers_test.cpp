@@ -120,9 +120,6 @@ TEST(Layers, WhatCannotBeToldIsRefused) {
         "--layers: got \"0\", allowed whole numbers in [1, 64]");
   fails(rendered(coloured(), "no.exr", "--layers lights:moon"), 2,
         "--layers: no light has such a name (got \"moon\", allowed lamp_1, sky)");
-  fails(rendered(coloured(), "no.exr", "--layers bounces --integrator sppm"), 2,
-        "--layers: the integrator does not tell by which way light came (got sppm, allowed auto, path, "
-        "light, bdpt, vcm)");
   ASSERT_EQ(rendered(coloured(), "plain.exr", "").code, 0);
   fails(abbe(fmt::format("develop {} --light sky=2 -o {}", file("plain.exr"), file("no.exr"))), 2,
         "--light: the film has no layers of lights: render --layers lights makes them");

@@ -7,18 +7,11 @@
 #include <fmt/ranges.h>
 
 #include "io/error.h"
-#include "transport/plan/techniques.h"
 
 namespace abbe {
 namespace {
 
 constexpr const char* kRest = "rest";
-
-// Of techniques that say of each contribution by which way its light came.
-bool tells_ways(Technique technique) {
-  return technique == Technique::path || technique == Technique::light || technique == Technique::bdpt ||
-         technique == Technique::vcm;
-}
 
 std::vector<std::string> layers_of_lights(const Scene& scene) {
   std::vector<std::string> names;
@@ -82,16 +75,6 @@ Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   }
   for (std::string& name : layers.names) name.insert(0, kLightLayer);
   return layers;
-}
-
-void require_layers(const Scene& scene) {
-  for (const Technique technique : chosen_techniques(scene))
-    if (!tells_ways(technique))
-      throw Error(
-          ErrorCode::usage, "--layers",
-          fmt::format("the integrator does not tell by which way light came (got {}, allowed auto, path, "
-                      "light, bdpt, vcm)",
-                      name_of(technique)));
 }
 
 FilmShape layered(FilmShape film, std::size_t layers) {

@@ -34,9 +34,6 @@ struct Layers {
 /// The name of a light with _ for all but letters, digits, - and _, so that channels of files can have it.
 [[nodiscard]] std::string layer_name(std::string light);
 
-/// Throws Error{usage} when a technique of the scene does not tell by which way light came.
-void require_layers(const Scene& scene);
-
 /// The shape of the sums of so many layers of a film.
 [[nodiscard]] FilmShape layered(FilmShape film, std::size_t layers);
 

@@ -295,6 +295,7 @@ void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     look(tile(number), s, worker);
     take_pixels(tile(number), s, worker);
+    worker.adjoint_brute_tracer.tell_apart(layers_deposit(s, path_interval_, worker));
     worker.adjoint_brute_tracer.trace(worker.pixels, pixels_deposit(s, worker));
   }
 }
@@ -308,6 +309,7 @@ void Pass::gather_tile(std::uint32_t item, Worker& worker) {
   }
   look(tile(item % tiles_), sample, worker);
   take_pixels(tile(item % tiles_), sample, worker);
+  worker.photon_gatherer.tell_apart(layers_deposit(sample, path_interval_, worker));
   worker.photon_gatherer.trace(worker.pixels, std::get<PhotonCloud>(left_), kernel,
                                pixels_deposit(sample, worker));
 }
@@ -349,6 +351,7 @@ void Pass::trace_batch_brutely(std::uint32_t batch, Worker& worker) {
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
     take_photons(s, begin, end, worker);
+    worker.brute_photon_tracer.tell_apart(layers_deposit(s, 1, worker));
     worker.brute_photon_tracer.trace(worker.photons, splats_of(s, worker));
   }
 }

@@ -58,7 +58,7 @@ void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& d
     keep_hero(path.packet);
     start_from_light(plan_, caster_, aim[kTimeNumber], path);
     if (path.vertices.empty()) continue;
-    look_for_camera(path);
+    look_for_camera(path, 0);
     walks_.going().push_back(i);
   }
   walks_.run(*this);
@@ -66,7 +66,7 @@ void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& d
 
 // The camera stands in no photon's way, as in none of other techniques. What matter takes before it is
 // weighed.
-void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
+void BrutePhotonTracer::look_for_camera(const RecordedPath& path, int events) {
   if (!opening_) return;
   const std::optional<double> distance = opening_->crossed_by(seen_at_rest(scene_.camera, path.ray));
   if (!distance) return;
@@ -80,6 +80,7 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
   if (!through) return;
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
                      path.ray.time, images_of(*seen)};
+  const LightHistory of{std::get<LightVertex>(path.vertices.front().at).light, events};
   std::optional<StokesSpectrum> arrives;
   if (path.packet.polarisation)
     arrives = polarisation_of_film(scene_, path.ray.direction, path.ray.time, images_of(*seen))
@@ -90,6 +91,7 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path) {
               response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light),
                                [&](const FilmPoint& pixel, std::span<const double> values) {
                                  (*deposit_)(path.path, pixel, values);
+                                 if (apart_) apart_(pixel, of, values);
                                });
             });
 }
@@ -124,20 +126,33 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
     walks_.going().push_back(i);
   }
   walks_.run(*this);
-  const SampledSpectrum scale(static_cast<float>(scene_.exposure_s * scene_.shutter.mean()));
   for (const RecordedPath& path : paths)
     found_.tell(path.path, [&](const auto& found) {
-      response_.expose(
-          at_[path.path], path.packet.wavelengths, found * scale,
-          [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
+      expose(path, found,
+             [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
     });
+}
+
+template <typename Contribution, typename DepositAt>
+void AdjointBruteTracer::expose(const RecordedPath& path, const Contribution& contribution,
+                                DepositAt deposit) {
+  const SampledSpectrum scale(static_cast<float>(scene_.exposure_s * scene_.shutter.mean()));
+  response_.expose(at_[path.path], path.packet.wavelengths, contribution * scale, deposit);
 }
 
 void AdjointBruteTracer::add_met(const RecordedPath& path, std::uint32_t light) {
   const Light& emitter = scene_.lights[light];
   const Imath::V3f& towards = path.ray.direction;
-  found_.add(path.path, path.packet.throughput * emission_from(emitter, towards, path.lambda_nm()),
-             pointer_to(seen_of(emitter, path.packet, towards)));
+  const SampledSpectrum contribution =
+      path.packet.throughput * emission_from(emitter, towards, path.lambda_nm());
+  const auto seen = seen_of(emitter, path.packet, towards);
+  found_.add(path.path, contribution, pointer_to(seen));
+  if (!apart_) return;
+  const LightHistory of{light, path.events};
+  found_.tell(contribution, pointer_to(seen), [&](const auto& brought) {
+    expose(path, brought,
+           [&](const FilmPoint& at, std::span<const double> values) { apart_(at, of, values); });
+  });
 }
 
 void AdjointBruteTracer::escape(RecordedPath& path) {

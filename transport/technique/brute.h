@@ -52,6 +52,9 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
   /// `share` is the part of a sample per pixel one photon stands for.
   BrutePhotonTracer(const Plan& plan, RayCaster& caster, double share);
 
+  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
+  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+
   /// Traces a photon for each of the samplers, and deposits those that the camera sees by their numbers.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
 
@@ -59,12 +62,13 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
   void escape(RecordedPath& /*path*/) {}
   void meet(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
   [[nodiscard]] float kept(RecordedPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& /*event*/) {
-    return look_for_camera(path), 1.0F;
+    return look_for_camera(path, path.events + 1), 1.0F;
   }
-  [[nodiscard]] float kept_within(RecordedPath& path) { return look_for_camera(path), 1.0F; }
+  [[nodiscard]] float kept_within(RecordedPath& path) { return look_for_camera(path, path.events + 1), 1.0F; }
 
  private:
-  void look_for_camera(const RecordedPath& path);
+  // By the ray that the path goes on along after so many events.
+  void look_for_camera(const RecordedPath& path, int events);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -75,6 +79,7 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
   FilmResponse response_;
   RandomWalks<BrutePhotonTracer> walks_;
   const Deposit* deposit_ = nullptr;
+  ContributionDeposit apart_;  // if it is told
 };
 
 /// Brute-force adjoint photons, which run the other way in time: from the pixels, of one wavelength each, to
@@ -84,6 +89,9 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
 class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
  public:
   AdjointBruteTracer(const Plan& plan, RayCaster& caster);
+
+  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
+  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
 
   /// Traces a path for each of some samples, and deposits what they find by their numbers.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
@@ -99,6 +107,8 @@ class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
 
  private:
   void add_met(const RecordedPath& path, std::uint32_t light);
+  template <typename Contribution, typename DepositAt>
+  void expose(const RecordedPath& path, const Contribution& contribution, DepositAt deposit);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -107,6 +117,7 @@ class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
   std::vector<FilmPoint> at_;       // where each path exposes the film,
   std::vector<LaneImages> images_;  // and its lanes, behind a lens that displaces them,
   FoundLight found_;                // and with what
+  ContributionDeposit apart_;       // if it is told
 };
 
 }  // namespace abbe

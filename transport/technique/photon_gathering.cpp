@@ -58,14 +58,14 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
     path.packet = cloud_->packet;
     at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, cloud_->time, path, images_[i]);
     if (ghosts_.any())
-      ghosts_.connect(samples[i].sampler, path.packet.wavelengths, first_ + i, *deposit_, {});
+      ghosts_.connect(samples[i].sampler, path.packet.wavelengths, first_ + i, *deposit_, apart_);
     if (path.vertices.empty()) continue;
     if (meter_) connect_meter(path);
     walks_.going().push_back(i);
   }
   walks_.run(*this);
   for (const GatherPath& path : paths)
-    found_.tell(path.path, [&](const auto& found) { deposit(path, at_[path.path], found); });
+    found_.tell(path.path, [&](const auto& found) { expose(path, at_[path.path], found); });
 }
 
 // What a connection would have found is not counted again where a path meets it; from a meter both are
@@ -77,8 +77,9 @@ void PhotonGatherer::add_met(GatherPath& path, const LightVertex& light) {
   if (meter_ && path.events == 0) weight *= 1 - share_of_connecting(path.vertices.front(), {.at = light});
   const Light& emitter = scene_.lights[light.light];
   const Imath::V3f& towards = path.ray.direction;
-  found_.add(path.path, path.packet.throughput * emission_from(emitter, towards, path.lambda_nm()) * weight,
-             pointer_to(seen_of(emitter, path.packet, towards)));
+  add(path, {light.light, path.events},
+      path.packet.throughput * emission_from(emitter, towards, path.lambda_nm()) * weight,
+      pointer_to(seen_of(emitter, path.packet, towards)));
 }
 
 // By the balance heuristic over both ways in which a meter's path may come to a light.
@@ -132,10 +133,10 @@ void PhotonGatherer::connect_to_light(GatherPath& path, const PathVertex& vertex
   if (!light) return;
   const std::optional<Connection> joint = abbe::connect(scene_, caster_, vertex, *light);
   if (!joint) return;
-  found_.add(path.path,
-             vertex.packet.throughput * light->packet.throughput * joint->contribution *
-                 mis_weight(vertex.packet.lane_pdf, 0, 0),
-             pointer_to(joint->seen));
+  add(path, {std::get<LightVertex>(light->at).light, path.events + 1},
+      vertex.packet.throughput * light->packet.throughput * joint->contribution *
+          mis_weight(vertex.packet.lane_pdf, 0, 0),
+      pointer_to(joint->seen));
 }
 
 // A light that a meter sees has an angle of its own.
@@ -148,19 +149,43 @@ void PhotonGatherer::connect_meter(GatherPath& path) {
   if (!joint) return;
   FilmPoint at = at_[path.path];
   at.cos_film = way_from(meter, *light).direction.dot(*normal_of(scene_, meter));
-  deposit(path, at,
-          meter.packet.throughput * light->packet.throughput * joint->contribution *
-              (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light)));
+  const SampledSpectrum contribution =
+      meter.packet.throughput * light->packet.throughput * joint->contribution *
+      (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light));
+  expose(path, at, contribution);
+  if (apart_) expose_apart(path, at, {std::get<LightVertex>(light->at).light, 0}, contribution);
 }
 
-template <typename Contribution>
-void PhotonGatherer::deposit(const GatherPath& path, const FilmPoint& at, const Contribution& contribution) {
+// The sensor measures `seen` of a contribution of 1, where polarisation is carried.
+void PhotonGatherer::add(const GatherPath& path, const LightHistory& of, const SampledSpectrum& contribution,
+                         const StokesSpectrum* seen) {
+  found_.add(path.path, contribution, seen);
+  if (apart_)
+    found_.tell(contribution, seen,
+                [&](const auto& brought) { expose_apart(path, at_[path.path], of, brought); });
+}
+
+template <typename Contribution, typename DepositAt>
+void PhotonGatherer::expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution,
+                            DepositAt deposit) {
   response_.expose(
       at, path.packet.wavelengths,
       let_through(scene_.shutter, at, contribution) * SampledSpectrum(static_cast<float>(scene_.exposure_s)),
-      [&](const FilmPoint& pixel, std::span<const double> values) {
-        (*deposit_)(first_ + path.path, pixel, values);
-      });
+      deposit);
+}
+
+template <typename Contribution>
+void PhotonGatherer::expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution) {
+  expose(path, at, contribution, [&](const FilmPoint& pixel, std::span<const double> values) {
+    (*deposit_)(first_ + path.path, pixel, values);
+  });
+}
+
+template <typename Contribution>
+void PhotonGatherer::expose_apart(const GatherPath& path, const FilmPoint& at, const LightHistory& of,
+                                  const Contribution& contribution) {
+  expose(path, at, contribution,
+         [&](const FilmPoint& pixel, std::span<const double> values) { apart_(pixel, of, values); });
 }
 
 bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {
@@ -196,8 +221,7 @@ void PhotonGatherer::gather(const Photon& photon, const GatherPath& path, const 
   if (path.events + 1 + photon.events > most_events_) return;
   const SampledSpectrum f = merged_scattering(vertex, photon.from, photon.normal);
   if (f.is_zero()) return;
-  found_.add(
-      path.path,
+  add(path, {photon.light, path.events + 1 + photon.events},
       path.packet.throughput * photon.power * f *
           (per_area * mis_weight(path.packet.lane_pdf * photon.lane_pdf, 0, 0)),
       pointer_to(merged_polarisation(vertex, path.packet.polarisation, photon.from, photon.polarisation)));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "transport/path/film_response.h"
@@ -48,6 +49,9 @@ class PhotonGatherer {
 
   PhotonGatherer(const Plan& plan, RayCaster& caster);
 
+  /// Lets the gatherer, from now on, also tell each contribution by itself, whose sum it deposits.
+  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+
   /// Traces a path for each of some samples, of the packet of the photons, and deposits what they find by
   /// their numbers.
   void trace(std::span<const PixelSample> samples, const PhotonCloud& cloud, const GatherKernel& kernel,
@@ -79,8 +83,16 @@ class PhotonGatherer {
   void trace_together(std::span<const PixelSample> samples);
   void connect_to_light(GatherPath& path, const PathVertex& vertex, const std::array<float, 4>& u);
   void connect_meter(GatherPath& path);
+  void add(const GatherPath& path, const LightHistory& of, const SampledSpectrum& contribution,
+           const StokesSpectrum* seen);
+  template <typename Contribution, typename DepositAt>
+  void expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution,
+              DepositAt deposit);
   template <typename Contribution>
-  void deposit(const GatherPath& path, const FilmPoint& at, const Contribution& contribution);
+  void expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution);
+  template <typename Contribution>
+  void expose_apart(const GatherPath& path, const FilmPoint& at, const LightHistory& of,
+                    const Contribution& contribution);
   void gather(GatherPath& path, const SurfaceVertex& vertex);
   void gather(const Photon& photon, const GatherPath& path, const SurfaceVertex& vertex, float per_area);
   void add_met(GatherPath& path, const LightVertex& light);
@@ -97,6 +109,7 @@ class PhotonGatherer {
   const PhotonCloud* cloud_ = nullptr;
   GatherKernel kernel_;
   const Deposit* deposit_ = nullptr;
+  ContributionDeposit apart_;        // if it is told
   std::uint32_t first_ = 0;          // number of the first of the samples under way
   std::vector<FilmPoint> at_;        // where each exposes the film,
   std::vector<LaneImages> images_;   // and its lanes, behind a lens that displaces them,

@@ -43,7 +43,8 @@ void PhotonTracer::connect(RecordedPath& path, const SurfaceVertex& vertex,
   if (path.events == 0) return;
   left_.push_back({path.path,
                    {vertex.hit.point, vertex.hit.normal, -path.ray.direction, path.packet.throughput,
-                    path.packet.lane_pdf, path.events, !scattered_[path.path], path.packet.polarisation}});
+                    path.packet.lane_pdf, path.events, std::get<LightVertex>(path.vertices.front().at).light,
+                    !scattered_[path.path], path.packet.polarisation}});
 }
 
 void PhotonTracer::connect_within(RecordedPath& path, const PhaseFunction& /*phase*/,

@@ -22,6 +22,7 @@ struct Photon {
   SampledSpectrum power;     ///< Throughput, over the densities of the hero: flux over wavelength.
   SampledSpectrum lane_pdf;  ///< See `PathPacket`.
   int events;                ///< That it has had before.
+  std::uint32_t light;       ///< Where it comes from.
   bool caustic;              ///< They were of a single direction, all of them.
   CarriedPolarisation polarisation = {};
 };
