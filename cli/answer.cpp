@@ -80,7 +80,7 @@ std::string csv_quoted(const std::string& text) {
 }
 
 std::string csv_cell(const std::string& text) {
-  return text.find_first_of(",\"") == std::string::npos ? text : csv_quoted(text);
+  return text.find_first_of(",\"\r\n") == std::string::npos ? text : csv_quoted(text);
 }
 
 Json one_or_all(Json list) {

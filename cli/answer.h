@@ -28,7 +28,7 @@ void print(const Json& answer, bool as_json);
 [[nodiscard]] Json without_lists_of_one(Json answer);
 
 /// A text as a cell of a table of commas: within quotes; and within these only where it needs them, as bands
-/// do that have a comma in their names.
+/// do that have a comma in their names, and names of several lines.
 [[nodiscard]] std::string csv_quoted(const std::string& text);
 [[nodiscard]] std::string csv_cell(const std::string& text);
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,6 +48,7 @@ const Units& units_of(const Meter& meter) {
 struct Measured {
   const Meter& meter;
   Integrator integrator;
+  std::uint64_t seed;
   MeterReading reading;
   RenderStats stats;
 };
@@ -69,12 +72,9 @@ void warn(const Meter& meter, const std::string& sentence) {
   say(fmt::format("warning: meter {}: {}", meter.name, sentence));
 }
 
-void check_reach(const Scene& scene, const Meter& meter, bool strict) {
-  for (const auto& lost : {lost_light(scene), dark_camera(scene)}) {
-    if (!lost) continue;
-    if (strict) throw Error(ErrorCode::scene, meter.name, *lost);
-    warn(meter, *lost);
-  }
+void warn(const Meter& meter, const std::optional<std::string>& sentence, bool is_error) {
+  if (sentence && is_error) throw Error(ErrorCode::scene, meter.name, *sentence);
+  if (sentence) warn(meter, *sentence);
 }
 
 abbe::RenderOptions how_to_render(const MeterOptions& options, const InterruptWatch& watch,
@@ -83,21 +83,19 @@ abbe::RenderOptions how_to_render(const MeterOptions& options, const InterruptWa
   how.threads = options.threads;
   how.time_limit_s = options.time_limit_s;
   how.target_error = options.target_error;
-  how.target_figure = &RelativeError::frame_mean;
+  how.target_planes = kSpectrumPlane;  // those before
   how.stop = &watch.stop();
   if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
   return how;
 }
 
-// What each meter's scene holds besides its film is counted once, for the first of them.
-Measured measure(const MeteredScene& metered, const Meter& meter, const MeterOptions& options,
-                 const InterruptWatch& watch, Inputs& inputs, bool first) {
-  Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
-  Scene scene = accepted(scene_of(metered, meter, diagnostics, first ? &inputs : nullptr), diagnostics);
+Measured measure(Scene scene, const Meter& meter, const MeterOptions& options, const InterruptWatch& watch,
+                 Inputs& inputs) {
   set_sampling(options, scene.render);
   const bool chooses = scene.render.integrator == Integrator::automatic;
   scene.render.integrator = choose_integrator(scene, thread_count(options.threads)).integrator;
-  check_reach(scene, meter, options.strict && !chooses);
+  warn(meter, dark_camera(scene), options.strict);
+  warn(meter, lost_light(scene), options.strict && !chooses);
   ProgressDisplay display;
   const abbe::RenderOptions how = how_to_render(options, watch, display);
   inputs.take_memory("the film", film_bytes(scene, how));
@@ -106,7 +104,10 @@ Measured measure(const MeteredScene& metered, const Meter& meter, const MeterOpt
   inputs.give_back_memory(film_bytes(scene, how) + bytes_of_light_paths(scene));
   display.finish();
   for (const std::string& loss : left_out(scene, result.stats)) warn(meter, loss);
-  return {meter, scene.render.integrator, read_meter(meter, result.film, scene.exposure_s), result.stats};
+  if (options.target_error && !options.time_limit_s && !std::isfinite(result.stats.error.median))
+    warn(meter, "a pilot found no light there: --error had nothing to wait for");
+  return {meter, scene.render.integrator, scene.render.seed, read_meter(meter, result.film, scene.exposure_s),
+          result.stats};
 }
 
 // Null where nothing is known.
@@ -118,25 +119,29 @@ double half_interval(const Film::Average& value) {
   return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kLevel);
 }
 
+Json error_of(const Film::Average& value) {
+  return value.degrees_of_freedom > 0 ? Json(value.standard_error) : Json();
+}
+
 Json json_of(const Film::Average& value, const char* unit) {
-  const bool known = value.degrees_of_freedom > 0;
   return {{"value", value.mean},
           {"unit", unit},
-          {"standard_error", known ? Json(value.standard_error) : Json()},
+          {"standard_error", error_of(value)},
           {"half_interval_95", number(half_interval(value))}};
 }
 
 Json cells_json(const Measured& measured) {
-  const auto list = [&](Film::Average LightReading::*which) {
-    Json values = Json::array();
-    for (const LightReading& cell : measured.reading.cells) values.push_back((cell.*which).mean);
-    return values;
+  Json told{{"columns", measured.meter.cells[0]}, {"rows", measured.meter.cells[1]}};
+  const auto list = [&](const std::string& name, Film::Average LightReading::*which) {
+    for (const LightReading& cell : measured.reading.cells) {
+      told[name].push_back((cell.*which).mean);
+      told[name + "_standard_error"].push_back(error_of(cell.*which));
+    }
   };
-  return {{"columns", measured.meter.cells[0]},
-          {"rows", measured.meter.cells[1]},
-          {"radiant", list(&LightReading::radiant)},
-          {"luminous", list(&LightReading::luminous)},
-          {"photons", list(&LightReading::photons)}};
+  list("radiant", &LightReading::radiant);
+  list("luminous", &LightReading::luminous);
+  list("photons", &LightReading::photons);
+  return told;
 }
 
 Json spectrum_json(const Measured& measured) {
@@ -145,7 +150,7 @@ Json spectrum_json(const Measured& measured) {
     const Film::Average& value = measured.reading.spectrum[static_cast<std::size_t>(bin)];
     told["wavelength_nm"].push_back(measured.meter.spectrum->center_nm(bin));
     told["per_nm"].push_back(value.mean);
-    told["standard_error"].push_back(value.degrees_of_freedom > 0 ? Json(value.standard_error) : Json());
+    told["standard_error"].push_back(error_of(value));
   }
   return told;
 }
@@ -161,7 +166,9 @@ Json json_of(const Measured& measured) {
   if (!measured.reading.cells.empty()) told["cells"] = cells_json(measured);
   if (measured.meter.spectrum) told["spectrum"] = spectrum_json(measured);
   told["integrator"] = integrator_name(measured.integrator);
+  told["seed"] = measured.seed;
   told["samples"] = measured.stats.samples_per_pixel;
+  if (measured.stats.interrupted) told["interrupted"] = true;
   told["wall_s"] = measured.stats.wall_s;
   return told;
 }
@@ -181,12 +188,15 @@ void print_text(const Measured& measured) {
              in_words(whole.photons, units.photons));
   const std::vector<LightReading>& cells = measured.reading.cells;
   if (cells.empty()) return;
-  const auto [least, greatest] =
-      std::minmax_element(cells.begin(), cells.end(),
-                          [](const auto& a, const auto& b) { return a.luminous.mean < b.luminous.mean; });
-  fmt::print("  {} x {} cells from {:.6g} to {:.6g} {}, the least {:.3g} of the mean\n",
-             measured.meter.cells[0], measured.meter.cells[1], least->luminous.mean, greatest->luminous.mean,
-             units.luminous, least->luminous.mean / whole.luminous.mean);
+  std::vector<double> of_cells;
+  for (const LightReading& cell : cells) of_cells.push_back(cell.luminous.mean);
+  const auto [least, greatest] = std::minmax_element(of_cells.begin(), of_cells.end());
+  const double sum = std::accumulate(of_cells.begin(), of_cells.end(), 0.0);
+  fmt::print("  {} x {} cells from {:.6g} to {:.6g} {}{}\n", measured.meter.cells[0], measured.meter.cells[1],
+             *least, *greatest, units.luminous,
+             sum > 0 ? fmt::format(", the least {:.3g} of the mean",
+                                   *least * static_cast<double>(of_cells.size()) / sum)
+                     : "");
 }
 
 std::string spectra_table(const std::vector<Measured>& all) {
@@ -196,9 +206,10 @@ std::string spectra_table(const std::vector<Measured>& all) {
       const SpectralBins& bins = *measured.meter.spectrum;
       const double from = bins.from_nm + static_cast<double>(i) * bins.step_nm;
       const Film::Average& value = measured.reading.spectrum[i];
-      text +=
-          fmt::format("{},{},{},{},{},{} per nm\n", csv_cell(measured.meter.name), from, from + bins.step_nm,
-                      value.mean, value.standard_error, units_of(measured.meter).radiant);
+      const bool known = value.degrees_of_freedom > 0;
+      text += fmt::format(
+          "{},{},{},{},{},{} per nm\n", csv_cell(measured.meter.name), from, from + bins.step_nm, value.mean,
+          known ? fmt::format("{}", value.standard_error) : "", units_of(measured.meter).radiant);
     }
   }
   return text;
@@ -209,6 +220,23 @@ void check_spectra(const MeterOptions& options, const std::vector<const Meter*>&
   require_extension(options.spectra, {".csv"});
   if (std::none_of(meters.begin(), meters.end(), [](const Meter* m) { return m->spectrum.has_value(); }))
     throw Error(ErrorCode::usage, "--spectra", "none of these meters has a spectrum");
+  require_writable(options.spectra);
+}
+
+// Reads the meters in turn. What their scene holds besides their films is counted once, and so are its files.
+std::vector<Measured> measure_all(const MeteredScene& metered, const std::vector<const Meter*>& meters,
+                                  const MeterOptions& options, const InterruptWatch& watch, Inputs& inputs) {
+  std::vector<Measured> all;
+  for (const Meter* one : meters) {
+    if (watch.stop()) break;
+    Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
+    Scene scene =
+        accepted(scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr), diagnostics);
+    if (all.empty()) require_distinct(std::array{options.spectra}, inputs.files());
+    all.push_back(measure(std::move(scene), *one, options, watch, inputs));
+    if (!options.json) print_text(all.back());
+  }
+  return all;
 }
 
 }  // namespace
@@ -220,20 +248,17 @@ int meter(const MeterOptions& options) {
       accepted(load_meters(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   const std::vector<const Meter*> meters = chosen(scene, options.meters);
   check_spectra(options, meters);
-  require_distinct(std::array{options.spectra}, inputs.files());
   const InterruptWatch watch;
-  std::vector<Measured> all;
-  for (const Meter* one : meters) {
-    if (watch.stop()) break;
-    all.push_back(measure(scene, *one, options, watch, inputs, all.empty()));
-    if (!options.json) print_text(all.back());
-  }
+  const std::vector<Measured> all = measure_all(scene, meters, options, watch, inputs);
+  if (watch.stop()) say(fmt::format("interrupted: {} of {} meters were read", all.size(), meters.size()));
   if (options.json) {
     Json told = Json::array();
     for (const Measured& measured : all) told.push_back(json_of(measured));
     print({{"meters", told}}, true);
   }
-  if (!options.spectra.empty()) write_atomically(options.spectra, spectra_table(all));
+  const auto has_spectrum = [](const Measured& measured) { return !measured.reading.spectrum.empty(); };
+  if (!options.spectra.empty() && std::any_of(all.begin(), all.end(), has_spectrum))
+    write_atomically(options.spectra, spectra_table(all));
   if (watch.stop()) return kSignalExit + watch.signal();
   const auto dropped = [](const Measured& measured) { return measured.stats.nonfinite_samples > 0; };
   return options.strict && std::any_of(all.begin(), all.end(), dropped)

@@ -19,13 +19,14 @@ struct Stops {
 
 // How many samples, which `per` says of what, and the error and time that stop in their place.
 Stops add_samples(CLI::App& app, SamplingOptions& asked, const std::string& per,
-                  const std::string& small_error) {
+                  const std::string& small_error, const std::string& time_of) {
   CLI::Option* spp = add_parsed(app, "--spp", asked.samples, integer_in<int>(1, kMaxSamples), per, "N");
   CLI::Option* error = add_parsed(app, "--error", asked.target_error, parse_share,
                                   "Stop when " + small_error + " is this small, as 0.5% or 0.005", "SHARE");
-  CLI::Option* time =
-      add_parsed(app, "--time", asked.time_limit_s, parse_seconds,
-                 "Stop after this time, as 60s, 2m or 1h; with --error, at whichever comes first", "TIME");
+  CLI::Option* time = add_parsed(
+      app, "--time", asked.time_limit_s, parse_seconds,
+      "Stop after this time" + time_of + ", as 60s, 2m or 1h; with --error, at whichever comes first",
+      "TIME");
   spp->excludes(error)->excludes(time);
   return {error, time};
 }
@@ -116,7 +117,7 @@ void add_render(CLI::App& app, Command& command) {
                   "Film to write, or its exact sums (default: the scene's, else SCENE.exr)")
       ->type_name("FILE.exr|FILE.abbepart");
   const Stops stops =
-      add_samples(render, *sub.options, "Samples per pixel", "the median relative error of lit values");
+      add_samples(render, *sub.options, "Samples per pixel", "the median relative error of lit values", "");
   add_range(render, *sub.options, stops);
   add_technique(render, *sub.options);
   add_film(render, *sub.options);
@@ -147,8 +148,8 @@ void add_meter(CLI::App& app, Command& command) {
       ->type_name("NAME");
   options.add_option("--spectra", sub->spectra, "Table to write of what the meters with a spectrum read")
       ->type_name("FILE.csv");
-  (void)add_samples(options, *sub.options, "Samples of each of the thousand parts of a meter",
-                    "the relative standard error of a meter");
+  (void)add_samples(options, *sub.options, "Samples of each part of a meter, which has 1024 or more",
+                    "the largest relative standard error of a meter's three figures", " for each meter");
   add_technique(options, *sub.options);
   add_overrides(options, sub.options, "Replace a value of the scene file; may be repeated");
   add_max_memory(options, sub.options);

@@ -70,7 +70,7 @@ Fields fields(Tag<Camera>) {
       "camera", "What looks at the scene.",
       {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
               beside<LensSystemCamera>("lens_system"),
-              under<Probe>("irradiance_probe", "A meter of irradiance.")),
+              under<Probe>("irradiance_probe", "A meter of the irradiance by the light that counts.")),
        field("motion", &Camera::motion, "How it moves, from where it is described; a probe does not.")});
 }
 

@@ -50,6 +50,7 @@ void check(const spec::Meter& said, LoadContext& context) {
 std::vector<Meter> build(const spec::Meters& meters, LoadContext& context) {
   std::vector<Meter> built;
   for (const auto& [name, said, where] : meters) {
+    if (std::holds_alternative<std::monostate>(said.probe.surface)) continue;  // told already
     check(said, context);
     const auto probe = build(said.probe, context);
     const auto bins = said.spectrum ? build_bins(*said.spectrum, context) : std::nullopt;

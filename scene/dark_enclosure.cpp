@@ -51,15 +51,25 @@ bool lit(const Scene& scene, std::uint32_t enclosure) {
   });
 }
 
+// Where its rays begin: of a meter here and there.
+std::vector<Imath::V3d> places_of(const Camera& camera) {
+  if (!is_meter(camera)) return {middle(camera)};
+  std::vector<Imath::V3d> places;
+  for (const std::array<float, 2>& u : kSpreadOverLight)
+    places.emplace_back(meter_point(camera, {u[0], u[1]}));
+  return places;
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> dark_enclosure(const Scene& scene) {
-  const Imath::V3d camera = middle(scene.camera);
+  const std::vector<Imath::V3d> camera = places_of(scene.camera);
   if (scene.camera.motion) return std::nullopt;
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];
     if (motion_of(instance.shape) == nullptr && opaque(scene.materials[instance.material]) &&
-        encloses(instance.shape, camera) && !lit(scene, i) && !has_openings(instance.shape))
+        std::ranges::all_of(camera, [&](const auto& at) { return encloses(instance.shape, at); }) &&
+        !lit(scene, i) && !has_openings(instance.shape))
       return i;
   }
   return std::nullopt;

@@ -140,6 +140,12 @@ Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point) {
   return std::get<Probe>(meter.kind).normal_at(point);
 }
 
+Imath::V3f meter_point(const Camera& meter, Imath::V2f place) {
+  const FilmGrid film = meter.film();
+  const Imath::V2f at(place.x * static_cast<float>(film.width), place.y * static_cast<float>(film.height));
+  return std::get<Probe>(meter.kind).sample_ray(film, at, {0.5F, 0.5F}, {}, 0, 0).ray.origin;
+}
+
 std::optional<Imath::V3f> film_right(const Camera& camera, float time) {
   const auto right = [&](const auto& kind) -> std::optional<Imath::V3f> {
     if constexpr (requires { kind.frame; })

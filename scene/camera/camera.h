@@ -49,6 +49,9 @@ void translate(Camera& camera, const Imath::V3d& by);
 /// The outward unit normal of a meter at one of its points.
 [[nodiscard]] Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point);
 
+/// Where the ray of a meter begins, just off its surface, at a place of its film within [0, 1]^2.
+[[nodiscard]] Imath::V3f meter_point(const Camera& meter, Imath::V2f place);
+
 /// Draws a point where light comes in by way of a ghost; nothing of a camera without any.
 [[nodiscard]] std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time);
 /// The camera, seeing by way of the image alone.

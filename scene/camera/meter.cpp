@@ -1,6 +1,5 @@
 #include "scene/camera/meter.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,8 +27,8 @@ double per_irradiance(const Meter& meter) {
 Camera camera_of(const Meter& meter) {
   constexpr int kAcross = 32;  // four tiles
   const auto& [columns, rows] = meter.cells;
-  const int parts = (kAcross + std::max(columns, rows) - 1) / std::max(columns, rows);
-  return {meter.probe, columns * parts, rows * parts, 1};
+  const auto next_multiple = [](int cells) { return (kAcross + cells - 1) / cells * cells; };
+  return {meter.probe, next_multiple(columns), next_multiple(rows), 1};
 }
 
 std::vector<Channel> channels_of(const Meter& meter) {

@@ -29,7 +29,8 @@ struct Meter {
 /// A of a flux, 1/(pi s^2) of the mean radiance, and A/Omega of the mean intensity.
 [[nodiscard]] double per_irradiance(const Meter& meter);
 
-/// The meter as a camera: a pixel of its film is a part of a cell, with enough of them for many threads.
+/// The meter as a camera: a pixel of its film is a part of a cell, 32 or more of them along
+/// either side.
 [[nodiscard]] Camera camera_of(const Meter& meter);
 
 /// What the film of a meter has: W, lm and micromoles of photons per m^2, over 300-1100 nm, then the energies

@@ -92,7 +92,8 @@ CameraRay Probe::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f di
   const Imath::V3f point(std::visit([&](const auto& of) { return point_at(of, place); }, surface));
   const Imath::V3f normal = normal_at(point);
   const Imath::V3f local = cosine_cone(direction, static_cast<float>(acceptance));
-  return {spawn(point, normal, Basis<float>(normal).to_world(local), time),
+  // On the side of its normal even where the direction grazes it.
+  return {ray_at(offset_point(point, normal, normal), Basis<float>(normal).to_world(local), time),
           SampledSpectrum(static_cast<float>(disc_area(acceptance))), local.z};
 }
 

@@ -188,6 +188,15 @@ double frame_mean_error(const Film& film) {
                                                     : std::numeric_limits<double>::infinity();
 }
 
+double worst_mean_error(const Film& film, int planes) {
+  double worst = -1;
+  for (int plane = 0; plane < planes; ++plane) {
+    const Film::Average average = film.average(plane);
+    if (average.mean > 0) worst = std::max(worst, average.standard_error / average.mean);
+  }
+  return film.filled_replicates() > 1 && worst >= 0 ? worst : std::numeric_limits<double>::infinity();
+}
+
 RelativeError relative_error(const Film& film, std::span<const std::size_t> lit) {
   RelativeError error;
   error.frame_mean = frame_mean_error(film);

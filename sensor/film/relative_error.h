@@ -16,6 +16,8 @@ struct RelativeError {
   /// Of the mean over the whole film, its planes taken together: root of the summed variances over root of
   /// the summed squares. Bright points that few pixels have weigh here, and in no median.
   double frame_mean = std::numeric_limits<double>::infinity();
+  /// The largest of the means over the whole film of the planes that a target asks for, if it asks for some.
+  double worst_mean = std::numeric_limits<double>::infinity();
 };
 
 /// The values of a film that have light, by pixel times planes plus plane: those that are not 0 in a pilot,
@@ -27,6 +29,10 @@ struct RelativeError {
 /// Percentiles over the lit values, corrected for the few replicates by `quantiles_of_deviation`. A lit value
 /// that the film has no light in counts as infinitely far off.
 [[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> lit);
+
+/// The largest relative error of the means over the whole film of the first so many planes, but for those
+/// that are dark.
+[[nodiscard]] double worst_mean_error(const Film& film, int planes);
 
 /// Relative error of the mean over the whole film alone.
 [[nodiscard]] double frame_mean_error(const Film& film);

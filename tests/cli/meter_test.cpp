@@ -71,8 +71,35 @@ TEST(MeterCommand, WritesSpectra) {
 TEST(MeterCommand, StopsAtTheErrorAskedFor) {
   const Outcome run = abbe("meter " + hall() + " --only wall --error 0.3% --json --quiet");
   ASSERT_EQ(run.code, 0) << run.err;
-  const auto luminous = run.json()["meters"][0]["luminous"];
-  EXPECT_LT(luminous["standard_error"].get<double>(), 0.0045 * luminous["value"].get<double>());
+  const auto meter = run.json()["meters"][0];
+  for (const char* figure : {"radiant", "luminous", "photons"})
+    EXPECT_LE(meter[figure]["standard_error"].get<double>(), 0.003 * meter[figure]["value"].get<double>());
+}
+
+TEST(MeterCommand, OverwritesNothingThatTheSceneReads) {
+  const auto lamp =
+      scratch().write("lamp.csv", "# unit: relative\n# outside: zero\nwavelength_nm,L\n400,1\n700,1\n");
+  const auto scene = scratch().write("lit.json", R"({"abbe": 1,
+    "lights": [{"point": {"at": [0, 0, 1]}, "emission": {"illuminant": "lamp.csv:L", "luminous_flux_lm": 9}}],
+    "meters": {"m": {"at": [0, 0, 0], "normal": [0, 0, 1], "spectrum": {"from_nm": 400, "to_nm": 700, "step_nm": 100}}}})");
+  const std::string before = read_file(lamp);
+  const Outcome run = abbe("meter " + scene.string() + " --quiet --spectra " + lamp.string());
+  EXPECT_EQ(run.code, 2) << run.err;
+  EXPECT_EQ(read_file(lamp), before);
+  EXPECT_EQ(abbe("meter " + scene.string() + " --spectra /nonexistent/x.csv").code, 5);
+}
+
+// Of a flux each cell has a part, and uniformity is that of the parts.
+TEST(MeterCommand, TellsUniformityOfCells) {
+  const auto scene = scratch().write("even.json", R"({"abbe": 1,
+    "lights": [{"directional": {"towards": [0, 0, 1], "irradiance": 3}}],
+    "meters": {"m": {"measures": "flux", "cells": [2, 2],
+                     "quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]}}}})");
+  const Outcome run = abbe("meter " + scene.string() + " --quiet");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::size_t at = run.out.find(", the least ");
+  ASSERT_NE(at, std::string::npos) << run.out;
+  EXPECT_GT(std::stod(run.out.substr(at + 12)), 0.95) << run.out;
 }
 
 TEST(MeterCommand, NeedsMetersAndNoCamera) {

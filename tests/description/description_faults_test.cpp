@@ -223,6 +223,13 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"cells of a disc",
        metered(R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}, "cells": [2, 2])"),
        ErrorCode::scene, "/meters/m/cells: error: cells are parts of a quad"},
+      {"a meter nowhere", metered(""), ErrorCode::scene, "/meters/m: error: expected exactly one key"},
+      {"a meter twice",
+       metered(
+           R"("at": [0, 0, 0], "normal": [0, 0, 1], "quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]})"),
+       ErrorCode::scene, "/meters/m: error: expected exactly one key (got at, quad"},
+      {"a meter without a normal", metered(R"("at": [0, 0, 0])"), ErrorCode::scene,
+       "/meters/m: error: missing key \"normal\""},
       {"a moving meter",
        R"({"camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]},
            "motion": {"keyframes": [{"time_s": 0}, {"time_s": 1, "translate": [1, 0, 0]}]}}})",

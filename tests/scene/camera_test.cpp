@@ -42,6 +42,12 @@ Camera wide_lens() {
 Camera meter() {
   return {Probe{Quad{{1, 1, 1}, {2, 0, 0}, {1, -4, 0}}}, 2, 4, 1};
 }
+Camera disc_meter() {
+  return {Probe{Disc{{1, 1, 1}, V3d(0, 0.6, 0.8), 2}, 0.3}, 2, 4, 1};
+}
+Camera sphere_meter() {
+  return {Probe{SphereOfMeter{{{1, 1, 1}, 2}, true}}, 2, 4, 1};
+}
 Camera point_meter() {
   return {Probe{PointOfMeter{{1, 1, 1}, {0, 0, -1}}}, 2, 4, 1};
 }
@@ -249,8 +255,8 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
 
 TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
   Random random(7);
-  for (const Camera& camera :
-       {pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(), wide_lens(), meter(), point_meter()})
+  for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(), wide_lens(),
+                               meter(), disc_meter(), sphere_meter(), point_meter()})
     for (int i = 0; i < 10000; ++i) {
       const V2f film(static_cast<float>(camera.width) * random.uniform(),
                      static_cast<float>(camera.height) * random.uniform());

@@ -62,7 +62,8 @@ const std::vector<Told> kTold{{"cornell.json", "path"},
                               {"cornell.json", "sppm"},
                               {"glass_sphere.json", "photon-map"},
                               {"cornell.json", "adjoint-brute"},
-                              {"validation/room.json", "photon-brute"}};
+                              {"validation/room.json", "photon-brute"},
+                              {"validation/room.json", "sppm"}};
 Scene small(const Told& told, const char* samples = "8", const char* resolution = "[32, 32]") {
   return test::load(told.scene, {{"/render/integrator", told.integrator},
                                  {"/sensor/resolution", resolution},

@@ -210,6 +210,35 @@ TEST(Meter, ReadsTheMeanWhileTheShutterIsOpen) {
   expect_equal(read(moving).whole.luminous, 1000 / (4 * kPi) / std::sqrt(2.0));
 }
 
+// On a board that leans, under a lamp along its normal: nothing of the board stands in the meter's light.
+TEST(Meter, StandsOffTheSurfaceItLiesOn) {
+  const std::string board =
+      R"({"corner": [0, 0, 0], "edge_u": [1, 0.2, 0], "edge_v": [-0.1, 0.9998476952, 0.0174524064]})";
+  const std::string lamp =
+      R"("lights": [{"point": {"at": [0.4, 0.5, 1]}, "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}])";
+  const std::string black =
+      R"(, "materials": {"black": {"diffuse": {"reflectance": 0}}}, "shapes": [{"quad": )" + board +
+      R"(, "material": "black"}])";
+  const std::string meter = R"({"quad": )" + board + "}";
+  const double bare = read(scene_of(meter, lamp)).whole.luminous.mean;
+  expect_equal(read(scene_of(meter, lamp + black)).whole.luminous, bare);
+}
+
+// Inwards on the surface of a ball of ink around a lamp, and outwards on a black ball in an even sky.
+TEST(Meter, SpheresStandOffTheBallsTheyLieOn) {
+  const auto ball = [](const std::string& material) {
+    return R"(, "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 2}, "material": ")" + material +
+           R"("}], "materials": {"ink": {"medium": {"absorption_per_m": 1}}, "black": {"diffuse": {"reflectance": 0}}})";
+  };
+  const std::string lamp =
+      R"("lights": [{"point": {"at": [0, 0, 0]}, "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}])";
+  const std::string within =
+      R"({"measures": "flux", "sphere": {"center": [0, 0, 0], "radius": 2, "facing": "inwards"}})";
+  expect_equal(read(scene_of(within, lamp + ball("ink"))).whole.luminous, 1000 * std::exp(-2));
+  const std::string without = R"({"sphere": {"center": [0, 0, 0], "radius": 2}})";
+  expect_equal(read(scene_of(without, kSky + ball("black"))).whole.radiant, kPi * 1600);
+}
+
 // Half of the meter is in ink: it reads the mean of its halves.
 TEST(Meter, MayStandInSeveralKindsOfMatter) {
   const std::string ink = std::string(kSky) +

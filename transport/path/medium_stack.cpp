@@ -97,10 +97,7 @@ MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time) {
 
 MediumStack around_camera(const Scene& scene) {
   if (!is_meter(scene.camera)) return enclosing(scene, Imath::V3f(middle(scene.camera)));
-  const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
-                          static_cast<float>(scene.camera.height) / 2);
-  const CameraRay ray = sample_ray(scene.camera, center, {0.5F, 0.5F}, SampledSpectrum(550), 0, 0);
-  return enclosing(scene, ray.ray.origin);
+  return enclosing(scene, meter_point(scene.camera, {0.5F, 0.5F}));
 }
 
 MediumStack around_light(const Scene& scene, const Light& light) {

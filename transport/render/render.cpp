@@ -217,7 +217,10 @@ class Rendering {
     if (!lit_)
       if (const auto pilot = pilot_film(plan_, threads_, options_.crop, [this] { return stop_asked(); }))
         lit_ = lit_values(*pilot, count_intensities(plan_.scene.channels));
-    return relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>());
+    RelativeError error =
+        relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>());
+    if (options_.target_planes > 0) error.worst_mean = worst_mean_error(result_.film, options_.target_planes);
+    return error;
   }
 
   [[nodiscard]] bool stop_asked() const { return options_.stop != nullptr && options_.stop->load(); }
@@ -249,7 +252,9 @@ class Rendering {
     return std::min(share, 1.0);
   }
 
-  [[nodiscard]] double targeted() const { return result_.stats.error.*options_.target_figure; }
+  [[nodiscard]] double targeted() const {
+    return options_.target_planes > 0 ? result_.stats.error.worst_mean : result_.stats.error.median;
+  }
 
   [[nodiscard]] bool finished() {
     result_.stats.interrupted = samples() > 0 && stop_asked();

@@ -39,8 +39,10 @@ struct UnfinishedPass {
 struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
   std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends later.
-  std::optional<double> target_error = {};  ///< Stops after a pass whose relative error is no larger:
-  double RelativeError::*target_figure = &RelativeError::median;  ///< this figure of it.
+  /// Stops after a pass whose relative error is no larger: the median, or that of the means of the first so
+  /// many planes over the whole film.
+  std::optional<double> target_error = {};
+  int target_planes = 0;
   std::optional<Crop> crop = {};
   bool measure_error = false;  ///< Also find `error` where neither a target nor progress asks for it.
   bool measure_replay =
