@@ -90,6 +90,14 @@ SampledSpectrum MixtureBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) con
   return quotient(weighted, total_weight(*material_, wavelengths_nm_));
 }
 
+SampledSpectrum MixtureBsdf::delta_probability(const Imath::V3f& wo) const {
+  SampledSpectrum weighted;
+  for (const MixtureMaterial::Component& component : material_->components)
+    weighted +=
+        component.weight(wavelengths_nm_) * abbe::delta_probability(make_bsdf(*component.material, at()), wo);
+  return quotient(weighted, total_weight(*material_, wavelengths_nm_));
+}
+
 // Light enters no part, so that none scales what passes.
 std::optional<MuellerMatrix> MixtureBsdf::mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                   bool delta) const {

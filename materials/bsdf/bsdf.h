@@ -88,6 +88,19 @@ template <typename Visitor>
       bsdf);
 }
 
+/// Probability with which `sample` would draw a delta event, were each lane the hero. What is left of 1 are
+/// events of `pdf`, and those by which nothing leaves.
+[[nodiscard]] inline SampledSpectrum delta_probability(const Bsdf& bsdf, const Imath::V3f& wo) {
+  return visit_model(
+      [&]<typename Model>(const Model& model) {
+        if constexpr (requires { model.delta_probability(wo); })
+          return model.delta_probability(wo);
+        else
+          return SampledSpectrum(Model::kScatters ? 0.0F : 1.0F);
+      },
+      bsdf);
+}
+
 /// Whether light may leave in more than single directions, so that connecting to lights pays.
 [[nodiscard]] inline bool scatters(const Bsdf& bsdf) {
   return visit_model([]<typename Model>(const Model&) { return Model::kScatters; }, bsdf);

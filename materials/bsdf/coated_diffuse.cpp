@@ -64,6 +64,10 @@ std::optional<BsdfSample> CoatedDiffuseBsdf::sample(const Imath::V3f& wo, const 
                     .pdf = pdf};
 }
 
+SampledSpectrum CoatedDiffuseBsdf::delta_probability(const Imath::V3f& wo) const {
+  return SampledSpectrum(1) - spread_probability(*this, through(*this, wo.z));
+}
+
 SampledSpectrum CoatedDiffuseBsdf::delta_power(const Imath::V3f& wo, bool is_through) const {
   return is_through ? SampledSpectrum() : through(*this, wo.z).reflected;
 }

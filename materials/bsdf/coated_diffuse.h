@@ -25,6 +25,7 @@ struct CoatedDiffuseBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] SampledSpectrum delta_probability(const Imath::V3f& wo) const;
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };

@@ -24,6 +24,7 @@ class MixtureBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] SampledSpectrum delta_probability(const Imath::V3f& wo) const;
   /// What `mueller` says of it: the mean over the parts by the power that each sends from wo to wi.
   [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                      bool delta) const;

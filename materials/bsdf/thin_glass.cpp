@@ -45,6 +45,11 @@ std::optional<BsdfSample> ThinGlassBsdf::sample(const Imath::V3f& wo, const Bsdf
                     .transmitted = passes};
 }
 
+SampledSpectrum ThinGlassBsdf::delta_probability(const Imath::V3f& wo) const {
+  return SampledSpectrum::map(delta_power(wo, false) + delta_power(wo, true),
+                              [](float leaving) { return leaving > 0 ? 1.0F : 0.0F; });
+}
+
 SampledSpectrum ThinGlassBsdf::delta_power(const Imath::V3f& wo, bool through) const {
   const float cos_i = std::min(std::abs(wo.z), 1.0F);
   return SampledSpectrum::map(n, depth, [=](float lane_n, float lane_depth) {

@@ -16,6 +16,7 @@ struct ThinGlassBsdf {
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] SampledSpectrum delta_probability(const Imath::V3f& wo) const;  ///< 0 where nothing leaves.
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };

@@ -79,6 +79,24 @@ void expect_sound(const Bsdf& bsdf, const V3f& wo, const BsdfSample& s, int hero
   }
 }
 
+// Over a grid of choices, as many are delta events as delta_probability says, to the grid's step at each of
+// the bounds between lobes.
+TYPED_TEST(BsdfLaws, DeltaProbabilityIsTheShareOfDeltaEvents) {
+  constexpr int kChoices = 4096;
+  this->for_all([](const Bsdf& bsdf, const V3f& wo) {
+    const SampledSpectrum told = delta_probability(bsdf, wo);
+    for (int hero = 0; hero < kLanes; ++hero) {
+      int delta = 0;
+      for (int i = 0; i < kChoices; ++i) {
+        const float lobe = (static_cast<float>(i) + 0.5F) / kChoices;
+        const auto s = sample(bsdf, wo, {lobe, {0.3F, 0.6F}}, hero, TransportMode::radiance);
+        if (s && s->delta) ++delta;
+      }
+      EXPECT_NEAR(told[hero], static_cast<float>(delta) / kChoices, 8.0F / kChoices);
+    }
+  });
+}
+
 TYPED_TEST(BsdfLaws, SamplesAreSound) {
   Uniform random(1);
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
