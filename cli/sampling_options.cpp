@@ -16,6 +16,10 @@ void set_sampling(const SamplingOptions& options, RenderSettings& render) {
                 fmt::format("lets auto choose among more integrators, and this one is chosen already (got "
                             "--integrator {}, allowed auto)",
                             integrator_name(render.integrator)));
+  if (render.sampling != PathSampling{} && render.integrator != Integrator::path)
+    throw Error(ErrorCode::usage, "--integrator",
+                fmt::format("the scene says how \"path\" draws its paths (got {}, allowed path)",
+                            integrator_name(render.integrator)));
 }
 
 }  // namespace abbe::cli

@@ -1,5 +1,7 @@
 #include "description/render.h"
 
+#include <fmt/format.h>
+
 #include "description/kinds.h"
 #include "description/render_limits.h"
 
@@ -50,12 +52,45 @@ Fields fields(Tag<Render>) {
            "all "
            "light counts as unpolarised at every event: a prism of N-BK7 at minimum deviation is then .3 % "
            "too "
-           "dark, one of N-SF11 3 %, and crossed mirrors near Brewster's angle are wrong by any factor.")});
+           "dark, one of N-SF11 3 %, and crossed mirrors near Brewster's angle are wrong by any factor."),
+       defaulted("directions", &Render::directions,
+                 word<DirectionSampling>("directions", {"bsdf", "cosine", "uniform"}),
+                 "By what `path` draws directions after an event at a surface that is not of a single "
+                 "direction: its scattering, the cosine, or none. `cosine` and `uniform` are over the side "
+                 "seen, or over both where light may come through."),
+       defaulted("lights", &Render::lights, word<LightStrategy>("lights", {"mis", "bsdf", "light"}),
+                 "How `path` finds light after such an event or one within matter: by following scattering "
+                 "and by connecting, both weighed; by scattering alone, which no lamp at a point is met by; "
+                 "or by connecting alone."),
+       defaulted("heuristic", &Render::heuristic, word<MisHeuristic>("heuristic", {"balance", "power"}),
+                 "Whether `mis` weighs both ways by their densities, or by the squares of these.")});
 }
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
+namespace {
+
+// How `path` is to draw its paths; what it is told and does not use is refused.
+PathSampling sampling_of(const spec::Render& render, Diagnostics& diagnostics) {
+  const PathSampling sampling{render.directions.value, render.lights.value, render.heuristic.value};
+  const PathSampling usual;
+  const auto refuse_for_others = [&](bool told, const SourcePosition& where) {
+    if (told && render.integrator != Integrator::path)
+      diagnostics.error(where,
+                        fmt::format("says how the integrator \"path\" draws its paths (got it with \"{}\")",
+                                    kIntegratorNames.at(static_cast<std::size_t>(render.integrator))));
+  };
+  refuse_for_others(sampling.directions != usual.directions, render.directions.where);
+  refuse_for_others(sampling.lights != usual.lights, render.lights.where);
+  refuse_for_others(sampling.heuristic != usual.heuristic, render.heuristic.where);
+  if (sampling.heuristic != usual.heuristic && sampling.lights != LightStrategy::mis)
+    diagnostics.error(render.heuristic.where,
+                      "weighs two ways to a light, of which \"lights\" leaves one (allowed with \"mis\")");
+  return sampling;
+}
+
+}  // namespace
 
 RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics) {
   if (render.roulette_depth.value < 0 && !render.max_depth)
@@ -69,6 +104,7 @@ RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& dia
   }
   settings.consistent = render.consistent;
   settings.polarisation = render.polarisation == spec::Polarising::automatic;
+  settings.sampling = sampling_of(render, diagnostics);
   return settings;
 }
 

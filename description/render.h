@@ -30,6 +30,9 @@ struct Render {
   std::optional<Photons> photons;
   bool consistent = false;
   Polarising polarisation = Polarising::automatic;
+  schema::Located<DirectionSampling> directions;
+  schema::Located<LightStrategy> lights;
+  schema::Located<MisHeuristic> heuristic;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 
@@ -37,7 +40,8 @@ struct Render {
 
 namespace abbe::description {
 
-/// Reports paths that nothing ends. Lengths are in units of `unit_m`.
+/// Reports paths that nothing ends, and how `path` is to draw paths where it is not the integrator. Lengths
+/// are in units of `unit_m`.
 [[nodiscard]] RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics);
 
 }  // namespace abbe::description

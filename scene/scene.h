@@ -62,6 +62,29 @@ struct PhotonSettings {
   bool final_gather = false;                     ///< Whether a photon map is looked at one event later.
 };
 
+/// By what Integrator::path draws directions after an event at a surface, a meter's among them, that is not
+/// of a single direction: by the surface's own scattering; with the density cos/pi; or evenly. Both of the
+/// latter are over the side that the path came from, or over both sides, at half the density, where light may
+/// come through.
+enum class DirectionSampling { bsdf, cosine, uniform };
+
+/// By which of both ways Integrator::path finds light after such an event, or one within matter: by all, each
+/// weighed; by following scattering alone; or by connecting alone wherever a connection may be drawn.
+enum class LightStrategy { mis, bsdf, light };
+
+/// How both ways are weighed [Veach1997, sec. 9.2]: by their densities, or by the squares of these.
+enum class MisHeuristic { balance, power };
+
+/// How Integrator::path draws its paths. It changes the noise, and nothing of what is found but what
+/// `unreached` tells.
+struct PathSampling {
+  DirectionSampling directions = DirectionSampling::bsdf;
+  LightStrategy lights = LightStrategy::mis;
+  MisHeuristic heuristic = MisHeuristic::balance;
+
+  friend bool operator==(const PathSampling&, const PathSampling&) = default;
+};
+
 /// How to render, as the scene file asks.
 struct RenderSettings {
   Integrator integrator = Integrator::automatic;
@@ -75,6 +98,7 @@ struct RenderSettings {
   bool consistent = false;  ///< Whether Integrator::automatic may also choose what blurs, ever less.
   /// Whether paths carry it where it matters; else all light counts as unpolarised at every event.
   bool polarisation = true;
+  PathSampling sampling = {};  ///< Of Integrator::path; by default of every other.
 };
 
 /// Where to write, as the scene file asks; empty when it does not.

@@ -73,17 +73,21 @@ void add_of_light_tracing(const Scene& scene, Classes& classes) {
 }
 
 // Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
-// vertex next to the light scatters.
+// vertex next to the light scatters; without it, the former.
 void add_of_path_tracing(const Scene& scene, const Needs& needs, bool light_tracing_active,
                          Classes& classes) {
   const auto& lights = scene.lights;
+  const bool connects = scene.render.sampling.lights != LightStrategy::bsdf;
   const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
   const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
-  classes.add(delta, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
+  if (!connects) classes.add(delta, "E (S|D)+ L", "a point, spot or directional light, which no path meets");
+  if (!has_specular_shapes(scene)) return;
+  const auto connected = [&](std::size_t i) { return connects && delta(i); };
+  classes.add(connected, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
   if (!needs.caustics) return;
-  classes.add([&](std::size_t i) { return delta(i) && traced(i); }, "E S (S|D)* D (S|D)* S L",
+  classes.add([&](std::size_t i) { return connected(i) && traced(i); }, "E S (S|D)* D (S|D)* S L",
               "caustics of a point, spot or directional light, seen in mirrors or through glass");
-  classes.add([&](std::size_t i) { return delta(i) && !traced(i); }, "E (S|D)* D (S|D)* S L",
+  classes.add([&](std::size_t i) { return connected(i) && !traced(i); }, "E (S|D)* D (S|D)* S L",
               "caustics of a point, spot or directional light");
   const std::vector<SpecularCenter> centers = specular_centers(scene);
   const auto tiny = [&](std::size_t i) {
@@ -135,7 +139,7 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
       break;
     case Integrator::automatic:
     case Integrator::path:
-      if (specular) add_of_path_tracing(scene, needs, light_tracing_active, classes);
+      add_of_path_tracing(scene, needs, light_tracing_active, classes);
   }
   return std::move(classes).told();
 }

@@ -56,6 +56,13 @@ TEST(Warnings, WhatChoosesNothingIsRefused) {
     EXPECT_EQ(run.code, 2) << chosen;
     EXPECT_NE(run.err.find("--consistent: lets auto choose"), std::string::npos) << run.err;
   }
+  const Outcome run =
+      rendered(scene, " --set /render/integrator=path --set /render/lights=light --integrator bdpt");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(
+      run.err.find("--integrator: the scene says how \"path\" draws its paths (got bdpt, allowed path)"),
+      std::string::npos)
+      << run.err;
 }
 
 TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {

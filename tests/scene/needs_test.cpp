@@ -259,6 +259,25 @@ TEST(Unreached, ClassesOfADeltaLight) {
             "E S+ L: a point, spot or directional light seen in mirrors or through glass (\"bulb\")");
 }
 
+// Paths that are not connected to lights never meet those without area, specular matter or not.
+TEST(Unreached, ADeltaLightWithoutConnections) {
+  Scene scene = floor_scene();
+  add_bulb(scene);
+  add_lamp(scene, 0.1);
+  scene.commit();
+  scene.render.integrator = Integrator::path;
+  EXPECT_TRUE(unreached(scene, scene.needs, false).empty());
+  scene.render.sampling.lights = LightStrategy::bsdf;
+  EXPECT_EQ(unreached(scene, scene.needs, false),
+            (std::vector<PathClass>{
+                "E (S|D)+ L: a point, spot or directional light, which no path meets (\"bulb\")"}));
+  add_ball(scene, kGlass);
+  scene.commit();
+  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E (S|D)+ L"}));
+  scene.render.sampling.lights = LightStrategy::light;
+  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E (S|D)* D (S|D)* S L"}));
+}
+
 TEST(Needs, SunsAndBeamsAreTracedUnlessTheyLookLarge) {
   Scene scene = floor_scene();
   add_ball(scene, kGlass);

@@ -7,7 +7,6 @@
 
 #include "materials/bsdf/warp.h"
 #include "scene/polarisation_need.h"
-#include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/start_matter.h"
 
@@ -29,6 +28,8 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
       camera_(traits(plan.scene.camera)),
       caster_(caster),
       response_(film_response_of(plan.scene)),
+      directions_(plan.scene.render.sampling.directions),
+      weights_(plan.scene.render.sampling),
       carries_polarisation_(carries_polarisation(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       narrow_(camera_.meter_acceptance && *camera_.meter_acceptance < 1),
@@ -38,7 +39,7 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
 // The estimate of a pixel's film value is, over its paths x_0 x_1 ... from the film,
 //     sum_n w_n [T_n / P_n] L_e(x_n -> x_{n-1}) + sum_n w'_n [T_n / P_n] f cos L_e / p_light,
 // T_n being the throughput up to x_n and P_n its density: light met by scattering, and light connected to,
-// each weighed by `mis_weight` over both ways and all lanes. The sums over n are kept in `found`, one value
+// each weighed by `LightWeights` over both ways and all lanes. The sums over n are kept in `found`, one value
 // per lane, and exposed at the end of a path at once.
 void PathTracer::trace(std::span<const PixelSample> samples, const Deposit& deposit) {
   deposit_ = &deposit;
@@ -185,7 +186,7 @@ void PathTracer::add_met(CameraPath& path, std::uint32_t light, const Imath::V3f
   const Imath::V3f& towards = path.ray.direction;
   const SampledSpectrum contribution = path.packet.throughput *
                                        emission_from(scene_.lights[light], towards, path.lambda_nm()) *
-                                       mis_weight(path.packet.lane_pdf, pdf, path.connected);
+                                       weights_.of_met(path.packet.lane_pdf, pdf, path.connected);
   add(path, {light, path.events}, contribution, path.at.cos_film,
       pointer_to(seen_of(scene_.lights[light], path.packet, towards)));
 }
@@ -203,6 +204,7 @@ std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const LightSampl
 }
 
 void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
+  if (!weights_.connects()) return;
   const std::optional<ChosenLight> chosen = choose_light(vertex.place(), u, path.ray.time);
   if (!chosen) return;
   const Imath::V3f& world = chosen->towards.wi;
@@ -214,7 +216,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   std::optional<StokesSpectrum> seen;
   if (path.packet.polarisation) seen = measured(path, vertex.mueller(wi, false), chosen->light, world);
   SampledSpectrum scattering_pdf =
-      chosen->light.is_delta() ? SampledSpectrum(0.0F) : pdf(vertex.bsdf, vertex.wo, wi);
+      chosen->light.is_delta() ? SampledSpectrum(0.0F) : unguided_pdf(vertex, wi);
   if (path.events == kMeterEvent && !accepted(world, vertex.hit.normal, contribution, scattering_pdf)) return;
   if (!path.caustics.empty() && !chosen->light.is_delta())
     scattering_pdf = mixed_pdf(scattering_pdf, path.caustics, vertex.hit.point, world);
@@ -228,7 +230,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
     return;
   }
   const float weight =
-      mis_weight(path.packet.lane_pdf * scattering_pdf, chosen->pdf, path.packet.lane_pdf.sum());
+      weights_.of_connection(path.packet.lane_pdf * scattering_pdf, chosen->pdf, path.packet.lane_pdf.sum());
   if (!std::isfinite(weight)) return;
   if (crosses)
     medium_at(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm())
@@ -240,14 +242,15 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   ways_.push_back(way_to(ray, chosen->towards));
 }
 
-// A meter counts what comes within an angle as a white surface would what comes from its hemisphere: both
-// that and the density of its directions are over pi sin^2.
+// A meter counts what comes within an angle as a white surface would what comes from its hemisphere: that is
+// over pi sin^2, and so is the density of its directions, which `leave_meter` draws by the cosine.
 bool PathTracer::accepted(const Imath::V3f& direction, const Imath::V3f& normal,
                           SampledSpectrum& contribution, SampledSpectrum& pdf) const {
   const float acceptance = *camera_.meter_acceptance;
   if (!within_acceptance(acceptance, normal, direction)) return false;
+  if (!narrow_) return true;
   contribution *= 1 / (acceptance * acceptance);
-  pdf *= 1 / (acceptance * acceptance);
+  if (!pdf.is_zero()) pdf = SampledSpectrum(normal.dot(direction) / disc_area(acceptance));
   return true;
 }
 
@@ -264,11 +267,11 @@ void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
   path.caustics = !guide.empty() && scatters(vertex.bsdf) ? guide.at(vertex.hit.point) : CausticLobes();
 }
 
-// A direction drawn by scattering or from the guide, by chance. Roulette must not take what the guide draws
+// A direction drawn from the guide or as without it, by chance. Roulette must not take what the guide draws
 // the more often the less likely for what it carries less: what that is over is counted as still there.
 [[gnu::noinline]] std::optional<BsdfSample> PathTracer::scatter_guided(CameraPath& path,
                                                                        const SurfaceVertex& vertex,
-                                                                       BsdfRandom u) {
+                                                                       BsdfRandom u) const {
   const float share = path.caustics.share();
   const bool guided = u.lobe < share;
   u.lobe = guided ? u.lobe / share : (u.lobe - share) / (1 - share);
@@ -281,11 +284,11 @@ void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
     const auto [wi, f, crosses] = vertex.towards(world, kMode);
     if (f.is_zero()) return std::nullopt;
     scattered = f * std::abs(wi.z);
-    scattering_pdf = pdf(vertex.bsdf, vertex.wo, wi);
+    scattering_pdf = unguided_pdf(vertex, wi);
     event.emplace().wi = wi;
     event->transmitted = crosses;
   } else {
-    event = vertex.scatter(u, path.packet.hero, kMode);
+    event = scatter_unguided(path, vertex, u);
     if (!event) return event;
     if (event->delta) {
       event->weight *= 1 / (1 - share);

@@ -10,8 +10,10 @@
 #include "sampling/sampler.h"
 #include "scene/camera/camera_rays.h"
 #include "transport/path/film_response.h"
+#include "transport/path/mis_weight.h"
 #include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
+#include "transport/path/surface_directions.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
 
@@ -37,9 +39,10 @@ struct PixelSample {
 };
 
 /// Path tracing [Kajiya1986]: from the camera, with a connection to a light at every vertex that is not
-/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette. Some of the
-/// directions are drawn from the plan's guide where it knows of caustics that no other technique owns, and
-/// the density is that of both ways to draw one. Serves one thread.
+/// specular, balanced over lanes and over both ways to come to the light, and Russian roulette; directions
+/// and weights are others where the scene's PathSampling asks. Some of the directions are drawn from the
+/// plan's guide where it knows of caustics that no other technique owns, and the density is that of both ways
+/// to draw one. Serves one thread.
 ///
 /// Owned: every path that ends on an area, environment or sun light or by a connection, except those whose
 /// vertex next to the camera is not specular while the one next to a traced light is.
@@ -64,13 +67,12 @@ class PathTracer {
   void connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
   // Lamps at points are connected to from places along stretches of matter too, where they are near.
-  [[nodiscard]] bool connects_along() const { return !plan_.lights_along.empty(); }
+  [[nodiscard]] bool connects_along() const { return !plan_.lights_along.empty() && weights_.connects(); }
   void connect_along(CameraPath& path, const Stretch& stretch, const Imath::V2f& u);
   [[nodiscard]] std::optional<BsdfSample> scatter(CameraPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
     if (narrow_ && path.events == kMeterEvent) return leave_meter(u.direction);
-    return path.caustics.empty() ? vertex.scatter(u, path.packet.hero, kMode)
-                                 : scatter_guided(path, vertex, u);
+    return path.caustics.empty() ? scatter_unguided(path, vertex, u) : scatter_guided(path, vertex, u);
   }
   [[nodiscard]] bool follows(CameraPath& path, const BsdfSample& event) const;
   [[nodiscard]] bool follows_within(const CameraPath& /*path*/) const { return true; }
@@ -100,8 +102,20 @@ class PathTracer {
 
   void trace_together(std::span<const PixelSample> samples);
   void start_together(std::span<const PixelSample> samples);
-  [[nodiscard]] static std::optional<BsdfSample> scatter_guided(CameraPath& path, const SurfaceVertex& vertex,
-                                                                BsdfRandom u);
+  [[nodiscard]] std::optional<BsdfSample> scatter_unguided(const CameraPath& path,
+                                                           const SurfaceVertex& vertex,
+                                                           const BsdfRandom& u) const {
+    return directions_ == DirectionSampling::bsdf
+               ? vertex.scatter(u, path.packet.hero, kMode)
+               : sample_directions(directions_, vertex, u, path.packet.hero, kMode);
+  }
+  [[nodiscard]] std::optional<BsdfSample> scatter_guided(CameraPath& path, const SurfaceVertex& vertex,
+                                                         BsdfRandom u) const;
+  // With which `scatter_unguided` draws a local direction, were each lane the hero [1/sr].
+  [[nodiscard]] SampledSpectrum unguided_pdf(const SurfaceVertex& vertex, const Imath::V3f& wi) const {
+    return directions_ == DirectionSampling::bsdf ? pdf(vertex.bsdf, vertex.wo, wi)
+                                                  : pdf_of_directions(directions_, vertex, wi);
+  }
   // Whether a meter counts light from there; then what stands for it.
   [[nodiscard]] bool accepted(const Imath::V3f& direction, const Imath::V3f& normal,
                               SampledSpectrum& contribution, SampledSpectrum& pdf) const;
@@ -137,6 +151,8 @@ class PathTracer {
   CameraTraits camera_;
   RayCaster& caster_;
   FilmResponse response_;
+  DirectionSampling directions_;
+  LightWeights weights_;
   bool carries_polarisation_;
   bool measures_polarisation_;
   bool narrow_;  // a meter that does not count all of its hemisphere

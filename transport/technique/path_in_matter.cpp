@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "transport/path/equiangular.h"
-#include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
 
 // Path tracing where matter scatters: connections from within, along stretches, and through what lies
@@ -51,6 +50,7 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
 }
 
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
+  if (!weights_.connects()) return;
   std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u, path.ray.time);
   if (!chosen) return;
   if (connects_along() && path.stretch.length > 0)
@@ -85,8 +85,8 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
   const std::optional<Transmission> way = unblocked_transmission(
       scene_, caster_, way_to(ray, chosen.towards), ray, around, path.lambda_nm(), chosen.towards.distance);
   if (!way) return;
-  const float weight = mis_weight(path.packet.lane_pdf * scattering_pdf * way->density, chosen.pdf,
-                                  path.packet.lane_pdf.sum());
+  const float weight = weights_.of_connection(path.packet.lane_pdf * scattering_pdf * way->density,
+                                              chosen.pdf, path.packet.lane_pdf.sum());
   if (std::isfinite(weight))
     add(path, {chosen.index, path.events + 1}, contribution * way->transmittance * weight, cos_film, seen);
 }
