@@ -26,6 +26,38 @@ AIR = """{"abbe": 1,
   "shapes": [{"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 1}, "material": "MATTER"}]}"""
 
 
+# A plate seen along its normal, under a sky that is as bright everywhere.
+UNDER_SKY = """{"abbe": 1,
+  "camera": {"pinhole": {"fov_deg": 0.5}, "from": [0, 0, 10], "to": [0, 0, 0], "up": [0, 1, 0]},
+  "sensor": {"resolution": [256, 256], "response": "energy", "channels": {"all": 1}},
+  "materials": {"diffuse": {"diffuse": {"reflectance": 0.5}}, "glossy": {"phong": {"reflectance": 0.5, "exponent": 20}}},
+  "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+  "shapes": [{"quad": {"corner": [-9, -9, 0], "edge_u": [18, 0, 0], "edge_v": [0, 18, 0]}, "material": "MATTER"}],
+  "render": {"integrator": "path", "lights": "bsdf", "max_depth": 1}}"""
+
+# A rough plate that mirrors a lamp into the camera; whatever its size, the lamp sends the plate as much.
+UNDER_LAMP = """{"abbe": 1,
+  "camera": {"pinhole": {"fov_deg": 12}, "from": [0, -4, 3], "to": [0, 0, 0], "up": [0, 0, 1]},
+  "sensor": {"resolution": [32, 32], "response": "energy", "channels": {"all": 1}},
+  "materials": {"plate": {"conductor": {"ior": "Al_Rakic", "roughness": ROUGHNESS}}},
+  "lights": [{"sphere": {"center": [0, 4, 3], "radius": RADIUS}, "emission": {"spectrum": 1}}],
+  "shapes": [{"quad": {"corner": [-9, -9, 0], "edge_u": [18, 0, 0], "edge_v": [0, 18, 0]}, "material": "plate"}],
+  "render": {"integrator": "path", "max_depth": 1}}"""
+
+
+def spread(command):
+    """Relative variance of what a path brings, over the pixels of a film that are alike and have one each."""
+    run(f"{command} --spp 1 -o spread.exr --quiet")
+    values = planes("spread.exr")["all"].astype(float)
+    return float(values.var() / values.mean() ** 2)
+
+
+def pixel_error():
+    """What a pixel of lamp.exr errs by, over their mean."""
+    film = planes("lamp.exr")
+    return float(np.sqrt(film["Variance.all"].mean(dtype=float)) / film["all"].mean(dtype=float))
+
+
 def useful(integrator, samples, diameter_m):
     """The share of all paths that would have this noise if each of them brought the same and all others nothing: as photons that are counted do,
     whose mean is n w, and its variance n w², where n of them arrive with w each."""
@@ -77,6 +109,28 @@ for matter, samples in (("cloud", 16), ("air", 256)):
     run(f"abbe render {matter}.json --spp {samples} -o {matter}.exr --quiet")
     film = planes(f"{matter}.exr")
     found["blue_over_red"][matter] = float(film["450"].mean() / film["650"].mean())
+
+found["directions"] = {}
+for matter in ("diffuse", "glossy"):
+    pathlib.Path("sky.json").write_text(UNDER_SKY.replace("MATTER", matter))
+    for directions in ("uniform", "cosine", "bsdf"):
+        found["directions"][f"{matter}, {directions}"] = spread(f"abbe render sky.json --set /render/directions={directions}")
+
+found["lights"] = {}
+for roughness, radius in ((0.05, 0.05), (0.05, 2), (0.3, 0.05), (0.3, 2)):
+    pathlib.Path("lamp.json").write_text(UNDER_LAMP.replace("ROUGHNESS", str(roughness)).replace("RADIUS", str(radius)))
+    row = found["lights"][f"{roughness}, {radius}"] = {}
+    for lights, heuristic in (("bsdf", "balance"), ("light", "balance"), ("mis", "balance"), ("mis", "power")):
+        run(f"abbe render lamp.json --set /render/lights={lights} --set /render/heuristic={heuristic} --spp 64 -o lamp.exr --quiet")
+        row[f"{lights}, {heuristic}"] = pixel_error()
+
+found["roulette"] = {}
+EVEN = '{"resolution":[256,256],"response":"energy","channels":{"all":1}}'
+for albedo, depth in ((0.5, 1), (0.8, 1), (0.8, 4), (0.8, 8), (0.9, 1)):
+    command = (f"abbe render data/scenes/furnace.json --set /render/integrator=path --set /render/lights=bsdf --set /render/roulette_depth={depth} "
+               f"--set /materials/wall/diffuse/reflectance={albedo} --set /shapes/0/emission/spectrum={1 - albedo} "
+               f"--set /camera/pinhole/fov_deg=0.5 --set {shlex.quote(f'/sensor={EVEN}')}")
+    found["roulette"][f"{albedo}, {depth}"] = spread(command)
 
 print(json.dumps(found, indent=1))
 pathlib.Path("found.json").write_text(json.dumps(found))

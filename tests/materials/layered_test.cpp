@@ -115,6 +115,15 @@ TEST(ThinGlassBsdf, AbsorbsAlongTheWayInside) {
   EXPECT_NEAR(balance(thinner, 0.5).transmitted, (passed(f.Rs, f.Ts) + passed(f.Rp, f.Tp)) / 2, 1e-6);
 }
 
+TEST(ThinGlassBsdf, HasNoEventWhereNothingLeaves) {
+  const ThinGlassBsdf black{SampledSpectrum(1), ramp(0, 1e4F)};
+  for (int hero : {0, kLanes - 1}) {
+    const bool leaves = black.sample({0, 0, 1}, {0.5F, {}}, hero, TransportMode::radiance).has_value();
+    EXPECT_EQ(delta_probability(Bsdf(black), {0, 0, 1})[hero], leaves ? 1 : 0);
+    EXPECT_EQ(leaves, hero == 0);
+  }
+}
+
 TEST(ThinGlassMaterial, AbsorbsByItsThickness) {
   const ThinGlassMaterial pane{"glass", RefractiveIndex(1.5, 250e-9 / (4 * std::numbers::pi)), 2};
   const SampledSpectrum wavelengths(500);

@@ -7,6 +7,7 @@
 #include "film/rendered_film.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learn_aims.h"
+#include "transport/technique/path.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {
@@ -208,6 +209,30 @@ TEST(PathSampling, TheGuideShowsCausticsToAll) {
     EXPECT_NEAR(seen.mean / bare.mean, kThrough, kInterval * std::sqrt(seen.variance) / bare.mean)
         << testing::PrintToString(sampling);
     EXPECT_LT(std::sqrt(seen.variance) / seen.mean, 0.01) << testing::PrintToString(sampling);
+  }
+}
+
+// A direction is drawn from the guide or without it, and has the density of both, whichever it came by.
+TEST(PathSampling, TheGuideMixesWithAnyDirections) {
+  constexpr float kShare = 0.4F;
+  CausticLobes::Lobes along_normal;
+  along_normal.z[0] = 1;
+  along_normal.share[0] = 1;
+  const Imath::V3f normal(0, 0, 1);
+  const SurfaceVertex vertex({{0, 0, 0}, normal, 0, 0}, Basis<float>(normal), {0.6F, 0, 0.8F},
+                             DiffuseBsdf{SampledSpectrum(0.5F)});
+  const Scene scene = test::load("furnace.json", with({"uniform", "mis", "balance"}, 1));
+  const Plan plan = make_plan(scene);
+  RayCaster caster(scene);
+  const PathTracer tracer(plan, caster);
+  for (const float lobe : {0.1F, 0.3F, 0.5F, 0.9F}) {
+    CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
+    path.caustics = CausticLobes({&along_normal, 1}, 0.5F, kShare);
+    const auto event = tracer.scatter(path, vertex, {lobe, {0.3F, 0.6F}});
+    ASSERT_TRUE(event);
+    const float told = kShare * path.caustics.pdf(vertex.hit.point, event->wi) +
+                       (1 - kShare) * pdf_of_directions(DirectionSampling::uniform, vertex, event->wi)[0];
+    EXPECT_NEAR(event->pdf, told, 1e-5F * told);
   }
 }
 

@@ -176,6 +176,50 @@ class Lessons(Tutorial):
             self.assertAlmostEqual(found["efficacy"][lamp], self.claimed(claim), delta=0.5, msg=lamp)
         self.assertAlmostEqual(found["blue_over_red"]["cloud"], 1, delta=0.01)
         self.assertAlmostEqual(found["blue_over_red"]["air"], (650 / 450) ** 4, delta=0.05)
+        self.check_directions(found["directions"])
+        self.check_lights(found["lights"])
+        self.check_roulette(found["roulette"])
+
+    def check_claims(self, row, measured):
+        """The last numbers of the page's row that begins so are those measured, to the digits stated or what other machines' bits change."""
+        page = (FOLDER / "lessons.md").read_text()
+        cells = re.search(rf"^\| {re.escape(row)} \|(.*)\|$", page, re.MULTILINE)[1].split("|")
+        for cell, value in zip(cells[-len(measured):], measured):
+            stated = float(cell)
+            self.assertAlmostEqual(value, stated, delta=max(0.01 * stated, 0.6 * 10.0 ** -len(cell.strip().partition(".")[2])), msg=row)
+
+    def check_directions(self, found):
+        n = 20
+        expected = {"diffuse, uniform": 1 / 3, "diffuse, cosine": 0, "diffuse, bsdf": 0,
+                    "glossy, uniform": n**2 / (2 * n + 1), "glossy, cosine": (n - 1) ** 2 / (4 * n), "glossy, bsdf": 0}
+        for case, variance in expected.items():
+            # 65536 paths tell the variance to some 1 % of heavy tails.
+            self.assertAlmostEqual(found[case], variance, delta=0.03 * variance + 1e-6, msg=case)
+        for directions, density in (("uniform", "1/(2π)"), ("cosine", "cos θ/π"), ("bsdf", "f cos θ/ρ")):
+            for matter, last in (("diffuse", 3), ("glossy", 1)):
+                page = (FOLDER / "lessons.md").read_text()
+                cells = re.search(rf"^\| `{directions}` \| {re.escape(density)} \|(.*)\|$", page, re.MULTILINE)[1].split("|")
+                self.assertAlmostEqual(float(cells[-last]), found[f"{matter}, {directions}"], delta=0.006, msg=directions)
+
+    def check_lights(self, found):
+        for case, errors in found.items():
+            bsdf, light, balance, power = (errors[way] for way in ("bsdf, balance", "light, balance", "mis, balance", "mis, power"))
+            roughness, radius = case.split(", ")
+            self.assertLess(power, 1.4 * min(bsdf, light), case)
+            self.assertLess(balance, max(bsdf, light), case)
+            self.assertGreater(max(bsdf, light), 7 * min(bsdf, light), case)
+            self.check_claims(f"α = {roughness}, r = {radius} m", [bsdf, light, balance, power])
+        self.assertLess(found["0.05, 2"]["bsdf, balance"], found["0.05, 2"]["light, balance"])
+        self.assertLess(found["0.05, 2"]["mis, balance"], found["0.05, 2"]["mis, power"])
+
+    def check_roulette(self, found):
+        for case, variance in found.items():
+            albedo, depth = (float(number) for number in case.split(", "))
+            left = albedo**depth
+            expected = left * (1 + albedo - left)
+            # Of 65536 paths, the rare ones that survive long weigh most.
+            self.assertAlmostEqual(variance, expected, delta=0.05 * expected, msg=case)
+            self.check_claims(f"{albedo} | {depth:.0f}", [expected, variance])
 
 
 if __name__ == "__main__":
