@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "film/rendered_film.h"
 #include "io/error.h"
 
 namespace abbe::cli {

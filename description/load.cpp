@@ -47,9 +47,9 @@ std::shared_ptr<const SourceText> read_source(const std::filesystem::path& path,
   // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
   std::error_code error;
   const bool there = std::filesystem::is_regular_file(path, error);
-  const auto source = path == kStandardStream
-                          ? read_standard_input(diagnostics, ErrorCode::scene)
-                          : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  auto source = path == kStandardStream
+                    ? read_standard_input(diagnostics, ErrorCode::scene)
+                    : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
   if (source && inputs && path != kStandardStream) inputs->add_file(path);
   return source;
 }

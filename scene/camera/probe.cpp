@@ -15,19 +15,19 @@ namespace {
 
 // Of each surface the point at a place of the unit square, which keeps areas, and the place of a point.
 
-Imath::V3d point_at(const PointOfMeter& point, Imath::V2d /*place*/) {
+Imath::V3d point_at(const PointOfMeter& point, const Imath::V2d& /*place*/) {
   return point.at;
 }
 
-Imath::V3d point_at(const Quad& quad, Imath::V2d place) {
+Imath::V3d point_at(const Quad& quad, const Imath::V2d& place) {
   return quad.corner + quad.edge_u * place.x + quad.edge_v * place.y;
 }
 
-Imath::V3d point_at(const Disc& disc, Imath::V2d place) {
+Imath::V3d point_at(const Disc& disc, const Imath::V2d& place) {
   return Imath::V3d(sample_area(disc, Imath::V2f(place)).point);
 }
 
-Imath::V3d point_at(const SphereOfMeter& side, Imath::V2d place) {
+Imath::V3d point_at(const SphereOfMeter& side, const Imath::V2d& place) {
   return Imath::V3d(sample_area(side.sphere, Imath::V2f(place)).point);
 }
 

@@ -36,7 +36,7 @@ std::vector<SurfaceVertex> some_vertices() {
   return vertices;
 }
 
-constexpr int kGrid = 64;
+constexpr int kGrid = 128;
 constexpr int kHero = 3;
 
 // Calls `use` for each point of a grid over the unit square.
