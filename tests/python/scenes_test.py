@@ -154,7 +154,7 @@ class Scenes(Test):
             abbe.render(scene)
 
     def test_docstrings_tell_what_the_tables_of_keys_say(self):
-        self.assertIn("  camera: What looks at the scene. (object, required)", abbe.Scene.__doc__)
+        self.assertIn("  camera: What looks at the scene. (object, required without meters)", abbe.Scene.__doc__)
         self.assertEqual(abbe.help("sensor/readout/bits"), self.command("help", "scene", "sensor/readout/bits"))
         with self.assertRaisesRegex(abbe.UsageError, "did you mean"):
             abbe.help("camra")
