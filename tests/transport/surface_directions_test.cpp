@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -67,13 +68,18 @@ TEST(SurfaceDirections, HaveTheDensityThatIsTold) {
 TEST(SurfaceDirections, AreWhateverIsNotDelta) {
   for (const SurfaceVertex& vertex : some_vertices())
     for (const DirectionSampling directions : {DirectionSampling::cosine, DirectionSampling::uniform}) {
-      SampledSpectrum all;
+      std::array<double, kLanes> all{};
       for_grid([&](const Imath::V2f& u) {
-        all += pdf_of_directions(directions, vertex, direction_at(1 - 2 * u.x, 2 * std::numbers::pi * u.y));
+        const SampledSpectrum pdf =
+            pdf_of_directions(directions, vertex, direction_at(1 - 2 * u.x, 2 * std::numbers::pi * u.y));
+        for (std::size_t k = 0; k < all.size(); ++k)
+          all.at(k) += static_cast<double>(pdf[static_cast<int>(k)]);
       });
       const SampledSpectrum delta = delta_probability(vertex.bsdf, vertex.wo);
       for (int k = 0; k < kLanes; ++k)
-        EXPECT_NEAR(all[k] * 4 * std::numbers::pi / (kGrid * kGrid) + delta[k], 1, 1e-4);
+        EXPECT_NEAR(all.at(static_cast<std::size_t>(k)) * 4 * std::numbers::pi / (kGrid * kGrid) +
+                        static_cast<double>(delta[k]),
+                    1, 1e-4);
     }
 }
 
