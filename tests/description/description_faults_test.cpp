@@ -16,7 +16,6 @@ using DescriptionFaultsTest = testing::DescriptionTest;
 using testing::Fault;
 using testing::lit;
 using testing::Loaded;
-using testing::metered;
 using testing::painted;
 using testing::sensed;
 using testing::shaped;
@@ -51,18 +50,6 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        "(got -1, allowed [1, 16777216])"},
       {"9 endless paths", R"({"render": {"roulette_depth": -1}})", ErrorCode::scene,
        "/render/roulette_depth: error: ends no path, so that max_depth must (got -1 without a max_depth)"},
-      {"9 settings of another integrator", R"({"render": {"lights": "light"}})", ErrorCode::scene,
-       "/render/lights: error: says how the integrator \"path\" draws its paths (got it with \"auto\")"},
-      {"9 settings of another integrator", R"({"render": {"integrator": "bdpt", "directions": "cosine"}})",
-       ErrorCode::scene,
-       "/render/directions: error: says how the integrator \"path\" draws its paths (got it with \"bdpt\")"},
-      {"9 settings of another integrator", R"({"render": {"integrator": "vcm", "heuristic": "power"}})",
-       ErrorCode::scene,
-       "/render/heuristic: error: says how the integrator \"path\" draws its paths (got it with \"vcm\")"},
-      {"9 weights of one way",
-       R"({"render": {"integrator": "path", "lights": "bsdf", "heuristic": "power"}})", ErrorCode::scene,
-       "/render/heuristic: error: weighs two ways to a light, of which \"lights\" leaves one (allowed with "
-       "\"mis\")"},
       {"9 fractional count", R"({"render": {"samples": 1.5}})", ErrorCode::scene,
        "expected an integer (got 1.5"},
       {"10 deep nesting", std::string(1000000, '['), ErrorCode::scene,
@@ -227,25 +214,6 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene,
        "expected exactly one key (got pinhole, thin_lens, allowed pinhole, thin_lens, lens_system, "
        "irradiance_probe)"},
-      {"flux through a point", metered(R"("measures": "flux", "at": [0, 0, 0], "normal": [0, 0, 1])"),
-       ErrorCode::scene,
-       "/meters/m: error: no light goes through a point: its flux needs a quad, disc or sphere"},
-      {"radiance from all sides", metered(R"("measures": "radiance", "at": [0, 0, 0], "normal": [0, 0, 1])"),
-       ErrorCode::scene, "a meter of radiance takes light from a cone: it needs an acceptance_deg"},
-      {"cells of a disc",
-       metered(R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}, "cells": [2, 2])"),
-       ErrorCode::scene, "/meters/m/cells: error: cells are parts of a quad"},
-      {"a meter nowhere", metered(""), ErrorCode::scene, "/meters/m: error: expected exactly one key"},
-      {"a meter twice",
-       metered(
-           R"("at": [0, 0, 0], "normal": [0, 0, 1], "quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]})"),
-       ErrorCode::scene, "/meters/m: error: expected exactly one key (got at, quad"},
-      {"a meter without a normal", metered(R"("at": [0, 0, 0])"), ErrorCode::scene,
-       "/meters/m: error: missing key \"normal\""},
-      {"a moving meter",
-       R"({"camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]},
-           "motion": {"keyframes": [{"time_s": 0}, {"time_s": 1, "translate": [1, 0, 0]}]}}})",
-       ErrorCode::scene, "a meter does not move"},
       {"up along the sight",
        R"({"camera": {"pinhole": {"fov_deg": 9}, "from": [0, 0, 1], "to": [0, 0, 0], "up": [0, 0, 1]}})",
        ErrorCode::scene, "up is parallel"},

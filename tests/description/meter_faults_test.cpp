@@ -1,0 +1,41 @@
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using MeterFaultsTest = testing::DescriptionTest;
+using testing::Fault;
+using testing::metered;
+
+TEST_F(MeterFaultsTest, AreExplained) {
+  const std::vector<Fault> faults{
+      {"flux through a point", metered(R"("measures": "flux", "at": [0, 0, 0], "normal": [0, 0, 1])"),
+       ErrorCode::scene,
+       "/meters/m: error: no light goes through a point: its flux needs a quad, disc or sphere"},
+      {"radiance from all sides", metered(R"("measures": "radiance", "at": [0, 0, 0], "normal": [0, 0, 1])"),
+       ErrorCode::scene, "a meter of radiance takes light from a cone: it needs an acceptance_deg"},
+      {"cells of a disc",
+       metered(R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}, "cells": [2, 2])"),
+       ErrorCode::scene, "/meters/m/cells: error: cells are parts of a quad"},
+      {"a meter nowhere", metered(""), ErrorCode::scene, "/meters/m: error: expected exactly one key"},
+      {"a meter twice",
+       metered(
+           R"("at": [0, 0, 0], "normal": [0, 0, 1], "quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]})"),
+       ErrorCode::scene, "/meters/m: error: expected exactly one key (got at, quad"},
+      {"a meter without a normal", metered(R"("at": [0, 0, 0])"), ErrorCode::scene,
+       "/meters/m: error: missing key \"normal\""},
+      {"a moving meter",
+       R"({"camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]},
+           "motion": {"keyframes": [{"time_s": 0}, {"time_s": 1, "translate": [1, 0, 0]}]}}})",
+       ErrorCode::scene, "a meter does not move"},
+  };
+  expect_refused(faults);
+}
+
+}  // namespace
+}  // namespace abbe
