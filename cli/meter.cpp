@@ -223,17 +223,18 @@ void check_spectra(const MeterOptions& options, const std::vector<const Meter*>&
   require_writable(options.spectra);
 }
 
-// Reads the meters in turn. What their scene holds besides their films is counted once, and so are its files.
+// Reads the meters in turn. What their scene holds besides their films is counted once, and so are its files
+// and warnings told.
 std::vector<Measured> measure_all(const MeteredScene& metered, const std::vector<const Meter*>& meters,
                                   const MeterOptions& options, const InterruptWatch& watch, Inputs& inputs) {
   std::vector<Measured> all;
   for (const Meter* one : meters) {
     if (watch.stop()) break;
     Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
-    Scene scene =
-        accepted(scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr), diagnostics);
+    std::optional<Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
+    if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty()) require_distinct(std::array{options.spectra}, inputs.files());
-    all.push_back(measure(std::move(scene), *one, options, watch, inputs));
+    all.push_back(measure(*std::move(scene), *one, options, watch, inputs));
     if (!options.json) print_text(all.back());
   }
   return all;
