@@ -122,7 +122,7 @@ TEST(Layers, BouncesCountWhatMaxDepthCounts) {
   }
 }
 
-// A lamp of each name, one of them twice, above a floor.
+// A lamp of each name, one of them twice, above a floor before a wall.
 std::string lamps(const std::string& which, const char* integrator) {
   const auto lamp = [&](const char* name, double x, double power) {
     return fmt::format(R"({{"name": "{}", "sphere": {{"center": [{}, 0, 1], "radius": 0.1}},
@@ -141,13 +141,14 @@ std::string lamps(const std::string& which, const char* integrator) {
                 "channels": {{"a": {{"band": [600, 700]}}, "b": {{"band": [400, 500]}}}}}},
     "lights": [{}],
     "materials": {{"grey": {{"diffuse": {{"reflectance": 0.5}}}}}},
-    "shapes": [{{"quad": {{"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}}, "material": "grey"}}],
+    "shapes": [{{"quad": {{"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}}, "material": "grey"}},
+               {{"quad": {{"corner": [-2, 1, 0], "edge_u": [4, 0, 0], "edge_v": [0, 0, 2]}}, "material": "grey"}}],
     "render": {{"samples": 256, "integrator": "{}"}}}})",
                      fmt::join(lit, ", "), integrator);
 }
 
 TEST(Layers, OfLightsAreWhatEachLightGivesAlone) {
-  for (const char* integrator : {"path", "bdpt", "light"}) {
+  for (const char* integrator : {"path", "bdpt", "light", "sppm", "adjoint-brute"}) {
     const Scene all = test::load_text(lamps("", integrator));
     const Layers layers = light_layers(all, {});
     EXPECT_EQ(layers.names, (std::vector<std::string>{"light.key", "light.fill_in"}));
