@@ -132,6 +132,7 @@ RenderOptions how_to_render(const Request& request, int stated) {
   how.threads = static_cast<int>(request.threads);
   how.target_error = request.error;
   how.time_limit_s = request.time;
+  how.adaptive = how.time_limit_s && !how.target_error;
   how.measure_error = false;
   if (!request.samples) return how;
   const auto [first, last] = *request.samples;

@@ -123,6 +123,18 @@ TEST(Merge, WhatTimeEndedIsComplete) {
   EXPECT_EQ(merged(timed, file("timed.exr")).code, 0);
 }
 
+// Those of one and those of the other do not add up to what either render would have given.
+TEST(Merge, SamplesSpreadByNoiseAreOfAnotherFilm) {
+  const std::string timed = part("timed", "--time 0.01s");
+  EXPECT_EQ(read_part_file(timed).header.at("camera_paths"), "by noise");
+  const std::string either = part("either", "--time 0.01s --error 50%");
+  EXPECT_FALSE(read_part_file(either).header.contains("camera_paths"));
+  const Outcome run =
+      merged(timed + " " + part("rest", "--spp 100000 --sample-range 99998:99999"), file("no.exr"));
+  EXPECT_EQ(run.code, 4);
+  EXPECT_NE(run.err.find("camera_paths"), std::string::npos) << run.err;
+}
+
 // What another process is still writing has another name until it is whole.
 TEST(Merge, ReadsPartsWhileOthersAreWritten) {
   const std::string a = part("part-0", "--sample-range 0:4");

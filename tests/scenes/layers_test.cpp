@@ -82,11 +82,12 @@ TEST(Layers, AddUpToTheFilmWhichStaysAsItWas) {
   }
 }
 
-// A pixel that has a camera path in one of four samples counts it four times.
+// A pixel that has camera paths in one of four samples counts them four times, shared among them.
 TEST(Layers, AddUpWherePixelsSkipSamples) {
   const Scene scene = small(kTold[0]);
   Plan plan = make_plan(scene);
   plan.path_interval = 4;
+  plan.density = {0, 0, 16, 2, {1, 2, 4, 8}};
   const FilmShape shape = render(scene, {}).film.shape();
   RenderResult result{Film(shape), {}, {}};
   const Layers layers = bounce_layers(2);

@@ -76,12 +76,12 @@ struct LightHistory {
   int events;
 };
 
-/// Receives the film values, one per plane, of each contribution of a path by itself.
-using ContributionDeposit =
-    std::function<void(const FilmPoint& at, const LightHistory& of, std::span<const double> values)>;
-
 /// Receives the film values, one per plane, that the path of that number adds to a pixel.
 using Deposit = std::function<void(std::uint32_t path, const FilmPoint& at, std::span<const double> values)>;
+
+/// Receives those of each of its contributions by itself.
+using ContributionDeposit = std::function<void(std::uint32_t path, const FilmPoint& at,
+                                               const LightHistory& of, std::span<const double> values)>;
 
 /// What light does to the film: a contribution c at the wavelengths lambda_j, drawn with the density p,
 /// exposes channel k by sum_j c_j weight_k(lambda_j) / p(lambda_j). With a mosaic there is one value, that of

@@ -13,6 +13,7 @@
 #include "transport/plan/emissions.h"
 #include "transport/plan/light_sampler.h"
 #include "transport/plan/power_light_sampler.h"
+#include "transport/plan/sampling_density.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {
@@ -28,7 +29,7 @@ struct Plan {
   std::vector<Aim> aims;              ///< Per light where photons start at all.
   std::vector<Technique> techniques;  ///< In the order of their list; those that own some path.
   std::uint64_t photons;              ///< Of a sample.
-  std::uint32_t path_interval;        ///< A pixel has a camera path in one of so many samples.
+  std::uint32_t path_interval;        ///< A pixel has camera paths in one of so many samples.
   double nominal_value;               ///< Order of magnitude of a film value.
   /// Per channel, for the pixels of a mosaic; none where lanes of a path fall on several pixels.
   std::vector<WavelengthDistribution> own_wavelengths;
@@ -39,6 +40,7 @@ struct Plan {
   float gather_radius = 0;                    ///< Of the first sample [m].
   /// Those at points that camera paths connect to along matter that scatters.
   PowerLightSampler lights_along{std::vector<double>()};
+  SamplingDensity density = {};  ///< How many there are then, where path tracing has them.
   /// Where camera paths look for the caustics of lights that photons are not traced from,
   CausticGuide caustics_of_paths = {};
   /// and of all lights that they can meet, once they have come through specular matter from the camera.

@@ -177,37 +177,42 @@ std::array<float, 4> Pass::numbers_of(std::uint64_t sample) const {
   return Sampler(seed_, Purpose::sample, replicate(sample), 0, index(sample)).group(0);
 }
 
-// Of the replicate's sequence at a pixel, that of a sample; nothing where the pixel skips it. Which samples
-// these are is chance, for each pixel and replicate, so that the mean over any of them is right.
-std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, std::uint32_t pixel) const {
+// Those of a sample at a pixel; none where the pixel skips it. Which samples these are is chance, for each
+// pixel and replicate, so that the mean over any of them is right.
+Pass::PixelPaths Pass::paths_of(std::uint64_t sample, int x, int y) const {
   // Those of progressive photon mapping are the same in all samples.
-  if (uses(plan_.techniques, Technique::ppm)) return 0;
-  if (path_interval_ == 1) return index(sample);
+  if (uses(plan_.techniques, Technique::ppm)) return {0, 1};
+  const std::uint32_t together = plan_.density.at(x, y);
+  if (path_interval_ == 1) return {index(sample) * together, together};
   constexpr std::uint32_t kPhaseGroup = 0xC0000000;
-  const float u = Sampler(seed_, Purpose::camera, replicate(sample), pixel, 0).group(kPhaseGroup)[0];
+  const float u =
+      Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), 0).group(kPhaseGroup)[0];
   const std::uint32_t at = index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
-  if (at % path_interval_ != 0) return std::nullopt;
-  return at / path_interval_;
+  if (at % path_interval_ != 0) return {};
+  return {at / path_interval_ * together, together};
 }
 
-// Of the pixels of a tile within a crop, the sample that `path_of` says of each, by its number.
-template <typename PathOf>
-void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
+// Of the pixels of a tile within a crop, the paths that `paths_of` says of each.
+template <typename PathsOf>
+void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathsOf paths_of,
                        Worker& worker) const {
   constexpr int kEdge = kTile;
   worker.pixels.clear();
   for (int y = std::max(tile.y0, within.y0); y < std::min(tile.y0 + kEdge, within.y1); ++y)
-    for (int x = std::max(tile.x0, within.x0); x < std::min(tile.x0 + kEdge, within.x1); ++x)
-      if (const std::optional<std::uint32_t> path = path_of(number_of(x, y)))
+    for (int x = std::max(tile.x0, within.x0); x < std::min(tile.x0 + kEdge, within.x1); ++x) {
+      const PixelPaths paths = paths_of(x, y);
+      for (std::uint32_t i = 0; i < paths.count; ++i)
         worker.pixels.push_back(
-            {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), *path)});
+            {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), paths.first + i),
+             static_cast<double>(path_interval_) / paths.count});
+    }
 }
 
 // One sample of each pixel of a tile: of all, where some of its lanes may fall on others that are asked for.
 void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
   const Crop within = displaces_lanes_ ? Crop{0, 0, film_.width(), film_.height()} : crop_;
   take_pixels(
-      tile, within, sample, [&](std::uint32_t pixel) { return path_of(sample, pixel); }, worker);
+      tile, within, sample, [&](int x, int y) { return this->paths_of(sample, x, y); }, worker);
   worker.counts.paths += worker.pixels.size();
 }
 
@@ -236,34 +241,52 @@ Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
           static_cast<std::uint32_t>(number)};
 }
 
+void Pass::deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
+                   Worker& worker) {
+  if (!is_asked_for(at.x, at.y)) return;
+  worker.values.assign(values.begin(), values.end());
+  for (double& value : worker.values) value *= weight;
+  if (keeps(worker.values, worker))
+    film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
+}
+
+// What the layers get of what the film gets.
+void Pass::deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
+                         std::span<const double> values, double weight, Worker& worker) {
+  if (!is_asked_for(at.x, at.y)) return;
+  worker.values.assign(values.begin(), values.end());
+  for (double& value : worker.values) value *= weight;
+  if (std::all_of(worker.values.begin(), worker.values.end(), [this](double v) { return film_.holds(v); }))
+    beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values,
+                            beside_.layers->of(of) * values.size());
+}
+
 Deposit Pass::pixels_deposit(std::uint64_t sample, Worker& worker) {
-  return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
-    if (!is_asked_for(at.x, at.y)) return;
-    worker.values.assign(values.begin(), values.end());
-    for (double& value : worker.values) value *= path_interval_;
-    if (keeps(worker.values, worker))
-      film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
+  return [=, this, &worker](std::uint32_t path, const FilmPoint& at, std::span<const double> values) {
+    deposit(sample, at, values, worker.pixels[path].weight, worker);
   };
 }
 
-// What the layers get of what the film gets, which counts `factor` times.
-ContributionDeposit Pass::layers_deposit(std::uint64_t sample, std::uint32_t factor, Worker& worker) {
+ContributionDeposit Pass::pixels_apart(std::uint64_t sample, Worker& worker) {
   if (beside_.layers == nullptr) return {};
-  return [=, this, &worker](const FilmPoint& at, const LightHistory& of, std::span<const double> values) {
-    if (!is_asked_for(at.x, at.y)) return;
-    worker.values.assign(values.begin(), values.end());
-    for (double& value : worker.values) value *= factor;
-    if (std::all_of(worker.values.begin(), worker.values.end(), [this](double v) { return film_.holds(v); }))
-      beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values,
-                              beside_.layers->of(of) * values.size());
+  return [=, this, &worker](std::uint32_t path, const FilmPoint& at, const LightHistory& of,
+                            std::span<const double> values) {
+    deposit_apart(sample, at, of, values, worker.pixels[path].weight, worker);
   };
 }
 
 // Paths from lights may come to any pixel of the film; those that are not asked for get nothing.
 Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
-  return [this, sample, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
-    if (is_asked_for(at.x, at.y) && keeps(values, worker))
-      film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), values);
+  return [=, this, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+    deposit(sample, at, values, 1, worker);
+  };
+}
+
+ContributionDeposit Pass::splats_apart(std::uint64_t sample, Worker& worker) {
+  if (beside_.layers == nullptr) return {};
+  return [=, this, &worker](std::uint32_t, const FilmPoint& at, const LightHistory& of,
+                            std::span<const double> values) {
+    deposit_apart(sample, at, of, values, 1, worker);
   };
 }
 
@@ -271,7 +294,11 @@ Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
 void Pass::look(const Tile& tile, std::uint64_t sample, Worker& worker) {
   if (beside_.features == nullptr) return;
   take_pixels(
-      tile, crop_, sample, [&](std::uint32_t) { return std::optional(index(sample)); }, worker);
+      tile, crop_, sample,
+      [&](int, int) {
+        return PixelPaths{index(sample), 1};
+      },
+      worker);
   worker.feature_tracer->trace(worker.pixels, sample == 0,
                                [this](const PixelSample& at, std::span<const double> values) {
                                  beside_.features->add(number_of(at.x, at.y), values);
@@ -286,7 +313,7 @@ void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     look(tile(number), s, worker);
     take_pixels(tile(number), s, worker);
-    worker.path_tracer.tell_apart(layers_deposit(s, path_interval_, worker));
+    worker.path_tracer.tell_apart(pixels_apart(s, worker));
     worker.path_tracer.trace(worker.pixels, pixels_deposit(s, worker));
   }
 }
@@ -295,7 +322,7 @@ void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     look(tile(number), s, worker);
     take_pixels(tile(number), s, worker);
-    worker.adjoint_brute_tracer.tell_apart(layers_deposit(s, path_interval_, worker));
+    worker.adjoint_brute_tracer.tell_apart(pixels_apart(s, worker));
     worker.adjoint_brute_tracer.trace(worker.pixels, pixels_deposit(s, worker));
   }
 }
@@ -309,7 +336,7 @@ void Pass::gather_tile(std::uint32_t item, Worker& worker) {
   }
   look(tile(item % tiles_), sample, worker);
   take_pixels(tile(item % tiles_), sample, worker);
-  worker.photon_gatherer.tell_apart(layers_deposit(sample, path_interval_, worker));
+  worker.photon_gatherer.tell_apart(pixels_apart(sample, worker));
   worker.photon_gatherer.trace(worker.pixels, std::get<PhotonCloud>(left_), kernel,
                                pixels_deposit(sample, worker));
 }
@@ -319,7 +346,7 @@ void Pass::join_tile(std::uint32_t number, Worker& worker) {
     look(tile(number), s, worker);
     take_pairs(tile(number), s, worker);
     for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 2 : 1;
-    worker.bidirectional_tracer.tell_apart(layers_deposit(s, 1, worker));
+    worker.bidirectional_tracer.tell_apart(splats_apart(s, worker));
     worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));
   }
 }
@@ -329,7 +356,7 @@ void Pass::merge_tile(std::uint32_t item, Worker& worker) {
   look(tile(item % tiles_), sample, worker);
   take_pairs(tile(item % tiles_), sample, worker);
   for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 1 : 0;
-  worker.bidirectional_tracer.tell_apart(layers_deposit(sample, 1, worker));
+  worker.bidirectional_tracer.tell_apart(splats_apart(sample, worker));
   worker.bidirectional_tracer.trace(worker.pairs, std::get<LightPaths>(left_), splats_of(sample, worker));
 }
 
@@ -338,7 +365,7 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
     const Deposit deposit = splats_of(s, worker);
-    worker.light_tracer.tell_apart(layers_deposit(s, 1, worker));
+    worker.light_tracer.tell_apart(splats_apart(s, worker));
     for (std::uint64_t first = begin; first < end; first += kTogether) {
       take_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker);
       worker.light_tracer.trace(worker.photons, deposit);
@@ -351,7 +378,7 @@ void Pass::trace_batch_brutely(std::uint32_t batch, Worker& worker) {
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
     take_photons(s, begin, end, worker);
-    worker.brute_photon_tracer.tell_apart(layers_deposit(s, 1, worker));
+    worker.brute_photon_tracer.tell_apart(splats_apart(s, worker));
     worker.brute_photon_tracer.trace(worker.photons, splats_of(s, worker));
   }
 }

@@ -106,6 +106,11 @@ class Pass {
     std::uint32_t items;
     void (Pass::*work)(std::uint32_t item, Worker& worker);
   };
+  // Camera paths of a pixel, by their numbers in the replicate's sequence there.
+  struct PixelPaths {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+  };
   // Where a tile begins.
   struct Tile {
     int x0, y0;
@@ -127,17 +132,21 @@ class Pass {
   void trace_batch_brutely(std::uint32_t batch, Worker& worker);
 
   [[nodiscard]] Tile tile(std::uint32_t number) const;
-  template <typename PathOf>
-  void take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
+  template <typename PathsOf>
+  void take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathsOf paths_of,
                    Worker& worker) const;
   void take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
   [[nodiscard]] std::array<float, 4> numbers_of(std::uint64_t sample) const;
+  void deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
+               Worker& worker);
+  void deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
+                     std::span<const double> values, double weight, Worker& worker);
   [[nodiscard]] Deposit pixels_deposit(std::uint64_t sample, Worker& worker);
-  [[nodiscard]] ContributionDeposit layers_deposit(std::uint64_t sample, std::uint32_t factor,
-                                                   Worker& worker);
+  [[nodiscard]] ContributionDeposit pixels_apart(std::uint64_t sample, Worker& worker);
+  [[nodiscard]] ContributionDeposit splats_apart(std::uint64_t sample, Worker& worker);
   [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
   // Whether the pixel is asked for, or another one's light may fall on it.
   [[nodiscard]] bool is_sampled(int x, int y) const { return displaces_lanes_ || is_asked_for(x, y); }
@@ -150,7 +159,7 @@ class Pass {
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
   [[nodiscard]] std::uint32_t index(std::uint64_t sample) const;
-  [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, std::uint32_t pixel) const;
+  [[nodiscard]] PixelPaths paths_of(std::uint64_t sample, int x, int y) const;
 
   const Plan& plan_;
   const Scene& scene_;

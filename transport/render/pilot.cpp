@@ -37,7 +37,7 @@ std::vector<PixelSample> pixels_of(const Plan& plan, std::uint32_t batch) {
 
 // Adds up what each light deposits.
 ContributionDeposit by_light(ExposureByLight& sums) {
-  return [&sums](const FilmPoint&, const LightHistory& of, std::span<const double> values) {
+  return [&sums](std::uint32_t, const FilmPoint&, const LightHistory& of, std::span<const double> values) {
     sums.add(of.light, values);
   };
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "sensor/film/film.h"
 #include "transport/path/film_response.h"
@@ -13,6 +15,17 @@ namespace abbe {
 
 /// Seed of the random numbers of pilots: scene files have none so large.
 inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
+
+/// What pilots judge film values by: the sum of their magnitudes over the channels, 0 where one is not
+/// finite.
+[[nodiscard]] inline double magnitude(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += std::abs(value);
+  return std::isfinite(sum) ? sum : 0;
+}
+
+/// relMSE is relative to a value's square and this much of the film's mean square.
+inline constexpr double kRelativeErrorFloor = 0.01;
 
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers

@@ -14,6 +14,7 @@
 #include "io/error.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/render/learn_aims.h"
+#include "transport/render/learn_density.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
@@ -40,10 +41,19 @@ bool open_ended(const RenderOptions& options) {
   return options.time_limit_s || options.target_error;
 }
 
-Plan balanced_plan(const Scene& scene, int threads) {
+Plan balanced_plan(const Scene& scene, const RenderOptions& options, int threads) {
   Plan plan = make_learnt_plan(scene, threads, scene.render.seed);
   set_technique_shares(plan, threads);
+  if (options.adaptive) learn_density(plan, options.crop, threads);
   return plan;
+}
+
+// Of a sample in which all pixels have theirs.
+std::uint64_t camera_paths(const Plan& plan) {
+  std::uint64_t paths = 0;
+  for (int y = 0; y < plan.scene.camera.height; ++y)
+    for (int x = 0; x < plan.scene.camera.width; ++x) paths += plan.density.at(x, y);
+  return paths;
 }
 
 class Rendering {
@@ -52,11 +62,10 @@ class Rendering {
       : scene_(scene),
         options_(options),
         threads_(thread_count(options.threads)),
-        plan_(balanced_plan(scene, threads_)),
+        plan_(balanced_plan(scene, options, threads_)),
         wanted_(options.samples.value_or(SampleRange{
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
-        step_(std::max<std::uint64_t>(1, kPassPaths / (static_cast<std::uint64_t>(scene.camera.width) *
-                                                       static_cast<std::uint64_t>(scene.camera.height)))),
+        step_(std::max<std::uint64_t>(1, kPassPaths / camera_paths(plan_))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
                      replicate_count(scene, options), plan_.nominal_value, paths_to_any_pixel(plan_),
                      plan_.path_interval, options.crop),

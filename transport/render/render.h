@@ -44,6 +44,9 @@ struct RenderOptions {
   std::optional<double> target_error = {};
   int target_planes = 0;
   std::optional<Crop> crop = {};
+  /// Whether camera paths go where a pilot finds that they take most off the relMSE; the samples of the film
+  /// are then others than those of the scene.
+  bool adaptive = false;
   bool measure_error = false;  ///< Also find `error` where neither a target nor progress asks for it.
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.

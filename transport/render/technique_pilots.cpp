@@ -60,12 +60,6 @@ struct Findings {
   }
 };
 
-double strength(std::span<const double> values) {
-  double sum = 0;
-  for (const double v : values) sum += std::abs(v);
-  return std::isfinite(sum) ? sum : 0;
-}
-
 // The pixel that a pilot looks at.
 std::pair<int, int> pixel_of(const Camera& camera, std::uint32_t pilot) {
   const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 1, pilot).group(0);
@@ -98,7 +92,7 @@ void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, Fi
   for (std::uint32_t i = 0; i < kPilotPathsPerPixel; ++i) samples.push_back({x, y, path_sampler(pilot, i)});
   PathValues values{};
   tracer.trace(samples, [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
-    values[path] += strength(more);
+    values[path] += magnitude(more);
   });
   add_paths(values, found.at(camera, x, y));
 }
@@ -109,7 +103,7 @@ void try_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch,
   for (std::uint32_t i = batch; i < photons_of_all; i += kTechniqueBatches)
     photons.emplace_back(kSeedOfPilots, Purpose::pilot, 2, 0, i);
   tracer.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
-    found.add_splat(camera, at, strength(values));
+    found.add_splat(camera, at, magnitude(values));
   });
   found.photons_traced += static_cast<double>(photons.size());
 }
@@ -128,9 +122,9 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
   PathValues values{};
   tracer.trace(pairs, [&](std::uint32_t pair, const FilmPoint& at, std::span<const double> more) {
     if (at.x == pairs[pair].x && at.y == pairs[pair].y)
-      values[pair] += strength(more);
+      values[pair] += magnitude(more);
     else
-      found.add_splat(camera, at, strength(more) * static_cast<double>(plan.photons));
+      found.add_splat(camera, at, magnitude(more) * static_cast<double>(plan.photons));
   });
   found.photons_traced += kPilotPathsPerPixel;
   add_paths(values, found.at(camera, x, y));
@@ -191,12 +185,11 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
   double film_mean = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i)
     if (sizes[i] > 0) film_mean += mean(found.regions.at(i), sizes[i]) * sizes[i] / pixels;
-  constexpr double kFloor = 0.01;  // of the film's mean, squared
   PilotFindings told;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Region& region = found.regions.at(i);
     const double scale =
-        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kFloor * film_mean * film_mean : 0;
+        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kRelativeErrorFloor * film_mean * film_mean : 0;
     if (!(scale > 0)) continue;
     told.photon_variance += region.squares / (photons * pixels) / scale;
     if (!(region.pixels > 0)) continue;

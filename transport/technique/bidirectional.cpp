@@ -274,8 +274,9 @@ void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_
   if (!apart_) return;
   const LightHistory of{light, static_cast<int>(joined_.z.size()) - 2};
   found_.tell(contribution, pointer_to(seen), [&](const auto& brought) {
-    expose(i, at, brought,
-           [&](const FilmPoint& pixel, std::span<const double> values) { apart_(pixel, of, values); });
+    expose(i, at, brought, [&](const FilmPoint& pixel, std::span<const double> values) {
+      apart_(first_ + i, pixel, of, values);
+    });
   });
 }
 

@@ -91,7 +91,7 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path, int events) {
               response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light),
                                [&](const FilmPoint& pixel, std::span<const double> values) {
                                  (*deposit_)(path.path, pixel, values);
-                                 if (apart_) apart_(pixel, of, values);
+                                 if (apart_) apart_(path.path, pixel, of, values);
                                });
             });
 }
@@ -151,7 +151,7 @@ void AdjointBruteTracer::add_met(const RecordedPath& path, std::uint32_t light) 
   const LightHistory of{light, path.events};
   found_.tell(contribution, pointer_to(seen), [&](const auto& brought) {
     expose(path, brought,
-           [&](const FilmPoint& at, std::span<const double> values) { apart_(at, of, values); });
+           [&](const FilmPoint& at, std::span<const double> values) { apart_(path.path, at, of, values); });
   });
 }
 

@@ -68,7 +68,7 @@ void GhostLights::connect(const Sampler& sampler, const SampledWavelengths& wave
     response_.expose(at, wavelengths, let_through(scene_.shutter, at, arriving),
                      [&](const FilmPoint& pixel, std::span<const double> values) {
                        deposit(path, pixel, values);
-                       if (apart) apart(pixel, {pick.light, 0}, values);
+                       if (apart) apart(path, pixel, {pick.light, 0}, values);
                      });
   });
 }

@@ -126,7 +126,7 @@ void LightTracer::expose(const Connection& found, Contribution contribution) {
                    let_through(scene_.shutter, found.at, contribution),
                    [&](const FilmPoint& at, std::span<const double> values) {
                      (*deposit_)(found.path, at, values);
-                     if (apart_) apart_(at, {starts_[found.path].light, found.events}, values);
+                     if (apart_) apart_(found.path, at, {starts_[found.path].light, found.events}, values);
                    });
 }
 

@@ -352,7 +352,7 @@ void PathTracer::add_to(Contribution& found, CameraPath& path, const LightHistor
   at.cos_film = cos_film;
   response_.expose(at, path.packet.wavelengths, contribution * path.scale,
                    [&](const FilmPoint& pixel, std::span<const double> values) {
-                     if (apart_) apart_(pixel, of, values);
+                     if (apart_) apart_(first_ + path.path, pixel, of, values);
                      if (!with_others) (*deposit_)(first_ + path.path, pixel, values);
                    });
 }

@@ -36,6 +36,7 @@ struct PixelSample {
   int x;
   int y;
   Sampler sampler;
+  double weight = 1;  ///< By which what it exposes counts, as not all pixels have a path in each sample.
 };
 
 /// Path tracing [Kajiya1986]: from the camera, with a connection to a light at every vertex that is not

@@ -184,8 +184,9 @@ void PhotonGatherer::expose(const GatherPath& path, const FilmPoint& at, const C
 template <typename Contribution>
 void PhotonGatherer::expose_apart(const GatherPath& path, const FilmPoint& at, const LightHistory& of,
                                   const Contribution& contribution) {
-  expose(path, at, contribution,
-         [&](const FilmPoint& pixel, std::span<const double> values) { apart_(pixel, of, values); });
+  expose(path, at, contribution, [&](const FilmPoint& pixel, std::span<const double> values) {
+    apart_(first_ + path.path, pixel, of, values);
+  });
 }
 
 bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {
