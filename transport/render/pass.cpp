@@ -157,8 +157,12 @@ std::uint32_t Pass::replicate(std::uint64_t sample) const {
   return static_cast<std::uint32_t>(sample % static_cast<std::uint64_t>(film_.replicates()));
 }
 
+bool Pass::holds(std::span<const double> values) const {
+  return std::all_of(values.begin(), values.end(), [this](double v) { return film_.holds(v); });
+}
+
 bool Pass::keeps(std::span<const double> values, Worker& worker) const {
-  const bool good = std::all_of(values.begin(), values.end(), [this](double v) { return film_.holds(v); });
+  const bool good = holds(values);
   if (!good) ++worker.counts.nonfinite;
   return good;
 }
@@ -241,22 +245,23 @@ Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
           static_cast<std::uint32_t>(number)};
 }
 
-void Pass::deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
-                   Worker& worker) {
-  if (!is_asked_for(at.x, at.y)) return;
+// As the films take them.
+std::span<const double> Pass::weighted(std::span<const double> values, double weight, Worker& worker) {
   worker.values.assign(values.begin(), values.end());
   for (double& value : worker.values) value *= weight;
-  if (keeps(worker.values, worker))
+  return worker.values;
+}
+
+void Pass::deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
+                   Worker& worker) {
+  if (is_asked_for(at.x, at.y) && keeps(weighted(values, weight, worker), worker))
     film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
 }
 
 // What the layers get of what the film gets.
 void Pass::deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
                          std::span<const double> values, double weight, Worker& worker) {
-  if (!is_asked_for(at.x, at.y)) return;
-  worker.values.assign(values.begin(), values.end());
-  for (double& value : worker.values) value *= weight;
-  if (std::all_of(worker.values.begin(), worker.values.end(), [this](double v) { return film_.holds(v); }))
+  if (is_asked_for(at.x, at.y) && holds(weighted(values, weight, worker)))
     beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values,
                             beside_.layers->of(of) * values.size());
 }

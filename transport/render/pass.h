@@ -140,6 +140,8 @@ class Pass {
   void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
   [[nodiscard]] std::array<float, 4> numbers_of(std::uint64_t sample) const;
+  [[nodiscard]] static std::span<const double> weighted(std::span<const double> values, double weight,
+                                                        Worker& worker);
   void deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
                Worker& worker);
   void deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
@@ -156,6 +158,7 @@ class Pass {
   [[nodiscard]] std::uint32_t number_of(int x, int y) const {
     return static_cast<std::uint32_t>(y * film_.width() + x);
   }
+  [[nodiscard]] bool holds(std::span<const double> values) const;
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
   [[nodiscard]] std::uint32_t index(std::uint64_t sample) const;
