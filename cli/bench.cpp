@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,7 @@ fs::path default_cache() {
 
 BenchSettings settings_of(const BenchOptions& options) {
   BenchSettings settings;
+  settings.integrators = options.integrators;
   settings.samples = options.samples;
   settings.seeds = options.seeds;
   settings.threads = options.threads;
@@ -84,6 +86,14 @@ std::vector<BaselineRow> read_baseline(const fs::path& path) {
   return accepted(load_baseline(path, diagnostics), diagnostics);
 }
 
+// In ascending order, each once.
+template <typename T>
+std::vector<T> in_order(std::vector<T> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 bool got_worse(const Change& change) {
   const auto worse = [](const Ratio& ratio) { return ratio.changed() && ratio.value > 1; };
   return worse(change.cpu_per_path) || worse(change.rel_mse);
@@ -96,9 +106,15 @@ std::vector<int> parse_sample_counts(const std::string& option, const std::strin
   std::vector<int> counts;
   for (const std::string& piece : split(text, ','))
     counts.push_back(static_cast<int>(parse_integer(option, piece, 1, kMostSamples)));
-  std::sort(counts.begin(), counts.end());
-  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
-  return counts;
+  return in_order(std::move(counts));
+}
+
+std::vector<Integrator> parse_integrators(const std::string& option, const std::string& text) {
+  std::vector<Integrator> integrators;
+  for (const std::string& piece : split(text, ','))
+    integrators.push_back(static_cast<Integrator>(
+        parse_choice(option, piece, {kIntegratorNames.begin(), kIntegratorNames.end()})));
+  return in_order(std::move(integrators));
 }
 
 int bench(const BenchOptions& options) {
@@ -116,7 +132,7 @@ int bench(const BenchOptions& options) {
   for (const BenchSuite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));
   report.changes = compare_runs(before, baseline_rows(report.runs));
   if (!options.baseline.empty() && report.changes.empty())
-    say("warning: no render of the baseline is of the same suite, sample count and seed");
+    say("warning: no render of the baseline is of the same suite, integrator, sample count and seed");
   if (!options.output.empty()) write_report(options.output, report);
   fmt::print("{}", options.json ? json_text(report) : readable_text(report));
   const bool worse = std::any_of(report.changes.begin(), report.changes.end(), got_worse);

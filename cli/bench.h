@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene.h"
+
 namespace abbe::cli {
 
 /// What `abbe bench` was asked for.
 struct BenchOptions {
   std::vector<std::string> suites;  ///< All when empty.
   std::filesystem::path output;     ///< Folder for the report; nothing is written when empty.
+  std::vector<Integrator> integrators{Integrator::automatic};
   std::vector<int> samples{4, 8, 16, 32, 64};
   int seeds = 3;
   int threads = 0;
@@ -28,6 +31,9 @@ struct BenchOptions {
 
 /// Numbers of samples per pixel, ascending, from "4,8,16". Throws Error{usage} naming the option.
 [[nodiscard]] std::vector<int> parse_sample_counts(const std::string& option, const std::string& text);
+
+/// Integrators in the order of their list, from "auto,path". Throws Error{usage} naming the option.
+[[nodiscard]] std::vector<Integrator> parse_integrators(const std::string& option, const std::string& text);
 
 /// Renders the suites against the clock and their references, and prints the figures. Returns the exit code.
 int bench(const BenchOptions& options);

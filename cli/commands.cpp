@@ -186,6 +186,10 @@ void add_bench(CLI::App& app, Command& command) {
   CLI::App& options = *sub.app;
   options.add_option("suite", sub->suites, "Scenes to measure (default: all)")->type_name("SUITE");
   options.add_option("-o,--output", sub->output, "Folder for tables and plots")->type_name("FOLDER");
+  add_parsed(
+      options, "--integrator", sub->integrators, parse_integrators,
+      "Techniques that render each suite by turns, and are compared if there are several (default auto)",
+      "NAME[,NAME...]");
   add_parsed(options, "--spp", sub->samples, parse_sample_counts, "Samples per pixel (default 4,8,16,32,64)",
              "N[,N...]");
   add_parsed(options, "--seeds", sub->seeds, integer_in<int>(1, 1000), "Renders of each (default 3)", "N");

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "cli/cost.h"
 #include "scene/scene.h"
+#include "transport/render/cost.h"
 #include "transport/render/render.h"
 
 namespace abbe::cli {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "film/rendered_film.h"
 #include "io/error.h"
 
 namespace abbe::cli {

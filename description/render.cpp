@@ -79,7 +79,7 @@ PathSampling sampling_of(const spec::Render& render, Diagnostics& diagnostics) {
     if (told && render.integrator != Integrator::path)
       diagnostics.error(where,
                         fmt::format("says how the integrator \"path\" draws its paths (got it with \"{}\")",
-                                    kIntegratorNames.at(static_cast<std::size_t>(render.integrator))));
+                                    integrator_name(render.integrator)));
   };
   refuse_for_others(sampling.directions != usual.directions, render.directions.where);
   refuse_for_others(sampling.lights != usual.lights, render.lights.where);

@@ -30,10 +30,6 @@ void add_features(const Scene& scene, const std::vector<Feature>& features, Film
 
 }  // namespace
 
-const char* integrator_name(Integrator integrator) {
-  return kIntegratorNames.at(static_cast<std::size_t>(integrator));
-}
-
 FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
                          const RenderOptions& how) {
   std::string name = scene_file.filename().string();

@@ -11,9 +11,6 @@ namespace abbe {
 /// The extension of files that hold exact sums.
 inline constexpr const char* kPartExtension = ".abbepart";
 
-/// The name of an integrator, as scene files write it.
-[[nodiscard]] const char* integrator_name(Integrator integrator);
-
 /// What tells the film of this scene from any other, from its scene file's name to its crop.
 [[nodiscard]] FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
                                        const RenderOptions& how);

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "film/rendered_film.h"
 #include "scene/dark_enclosure.h"
-#include "scene/unreached.h"
 #include "transport/path/roulette.h"
-#include "transport/plan/plan.h"
+#include "transport/plan/techniques.h"
 
 namespace abbe {
 
 std::optional<std::string> lost_light(const Scene& scene) {
-  const auto lost = unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
+  const std::vector<PathClass> lost = unreached(scene);
   if (lost.empty()) return std::nullopt;
   const std::string by =
       scene.render.integrator != Integrator::automatic

@@ -53,6 +53,10 @@ enum class Integrator {
 /// Their words in scenes, commands and films, in that order.
 inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt",         "photon-map",
                                              "ppm",  "sppm", "vcm",   "photon-brute", "adjoint-brute"};
+/// The word of one.
+[[nodiscard]] constexpr const char* integrator_name(Integrator integrator) {
+  return kIntegratorNames.at(static_cast<std::size_t>(integrator));
+}
 
 /// How techniques gather photons.
 struct PhotonSettings {

@@ -23,6 +23,7 @@ completes "abbe query color --illuminant D6" "D60 D65"
 completes "abbe query color --reflectance Blue" 'Blue\ Sky'
 completes "abbe render --integrator " "adjoint-brute auto bdpt light path photon-brute photon-map ppm sppm vcm"
 completes "abbe render --integrator=l" "light"
+completes "abbe bench --int" "--integrator"
 completes "abbe render --layers " "bounces lights"
 completes "abbe render --spp 4 --e" "--error --explain"
 completes "abbe render --integrator light --sta" "--stats"

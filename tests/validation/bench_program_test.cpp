@@ -26,7 +26,7 @@ TEST(BenchProgram, RunsEndToEndAndComparesWithItself) {
   EXPECT_GT(rows[0]["cpu_s"], 0);
   EXPECT_GT(rows[0]["embree_replay_share"], 0);
   EXPECT_GT(rows[0]["relMSE"], rows[3]["relMSE"]);
-  EXPECT_TRUE(read_file(folder / "bench.csv").starts_with("suite,spp,seed,"));
+  EXPECT_TRUE(read_file(folder / "bench.csv").starts_with("suite,integrator,spp,seed,"));
   EXPECT_TRUE(read_file(folder / "furnace.svg").ends_with("</svg>\n"));
 
   const Outcome again = abbe(quick_furnace("--baseline " + (folder / "bench.json").string()));
@@ -35,6 +35,18 @@ TEST(BenchProgram, RunsEndToEndAndComparesWithItself) {
   const nlohmann::json change = again.json()["baseline"].at(0);
   EXPECT_EQ(change["relMSE"]["ratio"], 1);
   EXPECT_FALSE(change["relMSE"]["changed"]);
+}
+
+TEST(BenchProgram, ComparesIntegratorsInTheOrderOfTheirList) {
+  const Outcome run = abbe(quick_furnace("--integrator bdpt,path,bdpt"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json suite = run.json()["suites"].at(0);
+  ASSERT_EQ(suite["rows"].size(), 8U);
+  ASSERT_EQ(suite["standings"].size(), 2U);
+  EXPECT_EQ(suite["standings"][0]["integrator"], "path");
+  EXPECT_EQ(suite["standings"][1]["integrator"], "bdpt");
+  const bool path_is_best = suite["standings"][0]["cost"] < suite["standings"][1]["cost"];
+  EXPECT_EQ(suite["standings"][path_is_best ? 0 : 1]["over_best"], 1);
 }
 
 TEST(BenchProgram, StrictFailsWhenErrorGrew) {
@@ -56,6 +68,9 @@ TEST(BenchProgram, ListsItsSuitesAndRefusesOthers) {
   EXPECT_NE(list.json()["mesh"].get<std::string>().find("diffuse"), std::string::npos);
   EXPECT_EQ(abbe("bench cornel").code, 2);
   EXPECT_EQ(abbe("bench furnace --spp 4,0").code, 2);
+  const Outcome misspelt = abbe("bench furnace --integrator auto,bdp");
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_NE(misspelt.err.find("bdpt"), std::string::npos) << misspelt.err;
   EXPECT_EQ(abbe("bench furnace --baseline /nowhere.json").code, 4);
   const Outcome nowhere = abbe("bench furnace -o /dev/null/folder");
   EXPECT_EQ(nowhere.code, 5);

@@ -1,8 +1,10 @@
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "description/meshes/mesh_file.h"
+#include "scene/camera/camera_rays.h"
 #include "scene/shapes/mesh.h"
 #include "spectral/colorimetry.h"
 #include "tests/validation/bench_runs.h"
@@ -114,6 +116,23 @@ TEST(BenchSuites, NarrowLampHasTheSameLuminanceInTenNanometres) {
   EXPECT_NEAR(photometric(emission), 20 * kLuminousEfficacy, 1e-6);
 }
 
+// Without one there would be no caustic, and a slab with a hole would let wavelengths through unparted.
+TEST(BenchSuites, CausticsAreSeenBesideAndThroughClosedShapes) {
+  const BenchFolder folder;
+  for (const char* name : {"ring", "through-pane", "through-slab"}) {
+    const BenchSuite suite = choose_suites({name}).front();
+    const Scene scene = load_suite(suite, folder.path(), true);
+    EXPECT_TRUE(scene.needs.caustics && scene.needs.light_tracing) << name;
+  }
+  const Scene slab = load_suite(choose_suites({"through-slab"}).front(), folder.path(), true);
+  // From the camera towards what it looks at the ray meets the slab from without, and its matter.
+  const CameraRay ray = sample_ray(slab.camera, {32, 32}, {0.5F, 0.5F}, SampledSpectrum(550.0F), 0, 0);
+  const auto hit = slab.intersect(ray.ray);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(slab.shapes[hit->shape].name, "slab");
+  EXPECT_LT(hit->normal.dot(ray.ray.direction), 0);
+}
+
 TEST(BenchSuites, UnknownNamesComeWithTheNearest) {
   try {
     static_cast<void>(choose_suites({"cornel"}));
@@ -138,6 +157,20 @@ TEST(BenchMeshes, TheBallIsClosedAndFacesOutwardsAndTheTerrainUpwards) {
   const Mesh terrain = make_terrain(16);
   EXPECT_EQ(terrain.triangles.size(), 2U * 16 * 16);
   for (std::size_t i = 0; i < terrain.triangles.size(); ++i) EXPECT_GT(area_vector(terrain, i).y, 0);
+}
+
+// Of corners at the radius, 64 sides enclose 64/(2 pi) sin(2 pi/64) of what circles would.
+TEST(BenchMeshes, TheRingIsClosedAndFacesOutwards) {
+  const Mesh ring = make_ring(64);
+  EXPECT_EQ(ring.triangles.size(), 8U * 64);
+  double volume = 0;
+  Imath::V3d outside(0, 0, 0);
+  for (std::size_t i = 0; i < ring.triangles.size(); ++i) {
+    outside += area_vector(ring, i);
+    volume += area_vector(ring, i).dot(ring.vertices[ring.triangles[i][0]]) / 3;
+  }
+  EXPECT_NEAR(outside.length(), 0, 1e-12);
+  EXPECT_NEAR(volume, 32 * std::sin(2 * std::numbers::pi / 64) * (1 - 0.81) * 0.5, 1e-12);
 }
 
 TEST(BenchMeshes, ComeBackFromPly) {

@@ -47,7 +47,8 @@ inline BenchRow planned_row(int samples, std::uint64_t seed) {
 
 /// 4, 16 and 64 samples per pixel, two seeds each.
 inline SuiteRun planned_run(const std::string& suite) {
-  SuiteRun run{{suite, "planned", "scene.json"}, 8, 6, "abc", 0.25, 1024, "def", {}};
+  SuiteRun run{{suite, "planned", "scene.json"},  8, 6, "abc", 0.25, 1024, "def",
+               {{Integrator::automatic, {}, ""}}, {}};
   for (const int samples : {4, 16, 64})
     for (const std::uint64_t seed : {1, 2}) run.rows.push_back(planned_row(samples, seed));
   return run;

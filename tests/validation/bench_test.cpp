@@ -73,10 +73,22 @@ TEST(BenchReport, MeansAreTakenOverSeeds) {
   EXPECT_EQ(means[2].paths, 64000U);
 }
 
-const std::vector<std::string> kColumns{"spp",    "seed",           "cpu_s",          "wall_s",
-                                        "paths",  "rays",           "rays_per_cpu_s", "embree_replay_share",
-                                        "relMSE", "relMSE_trimmed", "relRMSE_pbrt",   "relRMSE_mitsuba",
-                                        "nRMSE",  "dE00_mean",      "dE00_p95"};
+const std::vector<std::string> kColumns{"integrator",
+                                        "spp",
+                                        "seed",
+                                        "cpu_s",
+                                        "wall_s",
+                                        "paths",
+                                        "rays",
+                                        "rays_per_cpu_s",
+                                        "embree_replay_share",
+                                        "relMSE",
+                                        "relMSE_trimmed",
+                                        "relRMSE_pbrt",
+                                        "relRMSE_mitsuba",
+                                        "nRMSE",
+                                        "dE00_mean",
+                                        "dE00_p95"};
 
 TEST(BenchReport, JsonParsesBackWithAllKeys) {
   const nlohmann::json json = nlohmann::json::parse(json_text(planned_report()));
@@ -86,7 +98,7 @@ TEST(BenchReport, JsonParsesBackWithAllKeys) {
   for (const char* key : {"cores", "compiler", "flags"}) EXPECT_TRUE(json["machine"].contains(key)) << key;
   const nlohmann::json& suite = json["suites"].at(0);
   for (const char* key : {"name", "description", "resolution", "scene_sha256", "load_cpu_s", "reference_spp",
-                          "reference_key", "rows", "equal_error"})
+                          "reference_key", "rows", "standings", "equal_error"})
     EXPECT_TRUE(suite.contains(key)) << key;
   ASSERT_EQ(suite["rows"].size(), 6U);
   EXPECT_EQ(suite["rows"][0].size(), kColumns.size());
@@ -110,9 +122,10 @@ TEST(BenchReport, CsvHasARowPerRenderAndTheColumnsOfTheJson) {
   ASSERT_EQ(rows.size(), 6U);
   for (const auto& row : rows) ASSERT_EQ(row.size(), columns.size());
   EXPECT_EQ(rows[5][0], "cornell");
-  EXPECT_EQ(parse_number(rows[5][1]), 64);
-  EXPECT_EQ(parse_number(rows[5][2]), 2);
-  EXPECT_EQ(parse_number(rows[5][9]), 0.64 / 64);
+  EXPECT_EQ(rows[5][1], "auto");
+  EXPECT_EQ(parse_number(rows[5][2]), 64);
+  EXPECT_EQ(parse_number(rows[5][3]), 2);
+  EXPECT_EQ(parse_number(rows[5][10]), 0.64 / 64);
 }
 
 // A stored run that the planned one follows, its CPU times multiplied by `factor` and by 1 +- `scatter`.

@@ -83,13 +83,13 @@ TEST(BenchPlot, ASuiteShowsItsCurvesAndItsRivals) {
   const BenchReport report = test::planned_report();
   const LogPlot plot = error_plot(report.runs.front(), report.rivals);
   ASSERT_EQ(plot.series.size(), 4U);
-  EXPECT_EQ(plot.series[0].name, "Abbe, floor 0.01");
+  EXPECT_EQ(plot.series[0].name, "Abbe auto, floor 0.01");
   ASSERT_EQ(plot.series[0].points.size(), 3U);
   EXPECT_NEAR(plot.series[0].points[1].first, 1.6, 1e-12);
   EXPECT_NEAR(plot.series[0].points[1].second, 0.2, 1e-12);
   EXPECT_EQ(plot.series[1].name, "other path");
   EXPECT_EQ(plot.series[1].points, (std::vector<std::pair<double, double>>{{5, 0.2}}));
-  EXPECT_EQ(plot.series[2].name, "Abbe, floor 0.0025");
+  EXPECT_EQ(plot.series[2].name, "Abbe auto, floor 0.0025");
   EXPECT_NEAR(plot.series[2].points[1].second, 0.4, 1e-12);
   EXPECT_EQ(plot.series[3].name, "third path");
 }

@@ -18,6 +18,10 @@ std::vector<Technique> chosen_techniques(const Scene& scene) {
   return {Technique::path};
 }
 
+std::vector<PathClass> unreached(const Scene& scene) {
+  return unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
+}
+
 bool uses(std::span<const Technique> techniques, Technique technique) {
   return std::find(techniques.begin(), techniques.end(), technique) != techniques.end();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "scene/unreached.h"
 
 namespace abbe {
 
@@ -32,6 +33,9 @@ enum class Technique : std::uint8_t {
 
 /// The techniques that the scene's integrator allows and the scene asks for, in the order of the list.
 [[nodiscard]] std::vector<Technique> chosen_techniques(const Scene& scene);
+
+/// The classes of paths of a scene that they do not reach.
+[[nodiscard]] std::vector<PathClass> unreached(const Scene& scene);
 
 /// Whether a technique is among some.
 [[nodiscard]] bool uses(std::span<const Technique> techniques, Technique technique);

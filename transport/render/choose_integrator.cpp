@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "scene/unreached.h"
 #include "transport/plan/plan.h"
 #include "transport/render/learn_aims.h"
 #include "transport/render/technique_pilots.h"
@@ -30,14 +29,10 @@ constexpr std::uint32_t kFewPixels = 512;
 constexpr std::uint32_t kManyPixels = 4096;
 constexpr double kRaysPerPixel = 64;
 
-std::vector<PathClass> unreached_by(const Scene& scene) {
-  return unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
-}
-
 // The light that merging finds and nothing else.
 std::vector<PathClass> found_by_merging(const Scene& scene, const Scene& merging) {
-  std::vector<PathClass> found = unreached_by(scene);
-  const std::vector<PathClass> still = unreached_by(merging);
+  std::vector<PathClass> found = unreached(scene);
+  const std::vector<PathClass> still = unreached(merging);
   std::erase_if(found, [&](const PathClass& lost) {
     return std::find(still.begin(), still.end(), lost) != still.end();
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "io/json_values.h"
 #include "io/text.h"
@@ -33,7 +34,10 @@ double number_at(const JsonValue& json, const char* key, Diagnostics& diagnostic
 
 BaselineRow read_row(const std::string& suite, const JsonValue& json, Diagnostics& diagnostics) {
   const auto number = [&](const char* key) { return number_at(json, key, diagnostics); };
+  const JsonValue* integrator = json.find("integrator");
   return {suite,
+          integrator ? read_string(*integrator, diagnostics).value_or("")
+                     : integrator_name(Integrator::automatic),
           static_cast<int>(number("spp")),
           static_cast<std::uint64_t>(number("seed")),
           number("cpu_s"),
@@ -82,29 +86,34 @@ std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs) {
   std::vector<BaselineRow> rows;
   for (const SuiteRun& run : runs)
     for (const BenchRow& row : run.rows)
-      rows.push_back(
-          {run.suite.name, row.samples, row.seed, row.cpu_s, static_cast<double>(row.paths), row.rel_mse});
+      rows.push_back({run.suite.name, integrator_name(row.integrator), row.samples, row.seed, row.cpu_s,
+                      static_cast<double>(row.paths), row.rel_mse});
   return rows;
 }
 
 std::vector<Change> compare_runs(std::span<const BaselineRow> before, std::span<const BaselineRow> after) {
-  std::vector<std::string> suites;
+  using Subject = std::pair<std::string, std::string>;  // a suite by an integrator
+  const auto subject_of = [](const BaselineRow& row) { return Subject(row.suite, row.integrator); };
+  std::vector<Subject> subjects;
   for (const BaselineRow& row : after)
-    if (std::find(suites.begin(), suites.end(), row.suite) == suites.end()) suites.push_back(row.suite);
+    if (std::find(subjects.begin(), subjects.end(), subject_of(row)) == subjects.end())
+      subjects.push_back(subject_of(row));
   std::vector<Change> changes;
-  for (const std::string& suite : suites) {
+  for (const Subject& subject : subjects) {
     std::vector<double> times;
     std::vector<double> errors;
     for (const BaselineRow& now : after) {
       const auto then = std::find_if(before.begin(), before.end(), [&](const BaselineRow& row) {
-        return row.suite == suite && now.suite == suite && row.samples == now.samples && row.seed == now.seed;
+        return subject_of(row) == subject && subject_of(now) == subject && row.samples == now.samples &&
+               row.seed == now.seed;
       });
       if (then == before.end()) continue;
       times.push_back(std::log(now.cpu_s / now.paths) - std::log(then->cpu_s / then->paths));
       if (now.rel_mse > 0 && then->rel_mse > 0) errors.push_back(std::log(now.rel_mse / then->rel_mse));
     }
     if (!times.empty())
-      changes.push_back({suite, times.size(), geometric_mean(times), geometric_mean(errors)});
+      changes.push_back(
+          {subject.first, subject.second, times.size(), geometric_mean(times), geometric_mean(errors)});
   }
   return changes;
 }

@@ -15,6 +15,7 @@ namespace abbe {
 /// What a stored run keeps of one render.
 struct BaselineRow {
   std::string suite;
+  std::string integrator;  ///< Its word.
   int samples;
   std::uint64_t seed;
   double cpu_s;
@@ -22,7 +23,8 @@ struct BaselineRow {
   double rel_mse;
 };
 
-/// The rows of a `bench.json`. What is wrong with it is reported as input errors.
+/// The rows of a `bench.json`, by `auto` where they tell no integrator. What is wrong with it is reported as
+/// input errors.
 [[nodiscard]] std::optional<std::vector<BaselineRow>> load_baseline(const std::filesystem::path& path,
                                                                     Diagnostics& diagnostics);
 
@@ -37,16 +39,18 @@ struct Ratio {
   [[nodiscard]] bool changed() const;
 };
 
-/// One suite then and now.
+/// One suite by one integrator, then and now.
 struct Change {
   std::string suite;
+  std::string integrator;
   std::size_t pairs;
   Ratio cpu_per_path;
   Ratio rel_mse;
 };
 
-/// Pairs renders of the same suite, sample count and seed. Suites without a pair are left out. The noise is
-/// that of the renders within each run; what slows a whole run, such as another machine, is not in it.
+/// Pairs renders of the same suite, integrator, sample count and seed. Suites without a pair are left out.
+/// The noise is that of the renders within each run; what slows a whole run, such as another machine, is not
+/// in it.
 [[nodiscard]] std::vector<Change> compare_runs(std::span<const BaselineRow> before,
                                                std::span<const BaselineRow> after);
 

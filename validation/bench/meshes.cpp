@@ -1,5 +1,6 @@
 #include "validation/bench/meshes.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -67,6 +68,29 @@ Mesh make_bumpy_ball(std::uint32_t rows) {
       mesh.triangles.push_back({at(j, i + 1), at(j + 1, i + 1), at(j + 1, i)});
     }
   }
+  return mesh;
+}
+
+Mesh make_ring(std::uint32_t sides) {
+  struct Corner {
+    double radius, y;
+  };
+  // Of the cross-section, in turn, so that the faces between two of them look outward.
+  constexpr std::array<Corner, 4> kSection{{{0.9, 0}, {1, 0}, {1, 0.5}, {0.9, 0.5}}};
+  const auto corners = static_cast<std::uint32_t>(kSection.size());
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double phi = 2 * std::numbers::pi * i / sides;
+    for (const auto& [radius, y] : kSection)
+      mesh.vertices.emplace_back(radius * std::cos(phi), y, radius * std::sin(phi));
+  }
+  for (std::uint32_t i = 0; i < sides; ++i)
+    for (std::uint32_t j = 0; j < corners; ++j) {
+      const std::uint32_t next = (i + 1) % sides * corners;
+      const std::uint32_t k = (j + 1) % corners;
+      mesh.triangles.push_back({i * corners + j, i * corners + k, next + j});
+      mesh.triangles.push_back({next + j, i * corners + k, next + k});
+    }
   return mesh;
 }
 

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "io/atomic_file.h"
+#include "validation/bench/standing.h"
 
 namespace abbe {
 namespace {
@@ -15,10 +17,16 @@ void add_series(LogPlot& plot, const SuiteRun& run, std::span<const Rival> rival
   static const std::vector<std::string> kColors{"#1f77b4", "#2ca02c", "#9467bd",
                                                 "#ff7f0e", "#8c564b", "#e377c2"};
   const bool low = floor == kLowFloor;
-  PlotSeries abbe{fmt::format("Abbe, floor {:g}", floor), {}, "#d62728", low, low};
-  for (const CurvePoint& point : error_curve(run.rows, floor))
-    abbe.points.emplace_back(point.cpu_s, point.error);
-  plot.series.push_back(std::move(abbe));
+  for (const BenchIntegrator& by : run.integrators) {
+    const bool first = &by == run.integrators.data();
+    plot.series.push_back({fmt::format("Abbe {}, floor {:g}", integrator_name(by.integrator), floor),
+                           {},
+                           first ? "#d62728" : kColors[color++ % kColors.size()],
+                           low,
+                           low});
+    for (const CurvePoint& point : error_curve(rows_of(run.rows, by.integrator), floor))
+      plot.series.back().points.emplace_back(point.cpu_s, point.error);
+  }
   for (const Rival& rival : rivals) {
     if (rival.suite != run.suite.name || rival.floor != floor) continue;
     const std::string name = rival.name();
@@ -36,17 +44,17 @@ bool has_floor(const SuiteRun& run, std::span<const Rival> rivals, double floor)
 
 std::string rows_text(const SuiteRun& run) {
   std::string all =
-      fmt::format("{:>6} {:>9} {:>9} {:>11} {:>11} {:>12} {:>7} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "spp",
-                  "cpu_s", "wall_s", "paths", "rays", "rays/cpu_s", "replay", "relMSE", "trimmed", "relRMSE",
-                  "nRMSE", "dE mean", "dE p95");
+      fmt::format("{:<13} {:>6} {:>9} {:>9} {:>11} {:>11} {:>12} {:>7} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n",
+                  "integrator", "spp", "cpu_s", "wall_s", "paths", "rays", "rays/cpu_s", "replay", "relMSE",
+                  "trimmed", "relRMSE", "nRMSE", "dE mean", "dE p95");
   for (const BenchRow& row : means_over_seeds(run.rows))
     all += fmt::format(
-        "{:>6} {:>9.4g} {:>9.4g} {:>11} {:>11} {:>12.4g} {:>7.3f} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} "
+        "{:<13} {:>6} {:>9.4g} {:>9.4g} {:>11} {:>11} {:>12.4g} {:>7.3f} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} "
         "{:>7.2f} "
         "{:>7.2f}\n",
-        row.samples, row.cpu_s, row.wall_s, row.paths, row.rays, static_cast<double>(row.rays) / row.cpu_s,
-        row.embree_replay_share, row.rel_mse, row.rel_mse_trimmed, root_of(row.rel_mse), root_of(row.n_mse),
-        row.dE00_mean, row.dE00_p95);
+        integrator_name(row.integrator), row.samples, row.cpu_s, row.wall_s, row.paths, row.rays,
+        static_cast<double>(row.rays) / row.cpu_s, row.embree_replay_share, row.rel_mse, row.rel_mse_trimmed,
+        root_of(row.rel_mse), root_of(row.n_mse), row.dE00_mean, row.dE00_p95);
   return all;
 }
 
@@ -57,6 +65,29 @@ std::string equal_error_text(const std::vector<EqualError>& all) {
                         e.rival.name(), e.rival.samples, e.rival.cpu_s, e.rival.relrmse, e.abbe.cpu_s,
                         e.abbe.extrapolated ? " (extrapolated)" : "", e.ratio());
   return text.empty() ? "" : "at the error of a rival, which ran on another day:\n" + text;
+}
+
+// Beside that of the best single technique, where there is one.
+std::string cost_text(std::span<const Standing> all, const Standing& one, double Standing::*cost) {
+  const Standing* best = best_single(all, cost);
+  if (best == nullptr) return fmt::format("{:.3g}", one.*cost);
+  return fmt::format("{:.3g} ({:.2f} times that of {})", one.*cost, one.*cost / best->*cost,
+                     integrator_name(best->by.integrator));
+}
+
+std::string standings_text(const SuiteRun& run) {
+  const std::vector<Standing> all = standings(run);
+  if (all.size() < 2) return "";
+  std::string text = "CPU s x relMSE at the most samples:\n";
+  for (const Standing& one : all) {
+    text += fmt::format("  {:<13} {}; trimmed {}", integrator_name(one.by.integrator),
+                        cost_text(all, one, &Standing::cost), cost_text(all, one, &Standing::cost_trimmed));
+    if (!one.by.bias.empty()) text += "; not counted: " + one.by.bias;
+    if (!one.by.unreached.empty())
+      text += fmt::format("; not counted: does not reach {}", fmt::join(one.by.unreached, ", "));
+    text += '\n';
+  }
+  return text;
 }
 
 std::string ratio_text(const Ratio& ratio) {
@@ -71,12 +102,13 @@ std::string readable_text(const BenchReport& report) {
                                 report.machine.compiler, report.machine.date);
   for (const SuiteRun& run : report.runs)
     all += fmt::format("\n{}: {}\n", run.suite.name, run.suite.description) + rows_text(run) +
-           equal_error_text(equal_errors(run, report.rivals));
+           standings_text(run) + equal_error_text(equal_errors(run, report.rivals));
   if (!report.changes.empty())
     all += "\nagainst the baseline, with 99 % intervals from the scatter of the renders:\n";
   for (const Change& change : report.changes)
-    all += fmt::format("  {:<14} CPU time per path {}, relMSE {} ({} renders)\n", change.suite,
-                       ratio_text(change.cpu_per_path), ratio_text(change.rel_mse), change.pairs);
+    all += fmt::format("  {:<14} {:<13} CPU time per path {}, relMSE {} ({} renders)\n", change.suite,
+                       change.integrator, ratio_text(change.cpu_per_path), ratio_text(change.rel_mse),
+                       change.pairs);
   return all;
 }
 

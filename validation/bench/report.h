@@ -27,11 +27,11 @@ struct BenchReport {
 /// One JSON object, every digit kept.
 [[nodiscard]] std::string json_text(const BenchReport& report);
 
-/// The report for reading: per suite the means over seeds, then the times at the rivals' errors, then the
-/// changes.
+/// The report for reading: per suite the means over seeds, what equal error costs by each of several
+/// integrators, the times at the rivals' errors, and then the changes.
 [[nodiscard]] std::string readable_text(const BenchReport& report);
 
-/// relRMSE against CPU time of one suite, with its rivals.
+/// relRMSE against CPU time of one suite by each integrator, with its rivals.
 [[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals);
 
 /// The files of a report on those suites.

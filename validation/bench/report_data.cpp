@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/bench/report.h"
+#include "validation/bench/standing.h"
 
 namespace abbe {
 namespace {
@@ -14,7 +15,8 @@ using Json = nlohmann::ordered_json;
 
 // The columns of a render, in order, under the names that CSV and JSON share.
 Json row_json(const BenchRow& row) {
-  return {{"spp", row.samples},
+  return {{"integrator", integrator_name(row.integrator)},
+          {"spp", row.samples},
           {"seed", row.seed},
           {"cpu_s", row.cpu_s},
           {"wall_s", row.wall_s},
@@ -39,6 +41,27 @@ Json equal_error_json(const EqualError& e) {
           {"ratio", e.ratio()}};
 }
 
+// Over the cost of the best single technique; null where there is none.
+Json over_best(std::span<const Standing> all, const Standing& one, double Standing::*cost) {
+  const Standing* best = best_single(all, cost);
+  return best == nullptr ? Json() : Json(one.*cost / best->*cost);
+}
+
+Json standings_json(const SuiteRun& run) {
+  const std::vector<Standing> all = standings(run);
+  Json json = Json::array();
+  for (const Standing& one : all)
+    json.push_back({{"integrator", integrator_name(one.by.integrator)},
+                    {"cost", one.cost},
+                    {"cost_trimmed", one.cost_trimmed},
+                    {"over_best", over_best(all, one, &Standing::cost)},
+                    {"over_best_trimmed", over_best(all, one, &Standing::cost_trimmed)},
+                    {"counted", one.counts()},
+                    {"unreached", one.by.unreached},
+                    {"bias", one.by.bias.empty() ? Json() : Json(one.by.bias)}});
+  return json;
+}
+
 Json suite_json(const SuiteRun& run, std::span<const Rival> rivals) {
   Json json{{"name", run.suite.name},
             {"description", run.suite.description},
@@ -47,6 +70,7 @@ Json suite_json(const SuiteRun& run, std::span<const Rival> rivals) {
             {"load_cpu_s", run.load_cpu_s},
             {"reference_spp", run.reference_samples},
             {"reference_key", run.reference_key},
+            {"standings", standings_json(run)},
             {"rows", Json::array()},
             {"equal_error", Json::array()}};
   for (const BenchRow& row : run.rows) json["rows"].push_back(row_json(row));
@@ -78,7 +102,8 @@ std::string csv_text(std::span<const SuiteRun> runs) {
   for (const SuiteRun& run : runs)
     for (const BenchRow& row : run.rows) {
       all += run.suite.name;
-      for (const Json& value : row_json(row)) all += "," + value.dump();
+      for (const Json& value : row_json(row))
+        all += "," + (value.is_string() ? value.get<std::string>() : value.dump());
       all += '\n';
     }
   return all;
@@ -95,6 +120,7 @@ std::string json_text(const BenchReport& report) {
   for (const SuiteRun& run : report.runs) json["suites"].push_back(suite_json(run, report.rivals));
   for (const Change& change : report.changes)
     json["baseline"].push_back({{"suite", change.suite},
+                                {"integrator", change.integrator},
                                 {"renders", change.pairs},
                                 {"cpu_per_path", ratio_json(change.cpu_per_path)},
                                 {"relMSE", ratio_json(change.rel_mse)}});

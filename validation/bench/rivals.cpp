@@ -81,7 +81,8 @@ std::vector<EqualError> equal_errors(const SuiteRun& run, std::span<const Rival>
   std::vector<EqualError> all;
   for (const Rival& rival : rivals) {
     if (rival.suite != run.suite.name) continue;
-    if (const auto time = time_at_error(error_curve(run.rows, rival.floor), rival.relrmse))
+    const std::vector<BenchRow> rows = rows_of(run.rows, run.integrators.front().integrator);
+    if (const auto time = time_at_error(error_curve(rows, rival.floor), rival.relrmse))
       all.push_back({rival, *time});
   }
   return all;

@@ -32,7 +32,7 @@ struct CurvePoint {
   double error;
 };
 
-/// The points of a run with that floor, one per sample count; those without error left out.
+/// The points of one integrator's rows with that floor, one per sample count; those without error left out.
 [[nodiscard]] std::vector<CurvePoint> error_curve(const std::vector<BenchRow>& rows, double floor);
 
 /// A time read off a curve.
@@ -54,7 +54,7 @@ struct EqualError {
   [[nodiscard]] double ratio() const { return rival.cpu_s / abbe.cpu_s; }
 };
 
-/// Compares the run with all rivals of its suite at their errors.
+/// Compares the first integrator of a run with all rivals of its suite at their errors.
 [[nodiscard]] std::vector<EqualError> equal_errors(const SuiteRun& run, std::span<const Rival> rivals);
 
 }  // namespace abbe

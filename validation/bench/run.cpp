@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include "transport/plan/techniques.h"
+#include "transport/render/choose_integrator.h"
+#include "transport/render/cost.h"
 #include "transport/render/render.h"
-#include "transport/render/replay.h"
+#include "transport/render/threads.h"
 #include "validation/bench/reference.h"
 #include "validation/statistics/image_difference.h"
 
@@ -22,10 +26,15 @@ int reference_samples(const BenchSettings& settings) {
   return kReferenceFactor * *std::max_element(settings.samples.begin(), settings.samples.end());
 }
 
-BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_t seed, int threads,
-                 bool with_replay) {
+// A scene that leaves its integrator open is settled first, as every command that renders does.
+BenchRow measure(Scene& scene, Integrator integrator, const Image& reference, int samples, std::uint64_t seed,
+                 int threads, bool with_replay) {
   scene.render.samples = samples;
   scene.render.seed = seed;
+  scene.render.integrator = integrator;
+  Cost cost;
+  metered(cost,
+          [&] { scene.render.integrator = choose_integrator(scene, thread_count(threads)).integrator; })();
   RenderOptions how;
   how.threads = threads;
   how.measure_replay = with_replay;
@@ -36,7 +45,14 @@ BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_
     measure.subtract_variance = true;
     return rel_mse(image, reference, measure);
   };
-  BenchRow row{samples, seed, stats.cpu_s, stats.wall_s, stats.paths, stats.rays, stats.embree_replay_share};
+  BenchRow row{integrator,
+               samples,
+               seed,
+               cost.cpu_s + stats.cpu_s,
+               cost.wall_s + stats.wall_s,
+               stats.paths,
+               stats.rays,
+               stats.embree_replay_share};
   row.rel_mse = error({.floor = kUsualFloor});
   row.rel_mse_trimmed = error({.floor = kUsualFloor, .trim = kTrimmedShare});
   row.rel_mse_low = error({.floor = kLowFloor});
@@ -45,6 +61,15 @@ BenchRow measure(Scene& scene, const Image& reference, int samples, std::uint64_
   row.dE00_mean = color.mean;
   row.dE00_p95 = color.p95;
   return row;
+}
+
+std::vector<BenchIntegrator> integrators_on(Scene& scene, const std::vector<Integrator>& integrators) {
+  std::vector<BenchIntegrator> all;
+  for (const Integrator integrator : integrators) {
+    scene.render.integrator = integrator;
+    all.push_back({integrator, unreached(scene), std::string(bias_of(chosen_techniques(scene).front()))});
+  }
+  return all;
 }
 
 // Adds `row`'s figures, each times `weight`.
@@ -61,27 +86,42 @@ SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings) {
   const auto say = [&](const std::string& message) {
     if (settings.say) settings.say(suite.name + ": " + message);
   };
-  const double start = process_cpu_seconds();
+  const CostMeter loading;
   Scene scene = load_suite(suite, settings.cache, settings.quick);
-  const double load_cpu_s = process_cpu_seconds() - start;
+  const double load_cpu_s = loading.spent().cpu_s;
   const int samples = reference_samples(settings);
   say(fmt::format("reference of {} samples per pixel", samples));
   const Reference reference =
       reference_of(scene, settings.cache, settings.version, kReferenceSeed, samples, settings.threads);
   say(reference.cached ? "the reference was in the cache" : "the reference is rendered");
-  SuiteRun run{
-      suite, scene.camera.width, scene.camera.height, scene.sha256, load_cpu_s, samples, reference.key, {}};
+  SuiteRun run{suite,
+               scene.camera.width,
+               scene.camera.height,
+               scene.sha256,
+               load_cpu_s,
+               samples,
+               reference.key,
+               integrators_on(scene, settings.integrators),
+               {}};
   for (const int spp : settings.samples)
-    for (int seed = 1; seed <= settings.seeds; ++seed) {
-      const bool first = run.rows.empty();
-      BenchRow row =
-          measure(scene, reference.image, spp, static_cast<std::uint64_t>(seed), settings.threads, first);
-      if (!first) row.embree_replay_share = run.rows.front().embree_replay_share;
-      say(fmt::format("{} samples per pixel, seed {}: {:.3g} s CPU, relRMSE {:.3g}", spp, seed, row.cpu_s,
-                      root_of(row.rel_mse)));
-      run.rows.push_back(row);
-    }
+    for (int seed = 1; seed <= settings.seeds; ++seed)
+      for (const Integrator integrator : settings.integrators) {
+        const bool first = run.rows.empty();
+        BenchRow row = measure(scene, integrator, reference.image, spp, static_cast<std::uint64_t>(seed),
+                               settings.threads, first);
+        if (!first) row.embree_replay_share = run.rows.front().embree_replay_share;
+        say(fmt::format("{}, {} samples per pixel, seed {}: {:.3g} s CPU, relRMSE {:.3g}",
+                        integrator_name(integrator), spp, seed, row.cpu_s, root_of(row.rel_mse)));
+        run.rows.push_back(row);
+      }
   return run;
+}
+
+std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator) {
+  std::vector<BenchRow> own;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
+               [&](const BenchRow& row) { return row.integrator == integrator; });
+  return own;
 }
 
 double root_of(double mean_square) {
@@ -91,10 +131,13 @@ double root_of(double mean_square) {
 std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows) {
   std::vector<BenchRow> means;
   for (const BenchRow& first : rows) {
-    const auto same = [&first](const BenchRow& row) { return row.samples == first.samples; };
+    const auto same = [&first](const BenchRow& row) {
+      return row.integrator == first.integrator && row.samples == first.samples;
+    };
     if (std::any_of(means.begin(), means.end(), same)) continue;
     const auto count = static_cast<double>(std::count_if(rows.begin(), rows.end(), same));
     BenchRow mean;
+    mean.integrator = first.integrator;
     mean.samples = first.samples;
     mean.paths = first.paths;
     mean.rays = first.rays;

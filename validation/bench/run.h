@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/unreached.h"
 #include "validation/bench/suite.h"
 
 namespace abbe {
@@ -17,8 +18,9 @@ inline constexpr double kTrimmedShare = 1e-3;  ///< Left out of `rel_mse_trimmed
 
 /// How to measure.
 struct BenchSettings {
+  std::vector<Integrator> integrators{Integrator::automatic};
   std::vector<int> samples{4, 8, 16, 32, 64};  ///< Per pixel.
-  int seeds = 3;                               ///< Renders of each sample count, seeds 1 to this.
+  int seeds = 3;                               ///< Renders of each by each integrator, seeds 1 to this.
   int threads = 0;                             ///< 0: one per processor.
   int reference_samples = 0;                   ///< 0: 64 times the largest of `samples`.
   bool quick = false;                          ///< Films of a quarter of the edges.
@@ -30,9 +32,10 @@ struct BenchSettings {
 /// One render against its reference. Errors are over linear sRGB with the reference's variance subtracted,
 /// and may be negative when the reference is not much better than the render.
 struct BenchRow {
+  Integrator integrator = Integrator::automatic;  ///< As asked for: what `automatic` chose is not told.
   int samples = 0;
   std::uint64_t seed = 0;
-  double cpu_s = 0;  ///< Of all threads, from the loaded scene to the film.
+  double cpu_s = 0;  ///< Of all threads, from the loaded scene to the film, choosing an integrator included.
   double wall_s = 0;
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
@@ -45,6 +48,13 @@ struct BenchRow {
   double dE00_p95 = 0;
 };
 
+/// An integrator that a suite is rendered by.
+struct BenchIntegrator {
+  Integrator integrator;
+  std::vector<PathClass> unreached;  ///< What it leaves out of the suite's light.
+  std::string bias;                  ///< As `bias_of`.
+};
+
 /// What a suite gave.
 struct SuiteRun {
   BenchSuite suite;
@@ -53,16 +63,21 @@ struct SuiteRun {
   double load_cpu_s;  ///< Reading the scene and building its acceleration structure.
   int reference_samples;
   std::string reference_key;
-  std::vector<BenchRow> rows;  ///< By samples, then seed.
+  std::vector<BenchIntegrator> integrators;
+  std::vector<BenchRow> rows;  ///< By samples, then seed, then integrator, so that integrators take turns.
 };
 
-/// Renders a suite at every sample count and seed.
+/// Renders a suite at every sample count and seed by every integrator, all of them against the one reference
+/// of the suite, which its own integrator renders.
 [[nodiscard]] SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings);
 
 /// Square root of an error that noise may have made negative: 0 then.
 [[nodiscard]] double root_of(double mean_square);
 
-/// Mean over the seeds of one sample count.
+/// The rows of one integrator.
+[[nodiscard]] std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator);
+
+/// Mean over the seeds of one integrator's sample count.
 [[nodiscard]] std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows);
 
 }  // namespace abbe

@@ -13,20 +13,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the scene file is: in the data, or copied beside the meshes it names.
-fs::path scene_file(const BenchSuite& suite, const fs::path& cache, Diagnostics& diagnostics) {
+void make_landscape(const fs::path& folder) {
   constexpr std::uint32_t kTerrainCells = 724;  // 1 048 352 triangles
   constexpr std::uint32_t kBallRows = 513;      // 1 050 624 triangles
+  write_ply(folder / "terrain.ply", make_terrain(kTerrainCells));
+  write_ply(folder / "ball.ply", make_bumpy_ball(kBallRows));
+}
+
+// So many sides that neighbours' pictures of the lamp overlap.
+void make_rings(const fs::path& folder) {
+  constexpr std::uint32_t kSides = 2048;
+  write_ply(folder / "ring.ply", make_ring(kSides));
+}
+
+// Where the scene file is: in the data, or copied beside the meshes it names.
+fs::path scene_file(const BenchSuite& suite, const fs::path& cache, Diagnostics& diagnostics) {
   fs::path shipped = data_directory() / suite.scene;
-  if (!suite.makes_meshes) return shipped;
+  if (suite.make_meshes == nullptr) return shipped;
   const fs::path folder = cache / suite.name;
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   const auto text = read_text(shipped, diagnostics);
   if (!text) return shipped;
   write_atomically(folder / shipped.filename(), text->text);
-  write_ply(folder / "terrain.ply", make_terrain(kTerrainCells));
-  write_ply(folder / "ball.ply", make_bumpy_ball(kBallRows));
+  suite.make_meshes(folder);
   return folder / shipped.filename();
 }
 
@@ -47,12 +57,22 @@ const std::vector<BenchSuite>& bench_suites() {
       {"prism-area", "the same from a panel that shines into a half space", "scenes/prism_area.json"},
       {"glass-sphere", "the caustic of a ball of glass under a small lamp", "scenes/glass_sphere.json"},
       {"through-pane",
-       "the same seen through a pane of glass",
+       "the same seen through a pane of thin glass",
        "scenes/glass_sphere.json",
        {{"/materials/pane", R"({"thin_glass": {"ior": "N-BK7"}})"},
         {"/shapes/2",
          R"({"name": "pane", "quad": {"corner": [1.5, 0.1, -6], "edge_u": [4, 0, 2], "edge_v": [0, 4, 0]}, )"
          R"("material": "pane"})"}}},
+      {"through-slab",
+       "the same seen through a slab of glass, which parts wavelengths",
+       "scenes/glass_sphere.json",
+       {{"/shapes/2", R"({"name": "slab", "mesh": {)"
+                      R"("vertices": [[1.5, 0.1, -6], [5.5, 0.1, -4], [5.5, 4.1, -4], [1.5, 4.1, -6], )"
+                      R"([1.4, 0.1, -5.8], [5.4, 0.1, -3.8], [5.4, 4.1, -3.8], [1.4, 4.1, -5.8]], )"
+                      R"("triangles": [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], )"
+                      R"([1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]]}, )"
+                      R"("material": "glass"})"}}},
+      {"ring", "the caustic of a polished ring on what it stands on", "bench/ring.json", {}, make_rings},
       {"bulb", "a lamp in a bulb of glass", "bench/bulb.json"},
       {"beam", "the beam of a spot in fog, seen from the side", "bench/beam.json"},
       {"metals",
@@ -67,7 +87,7 @@ const std::vector<BenchSuite>& bench_suites() {
        "rough copper",
        "bench/mesh.json",
        {},
-       true}};
+       make_landscape}};
   return suites;
 }
 

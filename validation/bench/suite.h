@@ -15,7 +15,8 @@ struct BenchSuite {
   std::string description;
   std::string scene;                    ///< Relative to the data directory.
   std::vector<Override> settings = {};  ///< Applied to the scene.
-  bool makes_meshes = false;            ///< The scene's meshes are made first.
+  /// Writes the meshes that the scene names into the folder it is to be copied to; null without any.
+  void (*make_meshes)(const std::filesystem::path& folder) = nullptr;
 };
 
 /// All suites, in the order they run.

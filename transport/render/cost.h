@@ -6,7 +6,7 @@
 
 #include "transport/render/replay.h"
 
-namespace abbe::cli {
+namespace abbe {
 
 /// Time that some work took, by the clock and of all threads together.
 struct Cost {
@@ -38,4 +38,4 @@ class CostMeter {
   };
 }
 
-}  // namespace abbe::cli
+}  // namespace abbe
