@@ -90,9 +90,33 @@ TEST(Aim, AnEmitterReachingBeyondItsTargetIsStillDrawnByTheStatedDensity) {
   EXPECT_NEAR(sum / kCount, cap, cap * 0.02);
 }
 
-TEST(Aim, ALightInsideItsTargetIsNotAimed) {
-  EXPECT_FALSE(Aim({0, 0, 0}, {0.5F, 0, 0}, 1).guided());
+// Its emission tells the cells that it learns from, and each cell is then drawn by the density it states.
+TEST(Aim, ALightInsideItsTargetIsAimedOnceItHasLearnt) {
   EXPECT_TRUE(Aim({0, 0, 0}, {5, 0, 0}, 1).guided());
+  Aim aim({0, 0, 0}, {0.5F, 0, 0}, 1);
+  EXPECT_FALSE(aim.guided());
+  std::vector<double> importance = aim.no_importance();
+  ASSERT_EQ(importance.size(), static_cast<std::size_t>(Aim::kGrid));
+  const Imath::V3f hot = Imath::V3f(0.48F, -0.6F, 0.64F);
+  constexpr std::uint32_t kCount = 1 << 16;
+  const auto direction = [&](std::uint32_t i) {
+    const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
+    return aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]}, 0);
+  };
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const AimedDirection d = direction(i);
+    EXPECT_FLOAT_EQ(d.pdf, 1 / (4 * std::numbers::pi_v<float>));
+    ASSERT_GE(d.cell, 0);
+    if (d.wi.dot(hot) > 0.99F) importance[static_cast<std::size_t>(d.cell)] += 1;
+  }
+  aim.learn(importance, 2);
+  EXPECT_TRUE(aim.guided());
+  int aimed = 0;
+  for (std::uint32_t i = 0; i < kCount; ++i) aimed += direction(i).wi.dot(hot) > 0.97F ? 1 : 0;
+  EXPECT_GT(aimed, 0.8 * kCount);
+  EXPECT_NEAR(integral(aim, one), 4 * std::numbers::pi, 0.3);
+  const auto near_hot = [&](const Imath::V3f& w) { return w.dot(hot) > 0.995F ? 1.0 : 0.0; };
+  EXPECT_NEAR(integral(aim, near_hot), 2 * std::numbers::pi * 0.005, 0.01 * 2 * std::numbers::pi * 0.005);
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
 
+#include "materials/bsdf/warp.h"
 #include "sampling/discrete.h"
 #include "scene/lights/emission.h"
 #include "scene/shapes/basis.h"
@@ -14,6 +16,7 @@ namespace abbe {
 namespace {
 
 constexpr float kEmissionShare = 0.05F;
+constexpr float kInverseTurn = std::numbers::inv_pi_v<float> / 2;
 constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
 
 }  // namespace
@@ -21,7 +24,9 @@ constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity
 Aim::Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius) {
   const Imath::V3f to_target = target_center - light_center;
   const float distance = to_target.length();
-  if (!(distance > 1.2F * target_radius) || !(target_radius > 0)) return;
+  if (!(target_radius > 0)) return;
+  around_ = !(distance > 1.2F * target_radius);
+  if (around_) return;
   // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
   face(to_target / distance, target_center,
        target_radius * distance / std::sqrt((distance - target_radius) * (distance + target_radius)));
@@ -52,7 +57,7 @@ void Aim::face(const Imath::V3f& axis, const Imath::V3f& target_center, float ha
 
 void Aim::learn(const std::vector<double>& importance, int reach) {
   const double total = std::accumulate(importance.begin(), importance.end(), 0.0);
-  if (!guided_ || !(total > 0)) return;
+  if (importance.empty() || !(total > 0)) return;
   std::vector<double> spread(kGrid, 0.1 * total / kGrid);
   const double share = 0.9 / ((2 * reach + 1) * (2 * reach + 1));
   for (int row = 0; row < kCells; ++row)
@@ -66,6 +71,7 @@ void Aim::learn(const std::vector<double>& importance, int reach) {
           spread[static_cast<std::size_t>(r * kCells + c)] += amount;
         }
     }
+  guided_ = true;
   build(spread);
 }
 
@@ -96,6 +102,10 @@ int Aim::cell_of(float a, float b) const {
 }
 
 int Aim::cell_met(const Imath::V3f& from, const Imath::V3f& direction) const {
+  if (around_) {
+    const float turn = std::atan2(direction.dot(top_), direction.dot(side_)) * kInverseTurn;
+    return cell_of(turn < 0 ? turn + 1 : turn, (1 - direction.dot(axis_)) / 2);
+  }
   const float t = (center_ - from).dot(axis_) / direction.dot(axis_);
   if (!(t > 0)) return -1;
   const Imath::V3f offset = from + direction * t - center_;
@@ -106,6 +116,7 @@ int Aim::cell_met(const Imath::V3f& from, const Imath::V3f& direction) const {
 
 float Aim::target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const {
   if (cell < 0) return 0;
+  if (around_) return density_[static_cast<std::size_t>(cell)] * kInverseTurn / 2;
   const float cos_theta = direction.dot(axis_);
   const float t = (center_ - from).dot(axis_) / cos_theta;
   return density_[static_cast<std::size_t>(cell)] / (4 * half_size_ * half_size_) * t * t /
@@ -118,13 +129,17 @@ AimedPoint Aim::point(Imath::V2f u) const {
     return center_ + side_ * ((2 * a - 1) * half_size_) + top_ * ((2 * b - 1) * half_size_);
   };
   if (!guided_) return {on_target(u.x, u.y), even, -1};
+  const GridPoint at = grid_point(u);
+  return {on_target(at.a, at.b), density_[static_cast<std::size_t>(at.cell)] * even, at.cell};
+}
+
+Aim::GridPoint Aim::grid_point(Imath::V2f u) const {
   const std::span<const float> columns(column_cdf_);
   const CdfStep<float> row = invert_cdf(std::span<const float>(row_cdf_), u.y);
   const CdfStep<float> column = invert_cdf(columns.subspan(row.index * kCells, kCells), u.x);
-  const float a = (static_cast<float>(column.index) + column.within) / kCells;
-  const float b = (static_cast<float>(row.index) + row.within) / kCells;
-  const std::size_t cell = row.index * kCells + column.index;
-  return {on_target(a, b), density_[cell] * even, static_cast<int>(cell)};
+  return {(static_cast<float>(column.index) + column.within) / kCells,
+          (static_cast<float>(row.index) + row.within) / kCells,
+          static_cast<int>(row.index * kCells + column.index)};
 }
 
 AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u,
@@ -132,6 +147,12 @@ AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float 
   AimedDirection aimed;
   if (!guided_ || choice < kEmissionShare) {
     aimed.wi = emission_direction(light, from.normal, u, time);
+    if (around_) aimed.cell = cell_met(from.point, aimed.wi);
+  } else if (around_) {
+    const GridPoint at = grid_point(u);
+    const Imath::V3f local = direction_at(1 - 2 * at.b, 2 * std::numbers::pi * at.a);
+    aimed.wi = side_ * local.x + top_ * local.y + axis_ * local.z;
+    aimed.cell = at.cell;
   } else {
     const AimedPoint target = point(u);
     aimed.wi = (target.point - from.point).normalized();

@@ -12,7 +12,7 @@ namespace abbe {
 struct AimedDirection {
   Imath::V3f wi;
   float pdf;
-  int cell = -1;  ///< Cell of the target it was aimed at, or -1.
+  int cell = -1;  ///< Cell that it was aimed at, or that it goes to around the light; or -1.
 };
 
 /// Where photons of a light that is far are sent through: a point of the target facing it, with its density
@@ -26,15 +26,17 @@ struct AimedPoint {
 /// Aims photons of one light at the sphere that bounds the specular shapes: directions are drawn through a
 /// disc-shaped target facing the light, by a grid of importances over it, except for a share drawn from the
 /// light's own emission. The share keeps every direction possible, so aiming changes the noise and not the
-/// image.
+/// image. A light within the target, or close to it, has the grid over all directions around it instead, and
+/// shines as it does until it has learnt.
 class Aim {
  public:
   static constexpr int kCells = 256;  ///< Along each side of the square around the target.
   static constexpr int kGrid = kCells * kCells;
 
-  /// Emission alone, where there is no target or the light is too close to it.
+  /// Emission alone, where there is no target.
   Aim() = default;
-  /// Aims at the bounding sphere of the targets, seen from `light_center`; all parts of it alike.
+  /// Aims at the bounding sphere of the targets, seen from `light_center`; all parts of it alike. Of a light
+  /// close to it nothing is aimed yet.
   Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius);
   /// Makes the aim of a light so far that its rays all run within an angle of cosine `least_cosine` to the
   /// unit direction `axis`: `point` covers the whole sphere for each of them, evenly until `guide` lets it
@@ -47,12 +49,14 @@ class Aim {
   /// and mixed with a tenth of the uniform ones.
   void learn(const std::vector<double>& importance, int reach);
 
+  /// Whether some directions are not drawn from the light's emission.
   [[nodiscard]] bool guided() const { return guided_; }
   /// Nothing yet for each cell, for what is measured to be added to; no cells of an aim that cannot learn.
   [[nodiscard]] std::vector<double> no_importance() const {
-    return std::vector<double>(guided_ ? kGrid : 0, 0.0);
+    return std::vector<double>(guided_ || around_ ? kGrid : 0, 0.0);
   }
 
+  /// Through a target before the light.
   [[nodiscard]] AimedPoint point(Imath::V2f u) const;
   [[nodiscard]] const Imath::V3f& axis() const { return axis_; }
   [[nodiscard]] float half_size() const { return half_size_; }
@@ -63,13 +67,22 @@ class Aim {
                                       Imath::V2f u, float time) const;
 
  private:
+  // A place on the unit square of the cells.
+  struct GridPoint {
+    float a;
+    float b;
+    int cell;
+  };
+
   void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);
+  [[nodiscard]] GridPoint grid_point(Imath::V2f u) const;
   [[nodiscard]] int cell_met(const Imath::V3f& from, const Imath::V3f& direction) const;  // or -1
   [[nodiscard]] float target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const;
   [[nodiscard]] int cell_of(float a, float b) const;
   void build(const std::vector<double>& weights);
 
   bool guided_ = false;
+  bool around_ = false;  // cells are of directions: equal ones of azimuth and of the cosine to the axis
   Imath::V3f center_{0, 0, 0};
   Imath::V3f axis_{0, 0, 1};  // from the light to the target
   Imath::V3f side_{1, 0, 0};
