@@ -1,9 +1,13 @@
 #include "transport/render/choose_integrator.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "description/load.h"
 #include "io/data_directory.h"
+#include "transport/render/learn_aims.h"
+#include "transport/render/technique_pilots.h"
 
 namespace abbe {
 namespace {
@@ -25,6 +29,53 @@ TEST(ChooseIntegrator, LeavesLampsThatAreConnectedToEasilyToPathTracing) {
     EXPECT_LT(choice.cost_ratio.value_or(9), 1) << plain;
     EXPECT_EQ(choice.because, "") << plain;
   }
+}
+
+// The lamp turned to the ceiling, not far below it: paths from the camera seldom find what it lights.
+Scene indirect_cornell() {
+  return load(
+      "scenes/cornell.json",
+      {{"/lights/0/quad", R"({"corner": [343, 450, 227], "edge_u": [-130, 0, 0], "edge_v": [0, 0, 105]})"}});
+}
+
+// What one sample's error costs by path tracing with photons beside it at their best share, over what it
+// costs by bidirectional path tracing, whose rays count double: by pilots through so many pixels.
+double cost_ratio_of(const Scene& scene, std::uint32_t pixels) {
+  Scene joining = scene;
+  joining.render.integrator = Integrator::bdpt;
+  const PilotFindings apart = try_techniques(make_learnt_plan(scene, 2, scene.render.seed), 2, pixels);
+  const PilotFindings joined = try_techniques(make_plan(joining), 2, pixels);
+  const double apart_root =
+      std::sqrt(apart.path_variance * apart.path_rays) + std::sqrt(apart.photon_variance * apart.photon_rays);
+  return apart_root * apart_root / (2 * joined.path_rays * (joined.path_variance + joined.photon_variance));
+}
+
+TEST(ChooseIntegrator, JoinsWhereThatCostsSoMuchLessAtEqualError) {
+  const Scene scene = indirect_cornell();
+  const IntegratorChoice choice = choose_integrator(scene, 2);
+  EXPECT_EQ(choice.integrator, Integrator::bdpt);
+  ASSERT_TRUE(choice.cost_ratio);
+  EXPECT_GT(*choice.cost_ratio, 1.5);
+  EXPECT_DOUBLE_EQ(*choice.cost_ratio, cost_ratio_of(scene, 4096));
+  EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
+}
+
+// Where few pixels say that joining is not worth it, no more are asked. All light of this lamp comes through
+// a bulb, which paths from the camera find where photons have shown them.
+TEST(ChooseIntegrator, StopsWhereItIsPlainByWhatIsLearnt) {
+  const Scene scene = load("bench/bulb.json");
+  const IntegratorChoice choice = choose_integrator(scene, 2);
+  EXPECT_EQ(choice.integrator, Integrator::automatic);
+  EXPECT_DOUBLE_EQ(choice.cost_ratio.value_or(0), cost_ratio_of(scene, 512));
+}
+
+// Photons bring all of the film's light: by few of them joining seems far cheaper, and by more far dearer.
+TEST(ChooseIntegrator, BelievesInJoiningByManyPixelsAlone) {
+  const Scene scene = load("scenes/prism_area.json");
+  EXPECT_GT(cost_ratio_of(scene, 512), 1.5);
+  const IntegratorChoice choice = choose_integrator(scene, 2);
+  EXPECT_EQ(choice.integrator, Integrator::automatic);
+  EXPECT_DOUBLE_EQ(choice.cost_ratio.value_or(0), cost_ratio_of(scene, 4096));
 }
 
 TEST(ChooseIntegrator, IsTheSameOnAnyNumberOfThreads) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "transport/render/learn_aims.h"
+#include "transport/render/technique_pilots.h"
 #include "transport/render/technique_shares.h"
 
 namespace abbe {
@@ -50,6 +51,18 @@ TEST(TechniqueShares, AreWholeWhereThereIsNoChoice) {
   EXPECT_EQ(shares(scene), Shares(kPixels, 1));
   scene.render.integrator = Integrator::light;
   EXPECT_EQ(shares(scene), Shares(kPixels, 1));
+}
+
+// What paths of a pixel share is no variance: those that see the sky alone find the same in every direction
+// and, of a spectrum and a channel without wavelength, by every wavelength.
+TEST(TechniqueShares, PathsThatAllFindTheSameHaveNoVariance) {
+  Scene scene = card_with({0, 0, -20}, {0, 0, -1});
+  scene.shapes.erase(scene.shapes.begin());
+  scene.lights.push_back({"sky", EnvironmentLight{}, Curve(1.0)});
+  scene.commit();
+  const PilotFindings found = try_techniques(make_plan(scene), 2, 256);
+  EXPECT_NEAR(found.path_square, kPixels / 1.01, 0.01 * kPixels) << "over the mean's square and a hundredth";
+  EXPECT_LT(found.path_variance, 1e-3 * kPixels) << "how a pixel's middle and edges see the sky";
 }
 
 // The variance of a path is that of the light, on a film of one pixel as of many that see the same.

@@ -150,7 +150,8 @@ TEST(CausticGuide, KeepsOutOfWhatScatteringFinds) {
   EXPECT_TRUE(CausticGuide().at({0, 0, 0}).empty());
 }
 
-// As much as the caustics are of themselves and a quarter of the light unhindered, in 64ths to a half.
+// As much as the caustics are of themselves and a sixteenth of the light unhindered, in 64ths to three
+// quarters.
 TEST(CausticGuide, LooksAsOftenAsItPays) {
   const auto share = [](float unhindered) {
     std::vector<CausticPhoton> photons = photons_from({0, 3, 0}, 0.01F, 2000);
@@ -165,9 +166,10 @@ TEST(CausticGuide, LooksAsOftenAsItPays) {
           guide.at({static_cast<float>(i % 8) / 5 - 0.7F, 0, static_cast<float>(i / 8) / 5 - 0.7F}).share();
     return sum / 64;
   };
-  EXPECT_EQ(share(0), 0.5F);
-  EXPECT_NEAR(share(12), 0.25F, 0.04F);
-  EXPECT_NEAR(share(76), 0.05F, 0.015F);
+  EXPECT_EQ(share(0), 0.75F);
+  EXPECT_NEAR(share(16), 0.5F, 0.05F);
+  EXPECT_NEAR(share(48), 0.25F, 0.04F);
+  EXPECT_NEAR(share(304), 0.05F, 0.015F);
   EXPECT_EQ(share(1e9F), 1 / 64.0F);
 }
 
@@ -177,7 +179,7 @@ TEST(CausticGuide, HoldsPhotonsOfASinglePoint) {
   for (CausticPhoton& photon : photons) photon = {{1, 2, 3}, photon.from, 1, 2, 1, 1};
   const CausticGuide guide(std::move(photons), kRoom);
   EXPECT_FALSE(guide.at({1, 2, 3}).empty());
-  EXPECT_EQ(guide.at({1, 2, 3}).share(), 0.5F);
+  EXPECT_EQ(guide.at({1, 2, 3}).share(), 0.75F);
 }
 
 }  // namespace

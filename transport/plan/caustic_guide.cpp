@@ -123,18 +123,20 @@ float area_of(Photons photons) {
 
 // What is found in lobes has the variance C^2/q and what scattering finds B^2/(1 - q), where C is the
 // irradiance of caustics and B stands for how far the rest scatters: least for q = C/(C + B). Lights are
-// connected to, so that the rest is what comes by way of other surfaces: taken as a quarter of what all
-// lights would give unhindered.
+// connected to, so that the rest is what comes by way of other surfaces: a quarter of what all lights would
+// give unhindered. It is taken for a quarter of that, as lobes that do not fit their caustic multiply C^2,
+// and as what is missed of a caustic is the worst of it.
 float share_of(Photons photons) {
   constexpr float kSteps = 64;  // so that shares of numbers in [0, 1) are exact
+  constexpr float kMost = 48;
   float power = 0;
   float unhindered = 0;
   for (const CausticPhoton& photon : photons) {
     power += photon.power;
     unhindered += photon.unhindered / static_cast<float>(photons.size());
   }
-  const float others = unhindered / 4 * area_of(photons);  // B/C times the photons' power
-  return std::clamp(std::round(kSteps * power / (power + others)), 1.0F, kSteps / 2) / kSteps;
+  const float others = unhindered / 16 * area_of(photons);  // B/C times the photons' power
+  return std::clamp(std::round(kSteps * power / (power + others)), 1.0F, kMost) / kSteps;
 }
 
 // The lobe that `u` in [0, 1) falls to; the last one if rounding leaves something over.
