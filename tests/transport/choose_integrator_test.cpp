@@ -60,13 +60,15 @@ TEST(ChooseIntegrator, JoinsWhereThatCostsSoMuchLessAtEqualError) {
   EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
 }
 
-// Where few pixels say that joining is not worth it, no more are asked. All light of this lamp comes through
-// a bulb, which paths from the camera find where photons have shown them.
+// Where few pixels say that joining is not worth it, no more are asked. All light of one lamp comes through
+// a bulb, which paths from the camera find where photons have shown them; under the other both have a part.
 TEST(ChooseIntegrator, StopsWhereItIsPlainByWhatIsLearnt) {
-  const Scene scene = load("bench/bulb.json");
-  const IntegratorChoice choice = choose_integrator(scene, 2);
-  EXPECT_EQ(choice.integrator, Integrator::automatic);
-  EXPECT_DOUBLE_EQ(choice.cost_ratio.value_or(0), cost_ratio_of(scene, 512));
+  for (const char* file : {"bench/bulb.json", "scenes/glass_sphere.json"}) {
+    const Scene scene = load(file);
+    const IntegratorChoice choice = choose_integrator(scene, 2);
+    EXPECT_EQ(choice.integrator, Integrator::automatic) << file;
+    EXPECT_DOUBLE_EQ(choice.cost_ratio.value_or(0), cost_ratio_of(scene, 512)) << file;
+  }
 }
 
 // Photons bring all of the film's light: by few of them joining seems far cheaper, and by more far dearer.
