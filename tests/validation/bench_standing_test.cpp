@@ -1,3 +1,8 @@
+#include <cmath>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

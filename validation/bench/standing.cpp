@@ -1,7 +1,5 @@
 #include "validation/bench/standing.h"
 
-#include <utility>
-
 namespace abbe {
 
 bool Standing::counts() const {
