@@ -45,8 +45,9 @@ double cost_ratio_of(const Scene& scene, std::uint32_t pixels) {
   joining.render.integrator = Integrator::bdpt;
   const PilotFindings apart = try_techniques(make_learnt_plan(scene, 2, scene.render.seed), 2, pixels);
   const PilotFindings joined = try_techniques(make_plan(joining), 2, pixels);
-  const double apart_root =
-      std::sqrt(apart.path_variance * apart.path_rays) + std::sqrt(apart.photon_variance * apart.photon_rays);
+  const double by_chance = joined.path_tracing_square - (apart.path_square - apart.path_variance);
+  const double apart_root = std::sqrt(std::max(apart.path_variance, by_chance) * apart.path_rays) +
+                            std::sqrt(apart.photon_variance * apart.photon_rays);
   return apart_root * apart_root / (2 * joined.path_rays * (joined.path_variance + joined.photon_variance));
 }
 
@@ -58,6 +59,30 @@ TEST(ChooseIntegrator, JoinsWhereThatCostsSoMuchLessAtEqualError) {
   EXPECT_GT(*choice.cost_ratio, 1.5);
   EXPECT_DOUBLE_EQ(*choice.cost_ratio, cost_ratio_of(scene, 4096));
   EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
+}
+
+// A narrow spot lights a small place on the floor, which lights the fog: of that paths from the camera find
+// so little that their own pilots do not know of it, and joined ones do.
+TEST(ChooseIntegrator, KnowsOfLightThatPathTracingFindsByRareChance) {
+  const Scene scene = load("bench/beam.json");
+  const IntegratorChoice choice = choose_integrator(scene, 2);
+  EXPECT_EQ(choice.integrator, Integrator::bdpt);
+  EXPECT_GT(choice.cost_ratio.value_or(0), 10);
+}
+
+// What joined paths tell of the mean square of path tracing, where each of its paths has one contribution: all
+// but what falls to connections with the lens.
+TEST(TechniquePilots, JoinedPathsTellWhatPathTracingWouldHave) {
+  Scene scene = load("scenes/cornell.json", {{"/lights/0", R"({"point": {"at": [278, 400, 279]},
+                                        "emission": {"illuminant": "A", "luminous_flux_lm": 1000}})"},
+                                             {"/render/max_depth", "1"},
+                                             {"/render/integrator", "path"}});
+  const double square = try_techniques(make_plan(scene), 2).path_square;
+  scene.render.integrator = Integrator::bdpt;
+  const PilotFindings joined = try_techniques(make_plan(scene), 2);
+  EXPECT_LT(joined.path_tracing_square, 1.02 * square);
+  EXPECT_GT(joined.path_tracing_square, 0.8 * square);
+  EXPECT_LT(joined.path_square, 0.75 * square);
 }
 
 // Where few pixels say that joining is not worth it, no more are asked. All light of one lamp comes through

@@ -74,6 +74,8 @@ struct FilmPoint {
 struct LightHistory {
   std::uint32_t light;
   int events;
+  /// Of the densities of all strategies by which it was joined the share of those that path tracing has too.
+  float by_path_tracing = 1;
 };
 
 /// Receives the film values, one per plane, that the path of that number adds to a pixel.

@@ -51,6 +51,10 @@ class StrategyWeights {
   /// What the path's contribution by its throughputs is to be multiplied by.
   [[nodiscard]] float of(const JoinedPath& path, const EndDensities& ends);
 
+  /// Which share of the densities of that path the strategies have whose path from the camera meets the
+  /// light, or is connected to one drawn for it: those of path tracing.
+  [[nodiscard]] float by_path_tracing() const { return by_path_tracing_; }
+
   /// With which density the way between two vertices is come through, lane by lane.
   [[nodiscard]] SampledSpectrum passed_between(const PathVertex& a, const PathVertex& b) const;
 
@@ -72,6 +76,7 @@ class StrategyWeights {
   bool has_free_paths_;
   std::vector<Densities> at_;                // of the path in hand
   std::vector<SampledSpectrum> from_light_;  // products of what the light makes of z_i ... z_k
+  float by_path_tracing_ = 1;
 };
 
 }  // namespace abbe

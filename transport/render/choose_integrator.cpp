@@ -39,22 +39,18 @@ std::vector<PathClass> found_by_merging(const Scene& scene, const Scene& merging
   return found;
 }
 
-// What pilots through some pixels found of a plan.
-struct Trial {
-  double cost_of_error = 0;
-  double rays_per_pixel = 0;
-};
+// What error costs by joined paths.
+double cost_of_joining(const PilotFindings& joined) {
+  return (joined.path_variance + joined.photon_variance) * joined.path_rays * kCostOfJoinedRay;
+}
 
-Trial try_plan(const Plan& plan, int threads, std::uint32_t pixels) {
-  const PilotFindings found = try_techniques(plan, threads, pixels);
-  const double rays_per_pixel = static_cast<double>(found.rays) / pixels;
-  if (uses(plan.techniques, Technique::bdpt))
-    return {(found.path_variance + found.photon_variance) * found.path_rays * kCostOfJoinedRay,
-            rays_per_pixel};
-  return {std::pow(std::sqrt(found.path_variance * found.path_rays) +
-                       std::sqrt(found.photon_variance * found.photon_rays),
-                   2),
-          rays_per_pixel};
+// And by path tracing, and light tracing beside it. Light that camera paths find by chance so rare that no
+// pilot of theirs has is in what the joined ones tell of it.
+double cost_apart(const PilotFindings& apart, const PilotFindings& joined) {
+  const double squared_mean = apart.path_square - apart.path_variance;
+  const double path_variance = std::max(apart.path_variance, joined.path_tracing_square - squared_mean);
+  return std::pow(
+      std::sqrt(path_variance * apart.path_rays) + std::sqrt(apart.photon_variance * apart.photon_rays), 2);
 }
 
 // By few pilots first, as in most scenes it is plain enough, and by very few for what they cost. None where
@@ -70,11 +66,11 @@ std::optional<double> cost_ratio(const Scene& scene, const Scene& joining, int t
   std::optional<double> ratio;
   for (const std::uint32_t pixels : {kFirst, kFewPixels, kManyPixels}) {
     if (pixels * rays_per_pixel > most_rays) return std::nullopt;
-    const Trial one = try_plan(apart, threads, pixels);
-    const Trial other = try_plan(joined, threads, pixels);
-    rays_per_pixel = one.rays_per_pixel + other.rays_per_pixel;
+    const PilotFindings by_paths = try_techniques(apart, threads, pixels);
+    const PilotFindings by_joining = try_techniques(joined, threads, pixels);
+    rays_per_pixel = static_cast<double>(by_paths.rays + by_joining.rays) / pixels;
     if (pixels == kFirst) continue;
-    ratio = one.cost_of_error / other.cost_of_error;
+    ratio = cost_apart(by_paths, by_joining) / cost_of_joining(by_joining);
     if (!(*ratio > kPlain)) break;
   }
   return ratio;

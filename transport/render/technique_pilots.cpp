@@ -23,12 +23,13 @@ constexpr int kGrid = 16;  // regions along an edge of the film
 
 // What the pilots found in one region, a value being the sum of |film value| over the channels.
 struct Region {
-  double pixels = 0;        // that camera paths went through
-  double mean = 0;          // sum over them of the mean,
-  double variance = 0;      // of the variance of a path,
-  double path_squares = 0;  // and of the mean square
-  double photons = 0;       // sum of all splats of photons that each stand for all of a sample's,
-  double squares = 0;       // and of their squares
+  double pixels = 0;                // that camera paths went through
+  double mean = 0;                  // sum over them of the mean,
+  double variance = 0;              // of the variance of a path,
+  double path_squares = 0;          // and of the mean square
+  double path_tracing_squares = 0;  // that path tracing would have of what was joined
+  double photons = 0;               // sum of all splats of photons that each stand for all of a sample's,
+  double squares = 0;               // and of their squares
 };
 
 struct Findings {
@@ -46,6 +47,7 @@ struct Findings {
       regions[i].mean += more.regions[i].mean;
       regions[i].variance += more.regions[i].variance;
       regions[i].path_squares += more.regions[i].path_squares;
+      regions[i].path_tracing_squares += more.regions[i].path_tracing_squares;
       regions[i].photons += more.regions[i].photons;
       regions[i].squares += more.regions[i].squares;
     }
@@ -119,6 +121,15 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
                      path_sampler(pilot, i),
                      {kSeedOfPilots, Purpose::pilot, 2, 0, pilot * kPilotPathsPerPixel + i},
                      true});
+  // With p the density of all strategies and p' that of path tracing, whose mean square of this light is that
+  // of f/p', the integral of f^2/p' is the mean of (f/p)^2 p/p' over what is joined.
+  Region& region = found.at(camera, x, y);
+  tracer.tell_apart(
+      [&](std::uint32_t pair, const FilmPoint& at, const LightHistory& of, std::span<const double> more) {
+        if (at.x == pairs[pair].x && at.y == pairs[pair].y)
+          region.path_tracing_squares +=
+              std::pow(magnitude(more), 2) / static_cast<double>(of.by_path_tracing) / kPilotPathsPerPixel;
+      });
   PathValues values{};
   tracer.trace(pairs, [&](std::uint32_t pair, const FilmPoint& at, std::span<const double> more) {
     if (at.x == pairs[pair].x && at.y == pairs[pair].y)
@@ -127,7 +138,7 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
       found.add_splat(camera, at, magnitude(more) * static_cast<double>(plan.photons));
   });
   found.photons_traced += kPilotPathsPerPixel;
-  add_paths(values, found.at(camera, x, y));
+  add_paths(values, region);
 }
 
 Findings try_batch(const Plan& plan, std::uint32_t batch, std::uint32_t pixels) {
@@ -195,6 +206,7 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
     if (!(region.pixels > 0)) continue;
     told.path_variance += sizes[i] * region.variance / region.pixels / scale;
     told.path_square += sizes[i] * region.path_squares / region.pixels / scale;
+    told.path_tracing_square += sizes[i] * region.path_tracing_squares / region.pixels / scale;
   }
   told.path_rays = static_cast<double>(found.path_rays) / (tried * kPilotPathsPerPixel);
   told.rays = found.path_rays + found.photon_rays;

@@ -13,9 +13,12 @@ struct PilotFindings {
   double path_variance = 0;    ///< Of a camera path through each pixel,
   double path_square = 0;      ///< and the mean square.
   double photon_variance = 0;  ///< Of as many photons as pixels.
-  double path_rays = 0;        ///< Of one camera path,
-  double photon_rays = 0;      ///< and of one photon; none where both are traced as one.
-  std::uint64_t rays = 0;      ///< Of all pilots.
+  /// Of bidirectional path tracing's, no more than the mean square that a camera path of path tracing would
+  /// have, which finds by rare chance what joining finds often.
+  double path_tracing_square = 0;
+  double path_rays = 0;    ///< Of one camera path,
+  double photon_rays = 0;  ///< and of one photon; none where both are traced as one.
+  std::uint64_t rays = 0;  ///< Of all pilots.
 };
 
 /// Camera paths that pilots trace through a pixel.

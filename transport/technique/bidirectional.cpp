@@ -254,6 +254,17 @@ float BidirectionalTracer::weight() {
   return weights_.of(joined_, ends);
 }
 
+// Path tracing has other ways than these to light that comes through specular matter or is scattered on its
+// way, which count as all.
+float BidirectionalTracer::by_path_tracing() const {
+  const auto between = std::span(joined_.z).subspan(1, joined_.z.size() - 2);
+  const bool plain =
+      between.empty() ||
+      (std::holds_alternative<SurfaceVertex>(between.back()->at) &&
+       std::none_of(between.begin(), between.end(), [](const PathVertex* vertex) { return vertex->delta; }));
+  return plain ? weights_.by_path_tracing() : 1;
+}
+
 // A meter sees each light under an angle of its own.
 FilmPoint BidirectionalTracer::film_point(std::uint32_t i, std::size_t t, const PathVertex& b) {
   FilmPoint at = at_[i];
@@ -272,7 +283,7 @@ void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_
   else
     found_.tell(contribution, pointer_to(seen), [&](const auto& brought) { expose(i, at, brought); });
   if (!apart_) return;
-  const LightHistory of{light, static_cast<int>(joined_.z.size()) - 2};
+  const LightHistory of{light, static_cast<int>(joined_.z.size()) - 2, by_path_tracing()};
   found_.tell(contribution, pointer_to(seen), [&](const auto& brought) {
     expose(i, at, brought, [&](const FilmPoint& pixel, std::span<const double> values) {
       apart_(first_ + i, pixel, of, values);

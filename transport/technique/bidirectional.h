@@ -80,6 +80,7 @@ class BidirectionalTracer {
   void set_joined(std::uint32_t i, std::size_t t, const RecordedPath& photon, std::size_t s);
   void add_joined(std::uint32_t i, const FilmPoint& at);
   [[nodiscard]] float weight();
+  [[nodiscard]] float by_path_tracing() const;
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
   void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution,
            const std::optional<StokesSpectrum>& seen);
