@@ -1,15 +1,14 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "tests/scenes/scene_fixture.h"
+#include "validation/cases/radiative_transfer.h"
 
 // Films of matter that absorbs and scatters, held against what radiative transfer says of it.
 
@@ -155,34 +154,6 @@ TEST(Media, WhatOnlyScattersIsInvisibleInAFurnace) {
               one, 0.03, "fog within haze");
 }
 
-// H(mu) = 1/(sqrt(1 - albedo) + albedo/2 int_0^1 m H(m)/(mu + m) dm), iterated on midpoints.
-class ChandrasekharH {
- public:
-  explicit ChandrasekharH(double albedo) : albedo_(albedo), h_(400, 1.0) {
-    for (int round = 0; round < 100; ++round) {
-      std::vector<double> better;
-      for (std::size_t i = 0; i < h_.size(); ++i) better.push_back((*this)(node(i)));
-      h_ = better;
-    }
-  }
-  [[nodiscard]] double node(std::size_t i) const {
-    return (static_cast<double>(i) + 0.5) / static_cast<double>(h_.size());
-  }
-  double operator()(double mu) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < h_.size(); ++i)
-      sum += node(i) * h_[i] / (mu + node(i)) / static_cast<double>(h_.size());
-    return 1 / (std::sqrt(1 - albedo_) + albedo_ / 2 * sum);
-  }
-  [[nodiscard]] double mean() const {
-    return std::accumulate(h_.begin(), h_.end(), 0.0) / static_cast<double>(h_.size());
-  }
-
- private:
-  double albedo_;
-  std::vector<double> h_;
-};
-
 // A deep layer that scatters evenly and absorbs a tenth of what it meets, under an even sky, looks
 // 1 - H(mu) sqrt(1 - albedo) times as bright as the sky [Chandrasekhar1960, sec. 33]. Its density varies with
 // wavelength, which changes nothing.
@@ -208,21 +179,6 @@ TEST(Media, ADeepLayerReflectsByChandrasekharsFunction) {
   }
 }
 
-// [W m^-2 sr^-1 nm^-1] of light scattered once on the way from a point of intensity 1 at distance h beside
-// the middle of a line of sight of `length` metres, in even matter that is everywhere.
-double scattered_once(double scattering, double extinction, const std::function<double(double)>& phase,
-                      double h, double before, double after) {
-  constexpr int kSteps = 200000;
-  double sum = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double x = -before + (before + after) * (i + 0.5) / kSteps;  // from the foot of the lamp
-    const double r = std::hypot(x, h);
-    const double cosine = -x / r;  // between the way of the light and the way to the camera, which is -x
-    sum += scattering * phase(cosine) * std::exp(-extinction * (x + before + r)) / (r * r);
-  }
-  return sum * (before + after) / kSteps;
-}
-
 double forward(double cosine) {  // Henyey-Greenstein, g = 0.5
   return 0.75 / (4 * kPi * std::pow(1.25 - cosine, 1.5));
 }
@@ -242,12 +198,12 @@ TEST(Media, LightScatteredOnceIsTheIntegralAlongTheLine) {
       .fov_deg = 0.01,
       .samples = 2048,
       .depth = R"("max_depth": 1, )"};
-  const double expected = scattered_once(0.3, 0.4, forward, 0.5, 5, 95);
+  const double expected = scattered_once({0.3, 0.4, forward}, 0.5, 5, 95);
   expect_near(radiances(bench), {expected, expected, expected}, 0.003, "path");
   // A sphere of it around the lamp alone, which the camera is outside of.
   Bench outside = bench;
   outside.shapes = ball("fog", 2);
-  const double nearer = scattered_once(0.3, 0.4, forward, 0.5, 2, 2);
+  const double nearer = scattered_once({0.3, 0.4, forward}, 0.5, 2, 2);
   expect_near(radiances(outside), {nearer, nearer, nearer}, 0.003, "from outside");
 }
 
@@ -269,9 +225,9 @@ TEST(Media, ABeamIsTheIntegralAcrossIt) {
   std::vector<double> expected;
   for (const double scattering : {0.6, 0.3, 0.1}) {
     const double way = std::exp(-(scattering + 0.1) * (5 - across));
-    expected.push_back(
-        way * scattered_once(
-                  scattering, scattering + 0.1, [](double) { return 1 / (4 * kPi); }, 0.5, across, across));
+    expected.push_back(way *
+                       scattered_once({scattering, scattering + 0.1, [](double) { return 1 / (4 * kPi); }},
+                                      0.5, across, across));
   }
   expect_near(radiances(bench), expected, 0.003, "beam");
 }
@@ -295,7 +251,7 @@ TEST(Media, TheSkyIsBlue) {
        .depth = R"("max_depth": 1, )"});
   std::vector<double> expected;
   for (const double nm : {450, 550, 650})
-    expected.push_back(scattered_once(scattering(nm), scattering(nm), rayleigh, 0.5, 3, 3));
+    expected.push_back(scattered_once({scattering(nm), scattering(nm), rayleigh}, 0.5, 3, 3));
   EXPECT_GT(expected[0] / expected[2], 4);
   expect_near(found, expected, 0.02, "air");
 }

@@ -31,9 +31,10 @@ std::vector<Case> cases_by() {
   return chosen;
 }
 
-/// Runs a case and expects it to pass.
+/// Runs a case and expects it to pass; skips what its technique does not reach.
 inline void expect_passes(const Case& item, const CaseSettings& settings) {
   const CaseResult result = run_case(item, settings);
+  if (!result.measured()) GTEST_SKIP() << result.unreached.front();
   ASSERT_FALSE(result.figures.empty());
   const Figure& worst = result.figures[result.worst];
   const std::string line =

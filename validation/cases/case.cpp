@@ -1,10 +1,14 @@
 #include "validation/cases/case.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "io/data_directory.h"
+#include "transport/plan/techniques.h"
 #include "transport/render/render.h"
 #include "validation/cases/suites.h"
 #include "validation/picture/color_map.h"
@@ -42,8 +46,8 @@ CaseResult measure(const Case& item, const Computed& method, const CaseSettings&
   return result;
 }
 
-CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings& settings) {
-  Scene scene = load_case_scene(item.id, method.scene, method.settings);
+// Of a film's scene, which is as `method` says.
+CaseResult measure_film(const Case& item, const FilmMean& method, Scene scene, const CaseSettings& settings) {
   const int channel = channel_index(scene, method.channel);
   CaseResult result{{}, item.margin, Verdict::fail, 0, 0, 0};
   if (settings.thorough) result.margin.value = method.fine_margin;
@@ -63,6 +67,35 @@ CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings&
   return result;
 }
 
+CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings& settings) {
+  return measure_film(item, method, load_case_scene(item.id, method.scene, method.settings), settings);
+}
+
+// The classes of paths with light for this film that the scene's integrator does not reach.
+std::vector<PathClass> lost(const Scene& scene, const FilmMean& film) {
+  std::vector<PathClass> classes =
+      unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
+  std::erase_if(classes, [&](const PathClass& told) {
+    const std::string expression = told.substr(0, told.find(':'));
+    return std::find(film.absent.begin(), film.absent.end(), expression) != film.absent.end();
+  });
+  return classes;
+}
+
+CaseResult measure(const Case& item, const TechniqueMean& method, const CaseSettings& settings) {
+  std::vector<Override> overrides = method.film.settings;
+  overrides.push_back({"/render/integrator",
+                       fmt::format("\"{}\"", kIntegratorNames.at(static_cast<std::size_t>(method.by)))});
+  Scene scene = load_case_scene(item.id, method.film.scene, overrides);
+  std::vector<PathClass> classes = lost(scene, method.film);
+  const std::vector<Technique> techniques = chosen_techniques(scene);
+  CaseResult result = classes.empty() ? measure_film(item, method.film, std::move(scene), settings)
+                                      : CaseResult{{}, item.margin, Verdict::pass, 0, 0, 0};
+  result.unreached = std::move(classes);
+  for (const Technique technique : techniques) result.owned.push_back(owned_paths(technique, techniques));
+  return result;
+}
+
 // Of one figure. What is not sampled has no interval.
 Verdict verdict_of(const Figure& figure, double allowed) {
   if (figure.measured.standard_error == 0)
@@ -71,6 +104,7 @@ Verdict verdict_of(const Figure& figure, double allowed) {
 }
 
 void judge(CaseResult& result) {
+  if (!result.measured()) return;
   result.verdict = result.figures.empty() ? Verdict::fail : Verdict::pass;
   double worst = -1;
   for (std::size_t i = 0; i < result.figures.size(); ++i) {
@@ -108,10 +142,11 @@ CaseResult run_case(const Case& item, const CaseSettings& settings) {
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
-    for (std::vector<Case> (*suite)() :
-         {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases, colour_cases, judging_cases,
-          chart_cases, rendered_chart_cases, camera_cases, sensor_cases})
+    for (std::vector<Case> (*suite)() : {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases,
+                                         refraction_cases, scattering_cases, colour_cases, judging_cases,
+                                         chart_cases, rendered_chart_cases, camera_cases, sensor_cases})
       for (Case& item : suite()) all.push_back(std::move(item));
+    for (Case& cell : technique_cases(all)) all.push_back(std::move(cell));
     return all;
   }();
   return cases;

@@ -9,6 +9,7 @@
 
 #include "description/load.h"
 #include "io/image.h"
+#include "scene/unreached.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {
@@ -47,6 +48,24 @@ struct FilmMean {
   double expected;
   int samples;         ///< Per pixel, for the margin of the case.
   double fine_margin;  ///< Relative; for a thorough run.
+  /// Classes of paths, as `unreached` writes them, that bring no light to this film: losing them is no loss.
+  std::vector<std::string> absent = {};
+};
+
+/// Which runs afford a measurement, each beside those of the ones before.
+enum class Tier {
+  quick,     ///< Every validation.
+  tests,     ///< The default tests.
+  thorough,  ///< Thorough validations, those of its suite alone, and the tests of the night.
+  never      ///< None: too little arrives at any number of samples.
+};
+
+/// The mean of another case's film by one technique: a cell of the matrix in `docs/techniques.md`.
+struct TechniqueMean {
+  std::string of;  ///< The id of that case.
+  Integrator by;
+  FilmMean film;  ///< Rendered by that technique, whatever its settings ask for.
+  Tier tier;
 };
 
 /// Colour differences of a rendered ColorChecker to what its spectra give: patch by patch, and their mean.
@@ -57,8 +76,8 @@ struct RenderedChart {
 };
 
 /// A part of the report.
-enum class Suite { optics, radiometry, colour, camera, sensor };
-inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor"};
+enum class Suite { optics, radiometry, colour, camera, sensor, techniques };
+inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor", "techniques"};
 
 /// Something whose answer is known.
 struct Case {
@@ -68,7 +87,7 @@ struct Case {
   std::string source;  ///< Formula or measurement, with its key in `docs/references.bib`.
   std::string unit;    ///< Of the figures; empty for pure numbers.
   Margin margin;
-  std::variant<Computed, FilmMean, RenderedChart> method;
+  std::variant<Computed, FilmMean, RenderedChart, TechniqueMean> method;
 };
 
 /// How carefully to measure.
@@ -92,18 +111,23 @@ struct CaseResult {
   int samples;        ///< Per pixel; 0 where nothing was rendered.
   double cpu_s;
   std::vector<Remark> remarks = {};
-  std::optional<Image> picture = {};  ///< Of what was rendered, for display, where it shows something.
+  /// The classes of paths that the technique loses: nothing was measured where there is one.
+  std::vector<PathClass> unreached = {};
+  std::vector<std::string> owned = {};  ///< Those that the techniques of a cell own, one for each.
+  std::optional<Image> picture = {};    ///< Of what was rendered, for display, where it shows something.
 
   /// The largest deviation that passes one of the figures.
   [[nodiscard]] double allowed(const Figure& figure) const {
     return figure.margin.value_or(margin).of(figure.reference);
   }
 
+  [[nodiscard]] bool measured() const { return unreached.empty(); }
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
 
-/// Measures one case. A film gets up to 4 doublings of its samples while the verdict is open. Throws
-/// Error{internal} when its scene does not load, and as its tables' loaders do.
+/// Measures one case. A technique that does not reach a film's light passes unmeasured. A film gets up to 4
+/// doublings of its samples while the verdict is open. Throws Error{internal} when its scene does not load,
+/// and as its tables' loaders do.
 [[nodiscard]] CaseResult run_case(const Case& item, const CaseSettings& settings = {});
 
 /// All cases, suite by suite.

@@ -22,6 +22,10 @@ namespace abbe {
           FilmMean{std::move(scene), std::move(settings), std::move(channel), expected, samples, 0.002}};
 }
 
+/// What a pinhole of f-number 1 and a square field of view makes of unit radiance: pi/4 times the mean of
+/// cos^4.
+[[nodiscard]] double pinhole_exposure(double fov_deg);
+
 /// A probe at a point, facing along `normal`.
 [[nodiscard]] Override probe_at(const std::string& point, const std::string& normal);
 

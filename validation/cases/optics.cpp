@@ -12,6 +12,7 @@
 #include "sampling/angle.h"
 #include "spectral/colorimetry.h"
 #include "validation/cases/figures.h"
+#include "validation/cases/quadrature.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 
@@ -223,13 +224,10 @@ std::vector<Figure> absorption() {
 // Reflectance of light from all directions alike, the integral of R(theta) sin(2 theta) by the midpoint rule
 // in theta; `n` is that of the far side over that of the near side.
 double hemispherical_reflectance(double n) {
-  constexpr int kSteps = 2000000;
-  double sum = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double theta = (i + 0.5) / kSteps * std::numbers::pi / 2;
-    sum += fresnel_dielectric(std::cos(theta), n).R() * std::sin(2 * theta);
-  }
-  return sum / kSteps * std::numbers::pi / 2;
+  const auto share = [n](double theta) {
+    return fresnel_dielectric(std::cos(theta), n).R() * std::sin(2 * theta);
+  };
+  return midpoint_integral(share, 0, std::numbers::pi / 2, 2000000);
 }
 
 std::vector<Figure> hemispherical() {

@@ -7,6 +7,7 @@
 #include "spectral/colorimetry.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/film_case.h"
+#include "validation/cases/plate.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 
@@ -38,39 +39,6 @@ double perpendicular_factor(double x, double y) {
 double disc_factor(double r, double h, double a) {
   const double z = h * h + a * a + r * r;
   return 0.5 * (1 - (h * h + a * a - r * r) / std::sqrt(z * z - 4 * a * a * r * r));
-}
-
-// What a pinhole of f-number 1 and a square field of view makes of unit radiance: pi/4 times the mean of
-// cos^4.
-double pinhole_exposure(double fov_deg) {
-  constexpr int kSteps = 400;
-  const double half = std::tan(fov_deg / 2 * std::numbers::pi / 180);
-  double sum = 0;
-  for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j) {
-      const double x = half * (2 * (i + 0.5) / kSteps - 1);
-      const double y = half * (2 * (j + 0.5) / kSteps - 1);
-      sum += 1 / std::pow(1 + x * x + y * y, 2);
-    }
-  return std::numbers::pi / 4 * sum / (kSteps * kSteps);
-}
-
-// Transmittance and reflectance of a plate with all internal bounces, of light for which either face reflects
-// `r`, `internal` the transmittance of one crossing.
-struct Plate {
-  double transmittance;
-  double reflectance;
-};
-Plate plate_of(double r, double internal) {
-  const double loop = 1 - r * r * internal * internal;
-  return {(1 - r) * (1 - r) * internal / loop, r + (1 - r) * (1 - r) * r * internal * internal / loop};
-}
-// Of unpolarised light: the mean of s and p, which each keep to themselves from face to face.
-Plate plate(double angle_deg, double n, double internal) {
-  const FresnelPower<double> face = fresnel_dielectric(std::cos(angle_deg * std::numbers::pi / 180), n);
-  const Plate s = plate_of(face.Rs, internal);
-  const Plate p = plate_of(face.Rp, internal);
-  return {(s.transmittance + p.transmittance) / 2, (s.reflectance + p.reflectance) / 2};
 }
 
 // From one face of a cube to the one opposite.
@@ -248,6 +216,19 @@ Case phase_case(double phase_deg) {
 }
 
 }  // namespace
+
+double pinhole_exposure(double fov_deg) {
+  constexpr int kSteps = 400;
+  const double half = std::tan(fov_deg / 2 * std::numbers::pi / 180);
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double x = half * (2 * (i + 0.5) / kSteps - 1);
+      const double y = half * (2 * (j + 0.5) / kSteps - 1);
+      sum += 1 / std::pow(1 + x * x + y * y, 2);
+    }
+  return std::numbers::pi / 4 * sum / (kSteps * kSteps);
+}
 
 Override probe_at(const std::string& point, const std::string& normal) {
   return {"/camera", fmt::format(R"({{"irradiance_probe": {{"at": {}, "normal": {}}}}})", point, normal)};

@@ -14,6 +14,9 @@ namespace abbe {
 /// Rooms, form factors, integrating spheres, furnaces, slabs.
 [[nodiscard]] std::vector<Case> radiometry_cases();
 [[nodiscard]] std::vector<Case> enclosure_cases();
+/// Balls and panes of glass, and matter that scatters.
+[[nodiscard]] std::vector<Case> refraction_cases();
+[[nodiscard]] std::vector<Case> scattering_cases();
 [[nodiscard]] std::vector<Case> colour_cases();
 /// Colour temperature, colour rendering and fidelity, appearance, differences for displays.
 [[nodiscard]] std::vector<Case> judging_cases();
@@ -21,6 +24,9 @@ namespace abbe {
 [[nodiscard]] std::vector<Case> rendered_chart_cases();
 [[nodiscard]] std::vector<Case> camera_cases();
 [[nodiscard]] std::vector<Case> sensor_cases();
+
+/// The film cases of a list by every technique.
+[[nodiscard]] std::vector<Case> technique_cases(const std::vector<Case>& films);
 
 /// Measures a rendered chart, for `run_case` to judge.
 [[nodiscard]] CaseResult measure(const Case& item, const RenderedChart& method, const CaseSettings& settings);

@@ -7,6 +7,7 @@
 #include "io/picture.h"
 #include "io/text.h"
 #include "validation/plot/svg.h"
+#include "validation/report/matrix.h"
 #include "validation/report/report.h"
 #include "validation/statistics/equivalence.h"
 
@@ -35,7 +36,10 @@ th { text-align: left; font-weight: 600; border-bottom: 1px solid var(--ink); pa
 td { border-bottom: 1px solid var(--line); padding: 5px 10px 5px 0; vertical-align: top; }
 td.n, th.n { text-align: right; white-space: nowrap; }
 td.pass { color: var(--pass); font-weight: 600; }
-td.fail { color: var(--fail); font-weight: 700; }
+td.fail, .failure { color: var(--fail); font-weight: 700; }
+.matrix { font-size: 12.5px; }
+.matrix td { padding: 2px 8px 2px 0; font-weight: 400; }
+.matrix td.fail { font-weight: 700; }
 td.case { width: 36%; }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); gap: 16px; margin: 10px 0; }
 .figures.large { grid-template-columns: repeat(auto-fill, minmax(320px, 1fr)); }
@@ -198,6 +202,10 @@ std::string suite_pictures(const ValidationReport& report, Suite suite) {
 }
 
 std::string suite_section(const ValidationReport& report, Suite suite) {
+  if (suite == Suite::techniques) {
+    const std::string matrix = matrix_html(technique_matrix(report.outcomes));
+    return matrix.empty() ? "" : fmt::format("<h2 id=\"{0}\">{0}</h2>\n", suite_name(suite)) + matrix;
+  }
   std::string rows;
   for (const Outcome& outcome : report.outcomes)
     if (outcome.item->suite == suite) rows += case_row(outcome);
@@ -217,7 +225,7 @@ std::string summary_row(const ValidationReport& report, Suite suite) {
   double worst = 0;
   double cpu_s = 0;
   for (const Outcome& outcome : report.outcomes) {
-    if (outcome.item->suite != suite) continue;
+    if (outcome.item->suite != suite || !outcome.result.measured()) continue;
     ++cases;
     passed += outcome.result.passed() ? 1 : 0;
     figures += outcome.result.figures.size();
@@ -244,7 +252,7 @@ std::string run_details(const ValidationReport& report) {
 
 std::string summary(const ValidationReport& report) {
   const std::size_t failed = report.failures();
-  const std::size_t cases = report.outcomes.size();
+  const std::size_t cases = report.outcomes.size() - report.unreached();
   std::string all = fmt::format("<h1>Abbe {}: validation</h1>\n<div class=\"verdict {}\">{}</div>\n",
                                 escaped(report.version), failed == 0 ? "pass" : "fail",
                                 failed == 0 ? fmt::format("All {} cases pass", cases)

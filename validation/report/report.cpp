@@ -42,6 +42,15 @@ std::vector<Specimen> render_specimens(const ValidationSettings& settings) {
           render_specimen("cornell.json", "The Cornell box, as measured.", {samples}, settings.threads)};
 }
 
+// Whether a case is asked for; of the cells of the matrix a quick run of all suites affords but few.
+bool runs(const Case& item, const ValidationSettings& settings) {
+  const std::vector<Suite>& suites = settings.suites;
+  if (!suites.empty() && std::find(suites.begin(), suites.end(), item.suite) == suites.end()) return false;
+  const auto* cell = std::get_if<TechniqueMean>(&item.method);
+  if (cell == nullptr || cell->tier == Tier::quick) return true;
+  return cell->tier != Tier::never && (!settings.quick || !suites.empty());
+}
+
 }  // namespace
 
 std::string suite_name(Suite suite) {
@@ -53,6 +62,7 @@ std::string verdict_name(Verdict verdict) {
 }
 
 double worst_share(const CaseResult& result) {
+  if (!result.measured()) return 0;
   if (result.figures.empty()) return INFINITY;
   const Figure& worst = result.figures[result.worst];
   return std::abs(worst.deviation()) / result.allowed(worst);
@@ -68,12 +78,16 @@ double ValidationReport::cpu_s() const {
                          [](double sum, const Outcome& o) { return sum + o.result.cpu_s; });
 }
 
+std::size_t ValidationReport::unreached() const {
+  return static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.measured(); }));
+}
+
 ValidationReport validate(const ValidationSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
   ValidationReport report{this_machine(), settings.version, data_sha256(), settings.quick, {}, {}, 0};
-  const std::vector<Suite>& suites = settings.suites;
   for (const Case& item : all_cases()) {
-    if (!suites.empty() && std::find(suites.begin(), suites.end(), item.suite) == suites.end()) continue;
+    if (!runs(item, settings)) continue;
     if (settings.say) settings.say(fmt::format("{} {}: {}", suite_name(item.suite), item.id, item.title));
     report.outcomes.push_back(
         {&item, run_case(item, {.thorough = !settings.quick, .threads = settings.threads})});

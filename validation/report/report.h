@@ -32,12 +32,13 @@ struct ValidationReport {
   double wall_s;
 
   [[nodiscard]] std::size_t failures() const;
-  [[nodiscard]] double cpu_s() const;  ///< Of the cases.
+  [[nodiscard]] std::size_t unreached() const;  ///< Outcomes of techniques that lose the film's light.
+  [[nodiscard]] double cpu_s() const;           ///< Of the cases.
 };
 
 /// What to validate.
 struct ValidationSettings {
-  std::vector<Suite> suites;  ///< Empty: all.
+  std::vector<Suite> suites;  ///< Empty: all, but of the techniques' matrix a quick run takes a few cells.
   bool quick = false;         ///< Films at the margins of the tests instead of the fine ones.
   bool specimens = false;     ///< Also render some scenes for the report.
   int threads = 0;            ///< 0: one per processor.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "validation/report/matrix.h"
 #include "validation/report/report.h"
 
 namespace abbe {
@@ -42,7 +43,13 @@ Json outcome_json(const Outcome& outcome) {
             {"samples_per_pixel", result.samples},
             {"cpu_s", result.cpu_s},
             {"figures", Json::array()},
-            {"remarks", Json::array()}};
+            {"remarks", Json::array()},
+            {"unreached", result.unreached}};
+  if (const auto* cell = std::get_if<TechniqueMean>(&outcome.item->method)) {
+    json["film"] = cell->of;
+    json["technique"] = kIntegratorNames.at(static_cast<std::size_t>(cell->by));
+    json["paths"] = result.owned;
+  }
   for (const Figure& figure : result.figures) json["figures"].push_back(figure_json(result, figure));
   for (const Remark& remark : result.remarks)
     json["remarks"].push_back({{"what", remark.what}, {"value", remark.value}});
@@ -55,6 +62,7 @@ std::string readable_text(const ValidationReport& report) {
   std::string all;
   std::optional<Suite> suite;
   for (const Outcome& outcome : report.outcomes) {
+    if (outcome.item->suite == Suite::techniques) continue;  // as a table, below
     if (suite != outcome.item->suite) {
       suite = outcome.item->suite;
       all += fmt::format("{}{:<18} {:>5} {:>15} {:>15} {:>10} {:>9} {:>7}\n", all.empty() ? "" : "\n",
@@ -63,11 +71,14 @@ std::string readable_text(const ValidationReport& report) {
     }
     all += line_of(outcome);
   }
+  if (const std::string matrix = matrix_text(technique_matrix(report.outcomes)); !matrix.empty())
+    all += fmt::format("{}{}: deviations [%]\n\n{}", all.empty() ? "" : "\n", suite_name(Suite::techniques),
+                       matrix);
   all += "\nnot covered\n";
   for (const Uncovered& gap : uncovered())
     all += fmt::format("  {}: {} ({})\n", suite_name(gap.suite), gap.what, gap.reason);
-  return all + fmt::format("\n{} of {} cases pass; {:.1f} CPU s\n",
-                           report.outcomes.size() - report.failures(), report.outcomes.size(),
+  const std::size_t measured = report.outcomes.size() - report.unreached();
+  return all + fmt::format("\n{} of {} cases pass; {:.1f} CPU s\n", measured - report.failures(), measured,
                            report.cpu_s());
 }
 
@@ -82,7 +93,7 @@ std::string json_text(const ValidationReport& report) {
               {"flags", machine.flags},
               {"date", machine.date}}},
             {"quick", report.quick},
-            {"cases", report.outcomes.size()},
+            {"cases", report.outcomes.size() - report.unreached()},
             {"failures", report.failures()},
             {"cpu_s", report.cpu_s()},
             {"wall_s", report.wall_s},
