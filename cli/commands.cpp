@@ -217,7 +217,7 @@ void add_validate(CLI::App& app, Command& command) {
   CLI::App& options = *sub.app;
   options.add_flag("--quick", sub->quick, "Films at wider margins, within two minutes");
   add_parsed(options, "--suite", sub->suites, parse_suites,
-             "Only some of optics, radiometry, colour, camera and sensor", "SUITE[,SUITE...]");
+             "Only some of optics, radiometry, colour, camera, sensor and techniques", "SUITE[,SUITE...]");
   options.add_option("-o,--output", sub->output, "Folder for report.html and report.json")
       ->type_name("FOLDER");
   add_parsed(options, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -63,6 +64,58 @@ TEST(Report, HtmlIsSelfContainedAndEscaped) {
   EXPECT_NE(html.find(">FAIL<"), std::string::npos);
   EXPECT_NE(html.find("second"), std::string::npos) << "the worst figure is named";
   EXPECT_NE(html.find("Not covered"), std::string::npos);
+}
+
+// A film by a technique that passes, by one that loses its light, and by one that fails.
+struct PlantedCells {
+  std::array<Case, 3> cells{cell(Integrator::path), cell(Integrator::light), cell(Integrator::bdpt)};
+  ValidationReport report{{}, "9.9", "abc", true, {}, {}, 3};
+
+  PlantedCells() {
+    CaseResult lost{{}, {0.01, Margin::Kind::relative}, Verdict::pass, 0, 0, 0};
+    lost.unreached = {"E L: lights seen directly (\"lamp\")"};
+    report.outcomes = {
+        {&cells[0], of(2.01, Verdict::pass)}, {&cells[1], lost}, {&cells[2], of(2.5, Verdict::fail)}};
+    report.outcomes[2].result.owned = {"E (S|D)* L"};
+  }
+  static Case cell(Integrator by) {
+    return {Suite::techniques,
+            "film by " + std::string(kIntegratorNames.at(static_cast<std::size_t>(by))),
+            "",
+            "",
+            "",
+            {0.01, Margin::Kind::relative},
+            TechniqueMean{"film", by, {}, Tier::quick}};
+  }
+  static CaseResult of(double measured, Verdict verdict) {
+    return {{{"", 2, {measured, 0.001}}}, {0.01, Margin::Kind::relative}, verdict, 0, 16, 1};
+  }
+};
+
+TEST(Report, TechniquesAreATable) {
+  const PlantedCells planted;
+  const std::string text = readable_text(planted.report);
+  EXPECT_NE(text.find("| film | – | +0.50 | lost 1 | FAIL +25.00 | – |"), std::string::npos) << text;
+  EXPECT_NE(text.find("1. `E L`: lights seen directly (\"lamp\")\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("FAIL film by bdpt: +25.000 ± 0.244 % of ± 1 %, of the paths E (S|D)* L"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("1 of 2 cases pass"), std::string::npos) << "what is lost was not measured";
+  const std::string html = html_text(planted.report);
+  EXPECT_NE(html.find("<td class=\"n pass\">+0.50</td><td class=\"n soft\">lost 1</td>"
+                      "<td class=\"n fail\">FAIL +25.00</td>"),
+            std::string::npos);
+  EXPECT_NE(html.find("1 of 2 cases fail"), std::string::npos);
+}
+
+TEST(Report, JsonTellsWhichTechniqueRenderedWhichFilm) {
+  const nlohmann::json json = nlohmann::json::parse(json_text(PlantedCells().report));
+  EXPECT_EQ(json["cases"], 2);
+  EXPECT_EQ(json["failures"], 1);
+  EXPECT_EQ(json["outcomes"].at(1)["film"], "film");
+  EXPECT_EQ(json["outcomes"].at(1)["technique"], "light");
+  EXPECT_EQ(json["outcomes"].at(1)["unreached"].size(), 1U);
+  EXPECT_EQ(json["outcomes"].at(2)["paths"].at(0), "E (S|D)* L");
 }
 
 TEST(Report, OnlyTheSuitesAskedForRun) {

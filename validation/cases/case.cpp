@@ -46,29 +46,33 @@ CaseResult measure(const Case& item, const Computed& method, const CaseSettings&
   return result;
 }
 
-// Of a film's scene, which is as `method` says.
-CaseResult measure_film(const Case& item, const FilmMean& method, Scene scene, const CaseSettings& settings) {
-  const int channel = channel_index(scene, method.channel);
+const FilmMean& film_mean(const Case& item) {
+  if (const auto* cell = std::get_if<TechniqueMean>(&item.method)) return cell->film;
+  if (const auto* film = std::get_if<FilmMean>(&item.method)) return *film;
+  throw Error(ErrorCode::internal, item.id, "has no film");
+}
+
+CaseResult measure_film(const Case& item, FilmSetup film, const CaseSettings& settings) {
+  Scene& scene = film.scene;
   CaseResult result{{}, item.margin, Verdict::fail, 0, 0, 0};
-  if (settings.thorough) result.margin.value = method.fine_margin;
+  if (settings.thorough) result.margin.value = film_mean(item).fine_margin;
   const double ratio = item.margin.value / result.margin.value;
-  scene.render.samples = static_cast<int>(std::lround(method.samples * ratio * ratio));
+  scene.render.samples = static_cast<int>(std::lround(scene.render.samples * ratio * ratio));
   for (int doubling = 0; doubling <= kDoublings; ++doubling, scene.render.samples *= 2) {
     const RenderResult rendered = render(scene, {.threads = settings.threads});
-    const Film::Average measured = rendered.film.average(channel);
-    result.figures = {{"", method.expected, {measured.mean, measured.standard_error}}};
+    const Film::Average measured = rendered.film.average(film.channel);
+    result.figures = {{"", film.expected, {measured.mean, measured.standard_error}}};
     result.samples = scene.render.samples;
     result.cpu_s += rendered.stats.cpu_s;
-    result.picture = film_map(rendered.film, channel, method.expected);
-    if (equivalence(result.figures[0].measured, method.expected, result.margin.value) !=
-        Verdict::inconclusive)
+    result.picture = film_map(rendered.film, film.channel, film.expected);
+    if (equivalence(result.figures[0].measured, film.expected, result.margin.value) != Verdict::inconclusive)
       break;
   }
   return result;
 }
 
-CaseResult measure(const Case& item, const FilmMean& method, const CaseSettings& settings) {
-  return measure_film(item, method, load_case_scene(item.id, method.scene, method.settings), settings);
+CaseResult measure(const Case& item, const FilmMean&, const CaseSettings& settings) {
+  return measure_film(item, film_of(item), settings);
 }
 
 // The classes of paths with light for this film that the scene's integrator does not reach.
@@ -83,13 +87,11 @@ std::vector<PathClass> lost(const Scene& scene, const FilmMean& film) {
 }
 
 CaseResult measure(const Case& item, const TechniqueMean& method, const CaseSettings& settings) {
-  std::vector<Override> overrides = method.film.settings;
-  overrides.push_back({"/render/integrator",
-                       fmt::format("\"{}\"", kIntegratorNames.at(static_cast<std::size_t>(method.by)))});
-  Scene scene = load_case_scene(item.id, method.film.scene, overrides);
+  FilmSetup film = film_of(item);
+  const Scene& scene = film.scene;
   std::vector<PathClass> classes = lost(scene, method.film);
   const std::vector<Technique> techniques = chosen_techniques(scene);
-  CaseResult result = classes.empty() ? measure_film(item, method.film, std::move(scene), settings)
+  CaseResult result = classes.empty() ? measure_film(item, std::move(film), settings)
                                       : CaseResult{{}, item.margin, Verdict::pass, 0, 0, 0};
   result.unreached = std::move(classes);
   for (const Technique technique : techniques) result.owned.push_back(owned_paths(technique, techniques));
@@ -119,6 +121,18 @@ void judge(CaseResult& result) {
 }
 
 }  // namespace
+
+FilmSetup film_of(const Case& item) {
+  const FilmMean& method = film_mean(item);
+  std::vector<Override> settings = method.settings;
+  if (const auto* cell = std::get_if<TechniqueMean>(&item.method))
+    settings.push_back({"/render/integrator",
+                        fmt::format("\"{}\"", kIntegratorNames.at(static_cast<std::size_t>(cell->by)))});
+  Scene scene = load_case_scene(item.id, method.scene, settings);
+  scene.render.samples = method.samples;
+  const int channel = channel_index(scene, method.channel);
+  return {std::move(scene), channel, method.expected};
+}
 
 Scene load_case_scene(const std::string& id, const std::string& file, std::span<const Override> settings) {
   Diagnostics diagnostics;

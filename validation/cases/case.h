@@ -57,7 +57,7 @@ enum class Tier {
   quick,     ///< Every validation.
   tests,     ///< The default tests.
   thorough,  ///< Thorough validations, those of its suite alone, and the tests of the night.
-  never      ///< None: too little arrives at any number of samples.
+  never      ///< None: too little arrives at any number of samples, or each path takes too long.
 };
 
 /// The mean of another case's film by one technique: a cell of the matrix in `docs/techniques.md`.
@@ -124,6 +124,16 @@ struct CaseResult {
   [[nodiscard]] bool measured() const { return unreached.empty(); }
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
+
+/// What a case renders.
+struct FilmSetup {
+  Scene scene;  ///< With the case's samples.
+  int channel;  ///< Of its film.
+  double expected;
+};
+/// The film of a case measured by `FilmMean` or `TechniqueMean`. Throws Error{internal} for another, or where
+/// its scene does not load.
+[[nodiscard]] FilmSetup film_of(const Case& item);
 
 /// Measures one case. A technique that does not reach a film's light passes unmeasured. A film gets up to 4
 /// doublings of its samples while the verdict is open. Throws Error{internal} when its scene does not load,

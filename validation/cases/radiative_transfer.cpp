@@ -31,7 +31,7 @@ double ChandrasekharH::mean() const {
 }
 
 double scattered_once(const EvenMatter& matter, double h, double before, double after) {
-  constexpr int kSteps = 200000;
+  constexpr int kSteps = 20000;
   const auto from = [&](double x) {
     const double r = std::hypot(x, h);
     const double cosine = -x / r;  // between the way of the light and the way to the camera, which is -x

@@ -108,7 +108,7 @@ std::vector<Case> ball_cases() {
                         source, "ball_lens.json",
                         {{"/camera/from", fmt::format("[{}, 0, {}]", kDistance * std::cos(elevation),
                                                       kDistance * std::sin(elevation) - kBelow)}},
-                        kPi / 4 * share * behind_ball(kBelow, kRadius, 1) / kPi, 32),
+                        kPi / 4 * share * behind_ball(kBelow, kRadius, 1) / kPi, 128),
               {"E L", "E S (S|D)* L", "E S (S|D)* D (S|D)* S L"}),
           film_case("ball-meter", "sun through a ball of glass onto a meter", source, "ball_lens.json",
                     {{"/camera", fmt::format(R"({{"irradiance_probe": {{"disc": {}}}}})", disc)},
@@ -137,10 +137,21 @@ std::vector<Case> pane_cases() {
                 behind_pane(1, 0, 0.5), 1024)};
 }
 
+// A meter in a ball of glass below a dome, near enough to its centre that no ray to it is trapped.
+Case inside_case() {
+  return film_case("ball-inside", "meter inside a ball of glass under a uniform dome",
+                   "radiance grows with the square of the index, and nothing is lost [Pharr2023, sec. 9.5.2]",
+                   "dome.json",
+                   {{"/camera", R"({"irradiance_probe": {"disc": {"center": [0, 0, 0], "normal": [0, 0, 1],
+                                                                "radius": 0.5}}})"}},
+                   kPi * kGlass * kGlass, 256);
+}
+
 }  // namespace
 
 std::vector<Case> refraction_cases() {
   std::vector<Case> all = ball_cases();
+  all.push_back(inside_case());
   for (Case& item : pane_cases()) all.push_back(std::move(item));
   return all;
 }

@@ -1,9 +1,11 @@
 // Matter that scatters light.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "spectral/colorimetry.h"
 #include "validation/cases/film_case.h"
 #include "validation/cases/radiative_transfer.h"
 #include "validation/cases/suites.h"
@@ -28,22 +30,41 @@ std::vector<Case> layer_cases() {
   return cases;
 }
 
-// A lamp of 1 cd half a metre beside the line of sight in fog, and paths of one event.
-Case single_case() {
+// A lamp of 1 cd half a metre beside the line of sight in fog, and paths of one event. The fog scatters the
+// same at all wavelengths, or more in the blue than in the red: then the luminance is the mean over the
+// observer.
+std::vector<Case> single_cases() {
   constexpr double kG = 0.5;  // mean cosine of the phase function [HenyeyGreenstein1941]
   const auto phase = [](double cosine) {
     return (1 - kG * kG) / (4 * std::numbers::pi * std::pow(1 + kG * kG - 2 * kG * cosine, 1.5));
   };
-  return film_case("scattered-once", "lamp in fog, light scattered once",
-                   "the integral along the line of sight [Chandrasekhar1960, sec. 7]", "lamp_in_fog.json", {},
-                   pinhole_exposure(0.01) * scattered_once({0.3, 0.4, phase}, 0.5, 5, 95), 256);
+  constexpr double kAbsorption = 0.1;  // as `lamp_in_fog.json` has it
+  const auto seen = [&](double scattering) {
+    return scattered_once({scattering, scattering + kAbsorption, phase}, 0.5, 5, 95);
+  };
+  const Curve& y = color_matching(Observer::cie1931).y;
+  double sum = 0;
+  double weights = 0;
+  for (double nm = 382.5; nm < 780; nm += 5) {
+    sum += y(nm) * seen(1 - 0.9 * (std::clamp(nm, 440.0, 660.0) - 440) / 220);
+    weights += y(nm);
+  }
+  const std::string source = "the integral along the line of sight [Chandrasekhar1960, sec. 7]";
+  const double unit = pinhole_exposure(0.01);
+  return {film_case("scattered-once", "lamp in fog, light scattered once", source, "lamp_in_fog.json", {},
+                    unit * seen(0.3), 256),
+          film_case("scattered-blue", "lamp in fog that scatters blue light, scattered once", source,
+                    "lamp_in_fog.json",
+                    {{"/materials/fog/medium/scattering_per_m",
+                      R"({"table": {"wavelength_nm": [440, 660], "values": [1, 0.1], "outside": "clamp"}})"}},
+                    unit * sum / weights, 8192)};
 }
 
 }  // namespace
 
 std::vector<Case> scattering_cases() {
   std::vector<Case> all = layer_cases();
-  all.push_back(single_case());
+  for (Case& item : single_cases()) all.push_back(std::move(item));
   return all;
 }
 

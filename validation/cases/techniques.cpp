@@ -1,6 +1,8 @@
 // The matrix of techniques: every film with a closed form by every integrator.
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -9,42 +11,99 @@
 namespace abbe {
 namespace {
 
-// How an integrator is measured beside the film's case: by so many times its samples and no fewer than
-// `least_samples`, at its own margins.
+using Films = std::set<std::string>;
+
+// How an integrator is measured beside the film's case, and which runs afford it for which films.
 struct Measured {
   Integrator by;
-  int patience = 1;
+  int patience = 1;  // by which the samples are multiplied
   int least_samples = 1;
   double margin = 0.01;
   double fine_margin = 0.002;
   std::vector<Override> settings = {};
+  Films quick = {};
+  Films tests = {};
+  Films thorough = {};
+  Tier others = Tier::thorough;
+  Films never = {};  // too little arrives, or each path takes too long
 };
 
-// Whose paths all have the wavelengths of their sample: a film takes many samples, and for each of them the
+// Where all paths of a sample have the same wavelengths a film takes many samples, for each of which the
 // usual photons would be too many.
 constexpr int kSharedWavelengths = 256;
 
-// In the order of `kIntegratorNames`.
+// In the order of `kIntegratorNames`. `ppm` gathers as `sppm` does, from places that take much time to be
+// enough: a few films stand for all. What gathers photons is biased, and stays at its quick margin.
 const std::array<Measured, kIntegratorNames.size()>& all_measured() {
   static const Override few_photons{"/render/photons/per_sample", "4096"};
-  static const Override many_places{"/sensor/resolution", "[64, 64]"};  // which stay where they are
+  static const Override few_neighbours{"/render/photons/nearest", "12"};  // no farther than 48 of the usual
+  static const Override many_places{"/sensor/resolution", "[128, 128]"};  // which `ppm` never leaves
+  static const Films gathered{"T1-0.2", "T9-outer", "T12-white", "T13-60", "T15-T"};
+  static const Films of_long_paths{"T1-0.8", "T1-0.95", "T8",      "T10-upper", "T10-lower",
+                                   "T11",    "T11-16",  "layer-1", "layer-0.2", "scattered-blue"};
   static const std::array<Measured, kIntegratorNames.size()> all{
-      {{Integrator::automatic},
-       {Integrator::path},
-       {Integrator::light},
-       {Integrator::bdpt},
-       {Integrator::photon_map, 1, kSharedWavelengths, 0.01, 0.01},
-       {Integrator::ppm, 1, kSharedWavelengths, 0.01, 0.01, {few_photons, many_places}},
-       {Integrator::sppm, 1, kSharedWavelengths, 0.01, 0.01, {few_photons}},
-       {Integrator::vcm, 1, kSharedWavelengths, 0.01, 0.01},
-       {Integrator::photon_brute, 1, 1, 0.01, 0.01},
-       {Integrator::adjoint_brute, 32}}};
+      {{.by = Integrator::automatic},
+       {.by = Integrator::path,
+        .tests = {"T1-0.2", "T5-axis", "T11", "T12-white", "T12-glass", "T13-60", "T16-inside", "pane-thick",
+                  "ball-axis", "scattered-once", "scattered-blue", "layer-1"}},
+       // The sphere of T17 is met by one photon in 4e8, and the line of sight of the lamp in fog by fewer.
+       {.by = Integrator::light,
+        .patience = 16,
+        .quick = {"ball-disc"},
+        .never = {"T17-0", "T17-60", "T17-90", "scattered-once", "scattered-blue"}},
+       {.by = Integrator::bdpt,
+        .quick = {"T1-0.2", "T3-corner", "T5-axis", "T6-discs", "T9-outer", "T12-glass", "T13-60", "T17-60",
+                  "ball-axis", "ball-inside"},
+        .thorough = {"T1-0.8", "T10-lower", "layer-1", "scattered-blue"},
+        .others = Tier::tests,
+        .never = {"T1-0.95", "T8", "layer-0.2"}},
+       {.by = Integrator::photon_map,
+        .least_samples = kSharedWavelengths,
+        .fine_margin = 0.01,
+        .settings = {few_photons, few_neighbours},
+        .tests = gathered,
+        .never = of_long_paths},
+       {.by = Integrator::ppm,
+        .least_samples = kSharedWavelengths,
+        .fine_margin = 0.01,
+        .settings = {few_photons, many_places},
+        .thorough = {"T1-0", "T1-0.2", "T1-0.5", "T2-centre", "T9-outer"},
+        .others = Tier::never},
+       {.by = Integrator::sppm,
+        .least_samples = kSharedWavelengths,
+        .fine_margin = 0.01,
+        .settings = {few_photons},
+        .tests = gathered,
+        .never = of_long_paths},
+       {.by = Integrator::vcm,
+        .least_samples = kSharedWavelengths,
+        .fine_margin = 0.01,
+        .quick = {"T12-white", "T9-outer"},
+        .tests = gathered,
+        .never = of_long_paths},
+       {.by = Integrator::photon_brute,
+        .fine_margin = 0.01,
+        .tests = {"T1-0.2", "T6-discs", "T6-opposite"},
+        .never = {"T1-0.95", "worked-example", "flat-bessell_V-5000"}},
+       {.by = Integrator::adjoint_brute,
+        .patience = 32,
+        .fine_margin = 0.005,
+        .quick = {"T5-axis", "T6-discs"},
+        .tests = {"T9-outer", "T12-white", "T12-glass", "ball-axis", "ball-inside"},
+        .never = {"ball-disc", "layer-1", "layer-0.2"}}}};
   return all;
+}
+
+Tier tier_of(const std::string& film, const Measured& measured) {
+  if (measured.never.contains(film)) return Tier::never;
+  if (measured.quick.contains(film)) return Tier::quick;
+  if (measured.tests.contains(film)) return Tier::tests;
+  return measured.thorough.contains(film) ? Tier::thorough : measured.others;
 }
 
 Case cell(const Case& item, const FilmMean& film, const Measured& measured) {
   const char* name = kIntegratorNames.at(static_cast<std::size_t>(measured.by));
-  TechniqueMean method{item.id, measured.by, film, Tier::thorough};
+  TechniqueMean method{item.id, measured.by, film, tier_of(item.id, measured)};
   method.film.samples = std::max(measured.least_samples, film.samples * measured.patience);
   method.film.fine_margin = measured.fine_margin;
   for (const Override& setting : measured.settings) method.film.settings.push_back(setting);
@@ -57,12 +116,17 @@ Case cell(const Case& item, const FilmMean& film, const Measured& measured) {
           std::move(method)};
 }
 
+// Of the flat fields, which differ in lamp and filter alone, one stands for all.
+bool is_repeated(const std::string& film) {
+  return film.starts_with("flat-") && film != "flat-bessell_V-5000";
+}
+
 }  // namespace
 
 std::vector<Case> technique_cases(const std::vector<Case>& films) {
   std::vector<Case> cells;
   for (const Case& item : films)
-    if (const auto* film = std::get_if<FilmMean>(&item.method))
+    if (const auto* film = std::get_if<FilmMean>(&item.method); film != nullptr && !is_repeated(item.id))
       for (const Measured& measured : all_measured()) cells.push_back(cell(item, *film, measured));
   return cells;
 }
