@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "sampling/sampler.h"
+#include "tests/scenes/scene_fixture.h"
 #include "transport/path/photon_map.h"
 #include "transport/technique/photon_gathering.h"
 
@@ -68,6 +73,69 @@ TEST(PhotonMap, OfNothingFindsNothing) {
   found = {1};
   map.nearest({0, 0, 0}, 5, found);
   EXPECT_TRUE(found.empty());
+}
+
+// A plate of reflectance 0.5 seen from above, lit from no side that is seen.
+Film seen_from_above(const std::string& plate, std::uint64_t paths,
+                     const std::function<void(const Plan&, const Deposit&)>& trace) {
+  const Scene scene = test::load_text(R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 1}, "from": [0, 0, 3], "to": [0, 0, 0], "up": [0, 1, 0]},
+    "sensor": {"resolution": [1, 1], "observer": "1931"},
+    "materials": {"white": {"diffuse": {"reflectance": 0.5}}},
+    "lights": [{"quad": {"corner": [0, 0, -1], "edge_u": [0, 1, 0], "edge_v": [1, 0, 0]}, "emission": {"spectrum": 1}}],
+    "shapes": [{"quad": {"corner": [-5, -5, 0], "edge_u": [10, 0, 0], "edge_v": [0, 10, 0]}, )" +
+                                      plate + "}]}");
+  const Plan plan = make_plan(scene);
+  Film film(1, 1, 3, 1, plan.nominal_value);
+  trace(plan,
+        [&film](std::uint32_t, const FilmPoint&, std::span<const double> values) { film.add(0, 0, values); });
+  film.set_samples({paths});
+  return film;
+}
+
+// Flux spread evenly over the plate makes it as bright as one that emits f E.
+TEST(PhotonGathering, TellsTheFluxForEachAreaWhateverTheKernel) {
+  constexpr std::uint32_t kPaths = 16;
+  std::vector<PixelSample> samples;
+  constexpr std::uint32_t kMany = 4096;  // wavelengths
+  for (std::uint32_t i = 0; i < kMany; ++i) samples.push_back({0, 0, Sampler(1, Purpose::camera, 0, 0, i)});
+  const Film emitting = seen_from_above(R"("material": "white", "emission": {"spectrum": 1})", kMany,
+                                        [&](const Plan& plan, const Deposit& deposit) {
+                                          RayCaster caster(plan.scene);
+                                          PathTracer(plan, caster).trace(samples, deposit);
+                                        });
+  constexpr std::uint32_t kPhotons = 1U << 17;  // on four square metres
+  constexpr std::uint64_t kTraced = 1000;
+  const double radiance = 0.5 / std::numbers::pi * kPhotons / 4 / kTraced;
+  for (const GatherKernel& kernel : {GatherKernel{0.3F}, GatherKernel{0.0F, 9000}}) {
+    const Film gathered =
+        seen_from_above(R"("material": "white")", kPaths, [&](const Plan& plan, const Deposit& deposit) {
+          PathPacket packet = draw_packet(plan.wavelengths, 0.3F);
+          const auto height = static_cast<float>(-plan.scene.origin_m.z);
+          std::vector<Photon> photons;
+          for (std::uint32_t i = 0; i < kPhotons; ++i) {
+            const std::array<float, 4> u = Sampler(2, Purpose::light, 0, 0, i).group(0);
+            photons.push_back({{2 * u[0] - 1, 2 * u[1] - 1, height},
+                               {0, 0, 1},
+                               {0, 0, 1},
+                               SampledSpectrum(1.0F),
+                               SampledSpectrum(1.0F),
+                               0,
+                               0,
+                               false});
+          }
+          RayCaster caster(plan.scene);
+          for (std::uint32_t i = 0; i < kPaths; ++i) {
+            packet = draw_packet(plan.wavelengths, (static_cast<float>(i) + 0.5F) / (kPaths * kLanes));
+            PhotonGatherer(plan, caster)
+                .trace(std::span(samples).subspan(i, 1), PhotonCloud(photons, kTraced, packet, 0), kernel,
+                       deposit);
+          }
+        });
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(gathered.mean(0, channel) / emitting.mean(0, channel), radiance, 0.005 * radiance)
+          << kernel.radius << " " << channel;
+  }
 }
 
 // By the product that defines them, and as a whole: r_n^2 falls as n^(a - 1).
