@@ -5,6 +5,7 @@ import json
 import pathlib
 
 from common import run
+from plots import document
 
 BLUE_NM, GREEN_NM, RED_NM = (440, 460), (530, 540, 550), (600, 610, 620)
 WIDTHS_NM = (10, 40, 70)
@@ -21,14 +22,13 @@ def judge(centres, width):
 
 def bars(sets):
     """An SVG of the sets' errors, one bar each."""
-    lines = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 620 %d" font-family="sans-serif" font-size="13">' % (20 * len(sets) + 10),
-             '<rect width="100%" height="100%" fill="white"/>']
+    lines = []
     for row, one in enumerate(sets):
         error, y = one["left_out_dE00_mean"], 20 * row + 20
         colour = "#2a7" if error < AIM else "#999"
         lines += [f'<text x="8" y="{y}">{one["bands"]} nm</text>', f'<rect x="230" y="{y - 12}" width="{100 * error:.0f}" height="15" fill="{colour}"/>',
                   f'<text x="{236 + 100 * error:.0f}" y="{y}">{error:.2f}</text>']
-    return "\n".join([*lines, "</svg>", ""])
+    return document(620, 20 * len(sets) + 10, lines)
 
 
 tried = [judge(centres, WIDTHS_NM[1]) for centres in itertools.product(BLUE_NM, GREEN_NM, RED_NM)]

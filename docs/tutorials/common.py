@@ -1,7 +1,9 @@
 """What the scripts of the tutorials share."""
+import pathlib
 import shlex
 import subprocess
 
+import numpy as np
 import OpenImageIO as oiio
 
 
@@ -17,3 +19,17 @@ def planes(path):
     names = image.spec().channelnames
     image.close()
     return {name: pixels[..., i] for i, name in enumerate(names)}
+
+
+def table(path):
+    """The columns of a table by their names."""
+    names, *rows = (line.split(",") for line in pathlib.Path(path).read_text().splitlines() if not line.startswith("#"))
+    return dict(zip(names, np.array(rows, float).T))
+
+
+def beside(pictures, path):
+    """Writes pictures of one height side by side as one."""
+    pixels = np.hstack([oiio.ImageBuf(picture).get_pixels(oiio.UINT8) for picture in pictures])
+    whole = oiio.ImageBuf(oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], oiio.UINT8))
+    whole.set_pixels(oiio.ROI.All, pixels)
+    whole.write(path)

@@ -8,14 +8,16 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
+import OpenImageIO as oiio
 import numpy as np
 
 import colour
 import spectra
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "docs" / "tutorials"
-SCRIPTS = sorted(path for path in FOLDER.glob("*.*") if path.suffix in (".sh", ".py") and path.name != "common.py")
+SCRIPTS = sorted(path for path in FOLDER.glob("*.*") if path.suffix in (".sh", ".py") and path.name not in ("common.py", "plots.py"))
 
 
 def words(text):
@@ -159,10 +161,7 @@ class Lessons(Tutorial):
 
     def test_the_textbook_is_right(self):
         found = self.read("found.json")
-        useful = found["useful"]
-        self.assertAlmostEqual(useful["photons, 1 m"] / useful["photons, 0.5 m"], 4, delta=1)
-        self.assertGreater(useful["adjoint, 0.5 m"], 50 * useful["photons, 0.5 m"])
-        self.assertGreater(useful["path, 0.5 m"], 10 * useful["adjoint, 0.5 m"])
+        self.check_useful(found["useful"])
         for before, after in zip(found["terms"], found["terms"][1:]):
             self.assertAlmostEqual(after / before, 0.8, delta=0.005)
         self.assertAlmostEqual(found["terms"][0], self.claimed(r"lamp's own (\d\.\d+)"), delta=0.001)
@@ -179,6 +178,18 @@ class Lessons(Tutorial):
         self.check_directions(found["directions"])
         self.check_lights(found["lights"])
         self.check_roulette(found["roulette"])
+        self.check_plots()
+        self.check_pictures()
+
+    def check_useful(self, found):
+        photons, adjoint, path = (found[traced] for traced in ("photons", "adjoint", "path"))
+        for wide in ("1", "1.4"):
+            self.assertAlmostEqual(photons[wide] / photons["0.5"] / (float(wide) / 0.5) ** 2, 1, delta=0.25, msg=wide)
+            self.assertAlmostEqual(adjoint[wide] / adjoint["0.5"], 1, delta=0.2, msg=wide)
+        self.assertGreater(adjoint["0.5"], 50 * photons["0.5"])
+        self.assertGreater(path["0.5"], 10 * adjoint["0.5"])
+        self.check_claims("photons, lens of 0.5 m", [photons["0.5"]])
+        self.check_claims("adjoint photons from the pixels (`adjoint-brute`), lens of 0.5 m", [adjoint["0.5"]])
 
     def check_claims(self, row, measured):
         """The last numbers of the page's row that begins so are those measured, to the digits stated or what other machines' bits change."""
@@ -189,17 +200,17 @@ class Lessons(Tutorial):
             self.assertAlmostEqual(value, stated, delta=max(0.01 * stated, 0.6 * 10.0 ** -len(cell.strip().partition(".")[2])), msg=row)
 
     def check_directions(self, found):
-        n = 20
-        expected = {"diffuse, uniform": 1 / 3, "diffuse, cosine": 0, "diffuse, bsdf": 0,
-                    "glossy, uniform": n**2 / (2 * n + 1), "glossy, cosine": (n - 1) ** 2 / (4 * n), "glossy, bsdf": 0}
-        for case, variance in expected.items():
-            # 65536 paths tell the variance to some 1 % of heavy tails.
-            self.assertAlmostEqual(found[case], variance, delta=0.03 * variance + 1e-6, msg=case)
+        formulas = {"uniform": lambda n: n**2 / (2 * n + 1), "cosine": lambda n: (n - 1) ** 2 / (4 * n), "bsdf": lambda n: 0}
+        for directions, formula in formulas.items():
+            for exponent, variance in found[directions].items():
+                expected = formula(int(exponent))
+                # 65536 paths tell the variance to some 1 % of heavy tails.
+                self.assertAlmostEqual(variance, expected, delta=0.03 * expected + 1e-6, msg=f"{directions}, {exponent}")
         for directions, density in (("uniform", "1/(2π)"), ("cosine", "cos θ/π"), ("bsdf", "f cos θ/ρ")):
-            for matter, last in (("diffuse", 3), ("glossy", 1)):
+            for exponent, last in (("1", 3), ("20", 1)):
                 page = (FOLDER / "lessons.md").read_text()
                 cells = re.search(rf"^\| `{directions}` \| {re.escape(density)} \|(.*)\|$", page, re.MULTILINE)[1].split("|")
-                self.assertAlmostEqual(float(cells[-last]), found[f"{matter}, {directions}"], delta=0.006, msg=directions)
+                self.assertAlmostEqual(float(cells[-last]), found[directions][exponent], delta=0.006, msg=directions)
 
     def check_lights(self, found):
         for case, errors in found.items():
@@ -220,6 +231,36 @@ class Lessons(Tutorial):
             # Of 65536 paths, the rare ones that survive long weigh most.
             self.assertAlmostEqual(variance, expected, delta=0.05 * expected, msg=case)
             self.check_claims(f"{albedo} | {depth:.0f}", [expected, variance])
+
+    def check_plots(self):
+        shown = set(re.findall(r"\(\.\./images/(lessons_\w+\.\w+)\)", (FOLDER / "lessons.md").read_text()))
+        self.assertEqual(shown, {path.name for path in self.scratch.glob("lessons_*")})
+        for name in shown:
+            self.assertTrue((FOLDER.parent / "images" / name).is_file(), name)
+        for name, lines, dots in (("photons", 2, 15), ("maps", 2, 7), ("directions", 3, 12), ("roulette", 3, 7), ("lamps", 4, 0)):
+            svg = xml.etree.ElementTree.parse(self.scratch / f"lessons_{name}.svg")
+            drawn = {tag: svg.findall(f".//{{http://www.w3.org/2000/svg}}{tag}") for tag in ("polyline", "circle")}
+            self.assertEqual((len(drawn["polyline"]), len(drawn["circle"])), (lines, dots), name)
+            points = [(float(dot.get("cx")), float(dot.get("cy"))) for dot in drawn["circle"]]
+            points += [tuple(map(float, point.split(","))) for line in drawn["polyline"] for point in line.get("points").split()]
+            for x, y in points:  # within the axes
+                self.assertTrue(58 <= x <= 316 and 34 <= y <= 250, f"{name}: {x}, {y}")
+
+    def picture(self, name):
+        return oiio.ImageBuf(str(self.scratch / name)).get_pixels(oiio.FLOAT)
+
+    def check_pictures(self):
+        ways = np.hsplit(self.picture("lessons_plates.png")[..., 1], 3)
+        smooth, rough = ((slice(57, 66), slice(146, 166)), (slice(109, 118), slice(40, 100)))  # under the largest lamp, under the smallest
+        noise = [[np.abs(np.diff(way[part], axis=1)).mean() for way in ways] for part in (smooth, rough)]
+        for best, worst, both in (noise[0], (noise[1][1], noise[1][0], noise[1][2])):
+            self.assertGreater(worst, 5 * best)
+            self.assertLess(both, 3 * best)
+        cloud, air = (half[26:46, 26:46].mean(axis=(0, 1)) for half in np.hsplit(self.picture("lessons_sky.png"), 2))
+        self.assertGreater(cloud.min(), 0.5)
+        self.assertLess(np.ptp(cloud), 0.01)
+        self.assertGreater(air[2], 1.2 * air[1])
+        self.assertGreater(air[1], 1.2 * air[0])
 
 
 if __name__ == "__main__":
