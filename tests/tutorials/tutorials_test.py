@@ -245,6 +245,9 @@ class Lessons(Tutorial):
             points += [tuple(map(float, point.split(","))) for line in drawn["polyline"] for point in line.get("points").split()]
             for x, y in points:  # within the axes
                 self.assertTrue(58 <= x <= 316 and 34 <= y <= 250, f"{name}: {x}, {y}")
+            if name == "photons":  # of the series, each term as far below the one before
+                below = np.diff([y for _, y in points[9:15]])
+                self.assertLess(np.ptp(below), 0.05 * below.mean())
 
     def picture(self, name):
         return oiio.ImageBuf(str(self.scratch / name)).get_pixels(oiio.FLOAT)
