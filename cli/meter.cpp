@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,68 +13,14 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "film/meter_reading.h"
+#include "film/measure_meter.h"
 #include "film/rendered_film.h"
-#include "film/shortcomings.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
-#include "transport/render/choose_integrator.h"
-#include "transport/render/collect.h"
-#include "transport/render/threads.h"
 #include "validation/statistics/students_interval.h"
 
 namespace abbe::cli {
 namespace {
-
-constexpr double kLevel = 0.95;
-
-/// The units of a quantity.
-struct Units {
-  const char* radiant;
-  const char* luminous;
-  const char* photons;
-};
-constexpr std::array<Units, 4> kUnits{{{"W/m2", "lx", "photons/(s m2)"},
-                                       {"W", "lm", "photons/s"},
-                                       {"W/(m2 sr)", "cd/m2", "photons/(s m2 sr)"},
-                                       {"W/sr", "cd", "photons/(s sr)"}}};
-
-const Units& units_of(const Meter& meter) {
-  return kUnits.at(static_cast<std::size_t>(meter.quantity));
-}
-
-/// One meter and what it read.
-struct Measured {
-  const Meter& meter;
-  Integrator integrator;
-  std::uint64_t seed;
-  MeterReading reading;
-  RenderStats stats;
-};
-
-std::vector<const Meter*> chosen(const MeteredScene& scene, const std::vector<std::string>& names) {
-  std::vector<const Meter*> meters;
-  std::vector<std::string_view> known;
-  for (const Meter& meter : scene.meters) {
-    known.push_back(meter.name);
-    if (names.empty() || std::find(names.begin(), names.end(), meter.name) != names.end())
-      meters.push_back(&meter);
-  }
-  for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error(ErrorCode::usage, "--only",
-                  fmt::format("no such meter (got \"{}\", allowed {})", name, fmt::join(known, ", ")));
-  return meters;
-}
-
-void warn(const Meter& meter, const std::string& sentence) {
-  say(fmt::format("warning: meter {}: {}", meter.name, sentence));
-}
-
-void warn(const Meter& meter, const std::optional<std::string>& sentence, bool is_error) {
-  if (sentence && is_error) throw Error(ErrorCode::scene, meter.name, *sentence);
-  if (sentence) warn(meter, *sentence);
-}
 
 abbe::RenderOptions how_to_render(const MeterOptions& options, const InterruptWatch& watch,
                                   ProgressDisplay& display) {
@@ -83,31 +28,23 @@ abbe::RenderOptions how_to_render(const MeterOptions& options, const InterruptWa
   how.threads = options.threads;
   how.time_limit_s = options.time_limit_s;
   how.target_error = options.target_error;
-  how.target_planes = kSpectrumPlane;  // those before
   how.stop = &watch.stop();
   if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
   return how;
 }
 
-Measured measure(Scene scene, const Meter& meter, const MeterOptions& options, const InterruptWatch& watch,
-                 Inputs& inputs) {
+MeterMeasurement measure(Scene scene, const Meter& meter, const MeterOptions& options,
+                         const InterruptWatch& watch, Inputs& inputs) {
   set_sampling(options, scene.render);
-  const bool chooses = scene.render.integrator == Integrator::automatic;
-  scene.render.integrator = choose_integrator(scene, thread_count(options.threads)).integrator;
-  warn(meter, dark_camera(scene), options.strict);
-  warn(meter, lost_light(scene), options.strict && !chooses);
   ProgressDisplay display;
-  const abbe::RenderOptions how = how_to_render(options, watch, display);
-  inputs.take_memory("the film", film_bytes(scene, how));
-  inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
-  const RenderResult result = abbe::render(scene, how);
-  inputs.give_back_memory(film_bytes(scene, how) + bytes_of_light_paths(scene));
-  display.finish();
-  for (const std::string& loss : left_out(scene, result.stats)) warn(meter, loss);
-  if (options.target_error && !options.time_limit_s && !std::isfinite(result.stats.error.median))
-    warn(meter, "a pilot found no light there: --error had nothing to wait for");
-  return {meter, scene.render.integrator, scene.render.seed, read_meter(meter, result.film, scene.exposure_s),
-          result.stats};
+  const auto render_and_finish = [&display](const Scene& seen, const abbe::RenderOptions& how) {
+    RenderResult result = abbe::render(seen, how);
+    display.finish();
+    return result;
+  };
+  const auto warn = [](const std::string& sentence) { say("warning: " + sentence); };
+  return measure_meter(std::move(scene), meter, how_to_render(options, watch, display),
+                       {render_and_finish, warn, "--error", options.strict}, inputs);
 }
 
 // Null where nothing is known.
@@ -116,7 +53,7 @@ Json number(double value) {
 }
 
 double half_interval(const Film::Average& value) {
-  return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kLevel);
+  return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kMeterLevel);
 }
 
 Json error_of(const Film::Average& value) {
@@ -130,7 +67,7 @@ Json json_of(const Film::Average& value, const char* unit) {
           {"half_interval_95", number(half_interval(value))}};
 }
 
-Json cells_json(const Measured& measured) {
+Json cells_json(const MeterMeasurement& measured) {
   Json told{{"columns", measured.meter.cells[0]}, {"rows", measured.meter.cells[1]}};
   const auto list = [&](const std::string& name, Film::Average LightReading::*which) {
     for (const LightReading& cell : measured.reading.cells) {
@@ -144,7 +81,7 @@ Json cells_json(const Measured& measured) {
   return told;
 }
 
-Json spectrum_json(const Measured& measured) {
+Json spectrum_json(const MeterMeasurement& measured) {
   Json told{{"wavelength_nm", Json::array()}, {"per_nm", Json::array()}, {"standard_error", Json::array()}};
   for (int bin = 0; bin < measured.meter.spectrum->count; ++bin) {
     const Film::Average& value = measured.reading.spectrum[static_cast<std::size_t>(bin)];
@@ -155,8 +92,8 @@ Json spectrum_json(const Measured& measured) {
   return told;
 }
 
-Json json_of(const Measured& measured) {
-  const Units& units = units_of(measured.meter);
+Json json_of(const MeterMeasurement& measured) {
+  const MeterUnits& units = units_of(measured.meter.quantity);
   const LightReading& whole = measured.reading.whole;
   Json told{{"name", measured.meter.name},
             {"measures", kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity))},
@@ -179,8 +116,8 @@ std::string in_words(const Film::Average& value, const char* unit) {
   return fmt::format("{:.6g}{} {}", value.mean, interval, unit);
 }
 
-void print_text(const Measured& measured) {
-  const Units& units = units_of(measured.meter);
+void print_text(const MeterMeasurement& measured) {
+  const MeterUnits& units = units_of(measured.meter.quantity);
   const LightReading& whole = measured.reading.whole;
   fmt::print("{}  {}  {}  {}  {}\n", measured.meter.name,
              kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity)),
@@ -199,9 +136,9 @@ void print_text(const Measured& measured) {
                      : "");
 }
 
-std::string spectra_table(const std::vector<Measured>& all) {
+std::string spectra_table(const std::vector<MeterMeasurement>& all) {
   std::string text = "meter,from_nm,to_nm,per_nm,standard_error,unit\n";
-  for (const Measured& measured : all) {
+  for (const MeterMeasurement& measured : all) {
     for (std::size_t i = 0; i < measured.reading.spectrum.size(); ++i) {
       const SpectralBins& bins = *measured.meter.spectrum;
       const double from = bins.from_nm + static_cast<double>(i) * bins.step_nm;
@@ -209,7 +146,7 @@ std::string spectra_table(const std::vector<Measured>& all) {
       const bool known = value.degrees_of_freedom > 0;
       text += fmt::format(
           "{},{},{},{},{},{} per nm\n", csv_cell(measured.meter.name), from, from + bins.step_nm, value.mean,
-          known ? fmt::format("{}", value.standard_error) : "", units_of(measured.meter).radiant);
+          known ? fmt::format("{}", value.standard_error) : "", units_of(measured.meter.quantity).radiant);
     }
   }
   return text;
@@ -225,9 +162,11 @@ void check_spectra(const MeterOptions& options, const std::vector<const Meter*>&
 
 // Reads the meters in turn. What their scene holds besides their films is counted once, and so are its files
 // and warnings told.
-std::vector<Measured> measure_all(const MeteredScene& metered, const std::vector<const Meter*>& meters,
-                                  const MeterOptions& options, const InterruptWatch& watch, Inputs& inputs) {
-  std::vector<Measured> all;
+std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
+                                          const std::vector<const Meter*>& meters,
+                                          const MeterOptions& options, const InterruptWatch& watch,
+                                          Inputs& inputs) {
+  std::vector<MeterMeasurement> all;
   for (const Meter* one : meters) {
     if (watch.stop()) break;
     Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
@@ -247,21 +186,23 @@ int meter(const MeterOptions& options) {
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
   const MeteredScene scene =
       accepted(load_meters(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
-  const std::vector<const Meter*> meters = chosen(scene, options.meters);
+  const std::vector<const Meter*> meters = chosen_meters(scene, options.meters, "--only");
   check_spectra(options, meters);
   const InterruptWatch watch;
-  const std::vector<Measured> all = measure_all(scene, meters, options, watch, inputs);
+  const std::vector<MeterMeasurement> all = measure_all(scene, meters, options, watch, inputs);
   if (watch.stop()) say(fmt::format("interrupted: {} of {} meters were read", all.size(), meters.size()));
   if (options.json) {
     Json told = Json::array();
-    for (const Measured& measured : all) told.push_back(json_of(measured));
+    for (const MeterMeasurement& measured : all) told.push_back(json_of(measured));
     print({{"meters", told}}, true);
   }
-  const auto has_spectrum = [](const Measured& measured) { return !measured.reading.spectrum.empty(); };
+  const auto has_spectrum = [](const MeterMeasurement& measured) {
+    return !measured.reading.spectrum.empty();
+  };
   if (!options.spectra.empty() && std::any_of(all.begin(), all.end(), has_spectrum))
     write_atomically(options.spectra, spectra_table(all));
   if (watch.stop()) return kSignalExit + watch.signal();
-  const auto dropped = [](const Measured& measured) { return measured.stats.nonfinite_samples > 0; };
+  const auto dropped = [](const MeterMeasurement& measured) { return measured.stats.nonfinite_samples > 0; };
   return options.strict && std::any_of(all.begin(), all.end(), dropped)
              ? static_cast<int>(ErrorCode::internal)
              : 0;

@@ -124,7 +124,14 @@ std::optional<MeteredScene> load_meters(const std::filesystem::path& path,
                                         Inputs* inputs) {
   const auto source = description::read_source(path, diagnostics, inputs);
   if (!source) return std::nullopt;
-  MeteredScene scene{{}, {}, path.parent_path()};
+  return load_meters(source, path.parent_path(), overrides, diagnostics, inputs);
+}
+
+std::optional<MeteredScene> load_meters(const std::shared_ptr<const SourceText>& source,
+                                        const std::filesystem::path& folder,
+                                        std::span<const Override> overrides, Diagnostics& diagnostics,
+                                        Inputs* inputs) {
+  MeteredScene scene{{}, {}, folder};
   description::LoadContext context{diagnostics, scene.folder, inputs};
   const auto said = std::make_shared<spec::Scene>();
   if (!description::read(source, overrides, context, *said)) return std::nullopt;

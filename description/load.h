@@ -44,6 +44,11 @@ struct MeteredScene {
 [[nodiscard]] std::optional<MeteredScene> load_meters(const std::filesystem::path& path,
                                                       std::span<const Override> overrides,
                                                       Diagnostics& diagnostics, Inputs* inputs = nullptr);
+/// The same of a text; the files it names are looked for in `folder`.
+[[nodiscard]] std::optional<MeteredScene> load_meters(const std::shared_ptr<const SourceText>& source,
+                                                      const std::filesystem::path& folder,
+                                                      std::span<const Override> overrides,
+                                                      Diagnostics& diagnostics, Inputs* inputs = nullptr);
 /// Builds the scene as that meter sees it, with its camera and channels. Reports as `load_scene` does.
 [[nodiscard]] std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter,
                                             Diagnostics& diagnostics, Inputs* inputs = nullptr);

@@ -1,9 +1,17 @@
 #include "film/meter_reading.h"
 
+#include <array>
+
 #include "spectral/sources.h"
 
 namespace abbe {
 namespace {
+
+constexpr std::array<MeterUnits, kMeterQuantityNames.size()> kUnits{
+    {{"W/m2", "lx", "photons/(s m2)"},
+     {"W", "lm", "photons/s"},
+     {"W/(m2 sr)", "cd/m2", "photons/(s m2 sr)"},
+     {"W/sr", "cd", "photons/(s sr)"}}};
 
 Film::Average scaled(Film::Average value, double factor) {
   value.mean *= factor;
@@ -20,6 +28,10 @@ LightReading light_in(const Film& film, const Crop& part, double factor) {
 }
 
 }  // namespace
+
+const MeterUnits& units_of(MeterQuantity quantity) {
+  return kUnits.at(static_cast<std::size_t>(quantity));
+}
 
 MeterReading read_meter(const Meter& meter, const Film& film, double exposure_s) {
   const double factor = per_irradiance(meter) / exposure_s;

@@ -22,6 +22,17 @@ struct MeterReading {
   std::vector<Film::Average> spectrum;  ///< Per nm, bin by bin.
 };
 
+/// The probability with which the intervals that are told of readings hold the truth.
+inline constexpr double kMeterLevel = 0.95;
+
+/// The units of what a meter tells, of energy, as the eye sees it, and of photons.
+struct MeterUnits {
+  const char* radiant;
+  const char* luminous;
+  const char* photons;
+};
+[[nodiscard]] const MeterUnits& units_of(MeterQuantity quantity);
+
 /// Reads the meter off the film of its camera and channels, exposed for so long.
 [[nodiscard]] MeterReading read_meter(const Meter& meter, const Film& film, double exposure_s);
 

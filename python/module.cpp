@@ -20,6 +20,7 @@ PYBIND11_MODULE(_abbe, module) {
   abbe::python::add_scene(module);
   abbe::python::add_film(module);
   abbe::python::add_render(module);
+  abbe::python::add_meter(module);
   abbe::python::add_develop(module);
   abbe::python::add_compare(module);
   abbe::python::add_calibrate(module);

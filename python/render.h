@@ -7,4 +7,7 @@ namespace abbe::python {
 /// Adds `render` and what it tells its callback.
 void add_render(pybind11::module_& module);
 
+/// Adds `meter`.
+void add_meter(pybind11::module_& module);
+
 }  // namespace abbe::python

@@ -74,20 +74,23 @@ std::string repr_of_scene(const SceneHandle& handle) {
 
 }  // namespace
 
+SceneSource source_of(const py::object& source, const py::object& folder, const py::dict& keywords) {
+  if (py::isinstance<py::dict>(source) || source.is_none())
+    return {kDict, text_of(source, keywords),
+            folder.is_none() ? fs::path() : argument<fs::path>(folder, "folder", "a path")};
+  std::vector<Override> overrides = overrides_of(keywords);
+  return {argument<fs::path>(source, "source", "a path or a dict"), {}, {}, std::move(overrides)};
+}
+
 SceneHandle::SceneHandle(const py::object& source, const py::object& folder, const py::dict& keywords) {
+  source_ = source_of(source, folder, keywords);
   Diagnostics diagnostics;
   std::optional<abbe::Scene> scene;
-  if (py::isinstance<py::dict>(source) || source.is_none()) {
-    const auto text = text_of(source, keywords);
-    const fs::path place = folder.is_none() ? fs::path() : argument<fs::path>(folder, "folder", "a path");
-    name_ = kDict;
+  {
     const py::gil_scoped_release released;
-    scene = load_scene(text, place, {}, diagnostics, &inputs_, &said_);
-  } else {
-    const std::vector<Override> overrides = overrides_of(keywords);
-    name_ = argument<fs::path>(source, "source", "a path or a dict");
-    const py::gil_scoped_release released;
-    scene = load_scene(name_, overrides, diagnostics, &inputs_, &said_);
+    scene = source_.text
+                ? load_scene(source_.text, source_.folder, source_.overrides, diagnostics, &inputs_, &said_)
+                : load_scene(source_.name, source_.overrides, diagnostics, &inputs_, &said_);
   }
   scene_ = accepted(std::move(scene), diagnostics);
 }
@@ -97,7 +100,7 @@ const abbe::Scene& SceneHandle::with_white(int threads) {
   if (has_white_) return scene_;
   abbe::Scene settled = scene_;
   settled.render.integrator = choose_integrator(settled, thread_count(threads)).integrator;
-  settle_white(settled, name_, thread_count(threads));
+  settle_white(settled, name(), thread_count(threads));
   const py::gil_scoped_acquire held;  // for those who read the scene meanwhile
   scene_.render.integrator = settled.render.integrator;
   scene_.output = std::move(settled.output);

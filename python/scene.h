@@ -1,15 +1,29 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
 #include "description/scene.h"
 #include "io/inputs.h"
+#include "io/json.h"
 #include "scene/scene.h"
 
 namespace abbe::python {
+
+/// Where a scene that Python says stands.
+struct SceneSource {
+  std::filesystem::path name;                   ///< What films call their scene after: the file, or "dict".
+  std::shared_ptr<const SourceText> text = {};  ///< Of a dict.
+  std::filesystem::path folder = {};            ///< Where the files that a dict names are looked for.
+  std::vector<Override> overrides = {};         ///< Of a file.
+};
+/// That of a path, a dict or None, with keywords that replace keys at the top.
+[[nodiscard]] SceneSource source_of(const pybind11::object& source, const pybind11::object& folder,
+                                    const pybind11::dict& keywords);
 
 /// A scene as Python holds it: built, and as it was described. It never changes once its white is settled, so
 /// threads may render one scene at once.
@@ -25,12 +39,13 @@ class SceneHandle {
 
   [[nodiscard]] const spec::Scene& said() const { return said_; }
   /// What films call their scene after, and messages its text.
-  [[nodiscard]] const std::filesystem::path& name() const { return name_; }
+  [[nodiscard]] const std::filesystem::path& name() const { return source_.name; }
+  [[nodiscard]] const SceneSource& source() const { return source_; }
   /// What was read, with the memory it took.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
 
  private:
-  std::filesystem::path name_;
+  SceneSource source_;
   Inputs inputs_;
   spec::Scene said_;
   abbe::Scene scene_;

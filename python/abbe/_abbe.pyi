@@ -237,6 +237,12 @@ def merge(films: typing.Sequence[typing.Any], *, partial: bool = False) -> Film:
     """Adds up films of one render, or the .abbepart files of paths, to the film that one render of all their samples gives, bit for bit. Raises InputError for films of different renders, for samples that two of them have, and, unless `partial`, where samples are missing of those the render is to have."""
 
 
+def meter(scene: typing.Any, *, only: typing.Any = None, spp: typing.Optional[int] = None, seed: typing.Optional[int] = None, threads: int = 0, error: typing.Optional[float] = None, time: typing.Optional[float] = None, integrator: typing.Any = None, progress: typing.Any = None) -> dict:
+    """Reads the meters of a scene, a path, a dict or a Scene, of the numbers that `abbe meter` gives; a path or dict needs no camera.
+
+    Returns a dict of dicts by the meters' names, in the scene's order, with the keys of `abbe meter --json`: `radiant`, `luminous` and `photons` have `value`, `unit`, `standard_error` and `half_interval_95`, half the width of Student's interval of 95 %, None where nothing is known; `cells` are arrays of rows and columns of a meter that has some, `spectrum` arrays over `wavelength_nm`, nan where an error is not known. `only` names a meter, or several. `spp`, `seed` and `integrator` replace what the scene says; `threads`, `time` and `progress` are those of `render`, for each meter, and `error` ends at the largest relative standard error of its three figures. Raises UsageError for a name that no meter has, SceneError for a scene without meters."""
+
+
 def names(kind: str) -> typing.List[str]:
     """Returns the names that Abbe knows of a kind: material, glass, illuminant, reflectance, camera, filter or observer. Raises UsageError for another kind."""
 

@@ -1,0 +1,86 @@
+"""Meters of scenes, against what the command reads of them."""
+import json
+import math
+import unittest
+
+import numpy
+
+import abbe
+from common import SCENES, Test, box
+
+METERS = {
+    "floor": {"at": [0, 0, 0.5], "normal": [0, 0, 1], "spectrum": {"from_nm": 400, "to_nm": 700, "step_nm": 100}},
+    "grid": {"measures": "flux", "quad": {"corner": [0, 0, 1], "edge_u": [3, 0, 0], "edge_v": [0, 2, 0]}, "cells": [3, 2]},
+    "sight": {"measures": "radiance", "at": [0, 0, 1], "normal": [0, 0, -1], "acceptance_deg": 2},
+}
+
+
+class Meters(Test):
+    def scene(self, **keys):
+        scene = {"abbe": 1, **box(meters=METERS), **keys}
+        (self.scratch / "scene.json").write_text(json.dumps(scene))
+        return scene
+
+    def told(self, *options):
+        return {meter["name"]: meter for meter in json.loads(self.command("meter", "scene.json", "--json", "--quiet", *options))["meters"]}
+
+    def compare(self, found, told):
+        self.assertEqual(list(found), list(told))
+        for name, meter in told.items():
+            self.assertEqual(set(found[name]), set(meter) - {"wall_s"})
+            for key in ("name", "measures", "radiant", "luminous", "photons", "integrator", "seed", "samples"):
+                self.assertEqual(found[name][key], meter[key], f"{name}: {key}")
+            for key in {"cells", "spectrum"} & set(meter):
+                for column, array in found[name][key].items():
+                    self.assertIsInstance(array, numpy.ndarray)
+                    numpy.testing.assert_array_equal(array.ravel(), meter[key][column], f"{name}: {column}")
+
+    def test_the_numbers_are_those_of_the_command(self):
+        scene = self.scene()
+        told = self.told()
+        found = abbe.meter(scene)
+        self.compare(found, told)
+        self.compare(abbe.meter(self.scratch / "scene.json", threads=1), told)
+        self.compare(abbe.meter(abbe.Scene(self.scratch / "scene.json")), told)
+        self.compare(abbe.meter(abbe.Scene(scene)), told)
+        self.assertEqual(found["grid"]["cells"]["photons"].shape, (2, 3))
+        # Of a sky of 1 W/(m2 sr nm) over 300-1100 nm.
+        self.assertAlmostEqual(found["floor"]["radiant"]["value"], 800 * math.pi, delta=3 * found["floor"]["radiant"]["half_interval_95"] + 1e-6)
+
+    def test_arguments_are_the_options_of_the_command(self):
+        scene = self.scene()
+        self.compare(abbe.meter(scene, spp=8, seed=5, integrator="bdpt", only=["grid", "floor"]),
+                     self.told("--spp", 8, "--seed", 5, "--integrator", "bdpt", "--only", "grid", "--only", "floor"))
+        self.compare(abbe.meter(scene, only="sight", error=0.01), self.told("--only", "sight", "--error", "1%"))
+
+    def test_a_scene_with_meters_needs_no_camera(self):
+        scene = self.scene()
+        without = {key: value for key, value in scene.items() if key not in ("camera", "sensor")}
+        for found, beside in zip(abbe.meter(without).values(), abbe.meter(scene).values()):
+            self.assertEqual(found["radiant"], beside["radiant"])
+
+    def test_what_is_wrong_is_told(self):
+        scene = self.scene()
+        with self.assertRaisesRegex(abbe.UsageError, r'only: no such meter \(got "flor", allowed floor, grid, sight\)'):
+            abbe.meter(scene, only="flor")
+        with self.assertRaisesRegex(abbe.UsageError, "spp excludes error"):
+            abbe.meter(scene, spp=4, error=0.1)
+        with self.assertRaisesRegex(abbe.SceneError, "the scene has no meters"):
+            abbe.meter(SCENES / "cornell.json")
+        with self.assertRaisesRegex(abbe.SceneError, "/render/integrator"):
+            abbe.meter(scene, integrator="paths")
+        with self.assertRaises(TypeError):
+            abbe.meter(scene, only=3)
+        with self.assertWarnsRegex(abbe.SceneWarning, "meter sight: a pilot found no light there: error had nothing to wait for"):
+            abbe.meter({**scene, "lights": [{"directional": {"towards": [0, 0, -1], "irradiance": 1}}]}, only="sight", error=0.01)
+
+    def test_progress_ends_it(self):
+        def stop(progress):
+            raise KeyError(progress.samples)
+
+        with self.assertRaises(KeyError):
+            abbe.meter(self.scene(), only="floor", spp=1 << 20, progress=stop)
+
+
+if __name__ == "__main__":
+    unittest.main()
