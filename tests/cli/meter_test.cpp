@@ -102,6 +102,24 @@ TEST(MeterCommand, TellsUniformityOfCells) {
   EXPECT_GT(std::stod(run.out.substr(at + 12)), 0.95) << run.out;
 }
 
+TEST(MeterCommand, TellsOfADarkPlaceAndStrictlyRefusesIt) {
+  const auto scene = scratch().write("dark.json", R"({"abbe": 1,
+    "lights": [{"directional": {"towards": [0, 0, 1], "irradiance": 3}}],
+    "materials": {"steel": {"diffuse": {"reflectance": 0.5}}},
+    "shapes": [{"name": "safe", "sphere": {"center": [0, 0, 0], "radius": 1}, "material": "steel"}],
+    "meters": {"inside": {"at": [0, 0, 0], "normal": [0, 0, 1]}}})");
+  const Outcome run = abbe("meter " + scene.string() + " --quiet --error 1%");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.err.find("warning: meter inside: the camera stands within \"safe\""), std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("warning: meter inside: a pilot found no light there: --error had"),
+            std::string::npos)
+      << run.err;
+  const Outcome strict = abbe("meter " + scene.string() + " --quiet --strict");
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_NE(strict.err.find("inside: the camera stands within"), std::string::npos) << strict.err;
+}
+
 TEST(MeterCommand, NeedsMetersAndNoCamera) {
   const Outcome picture = abbe("render " + hall());
   EXPECT_EQ(picture.code, 3);

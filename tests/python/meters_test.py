@@ -79,7 +79,7 @@ class Meters(Test):
             raise KeyError(progress.samples)
 
         with self.assertRaises(KeyError):
-            abbe.meter(self.scene(), only="floor", spp=1 << 20, progress=stop)
+            abbe.meter(self.scene(), only="floor", spp=4096, progress=stop)
 
 
 if __name__ == "__main__":
