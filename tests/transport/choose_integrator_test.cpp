@@ -70,8 +70,8 @@ TEST(ChooseIntegrator, KnowsOfLightThatPathTracingFindsByRareChance) {
   EXPECT_GT(choice.cost_ratio.value_or(0), 10);
 }
 
-// What joined paths tell of the mean square of path tracing, where each of its paths has one contribution: all
-// but what falls to connections with the lens.
+// What joined paths tell of the mean square of path tracing, where each of its paths has one contribution:
+// all but what falls to connections with the lens.
 TEST(TechniquePilots, JoinedPathsTellWhatPathTracingWouldHave) {
   Scene scene = load("scenes/cornell.json", {{"/lights/0", R"({"point": {"at": [278, 400, 279]},
                                         "emission": {"illuminant": "A", "luminous_flux_lm": 1000}})"},
