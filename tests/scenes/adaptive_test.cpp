@@ -147,7 +147,7 @@ double relative_variance(const Film& film) {
 
 // At as many rays, by the films' own variances.
 TEST(AdaptiveRender, HasLessErrorForItsRays) {
-  for (const char* name : {"cornell.json", "instances.json"}) {
+  for (const char* name : {"cornell.json", "materials/rough_metal.json", "materials/textures.json"}) {
     const Scene scene =
         test::load(name, {{"/sensor/resolution", "[128, 96]"}, {"/render/integrator", "path"}});
     RenderOptions options;

@@ -159,11 +159,11 @@ AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float 
     aimed.cell = target.cell;
   }
   const float by_emission = emission_density(light, from.normal, aimed.wi, kAnyRadius, time).pdf_direction;
+  aimed.pdf = by_emission;
+  if (!guided_) return aimed;
   // A direction drawn through a cell counts as through that cell: rounded, it may meet the next one.
   const int cell = aimed.cell >= 0 ? aimed.cell : cell_met(from.point, aimed.wi);
-  aimed.pdf =
-      guided_ ? kEmissionShare * by_emission + (1 - kEmissionShare) * target_pdf(from.point, aimed.wi, cell)
-              : by_emission;
+  aimed.pdf = kEmissionShare * by_emission + (1 - kEmissionShare) * target_pdf(from.point, aimed.wi, cell);
   return aimed;
 }
 
