@@ -105,26 +105,24 @@ float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
   // then, strategy by strategy, times what the camera makes of z_1 ... z_{t'-1}.
   const SampledSpectrum connected(ends.light_connection / at_[last].ours);
   SampledSpectrum from_camera(1.0F);
-  SampledSpectrum sum;
-  SampledSpectrum own;  // of path tracing
+  sum_ = own_ = SampledSpectrum();
   for (std::size_t t = 1; t <= last + 1; ++t) {
     if (const float n = count(path, ends, t); n > 0) {
       const SampledSpectrum density = from_camera * (t == last ? connected : from_light_[t]) * n;
-      sum += density;
-      if (t >= last) own += density;
+      sum_ += density;
+      if (t >= last) own_ += density;
     }
     if (const float n = merging(path, ends, t); n > 0)
-      sum += from_camera * at_[t - 1].by_light * from_light_[t] * n;
+      sum_ += from_camera * at_[t - 1].by_light * from_light_[t] * n;
     if (t <= last) from_camera *= at_[t].by_camera * (1 / at_[t].ours);
   }
-  by_path_tracing_ = own.sum() / sum.sum();
   // Throughputs are measured in the unit of their lane densities, which need not be that of the hero.
   float unit = path.z[path.t - 1]->packet.lane_pdf[hero];
   if (path.merged != nullptr)
     unit *= path.merged->packet.lane_pdf[hero] / path.merged->pdf_forward[hero];
   else if (path.t <= last)
     unit *= path.z[path.t]->packet.lane_pdf[hero];
-  const float weight = 1 / (sum.sum() * unit);
+  const float weight = 1 / (sum_.sum() * unit);
   return std::isfinite(weight) ? weight : 0.0F;
 }
 

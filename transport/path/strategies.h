@@ -53,7 +53,11 @@ class StrategyWeights {
 
   /// Which share of the densities of that path the strategies have whose path from the camera meets the
   /// light, or is connected to one drawn for it: those of path tracing.
-  [[nodiscard]] float by_path_tracing() const { return by_path_tracing_; }
+  /// 0 where they cannot make it.
+  [[nodiscard]] float by_path_tracing() const {
+    const float all = sum_.sum();
+    return all > 0 ? own_.sum() / all : 0;
+  }
 
   /// With which density the way between two vertices is come through, lane by lane.
   [[nodiscard]] SampledSpectrum passed_between(const PathVertex& a, const PathVertex& b) const;
@@ -76,7 +80,8 @@ class StrategyWeights {
   bool has_free_paths_;
   std::vector<Densities> at_;                // of the path in hand
   std::vector<SampledSpectrum> from_light_;  // products of what the light makes of z_i ... z_k
-  float by_path_tracing_ = 1;
+  SampledSpectrum sum_;                      // of the densities of all strategies,
+  SampledSpectrum own_;                      // and of those of path tracing
 };
 
 }  // namespace abbe

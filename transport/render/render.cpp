@@ -50,9 +50,12 @@ Plan balanced_plan(const Scene& scene, const RenderOptions& options, int threads
 
 // Of a sample in which all pixels have theirs.
 std::uint64_t camera_paths(const Plan& plan) {
+  const Camera& camera = plan.scene.camera;
+  if (plan.density.paths.empty())
+    return static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   std::uint64_t paths = 0;
-  for (int y = 0; y < plan.scene.camera.height; ++y)
-    for (int x = 0; x < plan.scene.camera.width; ++x) paths += plan.density.at(x, y);
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) paths += plan.density.at(x, y);
   return paths;
 }
 

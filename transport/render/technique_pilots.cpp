@@ -126,7 +126,7 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
   Region& region = found.at(camera, x, y);
   tracer.tell_apart(
       [&](std::uint32_t pair, const FilmPoint& at, const LightHistory& of, std::span<const double> more) {
-        if (at.x == pairs[pair].x && at.y == pairs[pair].y)
+        if (at.x == pairs[pair].x && at.y == pairs[pair].y && of.by_path_tracing > 0)
           region.path_tracing_squares +=
               std::pow(magnitude(more), 2) / static_cast<double>(of.by_path_tracing) / kPilotPathsPerPixel;
       });

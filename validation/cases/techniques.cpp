@@ -62,7 +62,7 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
        {.by = Integrator::bdpt,
         .quick = {"T1-0.2", "T3-corner", "T5-axis", "T6-discs", "T9-outer", "T12-glass", "T13-60", "T17-60",
                   "ball-axis", "ball-inside"},
-        .thorough = {"T1-0.8", "T10-lower", "layer-1", "scattered-blue"},
+        .thorough = {"layer-1", "scattered-blue"},
         .others = Tier::tests,
         .never = {"T1-0.95", "T8", "layer-0.2", "ball-meter"}},
        {.by = Integrator::photon_map,
@@ -97,7 +97,7 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
         .patience = 32,
         .fine_margin = 0.005,
         .quick = {"T5-axis", "T6-discs"},
-        .tests = {"T9-outer", "T12-white", "T12-glass", "ball-axis", "ball-inside"},
+        .tests = {"T9-outer", "T12-white", "T12-glass", "T13-60", "T15-T", "ball-axis", "ball-inside"},
         .never = {"ball-disc", "ball-meter", "layer-1", "layer-0.2", "worked-example", "T4", "T5-off"}}}};
   return all;
 }
