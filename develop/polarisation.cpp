@@ -1,10 +1,10 @@
 #include "develop/polarisation.h"
 
-#include "calibration/chart/matrix3.h"
 #include "develop/radiance.h"
 #include "io/error.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/response/stokes_channels.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 namespace {

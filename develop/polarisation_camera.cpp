@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "calibration/chart/matrix3.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_mosaic.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/response/polariser_group.h"
 #include "sensor/response/stokes_channels.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 namespace {

@@ -10,6 +10,7 @@
 #include "io/error.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/readout/demosaic.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {

@@ -11,6 +11,7 @@
 #include "io/standard_stream.h"
 #include "scene/colors.h"
 #include "sensor/film/recorded_white.h"
+#include "spectral/rgb.h"
 #include "transport/render/white.h"
 
 namespace abbe {

@@ -113,6 +113,18 @@ RgbBasis make_basis() {
 
 }  // namespace
 
+XYZ unit_xyz(const Chromaticity& xy) {
+  return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};
+}
+
+Matrix3 rgb_to_xyz(const RgbSpace& space) {
+  // Columns proportional to the primaries, scaled so that they add up to the white.
+  const auto z = [](const Chromaticity& c) { return 1 - c[0] - c[1]; };
+  const auto& [r, g, b, white] = space;
+  const Matrix3 primaries(r[0], g[0], b[0], r[1], g[1], b[1], z(r), z(g), z(b));
+  return primaries * diagonal(multiply(primaries.inverse(true), unit_xyz(white)));
+}
+
 LinearRgb linear_rgb(const Curve& reflectance) {
   LinearRgb rgb{};
   for (std::size_t i = 0; i < kCount; ++i) {

@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include "spectral/colorimetry.h"
 #include "spectral/curve.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 
@@ -12,6 +14,25 @@ using LinearRgb = std::array<double, 3>;
 /// Chromaticities of those primaries [BT709].
 inline constexpr std::array<std::array<double, 2>, 3> kRec709Primaries{
     {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}}};
+
+/// XYZ of a chromaticity with Y = 1.
+[[nodiscard]] XYZ unit_xyz(const Chromaticity& xy);
+
+/// The white of sRGB displays and of Rec.709: D65 as those standards print it.
+inline constexpr Chromaticity kD65{0.3127, 0.3290};
+
+/// An RGB space: the chromaticities of its primaries and of its white.
+struct RgbSpace {
+  Chromaticity red;
+  Chromaticity green;
+  Chromaticity blue;
+  Chromaticity white;
+};
+inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
+                                  kD65};  ///< [BT709]
+
+/// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
+[[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
 /// Colour of a reflectance under D65, for the CIE 1931 observer, 380-780 nm. Its white is that of the shipped
 /// table of D65, so that a reflectance of 1 is exactly (1, 1, 1).

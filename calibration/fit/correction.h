@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "calibration/chart/patches.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

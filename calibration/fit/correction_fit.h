@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "calibration/chart/patches.h"
 #include "calibration/fit/correction.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "calibration/chart/matrix3.h"
 #include "spectral/colorimetry.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

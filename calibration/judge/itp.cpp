@@ -5,6 +5,7 @@
 
 #include "calibration/judge/appearance.h"
 #include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "calibration/fit/correction.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

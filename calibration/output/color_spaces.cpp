@@ -13,18 +13,6 @@ Matrix3 cone_responses(Adaptation method) {
   return {0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296};
 }
 
-XYZ unit_xyz(const Chromaticity& xy) {
-  return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};
-}
-
-Matrix3 rgb_to_xyz(const RgbSpace& space) {
-  // Columns proportional to the primaries, scaled so that they add up to the white.
-  const auto z = [](const Chromaticity& c) { return 1 - c[0] - c[1]; };
-  const auto& [r, g, b, white] = space;
-  const Matrix3 primaries(r[0], g[0], b[0], r[1], g[1], b[1], z(r), z(g), z(b));
-  return primaries * diagonal(multiply(primaries.inverse(true), unit_xyz(white)));
-}
-
 std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white, Adaptation method) {
   const Matrix3 cones = cone_responses(method);
   const std::array<double, 3> from = multiply(cones, from_white);

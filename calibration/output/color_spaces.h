@@ -3,27 +3,12 @@
 #include <array>
 #include <optional>
 
-#include "calibration/chart/matrix3.h"
 #include "spectral/colorimetry.h"
+#include "spectral/matrix3.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
 
-/// XYZ of a chromaticity with Y = 1.
-[[nodiscard]] XYZ unit_xyz(const Chromaticity& xy);
-
-/// The white of sRGB displays and of Rec.709: D65 as those standards print it.
-inline constexpr Chromaticity kD65{0.3127, 0.3290};
-
-/// An RGB space: the chromaticities of its primaries and of its white.
-struct RgbSpace {
-  Chromaticity red;
-  Chromaticity green;
-  Chromaticity blue;
-  Chromaticity white;
-};
-inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
-                                  kD65};  ///< [BT709]
 inline constexpr Chromaticity kAcesWhite{0.32168, 0.33767};
 inline constexpr RgbSpace kAces2065{
     {0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, kAcesWhite};  ///< AP0 [ST2065-1]
@@ -32,9 +17,6 @@ inline constexpr RgbSpace kAcesCg{
 inline constexpr RgbSpace kP3D65{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, kD65};  ///< [RP431-2]
 
 inline constexpr RgbSpace kRec2020{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, kD65};  ///< [BT2020]
-
-/// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
-[[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
 /// Cone spaces in which white is adapted, by a gain for each cone.
 enum class Adaptation {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "calibration/fit/correction_fit.h"
 #include "calibration/output/color_spaces.h"
 #include "io/image.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

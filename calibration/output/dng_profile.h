@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "calibration/chart/matrix3.h"
 #include "calibration/output/camera_profile.h"
 #include "spectral/colorimetry.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "calibration/output/color_spaces.h"
 #include "spectral/color_temperature.h"
 #include "spectral/library.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {

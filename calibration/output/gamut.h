@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 

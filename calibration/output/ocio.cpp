@@ -11,6 +11,7 @@
 #include "calibration/output/color_spaces.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {

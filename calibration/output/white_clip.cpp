@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "io/image.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

@@ -1,4 +1,5 @@
 #include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "calibration/output/color_spaces.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe {

@@ -8,8 +8,8 @@
 #include "calibration/judge/color_rendering.h"
 #include "calibration/judge/itp.h"
 #include "calibration/judge/metamerism.h"
-#include "calibration/output/color_spaces.h"
 #include "spectral/color_temperature.h"
+#include "spectral/rgb.h"
 #include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"
 

@@ -12,6 +12,7 @@
 #include "calibration/chart/delta_e.h"
 #include "calibration/fit/response.h"
 #include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {

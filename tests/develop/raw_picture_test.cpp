@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/output/color_spaces.h"
 #include "calibration/output/dng_profile.h"
 #include "spectral/library.h"
+#include "spectral/rgb.h"
 #include "spectral/sources.h"
 
 namespace abbe {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "calibration/chart/patches.h"
-#include "calibration/output/color_spaces.h"
 #include "cli/compare.h"
 #include "description/load.h"
 #include "film/sensor_identity.h"
@@ -13,6 +12,7 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "sensor/film/recorded_white.h"
+#include "spectral/rgb.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "validation/picture/color_map.h"

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/color_spaces.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/text.h"
+#include "spectral/rgb.h"
 #include "transport/render/render.h"
 
 namespace abbe {

@@ -8,6 +8,7 @@
 #include "io/reference_table.h"
 #include "spectral/astm_e308.h"
 #include "spectral/color_temperature.h"
+#include "spectral/rgb.h"
 #include "spectral/sources.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "calibration/output/color_spaces.h"
 #include "materials/bsdf/warp.h"
+#include "spectral/rgb.h"
 #include "validation/picture/display_color.h"
 
 namespace abbe {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/color_spaces.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 

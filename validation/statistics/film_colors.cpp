@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "calibration/output/color_spaces.h"
 #include "io/text.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/response/stokes_channels.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 

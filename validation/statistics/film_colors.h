@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/chart/matrix3.h"
 #include "io/image.h"
 #include "spectral/colorimetry.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 

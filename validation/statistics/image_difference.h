@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/output/color_spaces.h"
 #include "io/image.h"
 #include "spectral/colorimetry.h"
 

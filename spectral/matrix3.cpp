@@ -1,4 +1,4 @@
-#include "calibration/chart/matrix3.h"
+#include "spectral/matrix3.h"
 
 #include <stdexcept>
 #include <vector>
