@@ -92,7 +92,8 @@ void add_max_memory(CLI::App& app, const std::shared_ptr<Options>& options) {
 
 /// `--set`, which may be repeated.
 template <typename Options>
-void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options, const std::string& help) {
+void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options,
+                   const std::string& help = "Replace a value of the scene file; may be repeated") {
   app.add_option_function<std::vector<std::string>>(
          "--set",
          [options](const std::vector<std::string>& texts) {

@@ -35,6 +35,7 @@ void add_info(CLI::App& app, Command& command) {
   sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
       ->required()
       ->type_name("SCENE");
+  add_overrides(*sub.app, sub.options);
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
@@ -75,7 +76,7 @@ void add_convert(CLI::App& app, Command& command) {
                    "Materials by name, {NAME: MATERIAL, ...} as scene files have them, in place of those of "
                    "another renderer's scene")
       ->type_name("FILE.json");
-  add_overrides(*sub.app, sub.options, "Replace a value of the scene file; may be repeated");
+  add_overrides(*sub.app, sub.options);
   add_max_memory(*sub.app, sub.options);
 }
 

@@ -34,7 +34,8 @@ int draw(const DrawOptions& options) {
     throw Error(ErrorCode::usage, "--dir", "a direction must not be zero");
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
-  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  const Scene scene =
+      accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   require_distinct(std::array{options.output}, inputs.files());
   std::vector<DrawnRay> drawn;
   for (const double nm : options.wavelengths_nm)

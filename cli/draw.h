@@ -6,6 +6,7 @@
 
 #include <ImathVec.h>
 
+#include "description/load.h"
 #include "io/inputs.h"
 #include "transport/path/ray_trace.h"
 
@@ -22,6 +23,7 @@ struct DrawOptions {
   int max_events = 64;
   std::size_t max_memory_bytes = default_memory_limit();
   Follow follow = Follow::refraction;
+  std::vector<Override> overrides = {};
 };
 
 /// Draws plan and elevation of a scene. Returns the exit code.

@@ -177,7 +177,7 @@ std::string describe(const Scene& scene, const IntegratorChoice& choice) {
 int info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
-  Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   const IntegratorChoice choice = choose_integrator(scene, thread_count(0));
   scene.render.integrator = choice.integrator;
   settle_white(scene, options.scene);

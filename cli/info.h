@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "description/load.h"
 #include "io/inputs.h"
 #include "scene/scene.h"
 #include "transport/render/choose_integrator.h"
@@ -12,6 +14,7 @@ namespace abbe::cli {
 /// What `abbe info` was asked for.
 struct InfoOptions {
   std::filesystem::path scene;  ///< "-" is standard input.
+  std::vector<Override> overrides = {};
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };

@@ -60,6 +60,7 @@ void add_trace(CLI::App& app, Command& command) {
       *sub.app, "--stokes", sub->stokes, parse_stokes,
       "Stokes vector of the light that sets out (default 1,0,0,0), in the frame of the answer's first_axis",
       "I,Q,U,V");
+  add_overrides(*sub.app, sub.options);
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
@@ -84,6 +85,7 @@ void add_draw(CLI::App& app, Command& command) {
   add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
              "Events to follow at most (default 64)", "N");
   add_follow(*sub.app, sub->follow);
+  add_overrides(*sub.app, sub.options);
   add_max_memory(*sub.app, sub.options);
 }
 

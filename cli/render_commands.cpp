@@ -121,7 +121,7 @@ void add_render(CLI::App& app, Command& command) {
   add_range(render, *sub.options, stops);
   add_technique(render, *sub.options);
   add_film(render, *sub.options);
-  add_overrides(render, sub.options, "Replace a value of the scene file; may be repeated");
+  add_overrides(render, sub.options);
   add_checkpoints(render, *sub.options);
   add_pictures(render, *sub.options);
   render.add_option("--stats", sub->stats, "Write what the render did as JSON, - for standard output")
@@ -151,7 +151,7 @@ void add_meter(CLI::App& app, Command& command) {
   (void)add_samples(options, *sub.options, "Samples of each part of a meter, which has 1024 or more",
                     "the largest relative standard error of a meter's three figures", " for each meter");
   add_technique(options, *sub.options);
-  add_overrides(options, sub.options, "Replace a value of the scene file; may be repeated");
+  add_overrides(options, sub.options);
   add_max_memory(options, sub.options);
   options.add_flag("--strict", sub->strict,
                    "Refuse a scene of which a warning means a wrong reading (exit 3); exit with 70 if any "

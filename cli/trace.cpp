@@ -178,7 +178,8 @@ BasicRay<double> first_ray(const Scene& scene, const TraceOptions& options) {
 int trace(const TraceOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
-  const Scene scene = accepted(load_scene(options.scene, {}, diagnostics, &inputs), diagnostics);
+  const Scene scene =
+      accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   const BasicRay<double> ray = first_ray(scene, options);
   const FollowLimits limits{.max_events = options.max_events};
   const RayTree tree = follow_ray(scene, ray, options.wavelength_nm, options.follow, limits, options.stokes);

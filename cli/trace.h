@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <ImathVec.h>
 
+#include "description/load.h"
 #include "io/inputs.h"
 #include "transport/path/ray_trace.h"
 
@@ -23,6 +25,7 @@ struct TraceOptions {
   std::string light = {};           ///< Where the ray starts, in place of an origin.
   StokesVector stokes{1, 0, 0, 0};  ///< Of the light that sets out, with I = 1.
   Follow follow = Follow::refraction;
+  std::vector<Override> overrides = {};
 };
 
 /// Follows one ray through a scene and prints what happens to it. Returns the exit code.

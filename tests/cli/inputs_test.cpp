@@ -123,6 +123,23 @@ TEST_F(InputFiles, AreKeptByEveryCommand) {
   expect_kept("bench cornell --baseline users/bench.json -o users", "users/bench.json");
 }
 
+TEST_F(InputFiles, HaveTheirValuesReplacedForEveryCommandThatReadsAScene) {
+  const auto told = [this](const std::string& command) {
+    const Outcome run = here(ABBE_BINARY " " + command);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out + read_file(folder_ / "a.svg");
+  };
+  for (const char* command :
+       {"info wall.json", "info wall.json --json", "convert wall.json",
+        "trace wall.json --lambda 550 --origin 0,-300,0 --dir 0,1,0", "draw wall.json --rays 0 -o a.svg"}) {
+    const std::string before = told(command);
+    EXPECT_NE(told(command + std::string(" --set /sensor/resolution=[7,5] --set /shapes/1/sphere/radius=70")),
+              before)
+        << command;
+    EXPECT_EQ(told(command), before) << command;
+  }
+}
+
 TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   const auto refused = [this](const std::string& command, const std::string& what) {
     const Outcome run = here(ABBE_BINARY " " + command);
