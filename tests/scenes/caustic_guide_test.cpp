@@ -51,6 +51,26 @@ TEST(CausticGuide, ALampInABulbIsAsBrightAsItsGlassLetsThrough) {
   EXPECT_GT(chance.variance, 50 * guided.variance);
 }
 
+// So does merging, of photons that no camera path could have been connected with.
+TEST(Merging, FindsALampInABulbAsBrightAsItsGlassLetsThrough) {
+  constexpr double kThrough = 24.0 / 26;
+  const auto seen = [](bool bulb, const char* integrator, const char* samples) {
+    const Scene scene = test::load_text(lamp_over_floor(bulb), {{"/camera/pinhole/fov_deg", "40"},
+                                                                {"/sensor/resolution", "[128, 128]"},
+                                                                {"/render/integrator", integrator},
+                                                                {"/render/photons/radius", "0.05"},
+                                                                {"/render/samples", samples}});
+    return mean_of(render(scene, {}).film);
+  };
+  const Mean open = seen(false, "path", "64");
+  const Mean closed = seen(true, "vcm", "64");
+  const double error =
+      std::hypot(std::sqrt(closed.variance), kThrough * std::sqrt(open.variance)) / open.value;
+  std::printf("%.5f of it, standard error %.5f\n", closed.value / open.value / kThrough, error);
+  EXPECT_LT(error, 0.0018);
+  EXPECT_NEAR(closed.value / open.value, kThrough, 0.006);
+}
+
 // Whatever scatters where the caustic falls, with the guide and without it the light is the same: diffuse
 // matter, facets, matter that mirrors as well, what lets light through.
 TEST(CausticGuide, ChangesNoiseOnly) {
