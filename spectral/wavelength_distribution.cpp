@@ -136,13 +136,35 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
     cdf += density * cells.width(i);
   }
   cells_.push_back({cells.edges[last], 1, 0, 0});
+  make_guide();
+}
 
-  const std::size_t size = kGuideFineness * (last - first);
+void WavelengthDistribution::make_guide() {
+  const std::size_t size = kGuideFineness * (cells_.size() - 1);
   std::size_t cell = 0;
   for (std::size_t i = 0; i < size; ++i) {
     while (cells_[cell + 1].cdf * static_cast<double>(size) <= static_cast<double>(i)) ++cell;
     guide_.push_back(static_cast<std::uint32_t>(cell));
   }
+}
+
+WavelengthDistribution WavelengthDistribution::weighed(std::span<const double> importance) const {
+  const auto parts = static_cast<double>(importance.size());
+  std::vector<double> sums{0};
+  for (const double part : importance) sums.push_back(sums.back() + part);
+  const auto cdf_at = [&](double cdf) {
+    const auto part = std::min(static_cast<std::size_t>(cdf * parts), importance.size() - 1);
+    return (sums[part] + (cdf * parts - static_cast<double>(part)) * importance[part]) / sums.back();
+  };
+  WavelengthDistribution weighed;
+  for (std::size_t i = 0; i + 1 < cells_.size(); ++i) {
+    const double cdf = cdf_at(cells_[i].cdf);
+    const double density = (cdf_at(cells_[i + 1].cdf) - cdf) / (cells_[i + 1].low_nm - cells_[i].low_nm);
+    weighed.cells_.push_back({cells_[i].low_nm, cdf, density, density > 0 ? 1 / density : 0});
+  }
+  weighed.cells_.push_back({cells_.back().low_nm, 1, 0, 0});
+  weighed.make_guide();
+  return weighed;
 }
 
 SampledWavelengths WavelengthDistribution::sample(float u) const {

@@ -23,6 +23,10 @@ class WavelengthDistribution {
   /// range when that is empty).
   WavelengthDistribution(std::span<const Curve> emissions, std::span<const Curve> responses);
 
+  /// The distribution whose density is that of this one times `importance`, of which there is one, above 0,
+  /// for each of so many equally probable parts of it, up to a factor.
+  [[nodiscard]] WavelengthDistribution weighed(std::span<const double> importance) const;
+
   /// Eight wavelengths F^-1(frac(u + j/8)) for u in [0, 1), with their densities. Each is rounded to a float
   /// of its own cell, so that the curves and `pdf` see the side of an edge it was drawn on; only a cell with
   /// no float in it (narrower than 1.3e-4 nm) gives the nearest one outside.
@@ -34,6 +38,9 @@ class WavelengthDistribution {
   [[nodiscard]] double high_nm() const { return cells_.back().low_nm; }
 
  private:
+  WavelengthDistribution() = default;
+  void make_guide();
+
   // From `low_nm` to the next cell's; the last one only ends the range, with a cdf of 1.
   struct Cell {
     double low_nm;

@@ -9,6 +9,9 @@
 
 namespace abbe {
 
+/// relMSE of values x against r is the mean of (x - r)^2 over r^2 and this much of the squared mean of r.
+inline constexpr double kUsualFloor = 0.01;
+
 /// How far a film is from what endless samples would make of it: standard deviations over means.
 struct RelativeError {
   double median = std::numeric_limits<double>::infinity();  ///< Of the lit values; infinite until known.

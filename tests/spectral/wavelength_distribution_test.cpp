@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <string>
@@ -146,6 +147,48 @@ TEST(WavelengthDistribution, packets_estimate_every_pair_without_bias_and_with_l
     const double variance = total / static_cast<double>(c.emissions.size() * c.responses.size());
     RecordProperty(c.name, std::to_string(variance));
     EXPECT_LT(variance, c.largest_variance) << c.name;
+  }
+}
+
+constexpr std::size_t kParts = 16;
+
+// The more, the longer the waves.
+std::vector<double> red_importance() {
+  std::vector<double> importance;
+  for (std::size_t i = 0; i < kParts; ++i) importance.push_back(0.1 + 0.2 * static_cast<double>(i));
+  return importance;
+}
+
+// Each part of the distribution then has its importance over that of all, 25.6.
+TEST(WavelengthDistribution, parts_are_drawn_as_often_as_they_weigh) {
+  const Case smooth = cases().front();
+  const WavelengthDistribution plain(smooth.emissions, smooth.responses);
+  const WavelengthDistribution weighed = plain.weighed(red_importance());
+  EXPECT_EQ(weighed.low_nm(), plain.low_nm());
+  EXPECT_EQ(weighed.high_nm(), plain.high_nm());
+  std::vector<float> ends;
+  for (std::size_t i = 1; i < kParts; ++i)
+    ends.push_back(plain.sample(static_cast<float>(i) / kParts).lambda_nm[0]);
+  constexpr int kPackets = 1 << 16;
+  std::vector<double> counts(kParts);
+  for (int i = 0; i < kPackets; ++i) {
+    const float nm = weighed.sample((static_cast<float>(i) + 0.5F) / kPackets).lambda_nm[0];
+    ++counts[static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), nm) - ends.begin())];
+  }
+  for (std::size_t i = 0; i < kParts; ++i)
+    EXPECT_NEAR(counts[i] / kPackets, red_importance()[i] / 25.6, 1.5e-3) << i;
+}
+
+TEST(WavelengthDistribution, weighed_packets_estimate_every_pair_without_bias) {
+  for (const Case& c : cases()) {
+    const WavelengthDistribution weighed =
+        WavelengthDistribution(c.emissions, c.responses).weighed(red_importance());
+    for (const Curve& emission : c.emissions)
+      for (const Curve& response : c.responses)
+        EXPECT_NEAR(
+            packet_estimate(weighed, emission, response).first / integral_of_product(emission, response), 1,
+            1e-3)
+            << c.name;
   }
 }
 

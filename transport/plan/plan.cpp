@@ -158,9 +158,11 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
+  const WavelengthDistribution wavelengths = make_wavelengths(scene, seen);
   Plan plan{
       scene,
-      make_wavelengths(scene, seen),
+      wavelengths,
+      wavelengths,
       LightSampler(scene, emissions.seen),
       PowerLightSampler(traced_powers),
       traced,

@@ -23,6 +23,8 @@ namespace abbe {
 struct Plan {
   const Scene& scene;
   WavelengthDistribution wavelengths;
+  /// Where photons that share no packet with camera paths draw theirs from.
+  WavelengthDistribution photon_wavelengths;
   LightSampler path_lights;           ///< For light sampling at path vertices.
   PowerLightSampler traced_lights;    ///< For starting photons.
   std::vector<bool> traced;           ///< Per light: the light tracer owns its caustics.
@@ -46,8 +48,7 @@ struct Plan {
   /// and of all lights that they can meet, once they have come through specular matter from the camera.
   CausticGuide caustics_seen_through = {};
 
-  /// Where camera paths through a pixel draw theirs from; photons, which may meet any pixel, draw from
-  /// `wavelengths`.
+  /// Where camera paths through a pixel draw theirs from.
   [[nodiscard]] const WavelengthDistribution& wavelengths_at(int x, int y) const {
     return own_wavelengths.empty() ? wavelengths
                                    : own_wavelengths[static_cast<std::size_t>(scene.mosaic->at(x, y))];

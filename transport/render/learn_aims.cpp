@@ -8,6 +8,7 @@
 
 #include "sampling/sampler.h"
 #include "transport/render/learn_caustics.h"
+#include "transport/render/learn_wavelengths.h"
 #include "transport/render/threads.h"
 #include "transport/technique/light.h"
 
@@ -66,7 +67,10 @@ void learn_aims(Plan& plan, std::uint64_t seed, int threads) {
 
 Plan make_learnt_plan(const Scene& scene, int threads, std::uint64_t seed) {
   Plan plan = make_plan(scene);
-  if (plan.techniques.size() > 1) learn_aims(plan, seed, threads);
+  if (plan.techniques.size() > 1) {
+    learn_aims(plan, seed, threads);
+    learn_wavelengths(plan, seed, threads);
+  }
   learn_caustics(plan, seed, threads);
   return plan;
 }

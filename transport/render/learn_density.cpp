@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "sensor/film/relative_error.h"
 #include "transport/render/pilot.h"
 #include "transport/render/threads.h"
 #include "transport/technique/path.h"
@@ -141,7 +142,7 @@ struct BlockCost {
 std::vector<BlockCost> costs_of(const std::vector<BlockNoise>& found) {
   BlockNoise film;
   for (const BlockNoise& block : found) film += block;
-  const double floor = kRelativeErrorFloor * std::pow(film.mean / film.pixels, 2);
+  const double floor = kUsualFloor * std::pow(film.mean / film.pixels, 2);
   std::vector<BlockCost> costs;
   for (const BlockNoise& block : found) {
     const double scale = std::pow(block.mean / block.pixels, 2) + floor;

@@ -24,9 +24,6 @@ inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
   return std::isfinite(sum) ? sum : 0;
 }
 
-/// relMSE is relative to a value's square and this much of the film's mean square.
-inline constexpr double kRelativeErrorFloor = 0.01;
-
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers
 /// are those of no render, so that what is chosen by it is independent of the samples it is chosen for; but

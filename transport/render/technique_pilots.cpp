@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sensor/film/relative_error.h"
 #include "transport/render/pilot.h"
 #include "transport/render/threads.h"
 #include "transport/technique/bidirectional.h"
@@ -200,7 +201,7 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Region& region = found.regions.at(i);
     const double scale =
-        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kRelativeErrorFloor * film_mean * film_mean : 0;
+        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kUsualFloor * film_mean * film_mean : 0;
     if (!(scale > 0)) continue;
     told.photon_variance += region.squares / (photons * pixels) / scale;
     if (!(region.pixels > 0)) continue;

@@ -100,7 +100,7 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
     photon.packet.throughput = SampledSpectrum();
     return {pick.light, start.cell};
   }
-  photon.packet = draw_packet(plan.wavelengths, a[2]);
+  photon.packet = draw_packet(plan.photon_wavelengths, a[2]);
   if (carries_polarisation(plan.scene))
     photon.packet.polarisation = polarisation_of_lamp(plan.scene.lights[pick.light], start.ray.direction);
   photon.packet.throughput = plan.scene.lights[pick.light].emission(photon.lambda_nm()) * start.factor;

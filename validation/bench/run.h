@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "scene/unreached.h"
+#include "sensor/film/relative_error.h"
 #include "validation/bench/suite.h"
 
 namespace abbe {
 
-/// The floors under r^2 of relRMSE that the rivals' figures were taken with, in mean^2.
-inline constexpr double kUsualFloor = 0.01;    ///< pbrt-v4's rows; also that of relMSE everywhere in Abbe.
-inline constexpr double kLowFloor = 0.0025;    ///< Mitsuba's rows.
+/// The floor under r^2 of relRMSE that Mitsuba's figures were taken with, in mean^2; pbrt-v4's have the usual
+/// one.
+inline constexpr double kLowFloor = 0.0025;
 inline constexpr double kTrimmedShare = 1e-3;  ///< Left out of `rel_mse_trimmed`.
 
 /// How to measure.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/image.h"
+#include "sensor/film/relative_error.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe {
@@ -58,7 +59,7 @@ struct Comparison {
 /// What `rel_mse` takes the mean of.
 struct ErrorMeasure {
   double relative = 1;             ///< Weight of r^2 in the denominator.
-  double floor = 0.01;             ///< Weight of m^2 there. A floor of 1 alone gives (RMSE/m)^2.
+  double floor = kUsualFloor;      ///< Weight of m^2 there. A floor of 1 alone gives (RMSE/m)^2.
   double trim = 0;                 ///< Share of the values left out, those of the largest quotient.
   bool subtract_variance = false;  ///< Take `Variance.*` of the reference from the square: with independent
                                    ///< noise, what is left is unbiased, and may be negative.

@@ -1,0 +1,82 @@
+// Where photons draw their wavelengths from, once pilots have shown what leaves noise.
+#include "tests/scenes/scene_fixture.h"
+#include "transport/render/learn_aims.h"
+#include "validation/bench/reference.h"
+#include "validation/statistics/image_difference.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kLargestZ = 5.6;  // see technique_test.cpp
+
+Scene prism(const std::vector<Override>& more = {}) {
+  std::vector<Override> settings{{"/sensor/resolution", "[160, 100]"}};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return test::load("prism_spot.json", settings);
+}
+
+// The same, but that photons draw wavelengths as camera paths do.
+Plan unlearnt(Plan plan) {
+  plan.photon_wavelengths = plan.wavelengths;
+  return plan;
+}
+
+// By how much the mean squared error is less, relative to a reference that both share.
+template <typename PictureOf>
+double gain(const Scene& scene, const Plan& plan, const PictureOf& picture_of) {
+  const Image reference = picture_of(test::film_of(scene, plan, 256));
+  const double before = rel_mse(picture_of(test::film_of(scene, unlearnt(plan), 16)), reference);
+  const double after = rel_mse(picture_of(test::film_of(scene, plan, 24)), reference);  // by other numbers
+  std::printf("error %.3f times less\n", before * 16 / (after * 24));
+  return before * 16 / (after * 24);
+}
+
+TEST(PhotonWavelengths, LeaveLessNoiseInTheColoursOfASpectrum) {
+  const Scene scene = prism();
+  const auto srgb = [&scene](const Film& film) { return linear_srgb(film.image(scene.film_planes())); };
+  EXPECT_GT(gain(scene, make_learnt_plan(scene, 2, 0), srgb), 1.15);
+}
+
+// Of filters, each pixel has the error of its own.
+TEST(PhotonWavelengths, LeaveLessNoiseBehindTheFiltersOfAMosaic) {
+  const Scene scene =
+      prism({{"/sensor",
+              R"({"resolution": [160, 100], "camera": "Nikon_D5100", "mosaic": [["R", "G"], ["G", "B"]]})"}});
+  const Plan plan = make_learnt_plan(scene, 2, 0);
+  const auto raw = [&scene](const Film& film) { return film.image(scene.film_planes()); };
+  EXPECT_GT(gain(scene, plan, raw), 1.3);
+}
+
+TEST(PhotonWavelengths, ChangeNoiseOnly) {
+  const Scene scene = prism();
+  const Plan plan = make_learnt_plan(scene, 2, 0);
+  const test::Comparison c =
+      test::compare_regions(test::film_of(scene, unlearnt(plan), 128), test::film_of(scene, plan, 120), 8);
+  std::printf("largest z %.2f, ratio of the means %.5f\n", c.largest_z, c.ratio);
+  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_NEAR(c.ratio, 1, 0.003);
+}
+
+TEST(PhotonWavelengths, AreTheSameOnAnyNumberOfThreads) {
+  const Scene scene = prism();
+  const Plan one = make_learnt_plan(scene, 1, 7);
+  const Plan four = make_learnt_plan(scene, 4, 7);
+  int learnt = 0;
+  for (int nm = 380; nm < 780; ++nm) {
+    ASSERT_EQ(one.photon_wavelengths.pdf(nm), four.photon_wavelengths.pdf(nm)) << nm;
+    learnt += one.photon_wavelengths.pdf(nm) != one.wavelengths.pdf(nm) ? 1 : 0;
+  }
+  EXPECT_GT(learnt, 390);
+}
+
+// Where all lanes go one way, each pixel sees all wavelengths.
+TEST(PhotonWavelengths, AreThoseOfCameraPathsWhereNothingDisperses) {
+  const Scene scene = prism({{"/materials/glass/dielectric/ior", "1.7"}});
+  const Plan plan = make_learnt_plan(scene, 2, 0);
+  ASSERT_FALSE(plan.traced_lights.empty());
+  for (int nm = 380; nm < 780; ++nm)
+    ASSERT_EQ(plan.photon_wavelengths.pdf(nm), plan.wavelengths.pdf(nm)) << nm;
+}
+
+}  // namespace
+}  // namespace abbe

@@ -1,0 +1,128 @@
+#include "transport/render/learn_wavelengths.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sampling/sampler.h"
+#include "sensor/film/relative_error.h"
+#include "spectral/rgb.h"
+#include "transport/path/dimensions.h"
+#include "transport/render/pilot.h"
+#include "transport/render/threads.h"
+#include "transport/technique/light.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::uint32_t kStage = 2;  // of photons of pilots: after those that aim
+constexpr std::uint32_t kPhotons = 1U << 15;
+constexpr std::uint32_t kBatch = 1U << 9;
+constexpr std::size_t kParts = 64;  // of the distribution
+constexpr int kBlocks = 32;         // along an edge of the film
+constexpr double kUnlearntShare = 0.1;
+
+/// A value that a photon adds to the film.
+struct Splat {
+  std::size_t part;   ///< Of the distribution, from which its hero was drawn.
+  std::size_t place;  ///< On the film.
+  double value;
+};
+
+/// The places at which errors are relative to the same mean: each channel of each block of pixels.
+class Places {
+ public:
+  explicit Places(const Scene& scene)
+      : camera_(scene.camera),
+        mosaic_(scene.mosaic ? &*scene.mosaic : nullptr),
+        channels_(scene.channels.size()),
+        across_(std::min(kBlocks, scene.camera.width)),
+        down_(std::min(kBlocks, scene.camera.height)) {
+    if (is_observer(scene.channels)) from_xyz_ = rgb_to_xyz(kRec709).inverse();
+  }
+
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_) * channels_;
+  }
+  /// Adds what a photon of that part brings there.
+  void add(std::size_t part, const FilmPoint& at, std::span<const double> values,
+           std::vector<Splat>& splats) const {
+    const int block = at.y * down_ / camera_.height * across_ + at.x * across_ / camera_.width;
+    const std::size_t first = static_cast<std::size_t>(block) * channels_;
+    if (mosaic_ != nullptr) {
+      splats.push_back({part, first + static_cast<std::size_t>(mosaic_->at(at.x, at.y)), values[0]});
+    } else if (from_xyz_) {
+      const LinearRgb rgb = multiply(*from_xyz_, {values[0], values[1], values[2]});
+      for (std::size_t k = 0; k < 3; ++k) splats.push_back({part, first + k, rgb[k]});
+    } else {
+      for (std::size_t k = 0; k < values.size(); ++k) splats.push_back({part, first + k, values[k]});
+    }
+  }
+
+ private:
+  const Camera& camera_;
+  const Mosaic* mosaic_;
+  std::size_t channels_;
+  int across_;
+  int down_;
+  std::optional<Matrix3> from_xyz_;  // to linear sRGB
+};
+
+using Splats = std::vector<std::vector<Splat>>;  // of each batch
+
+Splats trace_pilots(const Plan& plan, const Places& places, std::uint64_t seed, int threads) {
+  Splats batches(kPhotons / kBatch);
+  std::atomic<std::uint32_t> next = 0;
+  run_on_threads(threads, [&] {
+    RayCaster caster(plan.scene);
+    LightTracer tracer(plan, caster, 1);
+    std::vector<Sampler> photons;
+    for (std::uint32_t batch = next++; batch < batches.size(); batch = next++) {
+      photons.clear();
+      for (std::uint32_t i = 0; i < kBatch; ++i)
+        photons.emplace_back(seed, Purpose::pilot, kStage, 0, batch * kBatch + i);
+      tracer.trace(photons, [&](std::uint32_t i, const FilmPoint& at, std::span<const double> values) {
+        // The number that draws the hero is its place in the cumulative distribution.
+        const auto part = static_cast<std::size_t>(photons[i].group(kAimGroup)[2] * kParts);
+        if (magnitude(values) > 0) places.add(std::min(part, kParts - 1), at, values, batches[batch]);
+      });
+    }
+  });
+  return batches;
+}
+
+// Of the photons of each part the squares of what they add, relative to the squared means around and the
+// usual part of that of the film.
+std::vector<double> relative_squares(const Splats& batches, const Places& places) {
+  std::vector<double> means(places.count());
+  for (const std::vector<Splat>& batch : batches)
+    for (const Splat& splat : batch) means[splat.place] += splat.value;
+  const double mean = std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(means.size());
+  std::vector<double> squares(kParts);
+  for (const std::vector<Splat>& batch : batches)
+    for (const auto& [part, place, value] : batch)
+      squares[part] += value * value / (means[place] * means[place] + kUsualFloor * mean * mean);
+  return squares;
+}
+
+}  // namespace
+
+// Where photons drawn by p0 add values of relative mean square s at a wavelength, those drawn by p would
+// leave the variance of the integral of s p0^2 / p, of which p0 sqrt(s) makes the least.
+void learn_wavelengths(Plan& plan, std::uint64_t seed, int threads) {
+  if (!plan.scene.needs.dispersion || plan.traced_lights.empty()) return;
+  const Places places(plan.scene);
+  std::vector<double> importance = relative_squares(trace_pilots(plan, places, seed, threads), places);
+  for (double& part : importance) part = std::sqrt(part);
+  const double mean = std::accumulate(importance.begin(), importance.end(), 0.0) / kParts;
+  if (!(mean > 0 && std::isfinite(mean))) return;
+  for (double& part : importance) part = (1 - kUnlearntShare) * part / mean + kUnlearntShare;
+  plan.photon_wavelengths = plan.photon_wavelengths.weighed(importance);
+}
+
+}  // namespace abbe
