@@ -34,40 +34,33 @@ struct Splat {
   double value;
 };
 
-/// The places at which errors are relative to the same mean: each channel of each block of pixels.
+/// The places at which errors are relative to the same mean: each plane of each block of pixels.
 class Places {
  public:
   explicit Places(const Scene& scene)
       : camera_(scene.camera),
-        mosaic_(scene.mosaic ? &*scene.mosaic : nullptr),
-        channels_(scene.channels.size()),
+        planes_(scene.film_planes().size()),
         across_(std::min(kBlocks, scene.camera.width)),
         down_(std::min(kBlocks, scene.camera.height)) {
-    if (is_observer(scene.channels)) from_xyz_ = rgb_to_xyz(kRec709).inverse();
+    if (!scene.mosaic && is_observer(scene.channels)) from_xyz_ = rgb_to_xyz(kRec709).inverse();
   }
 
   [[nodiscard]] std::size_t count() const {
-    return static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_) * channels_;
+    return static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_) * planes_;
   }
   /// Adds what a photon of that part brings there.
   void add(std::size_t part, const FilmPoint& at, std::span<const double> values,
            std::vector<Splat>& splats) const {
     const int block = at.y * down_ / camera_.height * across_ + at.x * across_ / camera_.width;
-    const std::size_t first = static_cast<std::size_t>(block) * channels_;
-    if (mosaic_ != nullptr) {
-      splats.push_back({part, first + static_cast<std::size_t>(mosaic_->at(at.x, at.y)), values[0]});
-    } else if (from_xyz_) {
-      const LinearRgb rgb = multiply(*from_xyz_, {values[0], values[1], values[2]});
-      for (std::size_t k = 0; k < 3; ++k) splats.push_back({part, first + k, rgb[k]});
-    } else {
-      for (std::size_t k = 0; k < values.size(); ++k) splats.push_back({part, first + k, values[k]});
-    }
+    const std::size_t first = static_cast<std::size_t>(block) * planes_;
+    const LinearRgb rgb = from_xyz_ ? multiply(*from_xyz_, {values[0], values[1], values[2]}) : LinearRgb();
+    for (std::size_t k = 0; k < values.size(); ++k)
+      splats.push_back({part, first + k, from_xyz_ ? rgb[k] : values[k]});
   }
 
  private:
   const Camera& camera_;
-  const Mosaic* mosaic_;
-  std::size_t channels_;
+  std::size_t planes_;
   int across_;
   int down_;
   std::optional<Matrix3> from_xyz_;  // to linear sRGB
