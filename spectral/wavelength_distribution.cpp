@@ -100,12 +100,18 @@ std::vector<double> support_of(const Cells& cells, const std::vector<std::vector
   return support;
 }
 
-/// The float nearest to `wavelength_nm` that lies in [low, high), if there is one.
-float float_inside(double wavelength_nm, double low, double high) {
-  auto value = static_cast<float>(wavelength_nm);
-  if (static_cast<double>(value) < low) value = std::nextafter(value, std::numeric_limits<float>::max());
-  if (static_cast<double>(value) >= high) value = std::nextafter(value, 0.0F);
-  return value;
+/// The least float that is not below `wavelength_nm`.
+float float_from(double wavelength_nm) {
+  const auto value = static_cast<float>(wavelength_nm);
+  const bool below = static_cast<double>(value) < wavelength_nm;
+  return below ? std::nextafter(value, std::numeric_limits<float>::max()) : value;
+}
+
+SampledSpectrum larger(const SampledSpectrum& a, const SampledSpectrum& b) {
+  return SampledSpectrum::map(a, b, [](float x, float y) { return x > y ? x : y; });
+}
+SampledSpectrum smaller(const SampledSpectrum& a, const SampledSpectrum& b) {
+  return SampledSpectrum::map(a, b, [](float x, float y) { return x < y ? x : y; });
 }
 
 }  // namespace
@@ -136,10 +142,14 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
     cdf += density * cells.width(i);
   }
   cells_.push_back({cells.edges[last], 1, 0, 0});
-  make_guide();
+  prepare_to_sample();
 }
 
-void WavelengthDistribution::make_guide() {
+void WavelengthDistribution::prepare_to_sample() {
+  for (std::size_t i = 0; i + 1 < cells_.size(); ++i)
+    float_cells_.push_back({float_from(cells_[i].low_nm),
+                            std::nextafter(float_from(cells_[i + 1].low_nm), 0.0F),
+                            static_cast<float>(cells_[i].density)});
   const std::size_t size = kGuideFineness * (cells_.size() - 1);
   std::size_t cell = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -163,23 +173,49 @@ WavelengthDistribution WavelengthDistribution::weighed(std::span<const double> i
     weighed.cells_.push_back({cells_[i].low_nm, cdf, density, density > 0 ? 1 / density : 0});
   }
   weighed.cells_.push_back({cells_.back().low_nm, 1, 0, 0});
-  weighed.make_guide();
+  weighed.prepare_to_sample();
   return weighed;
 }
 
+// In loops of which all but the look-up itself is done on whole vectors.
 SampledWavelengths WavelengthDistribution::sample(float u) const {
+  LaneNumbers v;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    v[lane] = static_cast<double>(u) + static_cast<double>(lane) / kLanes;
+  for (double& x : v) x = x >= 1 ? x - 1 : x;
+  const std::array<std::uint32_t, kLanes> cell = cells_at(v);
   SampledSpectrum::Values lambda_nm;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const Cell& in = cells_[cell[lane]];
+    lambda_nm[lane] = static_cast<float>(in.low_nm + (v[lane] - in.cdf) * in.nm_per_cdf);
+  }
+  SampledSpectrum::Values least;
+  SampledSpectrum::Values most;
   SampledSpectrum::Values pdf;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    double v = static_cast<double>(u) + static_cast<double>(lane) / kLanes;
-    if (v >= 1) v -= 1;
-    std::size_t cell = guide_[static_cast<std::size_t>(v * static_cast<double>(guide_.size()))];
-    while (cells_[cell + 1].cdf <= v) ++cell;
-    const auto [low, cdf, density, nm_per_cdf] = cells_[cell];
-    lambda_nm[lane] = float_inside(low + (v - cdf) * nm_per_cdf, low, cells_[cell + 1].low_nm);
-    pdf[lane] = static_cast<float>(density);
+    const FloatCell& in = float_cells_[cell[lane]];
+    least[lane] = in.least_nm;
+    most[lane] = in.most_nm;
+    pdf[lane] = in.density;
   }
-  return {SampledSpectrum(lambda_nm), SampledSpectrum(pdf)};
+  const SampledSpectrum from = larger(SampledSpectrum(lambda_nm), SampledSpectrum(least));
+  return {smaller(from, SampledSpectrum(most)), SampledSpectrum(pdf)};
+}
+
+// The guide leads to the cell or to one soon before it; the first step from there is a matter of chance, and
+// so taken without a branch.
+std::array<std::uint32_t, kLanes> WavelengthDistribution::cells_at(const LaneNumbers& cdf) const {
+  const auto size = static_cast<double>(guide_.size());
+  std::array<std::int32_t, kLanes> entry;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) entry[lane] = static_cast<std::int32_t>(cdf[lane] * size);
+  std::array<std::uint32_t, kLanes> cell;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    std::uint32_t at = guide_[static_cast<std::uint32_t>(entry[lane])];
+    at += cells_[at + 1].cdf <= cdf[lane] ? 1U : 0U;
+    while (cells_[at + 1].cdf <= cdf[lane]) ++at;
+    cell[lane] = at;
+  }
+  return cell;
 }
 
 double WavelengthDistribution::pdf(double wavelength_nm) const {

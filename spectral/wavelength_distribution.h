@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,7 +40,8 @@ class WavelengthDistribution {
 
  private:
   WavelengthDistribution() = default;
-  void make_guide();
+  // From the cells makes what else there is.
+  void prepare_to_sample();
 
   // From `low_nm` to the next cell's; the last one only ends the range, with a cdf of 1.
   struct Cell {
@@ -48,7 +50,19 @@ class WavelengthDistribution {
     double density;
     double nm_per_cdf;  // 1/density
   };
+  // The same for packets: the floats that lie in the cell, or, where there are none, the last one before it
+  // as `most_nm`.
+  struct FloatCell {
+    float least_nm;
+    float most_nm;
+    float density;
+  };
+  using LaneNumbers = std::array<double, kLanes>;
+  // The cells that hold these values of the cumulative distribution.
+  [[nodiscard]] std::array<std::uint32_t, kLanes> cells_at(const LaneNumbers& cdf) const;
+
   std::vector<Cell> cells_;
+  std::vector<FloatCell> float_cells_;
   std::vector<std::uint32_t> guide_;  // per i of its size: the cell that holds a cdf of i/size
 };
 
