@@ -69,6 +69,12 @@ void require_valid(std::span<const Knot> knots) {
   }
 }
 
+/// How far the lanes are from the lower end of the range, those beyond its ends being taken there.
+SampledSpectrum offsets(const SampledSpectrum& wavelengths_nm) {
+  const auto below = SampledSpectrum::map(wavelengths_nm, [](float nm) { return std::min(kHigh, nm); });
+  return SampledSpectrum::map(below, [](float nm) { return std::max(kLow, nm); }) - SampledSpectrum(kLow);
+}
+
 /// Wavelengths where either curve bends or jumps, ascending.
 std::vector<double> breakpoints(const Curve& a, const Curve& b) {
   std::vector<double> all;
@@ -124,10 +130,8 @@ double Curve::operator()(double wavelength_nm) const {
 
 SampledSpectrum Curve::operator()(const SampledSpectrum& wavelengths_nm) const {
   if (is_constant()) return SampledSpectrum(static_cast<float>(knots_.front().value));
-  // In loops of which all but the look-up itself are done on whole vectors.
-  const SampledSpectrum::Values offset = SampledSpectrum::map(wavelengths_nm, [](float nm) {
-                                           return std::max(kLow, std::min(kHigh, nm)) - kLow;
-                                         }).values();
+  // All but the look-up itself is done on whole vectors.
+  const SampledSpectrum::Values offset = offsets(wavelengths_nm).values();
   std::array<std::int32_t, kLanes> index;
   SampledSpectrum::Values value;
   SampledSpectrum::Values slope;
@@ -135,12 +139,17 @@ SampledSpectrum Curve::operator()(const SampledSpectrum& wavelengths_nm) const {
   for (std::size_t i = 0; i < kLanes; ++i) index[i] = static_cast<std::int32_t>(offset[i]);
   for (std::size_t i = 0; i < kLanes; ++i) within[i] = offset[i] - static_cast<float>(index[i]);
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const PacketCell& cell = packet_cells_[static_cast<std::size_t>(index[i])];
+    const PacketCell& cell = packet_cells_[static_cast<std::uint32_t>(index[i])];
     value[i] = cell.value;
     slope[i] = cell.slope;
   }
   const SampledSpectrum values = SampledSpectrum(value) + SampledSpectrum(slope) * SampledSpectrum(within);
-  if (!std::isnan(values.sum())) return values;
+  return values.has_nan() ? searched(values, wavelengths_nm) : values;
+}
+
+// Few cells have inner knots; out of the others' way.
+[[gnu::noinline]] SampledSpectrum Curve::searched(const SampledSpectrum& values,
+                                                  const SampledSpectrum& wavelengths_nm) const {
   return SampledSpectrum::map(values, wavelengths_nm, [this](float value, float nm) {
     return std::isnan(value) ? static_cast<float>((*this)(static_cast<double>(nm))) : value;
   });

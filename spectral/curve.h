@@ -63,6 +63,10 @@ class Curve {
     float value;
     float slope;
   };
+  // The values found so far, those of cells that are searched being NaN; these as well.
+  [[nodiscard]] SampledSpectrum searched(const SampledSpectrum& values,
+                                         const SampledSpectrum& wavelengths_nm) const;
+
   std::vector<Knot> knots_;
   std::vector<Cell> cells_;
   std::vector<PacketCell> packet_cells_;

@@ -59,9 +59,8 @@ class SampledSpectrum {
   [[nodiscard]] float max() const {
     return fold([](float a, float b) { return a < b ? b : a; });
   }
-  [[nodiscard]] bool is_zero() const {
-    return fold([](float a, float b) { return std::abs(a) + std::abs(b); }) == 0;
-  }
+  [[nodiscard]] bool is_zero() const { return !any(lanes_ != Lanes{}); }
+  [[nodiscard]] bool has_nan() const { return any(lanes_ != lanes_); }
 
   /// `f` applied lane by lane.
   template <typename F>
@@ -84,6 +83,19 @@ class SampledSpectrum {
   using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
 
   explicit SampledSpectrum(const Lanes& lanes) : lanes_(lanes) {}
+
+  // Whether a comparison, which leaves all bits of a lane set or none, holds in any: there is an instruction
+  // for eight.
+  template <typename Verdicts>
+  [[nodiscard]] static bool any(const Verdicts& verdicts) {
+    if constexpr (sizeof(Verdicts) == 8 * sizeof(float)) {
+      return __builtin_ia32_movmskps256(std::bit_cast<Lanes>(verdicts)) != 0;
+    } else {
+      bool found = false;
+      for (int lane = 0; lane < kLanes; ++lane) found = found || verdicts[lane] != 0;
+      return found;
+    }
+  }
 
   // `f` over all lanes, halves upon halves: three steps that each wait for the one before, instead of seven.
   template <typename F>
