@@ -32,7 +32,8 @@ double density_by_area(const AreaLight& light, const Imath::V3d& d, double dista
 
 // 1 - cos of the half angle a sphere is seen under from outside. A point on the sphere itself, up to
 // rounding, is not outside: the whole sphere may lie before it.
-std::optional<double> cone_height(const Sphere& sphere, const Imath::V3d& point) {
+[[gnu::always_inline]] inline std::optional<double> cone_height(const Sphere& sphere,
+                                                                const Imath::V3d& point) {
   const double distance = (point - sphere.center).length();
   const double rounding = 16 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
                           std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
@@ -62,7 +63,9 @@ std::optional<SphericalRectangle> wide_rectangle(const AreaLight& light, const I
   if (!light.flat || !light.flat->rectangle) return std::nullopt;
   return SphericalRectangle::seen_from(*light.flat->rectangle, point);
 }
-std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
+// In line, as an optional number that is returned is stored in pieces and loaded as a whole, which waits for
+// memory.
+[[gnu::always_inline]] inline std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
   const auto* sphere = plain<Sphere>(shape);
   if (sphere == nullptr) return std::nullopt;
   return cone_height(*sphere, point);
@@ -72,9 +75,8 @@ SurfacePoint sample_area(const AreaLight& light, const Shape& shape, Imath::V2f 
   return light.flat ? sample_area(light.flat->quad, u) : sample_area(shape, light.triangle_cdf, u);
 }
 
-// Where the shape of a light stands at some time; nothing of one that stands still.
-std::optional<Placement> pose_of(const Shape& shape, float time) {
-  if (motion_of(shape) == nullptr) return std::nullopt;
+// Where the shape of a light that moves stands at some time.
+Placement pose_of(const Shape& shape, float time) {
   return placement_at(*std::get<PlacedShape>(shape).at, static_cast<double>(time));
 }
 
@@ -99,10 +101,10 @@ AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const I
 
 AreaSample sample_area_light_at(float time, const AreaLight& light, const Shape& shape,
                                 const Imath::V3d& point, Imath::V2f u) {
-  const std::optional<Placement> moved = pose_of(shape, time);
-  if (!moved) return sample_area_light(light, shape, point, u);
-  AreaSample sample = sample_area_light(light, shape, point * moved->to_prototype, u);
-  sample.at = to_world(*moved, sample.at);
+  if (motion_of(shape) == nullptr) return sample_area_light(light, shape, point, u);
+  const Placement moved = pose_of(shape, time);
+  AreaSample sample = sample_area_light(light, shape, point * moved.to_prototype, u);
+  sample.at = to_world(moved, sample.at);
   return sample;
 }
 
@@ -192,8 +194,8 @@ struct Arrival {
 float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const Arrival& at) {
   const Shape& shape = shapes[emitter.shape].shape;
   const Imath::V3d from(at.point);
-  const std::optional<Placement> moved = pose_of(shape, at.time);
-  const Imath::V3d seen_from = moved ? from * moved->to_prototype : from;
+  const Imath::V3d seen_from =
+      motion_of(shape) == nullptr ? from : from * pose_of(shape, at.time).to_prototype;
   if (const auto height = wide_cone(shape, seen_from))
     return static_cast<float>(1 / (2 * std::numbers::pi * *height));
   if (const auto rectangle = wide_rectangle(emitter, seen_from))
@@ -337,7 +339,7 @@ EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeI
                 "a light at infinity has no point to emit from");
   const Shape& shape = shapes[emitter->shape].shape;
   SurfacePoint at = sample_area(*emitter, shape, u);
-  if (const std::optional<Placement> moved = pose_of(shape, time)) at = to_world(*moved, at);
+  if (motion_of(shape) != nullptr) at = to_world(pose_of(shape, time), at);
   return {at.point, at.normal, static_cast<float>(1 / emitter->area)};
 }
 

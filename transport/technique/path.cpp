@@ -191,55 +191,52 @@ void PathTracer::add_met(CameraPath& path, std::uint32_t light, const Imath::V3f
       pointer_to(seen_of(scene_.lights[light], path.packet, towards)));
 }
 
-std::optional<PathTracer::ChosenLight> PathTracer::choose_light(const LightSampleContext& place,
-                                                                const std::array<float, 4>& u,
-                                                                float time) const {
-  if (plan_.path_lights.empty()) return std::nullopt;
+PathTracer::ChosenLight PathTracer::choose_light(const LightSampleContext& place,
+                                                 const std::array<float, 4>& u, float time) const {
   const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place.point, place.normal(), u[0]);
   const Light& light = scene_.lights[pick.light];
-  const std::optional<LightSample> towards =
-      sample_light(light, scene_.shapes, place.point, {u[1], u[2]}, time);
-  if (!towards) return std::nullopt;
-  return ChosenLight{pick.light, light, *towards, pick.probability * towards->pdf};
+  ChosenLight chosen{pick.light, light, sample_light(light, scene_.shapes, place.point, {u[1], u[2]}, time),
+                     pick.probability};
+  if (chosen.towards) chosen.pdf *= chosen.towards->pdf;
+  return chosen;
 }
 
 void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
-  if (!weights_.connects()) return;
-  const std::optional<ChosenLight> chosen = choose_light(vertex.place(), u, path.ray.time);
-  if (!chosen) return;
-  const Imath::V3f& world = chosen->towards.wi;
+  if (!connects()) return;
+  const ChosenLight chosen = choose_light(vertex.place(), u, path.ray.time);
+  if (!chosen.towards) return;
+  const Imath::V3f& world = chosen.towards->wi;
   const auto [wi, f, crosses] = vertex.towards(world, kMode);
   if (f.is_zero()) return;
   SampledSpectrum contribution =
-      f * (path.packet.throughput * emission_from(chosen->light, world, path.lambda_nm()) *
-           (std::abs(wi.z) * chosen->towards.factor));
+      f * (path.packet.throughput * emission_from(chosen.light, world, path.lambda_nm()) *
+           (std::abs(wi.z) * chosen.towards->factor));
   std::optional<StokesSpectrum> seen;
-  if (path.packet.polarisation) seen = measured(path, vertex.mueller(wi, false), chosen->light, world);
-  SampledSpectrum scattering_pdf =
-      chosen->light.is_delta() ? SampledSpectrum(0.0F) : unguided_pdf(vertex, wi);
+  if (path.packet.polarisation) seen = measured(path, vertex.mueller(wi, false), chosen.light, world);
+  SampledSpectrum scattering_pdf = chosen.light.is_delta() ? SampledSpectrum(0.0F) : unguided_pdf(vertex, wi);
   if (path.events == kMeterEvent && !accepted(world, vertex.hit.normal, contribution, scattering_pdf)) return;
-  if (!path.caustics.empty() && !chosen->light.is_delta())
+  if (!path.caustics.empty() && !chosen.light.is_delta())
     scattering_pdf = mixed_pdf(scattering_pdf, path.caustics, vertex.hit.point, world);
   const Ray ray = spawn(vertex.hit, world, path.ray.time);
   const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
   if (walks_.has_free_paths()) {
     Surroundings around = path.around;
     if (crosses) around.enter(scene_, vertex.behind(scene_, around.inside), path.lambda_nm());
-    connect_through_media(path, *chosen, contribution, scattering_pdf, ray, around, cos_film,
+    connect_through_media(path, chosen, contribution, scattering_pdf, ray, around, cos_film,
                           pointer_to(seen));
     return;
   }
   const float weight =
-      weights_.of_connection(path.packet.lane_pdf * scattering_pdf, chosen->pdf, path.packet.lane_pdf.sum());
+      weights_.of_connection(path.packet.lane_pdf * scattering_pdf, chosen.pdf, path.packet.lane_pdf.sum());
   if (!std::isfinite(weight)) return;
   if (crosses)
     medium_at(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm())
-        .attenuate(contribution, chosen->towards.distance);
+        .attenuate(contribution, chosen.towards->distance);
   else
-    path.around.medium.attenuate(contribution, chosen->towards.distance);
-  connections_.push_back({path.path, {chosen->index, path.events + 1}, contribution * weight, cos_film});
+    path.around.medium.attenuate(contribution, chosen.towards->distance);
+  connections_.push_back({path.path, {chosen.index, path.events + 1}, contribution * weight, cos_film});
   if (seen) seen_.push_back(*seen);
-  ways_.push_back(way_to(ray, chosen->towards));
+  ways_.push_back(way_to(ray, *chosen.towards));
 }
 
 // A meter counts what comes within an angle as a white surface would what comes from its hemisphere: that is

@@ -87,11 +87,11 @@ class PathTracer {
   // Paths that take each step together: as many as a near cache holds.
   static constexpr std::uint32_t kTogether = 64;
 
-  // A light, a direction towards it from a point, and the density of both.
+  // A light, a direction towards it from a point, if it can reach that, and the density of both.
   struct ChosenLight {
     std::uint32_t index;
     const Light& light;
-    LightSample towards;
+    std::optional<LightSample> towards;  // where it was made: copying what was just stored waits for memory
     float pdf;
   };
   struct Connection {
@@ -126,8 +126,10 @@ class PathTracer {
   // Whether there is more to find than what a meter sees directly.
   bool start(const PixelSample& sample, const CameraRay& ray, CameraPath& path);
   bool part_lanes(const CameraRay& ray, CameraPath& path);
-  [[nodiscard]] std::optional<ChosenLight> choose_light(const LightSampleContext& place,
-                                                        const std::array<float, 4>& u, float time) const;
+  // Whether paths are connected to lights that are chosen for their places.
+  [[nodiscard]] bool connects() const { return weights_.connects() && !plan_.path_lights.empty(); }
+  [[nodiscard]] ChosenLight choose_light(const LightSampleContext& place, const std::array<float, 4>& u,
+                                         float time) const;
   [[nodiscard]] float pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const;
   [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
                                      const Imath::V3f& normal) const;

@@ -44,33 +44,33 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   const float scattered = (path.packet.lane_pdf * passed * medium.extinction_per_m).sum() /
                           path.packet.lane_pdf.sum() *
                           plan_.path_lights.probability(pick.light, point, nullptr) * towards->pdf;
-  connect_through_media(path, {pick.light, light, *towards, pick.probability * part->pdf(t) + scattered},
+  connect_through_media(path, {pick.light, light, towards, pick.probability * part->pdf(t) + scattered},
                         contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
                         path.at.cos_film, pointer_to(seen));
 }
 
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
-  if (!weights_.connects()) return;
-  std::optional<ChosenLight> chosen = choose_light({path.ray.origin, std::nullopt}, u, path.ray.time);
-  if (!chosen) return;
+  if (!connects()) return;
+  ChosenLight chosen = choose_light({path.ray.origin, std::nullopt}, u, path.ray.time);
+  if (!chosen.towards) return;
   if (connects_along() && path.stretch.length > 0)
-    chosen->pdf +=
-        pdf_along(path.stretch, (path.ray.origin - path.stretch.ray.origin).length(), chosen->index) *
+    chosen.pdf +=
+        pdf_along(path.stretch, (path.ray.origin - path.stretch.ray.origin).length(), chosen.index) *
         path.stretch.lanes / path.packet.lane_pdf.sum();
-  const Imath::V3f& wi = chosen->towards.wi;
+  const Imath::V3f& wi = chosen.towards->wi;
   const SampledSpectrum turned(pdf(phase, path.ray.direction, wi));
   const SampledSpectrum contribution =
       turned *
-      (path.packet.throughput * emission_from(chosen->light, wi, path.lambda_nm()) * chosen->towards.factor);
+      (path.packet.throughput * emission_from(chosen.light, wi, path.lambda_nm()) * chosen.towards->factor);
   std::optional<StokesSpectrum> seen;
-  SampledSpectrum scattering_pdf = chosen->light.is_delta() ? SampledSpectrum(0.0F) : turned;
+  SampledSpectrum scattering_pdf = chosen.light.is_delta() ? SampledSpectrum(0.0F) : turned;
   if (path.packet.polarisation) {
     const Polarisation rows = path.packet.polarisation->through(
         mueller(phase, path.ray.direction, wi), light_travels(path.ray.direction, kMode), kMode);
-    seen = rows.of(polarisation_of_lamp(chosen->light, -wi), -wi);
+    seen = rows.of(polarisation_of_lamp(chosen.light, -wi), -wi);
     scattering_pdf *= rows.of_unpolarised().i;  // it is drawn as polarised light has it
   }
-  connect_through_media(path, *chosen, contribution, scattering_pdf,
+  connect_through_media(path, chosen, contribution, scattering_pdf,
                         ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film,
                         pointer_to(seen));
 }
@@ -83,7 +83,7 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
                                                          const Ray& ray, const Surroundings& around,
                                                          float cos_film, const StokesSpectrum* seen) {
   const std::optional<Transmission> way = unblocked_transmission(
-      scene_, caster_, way_to(ray, chosen.towards), ray, around, path.lambda_nm(), chosen.towards.distance);
+      scene_, caster_, way_to(ray, *chosen.towards), ray, around, path.lambda_nm(), chosen.towards->distance);
   if (!way) return;
   const float weight = weights_.of_connection(path.packet.lane_pdf * scattering_pdf * way->density,
                                               chosen.pdf, path.packet.lane_pdf.sum());
