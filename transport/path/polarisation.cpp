@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <new>
+#include <vector>
 
 namespace abbe {
 namespace {
@@ -22,7 +25,50 @@ float ratio(float part, float whole) {
   return whole > 0 ? part / whole : 0.0F;
 }
 
+// What a thread has been given back, for what it makes next: to ask for memory that is aligned to a vector
+// takes as long as an event of a path.
+class SpareMemory {
+ public:
+  explicit SpareMemory(std::align_val_t alignment) : alignment_(alignment) { spare_.reserve(kMost); }
+  SpareMemory(const SpareMemory&) = delete;
+  SpareMemory& operator=(const SpareMemory&) = delete;
+  ~SpareMemory() {
+    for (void* memory : spare_) ::operator delete(memory, alignment_);
+  }
+
+  void* take(std::size_t size) {
+    if (spare_.empty()) return ::operator new(size, alignment_);
+    void* memory = spare_.back();
+    spare_.pop_back();
+    return memory;
+  }
+  void give_back(void* memory) {
+    if (spare_.size() < kMost)
+      spare_.push_back(memory);
+    else
+      ::operator delete(memory, alignment_);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 256;  // another thread may have made what this one destroys
+  std::align_val_t alignment_;
+  std::vector<void*> spare_;
+};
+
+SpareMemory& spare_memory() {
+  thread_local SpareMemory spare{std::align_val_t{alignof(Polarisation)}};
+  return spare;
+}
+
 }  // namespace
+
+void* Polarisation::operator new(std::size_t size, std::align_val_t /*alignment*/) {
+  return spare_memory().take(size);
+}
+
+void Polarisation::operator delete(void* memory, std::align_val_t /*alignment*/) {
+  spare_memory().give_back(memory);
+}
 
 Polarisation Polarisation::all_elements(const Imath::V3f& axis) {
   const SampledSpectrum one(1.0F);

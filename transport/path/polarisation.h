@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <new>
 #include <optional>
 
 #include "materials/bsdf/event.h"
@@ -26,6 +28,9 @@ class Polarisation {
  public:
   /// Unpolarised light, or a sensor that measures power alone.
   Polarisation() = default;
+  /// Each path has one of its own: their memory is kept by threads, see `SpareMemory`.
+  static void* operator new(std::size_t size, std::align_val_t alignment);
+  static void operator delete(void* memory, std::align_val_t alignment);
   /// A Stokes vector, or row.
   Polarisation(const Imath::V3f& axis, const StokesSpectrum& values)
       : axis_(axis), neutral_(false), rows_{values} {}
