@@ -33,30 +33,57 @@ V3f axis_from(const V3f& point, const LobeTarget& target) {
   return (target.at - point * target.near).normalized();
 }
 
-// tan^2 of the angle between two unit vectors, infinite from a right angle on: of a small one by their
-// difference, which keeps its digits.
-float tan2_between(const V3f& a, const V3f& b) {
-  const float cosine = a.dot(b);
-  if (!(cosine > 0)) return std::numeric_limits<float>::infinity();
-  return (a - b).length2() / 2 * (1 + cosine) / (cosine * cosine);
-}
-
 // A point on a photon's way back, at a distance that may be infinite.
 LobeTarget target_of(const CausticPhoton& photon, float distance) {
   if (!std::isfinite(distance)) return {photon.from, 0};
   return {photon.point + photon.from * distance, 1};
 }
 
+// Without the shares of any.
+std::vector<LobePacket> packets_of(std::span<const LobeTarget> targets) {
+  std::vector<LobePacket> lobes((targets.size() + CausticLobes::kTogether - 1) / CausticLobes::kTogether);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    LobePacket& some = lobes[i / CausticLobes::kTogether];
+    const std::size_t k = i % CausticLobes::kTogether;
+    some.x[k] = targets[i].at.x;
+    some.y[k] = targets[i].at.y;
+    some.z[k] = targets[i].at.z;
+    some.near[k] = targets[i].near;
+  }
+  return lobes;
+}
+
+// tan^2 of the angles between a photon's way and the axes of lobes, infinite from a right angle on: of small
+// ones by the difference of the unit vectors, which keeps its digits.
+LobePacket::Numbers tan2_to_axes(const CausticPhoton& photon, const LobePacket& lobes) {
+  LobePacket::Numbers tan2;
+  for (std::size_t k = 0; k < CausticLobes::kTogether; ++k) {
+    const V3f to(lobes.x[k] - photon.point.x * lobes.near[k], lobes.y[k] - photon.point.y * lobes.near[k],
+                 lobes.z[k] - photon.point.z * lobes.near[k]);
+    const V3f axis = to / std::sqrt(to.length2());
+    const float cosine = photon.from.dot(axis);
+    const V3f apart = photon.from - axis;
+    // Fused as for a single axis: left to itself the compiler would fuse another of the products here.
+    const float chord2 = std::fma(apart.z, apart.z, std::fma(apart.x, apart.x, apart.y * apart.y));
+    const float known = chord2 / 2 * (1 + cosine) / (cosine * cosine);
+    tan2[k] = cosine > 0 ? known : std::numeric_limits<float>::infinity();
+  }
+  return tan2;
+}
+
 // The mean logarithm of the angle between each photon's way and the nearest axis of the others: how sharply
 // they predict one another.
 float log_spread(Photons photons, std::span<const LobeTarget> targets) {
   constexpr float kWidest = 10;  // of a tangent: beyond, they tell nothing
+  const std::vector<LobePacket> lobes = packets_of(targets);
   float sum = 0;
   for (std::size_t i = 0; i < photons.size(); ++i) {
     float nearest = kWidest * kWidest;
-    for (std::size_t j = 0; j < photons.size(); ++j)
-      if (j != i)
-        nearest = std::min(nearest, tan2_between(photons[i].from, axis_from(photons[i].point, targets[j])));
+    for (std::size_t j = 0; j < targets.size();) {
+      const LobePacket::Numbers tan2 = tan2_to_axes(photons[i], lobes[j / CausticLobes::kTogether]);
+      for (std::size_t k = 0; k < tan2.size() && j < targets.size(); ++k, ++j)
+        if (j != i) nearest = std::min(nearest, tan2[k]);
+    }
     sum += std::log(std::max(nearest, kLeastWidth * kLeastWidth)) / 2;
   }
   return sum / static_cast<float>(photons.size());
@@ -96,16 +123,9 @@ float gain(Photons photons, const CausticLobes& lobes) {
 std::vector<LobePacket> lobes_of(Photons photons, std::span<const LobeTarget> targets) {
   float whole = 0;
   for (const CausticPhoton& photon : photons) whole += photon.power;
-  std::vector<LobePacket> lobes((targets.size() + CausticLobes::kTogether - 1) / CausticLobes::kTogether);
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    LobePacket& some = lobes[i / CausticLobes::kTogether];
-    const std::size_t k = i % CausticLobes::kTogether;
-    some.x[k] = targets[i].at.x;
-    some.y[k] = targets[i].at.y;
-    some.z[k] = targets[i].at.z;
-    some.near[k] = targets[i].near;
-    some.share[k] = photons[i].power / whole;
-  }
+  std::vector<LobePacket> lobes = packets_of(targets);
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    lobes[i / CausticLobes::kTogether].share[i % CausticLobes::kTogether] = photons[i].power / whole;
   return lobes;
 }
 
