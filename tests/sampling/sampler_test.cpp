@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -75,6 +76,56 @@ TEST(Sampler, IntegratesASmoothFunctionFasterThanChance) {
   }
   // Independent points would have a standard error of sqrt((4/3)^4 - 1)/32 = 0.046.
   EXPECT_NEAR(sum / kCount, 1, 0.005);
+}
+
+TEST(Sampler, TwoGroupsAreThoseOfEach) {
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const auto [first, second] = at(i * 7919, i).two_groups(i);
+    EXPECT_EQ(first, at(i * 7919, i).group(i));
+    EXPECT_EQ(second, at(i * 7919, i).group(i + 1));
+  }
+}
+
+// [Burley2020] bit by bit: the index is shuffled and each dimension of its point scrambled, both between
+// reversals of bits.
+std::uint32_t reversed(std::uint32_t x) {
+  std::uint32_t y = 0;
+  for (int bit = 0; bit < 32; ++bit) y |= ((x >> bit) & 1U) << (31 - bit);
+  return y;
+}
+std::uint32_t mixed(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352dU;
+  x = (x ^ (x >> 15)) * 0x846ca68bU;
+  return x ^ (x >> 16);
+}
+std::uint32_t combined(std::uint32_t a, std::uint32_t b) {
+  return mixed(a ^ (mixed(b) + 0x9e3779b9U));
+}
+std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed) {
+  x = reversed(x) + seed;
+  for (const std::uint32_t factor : {0x6c50b47cU, 0xb82f1e52U, 0xc7afe638U, 0x8d22f6e6U}) x ^= x * factor;
+  return reversed(x);
+}
+// The first two dimensions of Sobol's sequence: bits reversed, and Pascal's triangle.
+std::array<std::uint32_t, 2> sobol(std::uint32_t i) {
+  std::array<std::uint32_t, 2> point{};
+  std::uint32_t column = 1U << 31;
+  for (int bit = 0; bit < 32; ++bit, column ^= column >> 1)
+    if ((i >> bit) & 1U) point = {point[0] ^ 1U << (31 - bit), point[1] ^ column};
+  return point;
+}
+
+TEST(Sampler, NumbersAreThoseOfItsDefinition) {
+  std::uint32_t index = 1;
+  for (std::uint32_t group = 0; group < 1000; ++group, index = mixed(index)) {
+    std::uint32_t key = 42;
+    for (const std::uint32_t part : {0U, 1U, 3U, 7U, group}) key = combined(key, part);
+    const auto point = sobol(owen_scrambled(index, key));
+    const auto u = at(index, 7, 3).group(group);
+    for (std::uint32_t d = 0; d < 2; ++d)
+      ASSERT_EQ(u[d], static_cast<float>(owen_scrambled(point[d], combined(key, d + 1)) >> 8) * 0x1p-24F)
+          << "group " << group << " dimension " << d;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace abbe {
 namespace {
 
@@ -17,9 +19,14 @@ TEST(SampledSpectrum, FoldsEveryLaneOnce) {
   for (int lane = 0; lane < kLanes; ++lane) {
     EXPECT_EQ((counting() + SampledSpectrum::only(lane, 100)).max(), counting()[lane] + 100);
     EXPECT_FALSE(SampledSpectrum::only(lane, -1e-30F).is_zero()) << lane;
+    const SampledSpectrum nan = SampledSpectrum::only(lane, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_TRUE(nan.has_nan()) << lane;
+    EXPECT_FALSE(nan.is_zero()) << lane;
   }
   EXPECT_EQ((counting() * -1).max(), -1);
   EXPECT_TRUE((counting() * 0).is_zero());
+  EXPECT_TRUE((counting() * -0.0F).is_zero());
+  EXPECT_FALSE((counting() * std::numeric_limits<float>::infinity()).has_nan());
 }
 
 TEST(SampledSpectrum, ActsLaneByLane) {
