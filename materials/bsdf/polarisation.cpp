@@ -76,11 +76,7 @@ struct MuellerOf {
   Matrix operator()(const RoughConductorBsdf& metal) const {
     const RelativeIndex at = relative_index(*metal.index, metal.outside, metal.wavelengths_nm);
     const float cos = mirror_cosine(wo, wi);
-    return rough(metal, [&](int lane) { return of_facet(cos, at.n[lane], at.k[lane]); });
-  }
-  // Not in line, so that it rounds as one lane does.
-  [[gnu::noinline]] static Elements of_facet(float cos, float n, float k) {
-    return reflection_mueller(cos, n, k);
+    return rough(metal, [&](int lane) { return reflection_mueller(cos, at.n[lane], at.k[lane]); });
   }
   Matrix operator()(const RoughDielectricBsdf& glass) const {
     return rough(glass, [&](int lane) {
