@@ -48,7 +48,7 @@ std::string text_of(const Room& room) {
     {{"quad": {{"corner": [-2, -2, 0], "edge_u": [0, 0, 2], "edge_v": [4, 0, 0]}}, "material": "grey"}},
     {{"quad": {{"corner": [-2, 2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 0, 2]}}, "material": "grey"}}{}
   ],
-  "render": {{"integrator": "path", "samples": {}, "max_depth": 6}}
+  "render": {{"integrator": "path", "samples": {}, "max_depth": 6, "polarisation": "off"}}
 }})",
                      r.camera, kSide, kSide, r.filters, r.matter, r.sphere, kSamples);
 }
@@ -98,7 +98,8 @@ const Profile& plain() {
 
 constexpr const char* kGlass = R"(, "glass": {"dielectric": {"ior": "N-BK7"}})";
 
-// Balls outside the room, so that geometry costs both alike: Embree keeps spheres apart from triangles.
+// Polarisation apart, which paths carry from their start wherever a scene may ask for it. Balls outside the
+// room, so that geometry costs both alike: Embree keeps spheres apart from triangles.
 TEST(NeedsCost, MatterThatPathsDoNotMeetCostsThemNothing) {
   const auto ball = [](const char* material) {
     return profile(
