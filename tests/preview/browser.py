@@ -7,6 +7,7 @@ browser.py PROGRAM SCENE
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -130,4 +131,7 @@ def main(program: str, scene: str) -> None:
 
 
 if __name__ == "__main__":
+    if not shutil.which("chromium"):
+        print("skipped: needs chromium")
+        sys.exit(77)
     main(*sys.argv[1:])

@@ -1,6 +1,7 @@
 # Opens the report of a quick validation in a browser: every picture shows, nothing is fetched, the console stays silent.
 # browser.sh PROGRAM
 set -euo pipefail
+command -v chromium >/dev/null || { echo "skipped: needs chromium"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 fail() {
