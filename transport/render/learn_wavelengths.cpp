@@ -54,8 +54,9 @@ class Places {
     const int block = at.y * down_ / camera_.height * across_ + at.x * across_ / camera_.width;
     const std::size_t first = static_cast<std::size_t>(block) * planes_;
     const LinearRgb rgb = from_xyz_ ? multiply(*from_xyz_, {values[0], values[1], values[2]}) : LinearRgb();
-    for (std::size_t k = 0; k < values.size(); ++k)
-      splats.push_back({part, first + k, from_xyz_ ? rgb[k] : values[k]});
+    for (std::size_t k = 0; k < values.size(); ++k)  // of many bands few have light
+      if (const double value = from_xyz_ ? rgb[k] : values[k]; value != 0)
+        splats.push_back({part, first + k, value});
   }
 
  private:
