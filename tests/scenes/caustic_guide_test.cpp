@@ -167,6 +167,25 @@ TEST(CausticGuide, IsNotMadeWhereItFindsNothing) {
   EXPECT_TRUE(guides(test::load("glass_sphere.json")));
 }
 
+// Photons cannot start from a lamp that stands half in glass, as the others are told; camera paths do
+// without.
+TEST(CausticGuide, IsNotMadeOfALampInTwoKindsOfMatter) {
+  const auto half_in_glass = [](const char* integrator) {
+    return test::load(
+        "glass_sphere.json",
+        {{"/lights/0",
+          R"({"name": "lamp", "quad": {"corner": [0, 1, -0.1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 0.2]}, "emission": {"spectrum": 1}})"},
+         {"/render/integrator", integrator}});
+  };
+  const Scene joined = half_in_glass("bdpt");
+  EXPECT_TRUE(refusal(joined));
+  for (const char* integrator : {"path", "auto"}) {
+    const Scene scene = half_in_glass(integrator);
+    EXPECT_FALSE(refusal(scene));
+    EXPECT_TRUE(make_learnt_plan(scene, 2, 0).caustics_of_paths.empty());
+  }
+}
+
 TEST(CausticGuide, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = test::load("glass_sphere.json", {{"/sensor/resolution", "[8, 8]"}});
   const Plan one = make_learnt_plan(scene, 1, 7);

@@ -187,9 +187,21 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   return plan;
 }
 
+// Why photons cannot start from one of these lights.
+std::optional<Error> refusal_to_start(const Scene& scene, const std::vector<bool>& traced) {
+  try {
+    for (std::size_t i = 0; i < traced.size(); ++i)
+      if (traced[i]) (void)around_light(scene, scene.lights[i]);
+  } catch (const Error& refused) {
+    return refused;
+  }
+  return std::nullopt;
+}
+
 std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) {
   if (auto faint = too_faint(nominal_value(scene, emissions))) return faint;
   std::vector<bool> traced = traced_lights(scene);
+  if (auto refused = refusal_to_start(scene, traced)) return refused;
   const bool aims = uses(chosen_techniques(scene), Technique::light);
   for (std::size_t i = 0; i < traced.size(); ++i)
     traced[i] = traced[i] && (aims || scene.lights[i].at_infinity());  // others shine everywhere
@@ -219,7 +231,7 @@ Plan make_plan(const Scene& scene) {
 
 std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
                                      const std::vector<bool>& lights) {
-  if (refusal(scene, lights, false)) return std::nullopt;
+  if (refusal(scene, lights, false) || refusal_to_start(scene, lights)) return std::nullopt;
   Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions, lights);
   if (plan.traced_lights.empty()) return std::nullopt;
   return plan;

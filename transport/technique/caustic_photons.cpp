@@ -1,8 +1,15 @@
 #include "transport/technique/caustic_photons.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace abbe {
+namespace {
+
+// That a float holds, of lamps that are brighter than any.
+constexpr double kMostIrradiance = 1e30;
+
+}  // namespace
 
 CausticPhotonTracer::CausticPhotonTracer(const Plan& plan, RayCaster& caster, const std::vector<double>& seen)
     : plan_(plan), caster_(caster), walks_(plan.scene, caster), seen_(seen) {}
@@ -33,9 +40,10 @@ void CausticPhotonTracer::reach(CausticPath& path, const SurfaceVertex& vertex) 
   if (path.events == 0 || !scatters(vertex.bsdf)) return;
   const LightSampleContext place = vertex.place();
   const double unhindered = plan_.path_lights.irradiance(place.point, place.normal());
-  arrivals_.push_back({path.start,
-                       {vertex.hit.point, -path.ray.direction, last, path.distance,
-                        path.packet.carried() * path.seen, static_cast<float>(unhindered)}});
+  arrivals_.push_back(
+      {path.start,
+       {vertex.hit.point, -path.ray.direction, last, path.distance, path.packet.carried() * path.seen,
+        static_cast<float>(std::min(unhindered, kMostIrradiance))}});
 }
 
 }  // namespace abbe
