@@ -1,8 +1,8 @@
 #include "calibration/output/color_spaces.h"
-#include "spectral/rgb.h"
 
 #include <gtest/gtest.h>
 
+#include "spectral/rgb.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {
