@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include "scene/camera/lens_optics.h"
 #include "scene/unreached.h"
 #include "transport/render/collect.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/render/technique_shares.h"
 #include "transport/render/threads.h"
 
@@ -40,10 +41,10 @@ Json json_of(const TechniqueCost& cost) {
   return {{"relative_variance", cost.relative_variance}, {"rays", cost.rays}};
 }
 
-PlannedRender planned(const Scene& scene) {
+PlannedRender planned(const Scene& scene, const std::shared_ptr<const Guides>& guides) {
   if (refusal(scene)) return {chosen_techniques(scene)};
   const int threads = thread_count(0);
-  Plan plan = make_learnt_plan(scene, threads, scene.render.seed);
+  Plan plan = make_learnt_plan(scene, threads, guides);
   const std::optional<TechniqueCosts> costs = set_technique_shares(plan, threads);
   PlannedRender render{plan.techniques, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
   if (costs)
@@ -75,7 +76,7 @@ Json lens_answer(const Camera& camera) {
 }
 
 Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
-  const PlannedRender render = planned(scene);
+  const PlannedRender render = planned(scene, choice.guides);
   Json answer;
   answer["shapes"] = scene.shapes.size();
   answer["triangles"] = scene.triangle_count();
@@ -180,7 +181,7 @@ int info(const InfoOptions& options) {
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   const IntegratorChoice choice = choose_integrator(scene, thread_count(0));
   scene.render.integrator = choice.integrator;
-  settle_white(scene, options.scene);
+  settle_white(scene, options.scene, 1, choice.guides);
   if (options.json)
     print(answer_for(scene, choice), true);
   else

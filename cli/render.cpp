@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -192,12 +193,14 @@ void show_to(Watchers& watchers, abbe::RenderOptions& how) {
     };
 }
 
-RenderPart develop(const Scene& scene, const RenderOptions& options, const InterruptWatch& watch,
+RenderPart develop(const Scene& scene, const RenderOptions& options,
+                   const std::shared_ptr<const Guides>& guides, const InterruptWatch& watch,
                    Watchers& watchers) {
   ProgressDisplay display;
   abbe::RenderOptions how = how_to_render(options, scene);
   const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
   how.stop = &watch.stop();
+  how.guides = guides;
   how.crew = crew();
   if (!options.quiet && how.crew.rank == 0)
     how.progress = [&display](const Progress& progress) { display(progress); };
@@ -296,9 +299,10 @@ int render(const RenderOptions& options) {
   Scene scene = load_together(options, inputs, crew());
   const int threads = thread_count(options.threads);
   if (crew().rank != 0) {
-    scene.render.integrator = choose_integrator(scene, threads).integrator;
+    const IntegratorChoice choice = choose_integrator(scene, threads);
+    scene.render.integrator = choice.integrator;
     Watchers none;
-    (void)develop(scene, options, InterruptWatch(), none);
+    (void)develop(scene, options, choice.guides, InterruptWatch(), none);
     return 0;
   }
   const Outputs outputs = choose_outputs(options, scene, inputs);
@@ -311,7 +315,7 @@ int render(const RenderOptions& options) {
   const bool leaves_integrator = scene.render.integrator == Integrator::automatic;
   const IntegratorChoice choice = choose_integrator(scene, threads);
   scene.render.integrator = choice.integrator;
-  settle_white(scene, options.scene, threads);
+  settle_white(scene, options.scene, threads, choice.guides);
   costs.load = costs.command.spent();
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty() || !outputs.gamut.empty())
@@ -327,7 +331,7 @@ int render(const RenderOptions& options) {
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   Watchers watchers;
   call_watchers(watchers, scene, options, inputs);
-  const RenderPart part = develop(scene, options, watch, watchers);
+  const RenderPart part = develop(scene, options, choice.guides, watch, watchers);
   write_results(options, outputs, display, scene, part, costs);
   watchers.end(part.result);
   const RenderStats& stats = part.result.stats;

@@ -49,7 +49,9 @@ MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions ho
                                Inputs& inputs) {
   how.target_planes = kSpectrumPlane;  // those before
   const bool chooses = scene.render.integrator == Integrator::automatic;
-  scene.render.integrator = choose_integrator(scene, thread_count(how.threads)).integrator;
+  const IntegratorChoice choice = choose_integrator(scene, thread_count(how.threads));
+  scene.render.integrator = choice.integrator;
+  how.guides = choice.guides;
   tell_shortcoming(caller, meter, dark_camera(scene), caller.strict);
   tell_shortcoming(caller, meter, lost_light(scene), caller.strict && !chooses);
   inputs.take_memory("the film", film_bytes(scene, how));

@@ -58,12 +58,13 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
 
 }  // namespace
 
-void settle_white(Scene& scene, const std::filesystem::path& path, int threads) {
+void settle_white(Scene& scene, const std::filesystem::path& path, int threads,
+                  const std::shared_ptr<const Guides>& guides) {
   if (!has_colors(scene)) return;
   if (scene.output.white)
     require_adaptable(*scene.output.white, ErrorCode::scene,
                       fmt::format("{}: {}", input_name(path), kWhitePointer));
-  scene.output.white = white_of(scene, threads);
+  scene.output.white = white_of(scene, threads, guides);
 }
 
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,

@@ -1,18 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "io/image.h"
 #include "scene/scene.h"
+#include "transport/plan/plan.h"
 #include "transport/render/part.h"
 
 namespace abbe {
 
 /// Decides what pictures of the scene's film show as white (`white_of`), once for all that ask. Throws
 /// Error{scene} when the scene asks for one to which no eye adapts.
-void settle_white(Scene& scene, const std::filesystem::path& path, int threads = 1);
+void settle_white(Scene& scene, const std::filesystem::path& path, int threads = 1,
+                  const std::shared_ptr<const Guides>& guides = {});
 
 /// Adds it to what a film tells of itself, with the chromaticities of up to 256 lights, by which
 /// `asked_white` finds them.

@@ -48,7 +48,8 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   const abbe::Scene& own = handle.with_white(static_cast<int>(request.threads));
   const std::optional<abbe::Scene> copy = changed(own, request);
   const abbe::Scene& scene = copy ? *copy : own;
-  const RenderOptions how = how_to_render(request, scene.render.samples);
+  RenderOptions how = how_to_render(request, scene.render.samples);
+  how.guides = handle.guides();
   Inputs inputs = handle.inputs();
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));

@@ -99,11 +99,13 @@ const abbe::Scene& SceneHandle::with_white(int threads) {
   const std::scoped_lock lock(mutex_);
   if (has_white_) return scene_;
   abbe::Scene settled = scene_;
-  settled.render.integrator = choose_integrator(settled, thread_count(threads)).integrator;
-  settle_white(settled, name(), thread_count(threads));
+  const IntegratorChoice choice = choose_integrator(settled, thread_count(threads));
+  settled.render.integrator = choice.integrator;
+  settle_white(settled, name(), thread_count(threads), choice.guides);
   const py::gil_scoped_acquire held;  // for those who read the scene meanwhile
   scene_.render.integrator = settled.render.integrator;
   scene_.output = std::move(settled.output);
+  guides_ = choice.guides;
   has_white_ = true;
   return scene_;
 }

@@ -11,6 +11,7 @@
 #include "io/inputs.h"
 #include "io/json.h"
 #include "scene/scene.h"
+#include "transport/plan/plan.h"
 
 namespace abbe::python {
 
@@ -36,6 +37,8 @@ class SceneHandle {
   /// settled white and integrator on that many threads, for callers without that lock.
   [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
   [[nodiscard]] const abbe::Scene& with_white(int threads);
+  /// What pilots have taught of it then.
+  [[nodiscard]] const std::shared_ptr<const Guides>& guides() const { return guides_; }
 
   [[nodiscard]] const spec::Scene& said() const { return said_; }
   /// What films call their scene after, and messages its text.
@@ -51,6 +54,7 @@ class SceneHandle {
   abbe::Scene scene_;
   std::mutex mutex_;
   bool has_white_ = false;
+  std::shared_ptr<const Guides> guides_;
 };
 
 /// Adds the class `Scene`, and `help`.

@@ -2,8 +2,8 @@
 #include <set>
 
 #include "tests/scenes/scene_fixture.h"
-#include "transport/render/learn_aims.h"
 #include "transport/render/learn_density.h"
+#include "transport/render/learnt_plan.h"
 
 namespace abbe {
 namespace {

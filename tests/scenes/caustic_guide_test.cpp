@@ -2,7 +2,7 @@
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/plan/emissions.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/technique/caustic_photons.h"
 
 namespace abbe {
@@ -41,8 +41,8 @@ TEST(CausticGuide, ALampInABulbIsAsBrightAsItsGlassLetsThrough) {
   const Scene open = test::load_text(lamp_over_floor(false));
   const Scene closed = test::load_text(lamp_over_floor(true));
   const Mean bare = mean_of(test::film_of(open, make_plan(open), 256));
-  const Plan guided_plan = make_learnt_plan(closed, 2, 0);
-  ASSERT_FALSE(guided_plan.caustics_of_paths.empty());
+  const Plan guided_plan = make_learnt_plan(closed, 2);
+  ASSERT_FALSE(guided_plan.guides.caustics_of_paths.empty());
   const Mean guided = mean_of(test::film_of(closed, guided_plan, 1024));
   EXPECT_NEAR(guided.value / bare.value, kThrough, 4.5 * std::sqrt(guided.variance) / bare.value);
   EXPECT_LT(std::sqrt(guided.variance) / guided.value, 0.01);
@@ -89,8 +89,8 @@ TEST(CausticGuide, ChangesNoiseOnly) {
                                          {"/materials/white", R"({"diffuse": {"reflectance": 0.6}})"},
                                          {"/materials/grey", floor},
                                          {"/render/integrator", "path"}});
-    const Plan guided = make_learnt_plan(scene, 2, 0);
-    ASSERT_FALSE(guided.caustics_of_paths.empty());
+    const Plan guided = make_learnt_plan(scene, 2);
+    ASSERT_FALSE(guided.guides.caustics_of_paths.empty());
     const Film a = test::film_of(scene, make_plan(scene), 512);
     const Film b = test::film_of(scene, guided, 504);
     EXPECT_LT(test::compare_regions(a, b, 4).largest_z, kLargestZ) << floor;
@@ -116,10 +116,10 @@ TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
   both.needs.light_is_traced[0] = true;
   settings.push_back({"/render/integrator", "path"});
   const Scene paths = test::load("glass_sphere.json", settings);
-  const Plan plan = make_learnt_plan(both, 2, 0);
+  const Plan plan = make_learnt_plan(both, 2);
   ASSERT_TRUE(uses(plan.techniques, Technique::light));
-  ASSERT_TRUE(plan.caustics_of_paths.empty());
-  ASSERT_FALSE(plan.caustics_seen_through.empty());
+  ASSERT_TRUE(plan.guides.caustics_of_paths.empty());
+  ASSERT_FALSE(plan.guides.caustics_seen_through.empty());
   const Film guided = test::film_of(both, plan, 512);
   const Film chance = test::film_of(paths, make_plan(paths), 2048);
   const test::Comparison c = test::compare_regions(chance, guided, 4);
@@ -158,8 +158,8 @@ TEST(CausticPhotons, ComeThroughSpecularMatterAlone) {
 // photons bring wherever the camera sees it, or one that no path can meet.
 TEST(CausticGuide, IsNotMadeWhereItFindsNothing) {
   const auto guides = [](const Scene& scene) {
-    const Plan plan = make_learnt_plan(scene, 2, 0);
-    return !plan.caustics_of_paths.empty() || !plan.caustics_seen_through.empty();
+    const Plan plan = make_learnt_plan(scene, 2);
+    return !plan.guides.caustics_of_paths.empty() || !plan.guides.caustics_seen_through.empty();
   };
   EXPECT_FALSE(guides(test::load("cornell.json")));
   EXPECT_FALSE(guides(test::load("prism_area.json")));
@@ -182,21 +182,21 @@ TEST(CausticGuide, IsNotMadeOfALampInTwoKindsOfMatter) {
   for (const char* integrator : {"path", "auto"}) {
     const Scene scene = half_in_glass(integrator);
     EXPECT_FALSE(refusal(scene));
-    EXPECT_TRUE(make_learnt_plan(scene, 2, 0).caustics_of_paths.empty());
+    EXPECT_TRUE(make_learnt_plan(scene, 2).guides.caustics_of_paths.empty());
   }
 }
 
 TEST(CausticGuide, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = test::load("glass_sphere.json", {{"/sensor/resolution", "[8, 8]"}});
-  const Plan one = make_learnt_plan(scene, 1, 7);
-  const Plan four = make_learnt_plan(scene, 4, 7);
+  const Plan one = make_learnt_plan(scene, 1);
+  const Plan four = make_learnt_plan(scene, 4);
   const auto floor = static_cast<float>(bounds(scene.shapes[0].shape).center().y);
   int lobes = 0;
   for (int i = 0; i < 1000; ++i) {
     const Imath::V3f point(static_cast<float>(i % 10) * 4e-4F, floor, static_cast<float>(i / 10) * 4e-5F);
     const Imath::V3f up = Imath::V3f(-0.4F, 1, -0.3F).normalized();
-    const CausticLobes a = one.caustics_seen_through.at(point);
-    const CausticLobes b = four.caustics_seen_through.at(point);
+    const CausticLobes a = one.guides.caustics_seen_through.at(point);
+    const CausticLobes b = four.guides.caustics_seen_through.at(point);
     ASSERT_EQ(a.empty(), b.empty());
     ASSERT_EQ(a.share(), b.share());
     ASSERT_EQ(a.pdf(point, up), b.pdf(point, up));

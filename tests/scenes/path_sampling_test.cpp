@@ -6,7 +6,7 @@
 
 #include "film/rendered_film.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/technique/path.h"
 #include "validation/statistics/equivalence.h"
 
@@ -203,8 +203,8 @@ TEST(PathSampling, TheGuideShowsCausticsToAll) {
   const test::Region bare = test::region(test::film_of(open, make_plan(open), 256), 1, 0, 0, 8, 8);
   for (const Sampling& sampling : kSamplings) {
     const Scene closed = test::load_text(over_floor(bulb), with(sampling, 1024));
-    const Plan plan = make_learnt_plan(closed, 2, 0);
-    ASSERT_FALSE(plan.caustics_of_paths.empty());
+    const Plan plan = make_learnt_plan(closed, 2);
+    ASSERT_FALSE(plan.guides.caustics_of_paths.empty());
     const test::Region seen = test::region(test::film_of(closed, plan, 1024), 1, 0, 0, 8, 8);
     EXPECT_NEAR(seen.mean / bare.mean, kThrough, kInterval * std::sqrt(seen.variance) / bare.mean)
         << testing::PrintToString(sampling);

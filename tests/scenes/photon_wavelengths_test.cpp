@@ -1,6 +1,6 @@
 // Where photons draw their wavelengths from, once pilots have shown what leaves noise.
 #include "tests/scenes/scene_fixture.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "validation/bench/reference.h"
 #include "validation/statistics/image_difference.h"
 
@@ -17,7 +17,7 @@ Scene prism(const std::vector<Override>& more = {}, const char* name = "prism_sp
 
 // The same, but that photons draw wavelengths as camera paths do.
 Plan unlearnt(Plan plan) {
-  plan.photon_wavelengths = plan.wavelengths;
+  plan.guides.photon_wavelengths = plan.wavelengths;
   return plan;
 }
 
@@ -34,21 +34,21 @@ double gain(const Scene& scene, const Plan& plan, const PictureOf& picture_of) {
 TEST(PhotonWavelengths, LeaveLessNoiseInTheColoursOfASpectrum) {
   const Scene scene = prism({}, "prism_area.json");
   const auto srgb = [&scene](const Film& film) { return linear_srgb(film.image(scene.film_planes())); };
-  EXPECT_GT(gain(scene, make_learnt_plan(scene, 2, 0), srgb), 1.18);
+  EXPECT_GT(gain(scene, make_learnt_plan(scene, 2), srgb), 1.18);
 }
 
 TEST(PhotonWavelengths, LeaveLessNoiseBehindTheFiltersOfAMosaic) {
   const Scene scene =
       prism({{"/sensor",
               R"({"resolution": [320, 200], "camera": "Nikon_D5100", "mosaic": [["R", "G"], ["G", "B"]]})"}});
-  const Plan plan = make_learnt_plan(scene, 2, 0);
+  const Plan plan = make_learnt_plan(scene, 2);
   const auto raw = [&scene](const Film& film) { return film.image(scene.film_planes()); };
   EXPECT_GT(gain(scene, plan, raw), 1.3);
 }
 
 TEST(PhotonWavelengths, ChangeNoiseOnly) {
   const Scene scene = prism();
-  const Plan plan = make_learnt_plan(scene, 2, 0);
+  const Plan plan = make_learnt_plan(scene, 2);
   const test::Comparison c =
       test::compare_regions(test::film_of(scene, unlearnt(plan), 32), test::film_of(scene, plan, 24), 8);
   std::printf("largest z %.2f, ratio of the means %.5f\n", c.largest_z, c.ratio);
@@ -58,12 +58,12 @@ TEST(PhotonWavelengths, ChangeNoiseOnly) {
 
 TEST(PhotonWavelengths, AreTheSameOnAnyNumberOfThreads) {
   const Scene scene = prism();
-  const Plan one = make_learnt_plan(scene, 1, 7);
-  const Plan four = make_learnt_plan(scene, 4, 7);
+  const Plan one = make_learnt_plan(scene, 1);
+  const Plan four = make_learnt_plan(scene, 4);
   int learnt = 0;
   for (int nm = 380; nm < 780; ++nm) {
-    ASSERT_EQ(one.photon_wavelengths.pdf(nm), four.photon_wavelengths.pdf(nm)) << nm;
-    learnt += one.photon_wavelengths.pdf(nm) != one.wavelengths.pdf(nm) ? 1 : 0;
+    ASSERT_EQ(one.guides.photon_wavelengths.pdf(nm), four.guides.photon_wavelengths.pdf(nm)) << nm;
+    learnt += one.guides.photon_wavelengths.pdf(nm) != one.wavelengths.pdf(nm) ? 1 : 0;
   }
   EXPECT_GT(learnt, 390);
 }
@@ -71,10 +71,10 @@ TEST(PhotonWavelengths, AreTheSameOnAnyNumberOfThreads) {
 // Where all lanes go one way, each pixel sees all wavelengths.
 TEST(PhotonWavelengths, AreThoseOfCameraPathsWhereNothingDisperses) {
   const Scene scene = prism({{"/materials/glass/dielectric/ior", "1.7"}});
-  const Plan plan = make_learnt_plan(scene, 2, 0);
+  const Plan plan = make_learnt_plan(scene, 2);
   ASSERT_FALSE(plan.traced_lights.empty());
   for (int nm = 380; nm < 780; ++nm)
-    ASSERT_EQ(plan.photon_wavelengths.pdf(nm), plan.wavelengths.pdf(nm)) << nm;
+    ASSERT_EQ(plan.guides.photon_wavelengths.pdf(nm), plan.wavelengths.pdf(nm)) << nm;
 }
 
 }  // namespace

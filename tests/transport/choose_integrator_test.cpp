@@ -1,12 +1,15 @@
 #include "transport/render/choose_integrator.h"
 
 #include <cmath>
+#include <memory>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "description/load.h"
 #include "io/data_directory.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
+#include "transport/render/render.h"
 #include "transport/render/technique_pilots.h"
 
 namespace abbe {
@@ -43,7 +46,7 @@ Scene indirect_cornell() {
 double cost_ratio_of(const Scene& scene, std::uint32_t pixels) {
   Scene joining = scene;
   joining.render.integrator = Integrator::bdpt;
-  const PilotFindings apart = try_techniques(make_learnt_plan(scene, 2, scene.render.seed), 2, pixels);
+  const PilotFindings apart = try_techniques(make_learnt_plan(scene, 2), 2, pixels);
   const PilotFindings joined = try_techniques(make_plan(joining), 2, pixels);
   const double by_chance = joined.path_tracing_square - (apart.path_square - apart.path_variance);
   const double apart_root = std::sqrt(std::max(apart.path_variance, by_chance) * apart.path_rays) +
@@ -68,6 +71,7 @@ TEST(ChooseIntegrator, KnowsOfLightThatPathTracingFindsByRareChance) {
   const IntegratorChoice choice = choose_integrator(scene, 2);
   EXPECT_EQ(choice.integrator, Integrator::bdpt);
   EXPECT_GT(choice.cost_ratio.value_or(0), 10);
+  EXPECT_EQ(choice.guides, nullptr) << "those of path tracing";
 }
 
 // What joined paths tell of the mean square of path tracing, where each of its paths has one contribution:
@@ -105,9 +109,27 @@ TEST(ChooseIntegrator, BelievesInJoiningByManyPixelsAlone) {
   EXPECT_DOUBLE_EQ(choice.cost_ratio.value_or(0), cost_ratio_of(scene, 4096));
 }
 
-TEST(ChooseIntegrator, IsTheSameOnAnyNumberOfThreads) {
-  const Scene scene = load("scenes/cornell.json");
-  EXPECT_EQ(choose_integrator(scene, 1).cost_ratio, choose_integrator(scene, 3).cost_ratio);
+TEST(ChooseIntegrator, IsTheSameOfAnySeedOnAnyNumberOfThreads) {
+  const Scene scene = load("scenes/glass_sphere.json");
+  const Scene other = load("scenes/glass_sphere.json", {{"/render/seed", "7"}});
+  EXPECT_EQ(choose_integrator(scene, 1).cost_ratio, choose_integrator(other, 3).cost_ratio);
+}
+
+// A render by what the choice has learnt is the one that learns it again.
+TEST(ChooseIntegrator, PassesOnWhatItsPilotsHaveLearnt) {
+  for (const char* integrator : {"auto", "path"}) {
+    const Scene scene =
+        load("scenes/glass_sphere.json", {{"/sensor/resolution", "[24, 16]"},
+                                          {"/render/samples", "4"},
+                                          {"/render/integrator", fmt::format("\"{}\"", integrator)}});
+    const IntegratorChoice choice = choose_integrator(scene, 2);
+    ASSERT_NE(choice.guides, nullptr);
+    const auto film = [&](const std::shared_ptr<const Guides>& guides) {
+      return render(scene, {.threads = 2, .guides = guides}).film.bytes();
+    };
+    EXPECT_EQ(film(choice.guides), film(nullptr));
+    EXPECT_NE(film(std::make_shared<const Guides>(make_plan(scene).guides)), film(nullptr));
+  }
 }
 
 // Twelve pixels with paths of two hundred vertices, of which each pair has 40,000 connections.

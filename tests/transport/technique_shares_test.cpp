@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/render/technique_pilots.h"
 #include "transport/render/technique_shares.h"
 
@@ -28,7 +28,7 @@ Scene card_with(const Imath::V3d& ball, const Imath::V3f& lamp) {
 // Photons, and the interval of camera paths.
 using Shares = std::pair<std::uint64_t, std::uint32_t>;
 Shares shares(const Scene& scene, int threads = 2) {
-  Plan plan = make_learnt_plan(scene, threads, 0);
+  Plan plan = make_learnt_plan(scene, threads);
   set_technique_shares(plan, threads);
   return {plan.photons, plan.path_interval};
 }
@@ -73,7 +73,7 @@ TEST(TechniqueShares, TellTheVarianceOfAPathOnFilmsOfAnySize) {
     scene.camera.height = height;
     scene.camera.pixel_pitch = 0.0001;
     scene.lights[0].emission = Curve({{400, 0}, {500, 1}, {600, 0}});
-    Plan plan = make_learnt_plan(scene, 2, 0);
+    Plan plan = make_learnt_plan(scene, 2);
     const auto costs = set_technique_shares(plan, 2);
     return costs ? costs->camera_paths.relative_variance : 0;
   };

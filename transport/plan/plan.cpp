@@ -159,21 +159,20 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
   const WavelengthDistribution wavelengths = make_wavelengths(scene, seen);
-  Plan plan{
-      scene,
-      wavelengths,
-      wavelengths,
-      LightSampler(scene, emissions.seen),
-      PowerLightSampler(traced_powers),
-      traced,
-      uses(techniques, Technique::light) ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(),
-      std::move(techniques),
-      photons,
-      1,
-      nominal_value(scene, emissions),
-      make_own_wavelengths(scene, seen),
-      around_camera(scene),
-      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
+  const bool aims = uses(techniques, Technique::light);
+  Plan plan{scene,
+            wavelengths,
+            LightSampler(scene, emissions.seen),
+            PowerLightSampler(traced_powers),
+            traced,
+            {aims ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(), wavelengths},
+            std::move(techniques),
+            photons,
+            1,
+            nominal_value(scene, emissions),
+            make_own_wavelengths(scene, seen),
+            around_camera(scene),
+            std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
   plan.gather_radius = static_cast<float>(first_gather_radius(scene, photons));
   plan.camera_matter_varies = camera_matter_varies(scene);
   if (scene.needs.motion) look_for_moving_matter(plan);

@@ -18,17 +18,26 @@
 
 namespace abbe {
 
+/// Where photons and camera paths go to find light: alike everywhere, until pilots have taught it.
+struct Guides {
+  std::vector<Aim> aims;  ///< Per light where photons start at all.
+  /// Where photons that share no packet with camera paths draw their wavelengths from.
+  WavelengthDistribution photon_wavelengths;
+  /// Where camera paths look for the caustics of lights that photons are not traced from,
+  CausticGuide caustics_of_paths = {};
+  /// and of all lights that they can meet, once they have come through specular matter from the camera.
+  CausticGuide caustics_seen_through = {};
+};
+
 /// What a render works out once from the scene: which technique owns which light's caustics, where
 /// wavelengths and lights are drawn from, and where photons are aimed.
 struct Plan {
   const Scene& scene;
   WavelengthDistribution wavelengths;
-  /// Where photons that share no packet with camera paths draw theirs from.
-  WavelengthDistribution photon_wavelengths;
-  LightSampler path_lights;           ///< For light sampling at path vertices.
-  PowerLightSampler traced_lights;    ///< For starting photons.
-  std::vector<bool> traced;           ///< Per light: the light tracer owns its caustics.
-  std::vector<Aim> aims;              ///< Per light where photons start at all.
+  LightSampler path_lights;         ///< For light sampling at path vertices.
+  PowerLightSampler traced_lights;  ///< For starting photons.
+  std::vector<bool> traced;         ///< Per light: the light tracer owns its caustics.
+  Guides guides;
   std::vector<Technique> techniques;  ///< In the order of their list; those that own some path.
   std::uint64_t photons;              ///< Of a sample.
   std::uint32_t path_interval;        ///< A pixel has camera paths in one of so many samples.
@@ -43,10 +52,6 @@ struct Plan {
   /// Those at points that camera paths connect to along matter that scatters.
   PowerLightSampler lights_along{std::vector<double>()};
   SamplingDensity density = {};  ///< How many there are then, where path tracing has them.
-  /// Where camera paths look for the caustics of lights that photons are not traced from,
-  CausticGuide caustics_of_paths = {};
-  /// and of all lights that they can meet, once they have come through specular matter from the camera.
-  CausticGuide caustics_seen_through = {};
 
   /// Where camera paths through a pixel draw theirs from.
   [[nodiscard]] const WavelengthDistribution& wavelengths_at(int x, int y) const {

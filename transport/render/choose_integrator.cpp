@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "transport/plan/plan.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/render/technique_pilots.h"
 
 namespace abbe {
@@ -54,15 +56,14 @@ double cost_apart(const PilotFindings& apart, const PilotFindings& joined) {
 }
 
 // By few pilots first, as in most scenes it is plain enough, and by very few for what they cost. None where
-// the film is too small for them to be worth that.
-std::optional<double> cost_ratio(const Scene& scene, const Scene& joining, int threads) {
+// the film is too small for them to be worth that, or has no light that would tell.
+std::optional<double> cost_ratio(const Plan& apart, const Scene& joining, int threads) {
   constexpr std::uint32_t kFirst = 4;
   constexpr double kPlain = 0.75;
-  const double most_rays = kRaysPerPixel * scene.camera.width * scene.camera.height;
+  const double most_rays = kRaysPerPixel * joining.camera.width * joining.camera.height;
   double rays_per_pixel = 2 * kPilotPathsPerPixel;  // at least, of both
   if (kFewPixels * rays_per_pixel > most_rays) return std::nullopt;
-  const Plan apart = make_learnt_plan(scene, threads, scene.render.seed);
-  const Plan joined = make_learnt_plan(joining, threads, scene.render.seed);
+  const Plan joined = make_learnt_plan(joining, threads);
   std::optional<double> ratio;
   for (const std::uint32_t pixels : {kFirst, kFewPixels, kManyPixels}) {
     if (pixels * rays_per_pixel > most_rays) return std::nullopt;
@@ -73,7 +74,7 @@ std::optional<double> cost_ratio(const Scene& scene, const Scene& joining, int t
     ratio = cost_apart(by_paths, by_joining) / cost_of_joining(by_joining);
     if (!(*ratio > kPlain)) break;
   }
-  return ratio;
+  return ratio && std::isfinite(*ratio) ? ratio : std::nullopt;
 }
 
 Scene with_integrator(Scene scene, Integrator integrator) {
@@ -84,22 +85,23 @@ Scene with_integrator(Scene scene, Integrator integrator) {
 }  // namespace
 
 IntegratorChoice choose_integrator(const Scene& scene, int threads) {
-  if (scene.render.integrator != Integrator::automatic || refusal(scene))
-    return {scene.render.integrator, ""};
-  if (scene.render.consistent) {
+  const bool open = scene.render.integrator == Integrator::automatic;
+  if (refusal(scene)) return {scene.render.integrator, ""};
+  if (open && scene.render.consistent) {
     const Scene merging = with_integrator(scene, Integrator::vcm);
     const std::vector<PathClass> found = found_by_merging(scene, merging);
     if (!found.empty() && !refusal(merging))
       return {Integrator::vcm, fmt::format("merging finds {}", fmt::join(found, "; "))};
   }
+  Plan plan = make_learnt_plan(scene, threads);
   const Scene joining = with_integrator(scene, Integrator::bdpt);
-  if (refusal(joining)) return {Integrator::automatic, ""};
-  const std::optional<double> ratio = cost_ratio(scene, joining, threads);
-  if (!ratio || !std::isfinite(*ratio)) return {Integrator::automatic, ""};  // without light nothing is told
-  if (!(*ratio > kLeastGainOfJoining)) return {Integrator::automatic, "", ratio};
-  return {Integrator::bdpt,
-          fmt::format("pilots take it for {:.2g} times as cheap at equal error as path tracing", *ratio),
-          ratio};
+  std::optional<double> ratio;
+  if (open && !refusal(joining)) ratio = cost_ratio(plan, joining, threads);
+  if (ratio && *ratio > kLeastGainOfJoining)
+    return {Integrator::bdpt,
+            fmt::format("pilots take it for {:.2g} times as cheap at equal error as path tracing", *ratio),
+            ratio};
+  return {scene.render.integrator, "", ratio, std::make_shared<const Guides>(std::move(plan.guides))};
 }
 
 }  // namespace abbe

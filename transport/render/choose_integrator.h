@@ -1,9 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "scene/scene.h"
+#include "transport/plan/plan.h"
 
 namespace abbe {
 
@@ -14,6 +15,8 @@ struct IntegratorChoice {
   /// What path tracing, with light tracing where the scene needs it, costs over what bidirectional path
   /// tracing does at equal error, by pilots.
   std::optional<double> cost_ratio = {};
+  /// What pilots have taught of the scene on the way, for that integrator, as `RenderOptions` takes it.
+  std::shared_ptr<const Guides> guides = {};
 };
 
 /// Chooses for a scene that leaves it to us (Integrator::automatic); of others it is theirs.
@@ -23,8 +26,8 @@ struct IntegratorChoice {
 /// relative variance V of a sample's film values and the cost c of the sample: of camera paths with photons
 /// beside them (sqrt(V c) + sqrt(V' c'))^2, as the best share of both has it. It is Integrator::bdpt where
 /// that costs so much less that the pilots' noise does not make the difference, else Integrator::automatic,
-/// as it is where the film has so few pixels that pilots would not pay. A function of the scene and its seed
-/// alone, whatever the threads and the samples. Never throws what `make_plan` does: there it is
+/// as it is where the film has so few pixels that pilots would not pay. A function of the scene alone,
+/// whatever its seed and samples, and the threads. Never throws what `make_plan` does: there it is
 /// Integrator::automatic.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 

@@ -2,27 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "sampling/sampler.h"
 #include "sensor/film/relative_error.h"
 #include "spectral/rgb.h"
 #include "transport/path/dimensions.h"
 #include "transport/render/pilot.h"
-#include "transport/render/threads.h"
+#include "transport/render/pilot_photons.h"
 #include "transport/technique/light.h"
 
 namespace abbe {
 namespace {
 
-constexpr std::uint32_t kStage = 2;  // of photons of pilots: after those that aim
 constexpr std::uint32_t kPhotons = 1U << 15;
-constexpr std::uint32_t kBatch = 1U << 9;
 constexpr std::size_t kParts = 64;  // of the distribution
 constexpr int kBlocks = 32;         // along an edge of the film
 constexpr double kUnlearntShare = 0.1;
@@ -69,25 +65,19 @@ class Places {
 
 using Splats = std::vector<std::vector<Splat>>;  // of each batch
 
-Splats trace_pilots(const Plan& plan, const Places& places, std::uint64_t seed, int threads) {
-  Splats batches(kPhotons / kBatch);
-  std::atomic<std::uint32_t> next = 0;
-  run_on_threads(threads, [&] {
-    RayCaster caster(plan.scene);
-    LightTracer tracer(plan, caster, 1);
-    std::vector<Sampler> photons;
-    for (std::uint32_t batch = next++; batch < batches.size(); batch = next++) {
-      photons.clear();
-      for (std::uint32_t i = 0; i < kBatch; ++i)
-        photons.emplace_back(seed, Purpose::pilot, kStage, 0, batch * kBatch + i);
-      tracer.trace(photons, [&](std::uint32_t i, const FilmPoint& at, std::span<const double> values) {
-        // The number that draws the hero is its place in the cumulative distribution.
-        const auto part = static_cast<std::size_t>(photons[i].group(kAimGroup)[2] * kParts);
-        if (magnitude(values) > 0) places.add(std::min(part, kParts - 1), at, values, batches[batch]);
+Splats trace_pilots(const Plan& plan, const Places& places, int threads) {
+  return trace_pilot_photons(
+      plan.scene, {PilotStage::wavelengths, kPhotons}, threads,
+      [&](RayCaster& caster) { return LightTracer(plan, caster, 1); },
+      [&](LightTracer& tracer, std::span<const Sampler> photons) {
+        std::vector<Splat> splats;
+        tracer.trace(photons, [&](std::uint32_t i, const FilmPoint& at, std::span<const double> values) {
+          // The number that draws the hero is its place in the cumulative distribution.
+          const auto part = static_cast<std::size_t>(photons[i].group(kAimGroup)[2] * kParts);
+          if (magnitude(values) > 0) places.add(std::min(part, kParts - 1), at, values, splats);
+        });
+        return splats;
       });
-    }
-  });
-  return batches;
 }
 
 // Of the photons of each part the squares of what they add, relative to the squared means around and the
@@ -108,15 +98,16 @@ std::vector<double> relative_squares(const Splats& batches, const Places& places
 
 // Where photons drawn by p0 add values of relative mean square s at a wavelength, those drawn by p would
 // leave the variance of the integral of s p0^2 / p, of which p0 sqrt(s) makes the least.
-void learn_wavelengths(Plan& plan, std::uint64_t seed, int threads) {
+void learn_wavelengths(Plan& plan, int threads) {
   if (!plan.scene.needs.dispersion || plan.traced_lights.empty()) return;
   const Places places(plan.scene);
-  std::vector<double> importance = relative_squares(trace_pilots(plan, places, seed, threads), places);
+  std::vector<double> importance = relative_squares(trace_pilots(plan, places, threads), places);
   for (double& part : importance) part = std::sqrt(part);
   const double mean = std::accumulate(importance.begin(), importance.end(), 0.0) / kParts;
   if (!(mean > 0 && std::isfinite(mean))) return;
   for (double& part : importance) part = (1 - kUnlearntShare) * part / mean + kUnlearntShare;
-  plan.photon_wavelengths = plan.photon_wavelengths.weighed(importance);
+  WavelengthDistribution& learnt = plan.guides.photon_wavelengths;
+  learnt = learnt.weighed(importance);
 }
 
 }  // namespace abbe

@@ -26,9 +26,8 @@ inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
 
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers
-/// are those of no render, so that what is chosen by it is independent of the samples it is chosen for; but
-/// where photons are aimed it is as the plan's seed has taught it. Nothing if `stop`, which any thread may
-/// ask, says so before it is done.
+/// are those of no render, so that what is chosen by it is independent of the samples it is chosen for.
+/// Nothing if `stop`, which any thread may ask, says so before it is done.
 [[nodiscard]] std::optional<Film> pilot_film(
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });

@@ -13,8 +13,8 @@
 
 #include "io/error.h"
 #include "sensor/response/stokes_channels.h"
-#include "transport/render/learn_aims.h"
 #include "transport/render/learn_density.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
@@ -42,7 +42,7 @@ bool open_ended(const RenderOptions& options) {
 }
 
 Plan balanced_plan(const Scene& scene, const RenderOptions& options, int threads) {
-  Plan plan = make_learnt_plan(scene, threads, scene.render.seed);
+  Plan plan = make_learnt_plan(scene, threads, options.guides);
   set_technique_shares(plan, threads);
   if (options.adaptive) learn_density(plan, options.crop, threads);
   return plan;

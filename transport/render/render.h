@@ -13,6 +13,7 @@
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
 #include "transport/path/truncated_paths.h"
+#include "transport/plan/plan.h"
 #include "transport/render/crew.h"
 #include "transport/render/layers.h"
 #include "transport/render/sample_ranges.h"
@@ -63,6 +64,8 @@ struct RenderOptions {
   /// Asked after each pass whether `show` is to be called with what is done: whole passes, never a part.
   std::function<bool()> wants_to_see = {};
   std::function<void(const RenderResult&)> show = {};
+  /// What pilots have taught of the same scene (`IntegratorChoice::guides`); else they are asked first.
+  std::shared_ptr<const Guides> guides = {};
   Crew crew = {};  ///< The processes that render this together.
 };
 

@@ -10,13 +10,11 @@
 #include "scene/extent.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/film_response.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/render/pilot.h"
 
 namespace abbe {
 namespace {
-
-constexpr std::uint64_t kPilotSeed = 0;  // of what the plan learns, whatever the render's
 
 // Lights whose spectra are proportional: the strongest of them, and its spectrum.
 struct Group {
@@ -80,7 +78,7 @@ std::vector<double> channel_weights(const Scene& scene) {
 
 }  // namespace
 
-White main_light(const Scene& scene, int threads) {
+White main_light(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
   ExposureByLight sums{{}, channel_weights(scene), {}};
   const std::vector<Group> groups = groups_of(scene, sums.group);
   if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0)), Curve(1.0)};
@@ -91,7 +89,7 @@ White main_light(const Scene& scene, int threads) {
     return white(groups.front(), scene.lights.size() == 1 ? "the only light" : "the only spectrum of light");
   sums.exposure.assign(groups.size(), 0.0);
   const bool refused = refusal(scene).has_value();
-  if (!refused) pilot_exposures(make_learnt_plan(scene, threads, kPilotSeed), threads, sums);
+  if (!refused) pilot_exposures(make_learnt_plan(scene, threads, guides), threads, sums);
   std::size_t most = 0;
   for (std::size_t i = 1; i < groups.size(); ++i)
     if (sums.exposure[i] > sums.exposure[most] ||
@@ -105,10 +103,10 @@ White main_light(const Scene& scene, int threads) {
                                      : "is the strongest; none reached the film in a pilot");
 }
 
-White white_of(const Scene& scene, int threads) {
+White white_of(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
   const std::optional<White>& asked = scene.output.white;
   if (asked && asked->spectrum) return *asked;
-  White white = main_light(scene, threads);
+  White white = main_light(scene, threads, guides);
   if (asked) white = {asked->name, asked->reason, asked->xy, std::move(white.spectrum)};
   return white;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "scene/scene.h"
+#include <memory>
+
+#include "transport/plan/plan.h"
 
 namespace abbe {
 
@@ -9,11 +11,14 @@ namespace abbe {
 /// Where there are several spectra a pilot tells, a render of few paths whose random numbers depend on the
 /// scene alone. So the render's seed does not matter; nor does the order of the lights, but between lights
 /// that give the film the same within the pilot's noise, about a percent. Equal energy for a scene without a
-/// light; the strongest where no photons can light the scene (`refusal`).
-[[nodiscard]] White main_light(const Scene& scene, int threads = 1);
+/// light; the strongest where no photons can light the scene (`refusal`). The pilot has the guides of the
+/// scene that are given, else learns them.
+[[nodiscard]] White main_light(const Scene& scene, int threads = 1,
+                               const std::shared_ptr<const Guides>& guides = {});
 
 /// The white the scene asks for, else the main light; with the spectrum that cameras are characterised in:
 /// that of the white if it is a light of the scene, else of the main light.
-[[nodiscard]] White white_of(const Scene& scene, int threads = 1);
+[[nodiscard]] White white_of(const Scene& scene, int threads = 1,
+                             const std::shared_ptr<const Guides>& guides = {});
 
 }  // namespace abbe

@@ -260,7 +260,8 @@ bool PathTracer::accepted(const Imath::V3f& direction, const Imath::V3f& normal,
 // The photons bring what comes through specular matter from traced lights, but for what is seen through it.
 void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
   if (narrow_ && path.events == kMeterEvent) return;
-  const CausticGuide& guide = path.first_delta ? plan_.caustics_seen_through : plan_.caustics_of_paths;
+  const CausticGuide& guide =
+      path.first_delta ? plan_.guides.caustics_seen_through : plan_.guides.caustics_of_paths;
   path.caustics = !guide.empty() && scatters(vertex.bsdf) ? guide.at(vertex.hit.point) : CausticLobes();
 }
 

@@ -36,7 +36,7 @@ bool shines(const Light& light, const EmissionPoint& from, const Imath::V3f& wi,
 PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pick, const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
-  const AimedDirection aimed = plan.aims[pick.light].sample(light, from, u.choice, u.aim, u.time);
+  const AimedDirection aimed = plan.guides.aims[pick.light].sample(light, from, u.choice, u.aim, u.time);
   if (!shines(light, from, aimed.wi, u.time)) return {{}, 0, aimed.cell};
   const bool area = light.is<AreaLight>();
   const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
@@ -52,7 +52,7 @@ Ray arriving(const Aim& aim, const AimedPoint& at, const Imath::V3f& direction, 
 PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                     const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
-  const Aim& aim = plan.aims[pick.light];
+  const Aim& aim = plan.guides.aims[pick.light];
   const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
   const AimedPoint at = aim.point(u.aim);
   const Imath::V3d way = Imath::V3d(at.point) - Imath::V3d(from.point);
@@ -73,7 +73,7 @@ PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler
 PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                             const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
-  const Aim& aim = plan.aims[pick.light];
+  const Aim& aim = plan.guides.aims[pick.light];
   const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start, u.time);
   const AimedPoint at = aim.point(u.aim);
   const Ray ray = arriving(aim, at, -from.wi, u.time);
@@ -100,7 +100,7 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
     photon.packet.throughput = SampledSpectrum();
     return {pick.light, start.cell};
   }
-  photon.packet = draw_packet(plan.photon_wavelengths, a[2]);
+  photon.packet = draw_packet(plan.guides.photon_wavelengths, a[2]);
   if (carries_polarisation(plan.scene))
     photon.packet.polarisation = polarisation_of_lamp(plan.scene.lights[pick.light], start.ray.direction);
   photon.packet.throughput = plan.scene.lights[pick.light].emission(photon.lambda_nm()) * start.factor;

@@ -33,9 +33,12 @@ BenchRow measure(Scene& scene, Integrator integrator, const Image& reference, in
   scene.render.seed = seed;
   scene.render.integrator = integrator;
   Cost cost;
-  metered(cost,
-          [&] { scene.render.integrator = choose_integrator(scene, thread_count(threads)).integrator; })();
   RenderOptions how;
+  metered(cost, [&] {
+    const IntegratorChoice choice = choose_integrator(scene, thread_count(threads));
+    scene.render.integrator = choice.integrator;
+    how.guides = choice.guides;
+  })();
   how.threads = threads;
   how.measure_replay = with_replay;
   const RenderResult result = render(scene, how);

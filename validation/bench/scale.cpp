@@ -7,7 +7,7 @@
 
 #include "description/load.h"
 #include "io/atomic_file.h"
-#include "transport/render/learn_aims.h"
+#include "transport/render/learnt_plan.h"
 #include "transport/render/render.h"
 #include "transport/render/replay.h"
 #include "validation/bench/meshes.h"
@@ -121,7 +121,7 @@ ScaleRow measure(const Subject& subject, std::uint64_t count, const fs::path& fo
   std::optional<Scene> scene;
   row.load_cpu_s = time([&] { scene = load(path); });
   row.build_cpu_s = time([&] { scene->commit(); });
-  row.plan_cpu_s = time([&] { (void)make_learnt_plan(*scene, 1, scene->render.seed); });
+  row.plan_cpu_s = time([&] { (void)make_learnt_plan(*scene, 1); });
   row.bytes = static_cast<double>(scene->memory_bytes()) / static_cast<double>(count);
   RenderOptions how;
   how.threads = threads;

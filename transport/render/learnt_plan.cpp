@@ -1,0 +1,26 @@
+#include "transport/render/learnt_plan.h"
+
+#include "transport/render/learn_aims.h"
+#include "transport/render/learn_caustics.h"
+#include "transport/render/learn_wavelengths.h"
+
+namespace abbe {
+
+Plan make_learnt_plan(const Scene& scene, int threads) {
+  Plan plan = make_plan(scene);
+  if (plan.techniques.size() > 1) {
+    learn_aims(plan, threads);
+    learn_wavelengths(plan, threads);
+  }
+  learn_caustics(plan, threads);
+  return plan;
+}
+
+Plan make_learnt_plan(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
+  if (guides == nullptr) return make_learnt_plan(scene, threads);
+  Plan plan = make_plan(scene);
+  plan.guides = *guides;
+  return plan;
+}
+
+}  // namespace abbe
