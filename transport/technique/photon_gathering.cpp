@@ -12,11 +12,20 @@
 #include "transport/technique/subpaths.h"
 
 namespace abbe {
+namespace {
+
+// Not std::lgamma, which writes a sign that all threads have in common.
+double log_gamma(double x) {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
+}  // namespace
 
 float gather_radius(float first_radius, std::uint64_t sample) {
   constexpr double kAlpha = 2.0 / 3;
   const auto i = static_cast<double>(sample + 1);
-  const double log_ratio = std::lgamma(i + kAlpha) - std::lgamma(1 + kAlpha) - std::lgamma(i + 1);
+  const double log_ratio = log_gamma(i + kAlpha) - log_gamma(1 + kAlpha) - log_gamma(i + 1);
   return static_cast<float>(first_radius * std::exp(log_ratio / 2));
 }
 
