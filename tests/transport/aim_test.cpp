@@ -36,39 +36,108 @@ double towards_target(const Imath::V3f& w) {
 
 TEST(Aim, DensitiesCoverTheWholeSphereOnce) {
   EXPECT_NEAR(integral(Aim(), one), 4 * std::numbers::pi, 0.02);
-  EXPECT_NEAR(integral(Aim({0, 0, 0}, {5, 0, 0}, 1), one), 4 * std::numbers::pi, 0.3);
+  EXPECT_NEAR(integral(Aim({0, 0, 0}, 0, {5, 0, 0}, 1), one), 4 * std::numbers::pi, 0.3);
 }
 
 TEST(Aim, TheTargetIsIntegratedPrecisely) {
   const double cap = 2 * std::numbers::pi * 0.01;
-  EXPECT_NEAR(integral(Aim({0, 0, 0}, {5, 0, 0}, 1), towards_target), cap, cap * 0.01);
+  EXPECT_NEAR(integral(Aim({0, 0, 0}, 0, {5, 0, 0}, 1), towards_target), cap, cap * 0.01);
+}
+
+// So many rays from each of those places through another.
+std::vector<ShownRay> rays_through(const Imath::V3f& place, const std::vector<Imath::V3f>& starts,
+                                   std::size_t each) {
+  std::vector<ShownRay> rays;
+  for (const Imath::V3f& from : starts) rays.insert(rays.end(), each, {from, (place - from).normalized(), 1});
+  return rays;
+}
+
+// Of all directions that an aim draws for a photon from there, the share that goes through a ball.
+double share_through(const Aim& aim, const Imath::V3f& from, const Imath::V3f& center, float radius) {
+  constexpr std::uint32_t kCount = 1 << 14;
+  double through = 0;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const auto u = Sampler(3, Purpose::pilot, 0, 0, i).group(0);
+    const AimedDirection d = aim.sample(kPoint, {from, {0, 0, 0}, 1}, u[2], {u[0], u[1]}, 0);
+    through += (center - from).cross(d.wi).length() < radius && d.wi.dot(center - from) > 0 ? 1 : 0;
+  }
+  return through / kCount;
 }
 
 TEST(Aim, LearningMovesDensityAndKeepsTheIntegral) {
-  Aim aim({0, 0, 0}, {5, 0, 0}, 1);
-  std::vector<double> importance(Aim::kGrid, 0.0);
-  const int hot = 128 * Aim::kCells + 40;
-  importance[hot] = 1;
-  aim.learn(importance, 1);
-  int in_hot_cell = 0;
-  for (std::uint32_t i = 0; i < 4096; ++i) {
-    const auto u = Sampler(1, Purpose::pilot, 0, 0, i).group(0);
-    const AimedDirection d = aim.sample(kPoint, kOrigin, u[2], {u[0], u[1]}, 0);
-    in_hot_cell += d.cell == hot ? 1 : 0;
-  }
-  EXPECT_GT(in_hot_cell, 4096 * 0.95 * 0.9 / 9 * 0.8);
+  Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  const Imath::V3f hot(5, 0.3F, 0.2F);
+  aim.learn(rays_through(hot, {{0, 0, 0}}, 4096));
+  EXPECT_GT(share_through(aim, {0, 0, 0}, hot, 0.01F), 0.95 * 0.9 * 0.85);
   const double cap = 2 * std::numbers::pi * 0.01;
   EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
+}
+
+// Most go one way and a few quite another: neither is left to what goes anywhere.
+TEST(Aim, WhereFewGoIsAimedAtToo) {
+  Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  const Imath::V3f most(5, 0.3F, 0.2F);
+  const Imath::V3f few(5, -0.6F, -0.4F);
+  std::vector<ShownRay> rays = rays_through(most, {{0, 0, 0}}, 10000);
+  for (const ShownRay& ray : rays_through(few, {{0, 0, 0}}, 50)) rays.push_back(ray);
+  aim.learn(rays);
+  EXPECT_GT(share_through(aim, {0, 0, 0}, most, 0.01F), 0.5);
+  EXPECT_GT(share_through(aim, {0, 0, 0}, few, 0.3F), 0.08);
+  const double cap = 2 * std::numbers::pi * 0.01;
+  EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
+}
+
+// Light of a lamp comes through a small hole half way to the target, wherever on the lamp it starts: the hole
+// is aimed at from everywhere on it, whatever was shown there.
+TEST(Aim, FindsTheDistanceWhereRaysOfALampPass) {
+  constexpr float kRadius = 0.5F;
+  Aim aim({0, 0, 0}, kRadius, {5, 0, 0}, 1);
+  const Imath::V3f hole(2.5F, 0.1F, -0.1F);
+  std::vector<Imath::V3f> starts;
+  for (int i = -8; i <= 8; ++i)
+    for (int k = -8; k <= 8; ++k)
+      starts.push_back({0, kRadius * static_cast<float>(i) / 8, kRadius * static_cast<float>(k) / 8});
+  aim.learn(rays_through(hole, starts, 16));
+  for (const float y : {-0.47F, 0.03F, 0.4F})
+    EXPECT_GT(share_through(aim, {0, y, -0.2F}, hole, 0.06F), 0.7) << y;
+  EXPECT_NEAR(integral(aim, one), 4 * std::numbers::pi, 0.3);
+  EXPECT_NEAR(aim.half_size(), 0.76, 0.03) << "all of the target is covered from all of the lamp";
+}
+
+// Far lights are aimed likewise, at points of a target that all directions of theirs meet.
+TEST(Aim, RaysFromAfarPassWhereTheirTargetStands) {
+  constexpr float kTan = 0.01F;
+  Aim aim = Aim::from_afar({1, 0, 0}, 1 / std::hypot(1.0, static_cast<double>(kTan)), {0, 0, 0}, 1);
+  aim.guide();
+  const Imath::V3f slit(-1.2F, 0.2F, 0.1F);
+  std::vector<ShownRay> rays;
+  for (int i = -8; i <= 8; ++i)
+    for (int k = 0; k < 16; ++k) {
+      const Imath::V3f direction = Imath::V3f(1, kTan * static_cast<float>(i) / 8, 0).normalized();
+      rays.push_back({slit - direction * 10, direction, 1});
+    }
+  aim.learn(rays);
+  double through = 0;
+  double area = 0;
+  constexpr std::uint32_t kCount = 1 << 14;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const auto u = Sampler(3, Purpose::pilot, 0, 0, i).group(0);
+    const AimedPoint at = aim.point({u[0], u[1]});
+    through += (at.point - slit).length() < 0.15F ? 1 : 0;
+    area += 1 / static_cast<double>(at.pdf) / kCount;
+    EXPECT_LT(at.point.x, -0.9F);
+  }
+  EXPECT_GT(through / kCount, 0.7);
+  EXPECT_NEAR(area, 4 * std::pow(aim.half_size(), 2), 0.05 * area);
+  EXPECT_GE(aim.half_size(), 1 + 1.1F * kTan) << "whichever way they come, all of the target is covered";
 }
 
 // Directions are rounded to float: seen from afar that is a part of a cell, and cells differ by any factor.
 TEST(Aim, AFarTargetIsIntegratedPrecisely) {
   constexpr float kDistance = 3000;
   const Imath::V3f axis(0.48F, 0.6F, 0.64F);
-  Aim aim({0, 0, 0}, axis * kDistance, 1);
-  std::vector<double> importance(Aim::kGrid, 0.0);
-  importance[128 * Aim::kCells + 40] = 1;
-  aim.learn(importance, 0);
+  Aim aim({0, 0, 0}, 0, axis * kDistance, 1);
+  aim.learn(rays_through(axis * kDistance + Imath::V3f(0.3F, 0.2F, 0), {{0, 0, 0}}, 64));
   const auto within = [&axis](const Imath::V3f& w) {
     return w.cross(axis).length() < 0.9F / kDistance ? 1.0 : 0.0;
   };
@@ -77,7 +146,7 @@ TEST(Aim, AFarTargetIsIntegratedPrecisely) {
 }
 
 TEST(Aim, AnEmitterReachingBeyondItsTargetIsStillDrawnByTheStatedDensity) {
-  const Aim aim({0, 0, 0}, {5, 0, 0}, 1);
+  const Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
   const EmissionPoint beyond{{7, 0.5F, 0}, {0, 0, 0}, 1};
   double sum = 0;
   constexpr std::uint32_t kCount = 1 << 16;
@@ -90,13 +159,12 @@ TEST(Aim, AnEmitterReachingBeyondItsTargetIsStillDrawnByTheStatedDensity) {
   EXPECT_NEAR(sum / kCount, cap, cap * 0.02);
 }
 
-// Its emission tells the cells that it learns from, and each cell is then drawn by the density it states.
+// Its emission shows what it learns from, and directions are then drawn by the density that it states.
 TEST(Aim, ALightInsideItsTargetIsAimedOnceItHasLearnt) {
-  EXPECT_TRUE(Aim({0, 0, 0}, {5, 0, 0}, 1).guided());
-  Aim aim({0, 0, 0}, {0.5F, 0, 0}, 1);
+  EXPECT_TRUE(Aim({0, 0, 0}, 0, {5, 0, 0}, 1).guided());
+  Aim aim({0, 0, 0}, 0, {0.5F, 0, 0}, 1);
   EXPECT_FALSE(aim.guided());
-  std::vector<double> importance = aim.no_importance();
-  ASSERT_EQ(importance.size(), static_cast<std::size_t>(Aim::kGrid));
+  std::vector<ShownRay> shown;
   const Imath::V3f hot = Imath::V3f(0.48F, -0.6F, 0.64F);
   constexpr std::uint32_t kCount = 1 << 16;
   const auto direction = [&](std::uint32_t i) {
@@ -106,10 +174,9 @@ TEST(Aim, ALightInsideItsTargetIsAimedOnceItHasLearnt) {
   for (std::uint32_t i = 0; i < kCount; ++i) {
     const AimedDirection d = direction(i);
     EXPECT_FLOAT_EQ(d.pdf, 1 / (4 * std::numbers::pi_v<float>));
-    ASSERT_GE(d.cell, 0);
-    if (d.wi.dot(hot) > 0.99F) importance[static_cast<std::size_t>(d.cell)] += 1;
+    if (d.wi.dot(hot) > 0.99F) shown.push_back({{0, 0, 0}, d.wi, 1});
   }
-  aim.learn(importance, 2);
+  aim.learn(shown);
   EXPECT_TRUE(aim.guided());
   int aimed = 0;
   for (std::uint32_t i = 0; i < kCount; ++i) aimed += direction(i).wi.dot(hot) > 0.97F ? 1 : 0;

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
-#include <span>
+#include <utility>
 
 #include "materials/bsdf/warp.h"
 #include "sampling/discrete.h"
@@ -15,13 +14,76 @@
 namespace abbe {
 namespace {
 
+constexpr std::size_t kCells = 256;  // along each side of the grid
+constexpr std::size_t kGrid = kCells * kCells;
 constexpr float kEmissionShare = 0.05F;
+// Of those that are aimed, once an aim has learnt: anywhere, and, at most, where few others have gone.
+constexpr float kAnywhere = 0.1F;
+constexpr float kApart = 0.1F;
+constexpr double kEverywhere = 0.1;  // of those within a grid
 constexpr float kInverseTurn = std::numbers::inv_pi_v<float> / 2;
 constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
 
+// What lies between the first and the last hundredth of the worth, and an eighth on either side, in [0, 1].
+std::pair<float, float> interval_of(std::vector<std::pair<float, double>>& worths) {
+  constexpr double kTail = 0.01;
+  constexpr float kMargin = 0.125F;
+  constexpr float kLeast = 1e-5F;
+  std::sort(worths.begin(), worths.end());
+  const double total = std::accumulate(worths.begin(), worths.end(), 0.0,
+                                       [](double sum, const auto& one) { return sum + one.second; });
+  const auto quantile = [&](double share) {
+    double sum = 0;
+    for (const auto& [at, worth] : worths)
+      if ((sum += worth) >= share * total) return at;
+    return worths.back().first;
+  };
+  const float low = quantile(kTail);
+  const float high = quantile(1 - kTail);
+  const float margin = std::max(kMargin * (high - low), kLeast);
+  const float from = std::max(low - margin, 0.0F);
+  return {from, std::min(high + margin, 1.0F) - from};
+}
+
+// Each spread evenly over the square of so many cells around it, those beyond the edge lying on it; but for a
+// share that is spread over all, as where little light passes few rays or none have shown it.
+std::vector<double> smoothed(const std::vector<double>& cells, int reach) {
+  constexpr int kEdge = static_cast<int>(kCells);
+  const double total = std::accumulate(cells.begin(), cells.end(), 0.0);
+  std::vector<double> spread(kGrid, kEverywhere * total / kGrid);
+  const double share = (1 - kEverywhere) / ((2 * reach + 1) * (2 * reach + 1));
+  for (int row = 0; row < kEdge; ++row)
+    for (int column = 0; column < kEdge; ++column) {
+      const double amount = share * cells[static_cast<std::size_t>(row * kEdge + column)];
+      if (amount == 0) continue;
+      for (int r = row - reach; r <= row + reach; ++r)
+        for (int c = column - reach; c <= column + reach; ++c)
+          spread[static_cast<std::size_t>(std::clamp(r, 0, kEdge - 1) * kEdge +
+                                          std::clamp(c, 0, kEdge - 1))] += amount;
+    }
+  return spread;
+}
+
+// Of a place within the unit square.
+std::size_t cell_of(const Imath::V2f& at) {
+  const auto step = [](float x) {
+    return std::min(static_cast<std::size_t>(std::max(x, 0.0F) * kCells), kCells - 1);
+  };
+  return step(at.y) * kCells + step(at.x);
+}
+
+// So many that a square of them holds about sixteen of the rays, were they all over the grid.
+int reach_for(std::size_t rays) {
+  constexpr double kRays = 16;
+  constexpr double kMost = 32;
+  const double side = std::sqrt(kRays * kGrid / static_cast<double>(rays));
+  return static_cast<int>(std::clamp(std::ceil((side - 1) / 2), 1.0, kMost));
+}
+
 }  // namespace
 
-Aim::Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius) {
+Aim::Aim(const Imath::V3f& light_center, float light_radius, const Imath::V3f& target_center,
+         float target_radius) {
   const Imath::V3f to_target = target_center - light_center;
   const float distance = to_target.length();
   if (!(target_radius > 0)) return;
@@ -30,6 +92,9 @@ Aim::Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float 
   // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
   face(to_target / distance, target_center,
        target_radius * distance / std::sqrt((distance - target_radius) * (distance + target_radius)));
+  // Close to a lamp its own size spreads what comes there.
+  nearest_ = std::max(0.0F, std::min(0.9F * distance, distance - 2 * light_radius));
+  growth_ = (light_radius - target_half_size_) / distance;
   guide();
 }
 
@@ -37,134 +102,203 @@ Aim::Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float 
 Aim Aim::from_afar(const Imath::V3f& axis, double least_cosine, const Imath::V3f& target_center,
                    double target_radius) {
   Aim aim;
+  aim.far_ = true;
   aim.face(axis, target_center, static_cast<float>(target_radius / least_cosine));
+  aim.nearest_ = 2 * aim.half_size_;
+  aim.growth_ = static_cast<float>(std::sqrt(std::max(0.0, 1 - least_cosine * least_cosine)) / least_cosine);
   return aim;
 }
 
-void Aim::guide() {
-  guided_ = true;
-  build(std::vector<double>(kGrid, 1.0));
-}
-
 void Aim::face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size) {
-  center_ = target_center;
+  target_center_ = target_center;
+  target_half_size_ = half_size;
   axis_ = axis;
   const Basis<float> frame(axis_);
   side_ = frame.x;
   top_ = frame.y;
-  half_size_ = half_size;
+  stand(0);
 }
 
-void Aim::learn(const std::vector<double>& importance, int reach) {
-  const double total = std::accumulate(importance.begin(), importance.end(), 0.0);
-  if (importance.empty() || !(total > 0)) return;
-  std::vector<double> spread(kGrid, 0.1 * total / kGrid);
-  const double share = 0.9 / ((2 * reach + 1) * (2 * reach + 1));
-  for (int row = 0; row < kCells; ++row)
-    for (int column = 0; column < kCells; ++column) {
-      const double amount = share * importance[static_cast<std::size_t>(row * kCells + column)];
-      if (amount == 0) continue;
-      for (int dr = -reach; dr <= reach; ++dr)
-        for (int dc = -reach; dc <= reach; ++dc) {
-          const int r = std::clamp(row + dr, 0, kCells - 1);
-          const int c = std::clamp(column + dc, 0, kCells - 1);
-          spread[static_cast<std::size_t>(r * kCells + c)] += amount;
-        }
-    }
+// Nearer to the light by so much, where it covers what it covers from all of the light at its place.
+void Aim::stand(float nearer) {
+  center_ = target_center_ - axis_ * nearer;
+  half_size_ = target_half_size_ + growth_ * nearer;
+}
+
+void Aim::learn(std::span<const ShownRay> shown) {
+  if (!learns() || shown.empty()) return;
+  if (!around_) stand_where_fewest_pass(shown);
+  std::vector<WeighedPlace> most = places_of(shown);
+  if (most.empty()) return;
+  const Window window = window_of(most);
+  const auto apart = std::stable_partition(most.begin(), most.end(),
+                                           [&](const WeighedPlace& one) { return window.holds(one.at); });
+  const std::vector<WeighedPlace> others(apart, most.end());
+  most.erase(apart, most.end());
   guided_ = true;
-  build(spread);
+  grids_.clear();
+  grids_.emplace_back(window, most).share = 1 - kAnywhere;
+  if (others.empty()) return;
+  grids_.front().share -= kApart;
+  grids_.emplace_back(Window(), others).share = kApart;
 }
 
-void Aim::build(const std::vector<double>& weights) {
+void Aim::stand_where_fewest_pass(std::span<const ShownRay> shown) {
+  constexpr std::size_t kEnough = 1024;  // rays to tell
+  constexpr int kSteps = 20;
+  constexpr float kLeastGain = 1.05F;
+  const auto some = shown.first(std::min(kEnough, shown.size()));
+  float smallest = 0;
+  float best = 0;
+  for (int step = 0; step <= kSteps; ++step) {
+    const float nearer = nearest_ * static_cast<float>(step) / kSteps;
+    stand(nearer);
+    const std::vector<WeighedPlace> places = places_of(some);
+    if (places.empty()) continue;
+    const float area = window_of(places).area();
+    if (smallest > 0 && area * kLeastGain > smallest) continue;
+    smallest = area;
+    best = nearer;
+  }
+  stand(best);
+}
+
+std::vector<Aim::WeighedPlace> Aim::places_of(std::span<const ShownRay> shown) const {
+  std::vector<WeighedPlace> places;
+  for (const auto& [from, direction, worth] : shown)
+    if (const auto at = place_of(from, direction)) places.push_back({*at, worth});
+  return places;
+}
+
+Aim::Window Aim::window_of(const std::vector<WeighedPlace>& places) {
+  std::vector<std::pair<float, double>> a;
+  std::vector<std::pair<float, double>> b;
+  for (const auto& [at, worth] : places) {
+    a.emplace_back(at.x, worth);
+    b.emplace_back(at.y, worth);
+  }
+  const auto [left, width] = interval_of(a);
+  const auto [bottom, height] = interval_of(b);
+  return {{left, bottom}, {width, height}};
+}
+
+bool Aim::Window::holds(const Imath::V2f& at) const {
+  const Imath::V2f within = (at - corner) / size;
+  return within.x >= 0 && within.x < 1 && within.y >= 0 && within.y < 1;
+}
+
+Aim::Grid::Grid(const Window& over, const std::vector<WeighedPlace>& places)
+    : window(over), density(kGrid), row_cdf(kCells), column_cdf(kGrid) {
+  std::vector<double> cells(kGrid, 0.0);
+  for (const auto& [at, worth] : places) cells[cell_of((at - window.corner) / window.size)] += worth;
+  const std::vector<double> weights = smoothed(cells, reach_for(places.size()));
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  density_.resize(kGrid);
-  row_cdf_.resize(kCells);
-  column_cdf_.resize(kGrid);
   double rows = 0;
   for (std::size_t row = 0; row < kCells; ++row) {
-    const double* cells = &weights[row * kCells];
-    const double row_total = std::accumulate(cells, cells + kCells, 0.0);
+    const double* in_row = &weights[row * kCells];
+    const double row_total = std::accumulate(in_row, in_row + kCells, 0.0);
     double columns = 0;
     for (std::size_t column = 0; column < kCells; ++column) {
-      density_[row * kCells + column] = static_cast<float>(cells[column] / total * kGrid);
-      columns += cells[column];
-      column_cdf_[row * kCells + column] = static_cast<float>(columns / row_total);
+      density[row * kCells + column] = static_cast<float>(in_row[column] / total * kGrid) / window.area();
+      columns += in_row[column];
+      column_cdf[row * kCells + column] = static_cast<float>(columns / row_total);
     }
     rows += row_total;
-    row_cdf_[row] = static_cast<float>(rows / total);
+    row_cdf[row] = static_cast<float>(rows / total);
   }
 }
 
-int Aim::cell_of(float a, float b) const {
-  const int column = std::min(static_cast<int>(a * kCells), kCells - 1);
-  const int row = std::min(static_cast<int>(b * kCells), kCells - 1);
-  return row * kCells + column;
+// What is drawn in a cell counts as in that cell: rounded, it may lie in the next one.
+Aim::Place Aim::Grid::draw(Imath::V2f u) const {
+  const std::span<const float> columns(column_cdf);
+  const CdfStep<float> row = invert_cdf(std::span<const float>(row_cdf), u.y);
+  const CdfStep<float> column = invert_cdf(columns.subspan(row.index * kCells, kCells), u.x);
+  const Imath::V2f within((static_cast<float>(column.index) + column.within) / kCells,
+                          (static_cast<float>(row.index) + row.within) / kCells);
+  return {window.corner + within * window.size, density[row.index * kCells + column.index]};
 }
 
-int Aim::cell_met(const Imath::V3f& from, const Imath::V3f& direction) const {
+float Aim::Grid::pdf(const Imath::V2f& at) const {
+  return window.holds(at) ? density[cell_of((at - window.corner) / window.size)] : 0;
+}
+
+// Where a ray goes through the target: before it, but for those from afar, which begin anywhere.
+std::optional<Imath::V2f> Aim::place_of(const Imath::V3f& from, const Imath::V3f& direction) const {
   if (around_) {
     const float turn = std::atan2(direction.dot(top_), direction.dot(side_)) * kInverseTurn;
-    return cell_of(turn < 0 ? turn + 1 : turn, (1 - direction.dot(axis_)) / 2);
+    return Imath::V2f(turn < 0 ? turn + 1 : turn, (1 - direction.dot(axis_)) / 2);
   }
   const float t = (center_ - from).dot(axis_) / direction.dot(axis_);
-  if (!(t > 0)) return -1;
+  if (!(far_ || t > 0)) return std::nullopt;
   const Imath::V3f offset = from + direction * t - center_;
-  const float a = 0.5F + offset.dot(side_) / (2 * half_size_);
-  const float b = 0.5F + offset.dot(top_) / (2 * half_size_);
-  return a >= 0 && a < 1 && b >= 0 && b < 1 ? cell_of(a, b) : -1;
+  const Imath::V2f at(0.5F + offset.dot(side_) / (2 * half_size_),
+                      0.5F + offset.dot(top_) / (2 * half_size_));
+  if (!(at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1)) return std::nullopt;
+  return at;
 }
 
-float Aim::target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const {
-  if (cell < 0) return 0;
-  if (around_) return density_[static_cast<std::size_t>(cell)] * kInverseTurn / 2;
-  const float cos_theta = direction.dot(axis_);
-  const float t = (center_ - from).dot(axis_) / cos_theta;
-  return density_[static_cast<std::size_t>(cell)] / (4 * half_size_ * half_size_) * t * t /
-         std::abs(cos_theta);
+float Aim::pdf_at(const Imath::V2f& at) const {
+  if (grids_.empty()) return 1;
+  float pdf = kAnywhere;
+  for (const Grid& grid : grids_) pdf += grid.share * grid.pdf(at);
+  return pdf;
+}
+
+Aim::Place Aim::draw(Imath::V2f u) const {
+  if (grids_.empty()) return {u, 1};
+  for (const Grid& grid : grids_) {
+    if (u.x < grid.share) {
+      const Place drawn = grid.draw({u.x / grid.share, u.y});
+      float pdf = kAnywhere + grid.share * drawn.pdf;
+      for (const Grid& other : grids_)
+        if (&other != &grid) pdf += other.share * other.pdf(drawn.at);
+      return {drawn.at, pdf};
+    }
+    u.x -= grid.share;
+  }
+  const Imath::V2f at(std::min(u.x / kAnywhere, 1.0F), u.y);
+  return {at, pdf_at(at)};
 }
 
 AimedPoint Aim::point(Imath::V2f u) const {
-  const float even = 1 / (4 * half_size_ * half_size_);
-  const auto on_target = [this](float a, float b) {
-    return center_ + side_ * ((2 * a - 1) * half_size_) + top_ * ((2 * b - 1) * half_size_);
-  };
-  if (!guided_) return {on_target(u.x, u.y), even, -1};
-  const GridPoint at = grid_point(u);
-  return {on_target(at.a, at.b), density_[static_cast<std::size_t>(at.cell)] * even, at.cell};
+  const Place place = draw(u);
+  return {center_ + side_ * ((2 * place.at.x - 1) * half_size_) + top_ * ((2 * place.at.y - 1) * half_size_),
+          place.pdf / (4 * half_size_ * half_size_)};
 }
 
-Aim::GridPoint Aim::grid_point(Imath::V2f u) const {
-  const std::span<const float> columns(column_cdf_);
-  const CdfStep<float> row = invert_cdf(std::span<const float>(row_cdf_), u.y);
-  const CdfStep<float> column = invert_cdf(columns.subspan(row.index * kCells, kCells), u.x);
-  return {(static_cast<float>(column.index) + column.within) / kCells,
-          (static_cast<float>(row.index) + row.within) / kCells,
-          static_cast<int>(row.index * kCells + column.index)};
+float Aim::pdf_of_direction(const Imath::V3f& from, const Imath::V3f& direction, float pdf) const {
+  if (around_) return pdf * kInverseTurn / 2;
+  const float cos_theta = direction.dot(axis_);
+  const float t = (center_ - from).dot(axis_) / cos_theta;
+  return pdf / (4 * half_size_ * half_size_) * t * t / std::abs(cos_theta);
 }
 
 AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float choice, Imath::V2f u,
                            float time) const {
-  AimedDirection aimed;
-  if (!guided_ || choice < kEmissionShare) {
-    aimed.wi = emission_direction(light, from.normal, u, time);
-    if (around_) aimed.cell = cell_met(from.point, aimed.wi);
+  const auto by_emission = [&](const Imath::V3f& wi) {
+    return emission_density(light, from.normal, wi, kAnyRadius, time).pdf_direction;
+  };
+  if (!guided_) {
+    const Imath::V3f wi = emission_direction(light, from.normal, u, time);
+    return {wi, by_emission(wi)};
+  }
+  Imath::V3f wi;
+  float at_target = 0;
+  if (choice < kEmissionShare) {
+    wi = emission_direction(light, from.normal, u, time);
+    if (const auto at = place_of(from.point, wi)) at_target = pdf_at(*at);
   } else if (around_) {
-    const GridPoint at = grid_point(u);
-    const Imath::V3f local = direction_at(1 - 2 * at.b, 2 * std::numbers::pi * at.a);
-    aimed.wi = side_ * local.x + top_ * local.y + axis_ * local.z;
-    aimed.cell = at.cell;
+    const auto [at, pdf] = draw(u);
+    const Imath::V3f local = direction_at(1 - 2 * at.y, 2 * std::numbers::pi * at.x);
+    wi = side_ * local.x + top_ * local.y + axis_ * local.z;
+    at_target = pdf;
   } else {
     const AimedPoint target = point(u);
-    aimed.wi = (target.point - from.point).normalized();
-    aimed.cell = target.cell;
+    wi = (target.point - from.point).normalized();
+    at_target = target.pdf * (4 * half_size_ * half_size_);
   }
-  const float by_emission = emission_density(light, from.normal, aimed.wi, kAnyRadius, time).pdf_direction;
-  aimed.pdf = by_emission;
-  if (!guided_) return aimed;
-  // A direction drawn through a cell counts as through that cell: rounded, it may meet the next one.
-  const int cell = aimed.cell >= 0 ? aimed.cell : cell_met(from.point, aimed.wi);
-  aimed.pdf = kEmissionShare * by_emission + (1 - kEmissionShare) * target_pdf(from.point, aimed.wi, cell);
-  return aimed;
+  return {wi, kEmissionShare * by_emission(wi) +
+                  (1 - kEmissionShare) * pdf_of_direction(from.point, wi, at_target)};
 }
 
 }  // namespace abbe

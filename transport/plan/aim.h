@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <ImathVec.h>
@@ -12,7 +15,6 @@ namespace abbe {
 struct AimedDirection {
   Imath::V3f wi;
   float pdf;
-  int cell = -1;  ///< Cell that it was aimed at, or that it goes to around the light; or -1.
 };
 
 /// Where photons of a light that is far are sent through: a point of the target facing it, with its density
@@ -20,41 +22,42 @@ struct AimedDirection {
 struct AimedPoint {
   Imath::V3f point;
   float pdf;
-  int cell;  ///< Of the target, or -1 where there is nothing to learn.
+};
+
+/// The ray of a photon that shows where to aim others, and how much it counts.
+struct ShownRay {
+  Imath::V3f from;
+  Imath::V3f direction;
+  double worth;
 };
 
 /// Aims photons of one light at the sphere that bounds the specular shapes: directions are drawn through a
-/// disc-shaped target facing the light, by a grid of importances over it, except for a share drawn from the
-/// light's own emission. The share keeps every direction possible, so aiming changes the noise and not the
-/// image. A light within the target, or close to it, has the grid over all directions around it instead, and
-/// shines as it does until it has learnt.
+/// square target facing the light, except for a share drawn from the light's own emission. The share keeps
+/// every direction possible, so aiming changes the noise and not the image. A light within the target, or
+/// close to it, has all directions around it for a target instead, and shines as it does until it has learnt.
 class Aim {
  public:
-  static constexpr int kCells = 256;  ///< Along each side of the square around the target.
-  static constexpr int kGrid = kCells * kCells;
-
   /// Emission alone, where there is no target.
   Aim() = default;
-  /// Aims at the bounding sphere of the targets, seen from `light_center`; all parts of it alike. Of a light
-  /// close to it nothing is aimed yet.
-  Aim(const Imath::V3f& light_center, const Imath::V3f& target_center, float target_radius);
+  /// Aims at the bounding sphere of the targets, seen from a light of that radius; at all parts of it alike.
+  /// Of a light close to it nothing is aimed yet.
+  Aim(const Imath::V3f& light_center, float light_radius, const Imath::V3f& target_center,
+      float target_radius);
   /// Makes the aim of a light so far that its rays all run within an angle of cosine `least_cosine` to the
   /// unit direction `axis`: `point` covers the whole sphere for each of them, evenly until `guide` lets it
   /// learn.
   [[nodiscard]] static Aim from_afar(const Imath::V3f& axis, double least_cosine,
                                      const Imath::V3f& target_center, double target_radius);
-  void guide();
+  void guide() { guided_ = true; }
 
-  /// Replaces the importances, one per cell, by measured ones, spread over the cells within `reach` of each
-  /// and mixed with a tenth of the uniform ones.
-  void learn(const std::vector<double>& importance, int reach);
+  /// Aims where others have gone, but for a tenth that goes anywhere. The target is put at the distance where
+  /// they come through the smallest part of it: seen from all of a lamp, what lets its light through fills
+  /// the same part only of a target that stands where it does, as a slit before a prism. A grid of densities
+  /// covers that part, smoothed over as many of its cells as few rays need.
+  void learn(std::span<const ShownRay> shown);
 
   /// Whether some directions are not drawn from the light's emission.
   [[nodiscard]] bool guided() const { return guided_; }
-  /// Nothing yet for each cell, for what is measured to be added to; no cells of an aim that cannot learn.
-  [[nodiscard]] std::vector<double> no_importance() const {
-    return std::vector<double>(guided_ || around_ ? kGrid : 0, 0.0);
-  }
 
   /// Through a target before the light.
   [[nodiscard]] AimedPoint point(Imath::V2f u) const;
@@ -67,30 +70,59 @@ class Aim {
                                       Imath::V2f u, float time) const;
 
  private:
-  // A place on the unit square of the cells.
-  struct GridPoint {
-    float a;
-    float b;
-    int cell;
+  // A place on the unit square that the target is, with its density there.
+  struct Place {
+    Imath::V2f at;
+    float pdf;
+  };
+  struct WeighedPlace {
+    Imath::V2f at;
+    double worth;
+  };
+  // A part of the unit square.
+  struct Window {
+    Imath::V2f corner{0, 0};
+    Imath::V2f size{1, 1};
+    [[nodiscard]] float area() const { return size.x * size.y; }
+    [[nodiscard]] bool holds(const Imath::V2f& at) const;
+  };
+  // Densities over the cells of a window.
+  struct Grid {
+    Grid(const Window& over, const std::vector<WeighedPlace>& places);
+    [[nodiscard]] Place draw(Imath::V2f u) const;
+    [[nodiscard]] float pdf(const Imath::V2f& at) const;
+
+    Window window;
+    float share = 0;                // of what is drawn
+    std::vector<float> density;     // per cell, over the unit square
+    std::vector<float> row_cdf;     // kCells
+    std::vector<float> column_cdf;  // kCells per row
   };
 
+  [[nodiscard]] bool learns() const { return guided_ || around_; }
   void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);
-  [[nodiscard]] GridPoint grid_point(Imath::V2f u) const;
-  [[nodiscard]] int cell_met(const Imath::V3f& from, const Imath::V3f& direction) const;  // or -1
-  [[nodiscard]] float target_pdf(const Imath::V3f& from, const Imath::V3f& direction, int cell) const;
-  [[nodiscard]] int cell_of(float a, float b) const;
-  void build(const std::vector<double>& weights);
+  void stand(float nearer);
+  void stand_where_fewest_pass(std::span<const ShownRay> shown);
+  [[nodiscard]] std::optional<Imath::V2f> place_of(const Imath::V3f& from, const Imath::V3f& direction) const;
+  [[nodiscard]] std::vector<WeighedPlace> places_of(std::span<const ShownRay> shown) const;
+  [[nodiscard]] static Window window_of(const std::vector<WeighedPlace>& places);
+  [[nodiscard]] Place draw(Imath::V2f u) const;
+  [[nodiscard]] float pdf_at(const Imath::V2f& at) const;
+  [[nodiscard]] float pdf_of_direction(const Imath::V3f& from, const Imath::V3f& direction, float pdf) const;
 
   bool guided_ = false;
-  bool around_ = false;  // cells are of directions: equal ones of azimuth and of the cosine to the axis
-  Imath::V3f center_{0, 0, 0};
+  bool around_ = false;  // places are of directions: equal ones of azimuth and of the cosine to the axis
+  bool far_ = false;
+  Imath::V3f target_center_{0, 0, 0};
   Imath::V3f axis_{0, 0, 1};  // from the light to the target
   Imath::V3f side_{1, 0, 0};
   Imath::V3f top_{0, 1, 0};
+  float target_half_size_ = 0;  // at its middle,
+  float nearest_ = 0;           // and how much nearer to the light it may stand at most,
+  float growth_ = 0;            // by how much its half size grows for each such metre,
+  Imath::V3f center_{0, 0, 0};  // and where it stands
   float half_size_ = 0;
-  std::vector<float> density_;     // per cell, over the unit square
-  std::vector<float> row_cdf_;     // kCells
-  std::vector<float> column_cdf_;  // kCells per row
+  std::vector<Grid> grids_;  // once it has learnt
 };
 
 }  // namespace abbe

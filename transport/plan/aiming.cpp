@@ -126,11 +126,13 @@ std::vector<Aim> make_aims(const Scene& scene, const std::vector<double>& traced
   std::ptrdiff_t count = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced_powers[i] > 0 && traced_powers[i] >= *least && count++ < kMostAims) {
-      if (scene.lights[i].at_infinity() || scene.is_far(scene.lights[i]))
+      if (scene.lights[i].at_infinity() || scene.is_far(scene.lights[i])) {
         aims[i].guide();
-      else
-        aims[i] = Aim(Imath::V3f(bounds_of(scene.lights[i], scene).center()), Imath::V3f(box.center()),
-                      static_cast<float>(box.size().length() / 2));
+        continue;
+      }
+      const Imath::Box3d lamp = bounds_of(scene.lights[i], scene);
+      aims[i] = Aim(Imath::V3f(lamp.center()), static_cast<float>(lamp.size().length() / 2),
+                    Imath::V3f(box.center()), static_cast<float>(box.size().length() / 2));
     }
   return aims;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "transport/plan/emissions.h"
+#include "transport/render/learn_aims.h"
 #include "transport/render/pilot_photons.h"
 #include "transport/technique/caustic_photons.h"
 
@@ -27,14 +28,10 @@ std::vector<Arrivals> trace_photons(const Plan& plan, const Emissions& emissions
 
 // Aims photons at where others have come through.
 void learn_aims(Plan& plan, const std::vector<Arrivals>& arrived) {
-  constexpr int kReach = 2;  // cells
-  std::vector<std::vector<double>> importance;
-  std::vector<Aim>& aims = plan.guides.aims;
-  for (const Aim& aim : aims) importance.push_back(aim.no_importance());
+  std::vector<ShownStart> shown;
   for (const Arrivals& batch : arrived)
-    for (const auto& [start, photon] : batch)
-      if (start.cell >= 0) importance[start.light][static_cast<std::size_t>(start.cell)] += 1;
-  for (std::size_t light = 0; light < aims.size(); ++light) aims[light].learn(importance[light], kReach);
+    for (const CausticPhotonTracer::Arrival& arrival : batch) shown.push_back({arrival.start, 1});
+  aim_where(shown, plan);
 }
 
 std::size_t count(const std::vector<Arrivals>& arrived) {

@@ -17,7 +17,6 @@ namespace {
 struct PhotonRay {
   Ray ray;
   float factor = 0;
-  int cell = -1;  // of the light's aim, or -1
 };
 
 // The random numbers a photon starts by, in [0, 1).
@@ -37,11 +36,11 @@ PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pi
   const Light& light = plan.scene.lights[pick.light];
   const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
   const AimedDirection aimed = plan.guides.aims[pick.light].sample(light, from, u.choice, u.aim, u.time);
-  if (!shines(light, from, aimed.wi, u.time)) return {{}, 0, aimed.cell};
+  if (!shines(light, from, aimed.wi, u.time)) return {};
   const bool area = light.is<AreaLight>();
   const float cosine = area ? std::abs(from.normal.dot(aimed.wi)) : 1.0F;
   return {area ? spawn(from.point, from.normal, aimed.wi, u.time) : ray_at(from.point, aimed.wi, u.time),
-          cosine / (pick.probability * from.pdf_area * aimed.pdf), aimed.cell};
+          cosine / (pick.probability * from.pdf_area * aimed.pdf)};
 }
 
 // The way through a point of the target, from outside of the sphere it stands for.
@@ -59,15 +58,15 @@ PhotonRay start_far(const Plan& plan, RayCaster& caster, const PowerLightSampler
   const double distance = way.length();
   const Imath::V3f wi(way * (1 / distance));
   const Ray ray = arriving(aim, at, wi, u.time);
-  if (!shines(light, from, wi, u.time)) return {ray, 0, at.cell};
+  if (!shines(light, from, wi, u.time)) return {ray};
   const bool area = light.is<AreaLight>();
   if (caster.occluded(
           way_between(ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point, u.time)))
-    return {ray, 0, at.cell};
+    return {ray};
   const float cosines = (area ? std::abs(from.normal.dot(wi)) : 1.0F) * std::abs(aim.axis().dot(wi));
   const double density = static_cast<double>(pick.probability * from.pdf_area) * static_cast<double>(at.pdf) *
                          distance * distance;
-  return {ray, static_cast<float>(static_cast<double>(cosines) / density), at.cell};
+  return {ray, static_cast<float>(static_cast<double>(cosines) / density)};
 }
 
 PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
@@ -77,9 +76,9 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLigh
   const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start, u.time);
   const AimedPoint at = aim.point(u.aim);
   const Ray ray = arriving(aim, at, -from.wi, u.time);
-  if (caster.occluded(way_along(ray_at(ray.origin, from.wi, u.time)))) return {ray, 0, at.cell};
+  if (caster.occluded(way_along(ray_at(ray.origin, from.wi, u.time)))) return {ray};
   const float cosine = std::abs(aim.axis().dot(from.wi));
-  return {ray, cosine / (pick.probability * at.pdf * from.pdf), at.cell};
+  return {ray, cosine / (pick.probability * at.pdf * from.pdf)};
 }
 
 PhotonRay start_ray(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
@@ -96,9 +95,10 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
   const std::array<float, 4> b = photon.sampler.group(kEmissionGroup);
   const PowerLightSampler::SampledLight pick = plan.traced_lights.pick(b[3]);
   const PhotonRay start = start_ray(plan, caster, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2], a[kTimeNumber]});
+  const PhotonStart told{pick.light, start.ray.origin, start.ray.direction};
   if (!(start.factor > 0)) {
     photon.packet.throughput = SampledSpectrum();
-    return {pick.light, start.cell};
+    return told;
   }
   photon.packet = draw_packet(plan.guides.photon_wavelengths, a[2]);
   if (carries_polarisation(plan.scene))
@@ -106,7 +106,7 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
   photon.packet.throughput = plan.scene.lights[pick.light].emission(photon.lambda_nm()) * start.factor;
   photon.ray = start.ray;
   enter_light_matter(plan, pick.light, photon);
-  return {pick.light, start.cell};
+  return told;
 }
 
 }  // namespace abbe

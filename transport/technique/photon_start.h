@@ -11,7 +11,8 @@ namespace abbe {
 /// How a photon left its light.
 struct PhotonStart {
   std::uint32_t light = 0;
-  int cell = -1;  ///< Of the light's aim, or -1.
+  Imath::V3f from{0, 0, 0};       ///< Where its ray began,
+  Imath::V3f direction{0, 0, 1};  ///< and the unit vector along it.
 };
 
 /// Sets a photon out from one of the plan's traced lights, by its own numbers: on its ray, with the power
