@@ -87,6 +87,56 @@ TEST(Aim, WhereFewGoIsAimedAtToo) {
   EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
 }
 
+double density(const Aim& aim, const Imath::V2f& u) {
+  return static_cast<double>(aim.point(u).pdf) * 4 * std::pow(static_cast<double>(aim.half_size()), 2);
+}
+
+// Few rays say little of what lies between them, many much of where they pass.
+TEST(Aim, IsAsSharpAsRaysAreMany) {
+  std::vector<ShownRay> few;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    const auto u = Sampler(5, Purpose::pilot, 0, 0, i).group(0);
+    few.push_back({{0, 0, 0}, Imath::V3f(5, u[0] - 0.5F, u[1] - 0.5F).normalized(), 1});
+  }
+  std::vector<ShownRay> many;
+  for (int i = 0; i < 1024; ++i) many.insert(many.end(), few.begin(), few.end());
+  double most_by_few = 0;
+  double most_by_many = 0;
+  Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  const auto largest = [&](const std::vector<ShownRay>& shown) {
+    aim.learn(shown);
+    double most = 0;
+    for (std::uint32_t i = 0; i < 4096; ++i) {
+      const auto u = Sampler(6, Purpose::pilot, 0, 0, i).group(0);
+      most = std::max(most, density(aim, {u[0], u[1]}));
+    }
+    return most;
+  };
+  most_by_few = largest(few);
+  most_by_many = largest(many);
+  EXPECT_LT(most_by_few, 20);
+  EXPECT_GT(most_by_many, 50);
+}
+
+// Between four places where all rays pass, light that they have not shown is drawn too, for a tenth of a
+// grid that is a third of the target.
+TEST(Aim, NothingWithinAGridIsLeftOut) {
+  Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  std::vector<ShownRay> rays;
+  for (const float y : {-0.5F, 0.5F})
+    for (const float z : {-0.5F, 0.5F})
+      for (const ShownRay& ray : rays_through({5, y, z}, {{0, 0, 0}}, 10000)) rays.push_back(ray);
+  aim.learn(rays);
+  double least = 9;
+  for (std::uint32_t i = 0; i < 1 << 14; ++i) {
+    const auto u = Sampler(6, Purpose::pilot, 0, 0, i).group(0);
+    const Imath::V3f at = aim.point({u[0], u[1]}).point;
+    if (std::max(std::abs(at.y), std::abs(at.z)) > 0.5F) continue;
+    least = std::min(least, density(aim, {u[0], u[1]}));
+  }
+  EXPECT_GT(least, 0.1 + 0.2);
+}
+
 // Light of a lamp comes through a small hole half way to the target, wherever on the lamp it starts: the hole
 // is aimed at from everywhere on it, whatever was shown there.
 TEST(Aim, FindsTheDistanceWhereRaysOfALampPass) {

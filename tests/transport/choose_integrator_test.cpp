@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -125,7 +126,8 @@ TEST(ChooseIntegrator, PassesOnWhatItsPilotsHaveLearnt) {
     const IntegratorChoice choice = choose_integrator(scene, 2);
     ASSERT_NE(choice.guides, nullptr);
     const auto film = [&](const std::shared_ptr<const Guides>& guides) {
-      return render(scene, {.threads = 2, .guides = guides}).film.bytes();
+      const RenderResult rendered = render(scene, {.threads = 2, .guides = guides});
+      return std::string(rendered.film.bytes());
     };
     EXPECT_EQ(film(choice.guides), film(nullptr));
     EXPECT_NE(film(std::make_shared<const Guides>(make_plan(scene).guides)), film(nullptr));

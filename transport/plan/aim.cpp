@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -24,25 +25,56 @@ constexpr double kEverywhere = 0.1;  // of those within a grid
 constexpr float kInverseTurn = std::numbers::inv_pi_v<float> / 2;
 constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
 
-// What lies between the first and the last hundredth of the worth, and an eighth on either side, in [0, 1].
-std::pair<float, float> interval_of(std::vector<std::pair<float, double>>& worths) {
-  constexpr double kTail = 0.01;
-  constexpr float kMargin = 0.125F;
-  constexpr float kLeast = 1e-5F;
-  std::sort(worths.begin(), worths.end());
+using Worths = std::vector<std::pair<float, double>>;  // of places along one axis, in their order
+
+// Where a share of the worth lies before: between the middles of two, so that it is continuous in them all.
+float quantile(const Worths& worths, double share) {
   const double total = std::accumulate(worths.begin(), worths.end(), 0.0,
                                        [](double sum, const auto& one) { return sum + one.second; });
-  const auto quantile = [&](double share) {
-    double sum = 0;
-    for (const auto& [at, worth] : worths)
-      if ((sum += worth) >= share * total) return at;
-    return worths.back().first;
+  double before = 0;
+  std::pair<double, float> last{0, worths.front().first};
+  for (const auto& [at, worth] : worths) {
+    const double middle = (before + worth / 2) / total;
+    if (middle >= share) {
+      const double step = middle > last.first ? (share - last.first) / (middle - last.first) : 1;
+      return last.second + static_cast<float>(step) * (at - last.second);
+    }
+    last = {middle, at};
+    before += worth;
+  }
+  return last.second;
+}
+
+// What lies between the first and the last hundredth of the worth, and an eighth on either side: its
+// beginning and its size, in [0, 1]. In steps, so that rounding moves no grid.
+std::pair<float, float> interval_of(Worths& worths) {
+  constexpr double kTail = 0.01;
+  constexpr float kMargin = 0.125F;
+  constexpr float kSteps = 2048;
+  std::sort(worths.begin(), worths.end());
+  const float low = quantile(worths, kTail);
+  const float high = quantile(worths, 1 - kTail);
+  const float margin = kMargin * (high - low);
+  const float from = std::max(std::floor((low - margin) * kSteps), 0.0F);
+  const float to = std::min(std::floor((high + margin) * kSteps) + 1, kSteps);
+  return {from / kSteps, (to - from) / kSteps};
+}
+
+// Adds to the four cells whose middles are around a place of the unit square, so that what they hold is
+// continuous in it.
+void add_between(std::vector<double>& cells, const Imath::V2f& at, double worth) {
+  const auto split = [](float x) {
+    const float from_middle = std::clamp(x * kCells - 0.5F, 0.0F, static_cast<float>(kCells - 1));
+    const auto below = std::min(static_cast<std::size_t>(from_middle), kCells - 2);
+    return std::pair(below, static_cast<double>(from_middle) - static_cast<double>(below));
   };
-  const float low = quantile(kTail);
-  const float high = quantile(1 - kTail);
-  const float margin = std::max(kMargin * (high - low), kLeast);
-  const float from = std::max(low - margin, 0.0F);
-  return {from, std::min(high + margin, 1.0F) - from};
+  const auto [column, right] = split(at.x);
+  const auto [row, up] = split(at.y);
+  double* cell = &cells[row * kCells + column];
+  cell[0] += worth * (1 - right) * (1 - up);
+  cell[1] += worth * right * (1 - up);
+  cell[kCells] += worth * (1 - right) * up;
+  cell[kCells + 1] += worth * right * up;
 }
 
 // Each spread evenly over the square of so many cells around it, those beyond the edge lying on it; but for a
@@ -92,6 +124,7 @@ Aim::Aim(const Imath::V3f& light_center, float light_radius, const Imath::V3f& t
   // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
   face(to_target / distance, target_center,
        target_radius * distance / std::sqrt((distance - target_radius) * (distance + target_radius)));
+  distance_ = distance;
   // Close to a lamp its own size spreads what comes there.
   nearest_ = std::max(0.0F, std::min(0.9F * distance, distance - 2 * light_radius));
   growth_ = (light_radius - target_half_size_) / distance;
@@ -103,6 +136,7 @@ Aim Aim::from_afar(const Imath::V3f& axis, double least_cosine, const Imath::V3f
                    double target_radius) {
   Aim aim;
   aim.far_ = true;
+  aim.distance_ = std::numeric_limits<float>::infinity();
   aim.face(axis, target_center, static_cast<float>(target_radius / least_cosine));
   aim.nearest_ = 2 * aim.half_size_;
   aim.growth_ = static_cast<float>(std::sqrt(std::max(0.0, 1 - least_cosine * least_cosine)) / least_cosine);
@@ -155,12 +189,18 @@ void Aim::stand_where_fewest_pass(std::span<const ShownRay> shown) {
     stand(nearer);
     const std::vector<WeighedPlace> places = places_of(some);
     if (places.empty()) continue;
-    const float area = window_of(places).area();
-    if (smallest > 0 && area * kLeastGain > smallest) continue;
-    smallest = area;
+    const float extent = extent_of(window_of(places), nearer);
+    if (smallest > 0 && extent * kLeastGain > smallest) continue;
+    smallest = extent;
     best = nearer;
   }
   stand(best);
+}
+
+// Of a window on a target that stands so much nearer, as seen from the middle of the light.
+float Aim::extent_of(const Window& window, float nearer) const {
+  const float edge = half_size_ / (1 - nearer / distance_);
+  return window.area() * edge * edge;
 }
 
 std::vector<Aim::WeighedPlace> Aim::places_of(std::span<const ShownRay> shown) const {
@@ -171,8 +211,8 @@ std::vector<Aim::WeighedPlace> Aim::places_of(std::span<const ShownRay> shown) c
 }
 
 Aim::Window Aim::window_of(const std::vector<WeighedPlace>& places) {
-  std::vector<std::pair<float, double>> a;
-  std::vector<std::pair<float, double>> b;
+  Worths a;
+  Worths b;
   for (const auto& [at, worth] : places) {
     a.emplace_back(at.x, worth);
     b.emplace_back(at.y, worth);
@@ -190,7 +230,7 @@ bool Aim::Window::holds(const Imath::V2f& at) const {
 Aim::Grid::Grid(const Window& over, const std::vector<WeighedPlace>& places)
     : window(over), density(kGrid), row_cdf(kCells), column_cdf(kGrid) {
   std::vector<double> cells(kGrid, 0.0);
-  for (const auto& [at, worth] : places) cells[cell_of((at - window.corner) / window.size)] += worth;
+  for (const auto& [at, worth] : places) add_between(cells, (at - window.corner) / window.size, worth);
   const std::vector<double> weights = smoothed(cells, reach_for(places.size()));
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   double rows = 0;

@@ -102,6 +102,7 @@ class Aim {
   [[nodiscard]] bool learns() const { return guided_ || around_; }
   void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);
   void stand(float nearer);
+  [[nodiscard]] float extent_of(const Window& window, float nearer) const;
   void stand_where_fewest_pass(std::span<const ShownRay> shown);
   [[nodiscard]] std::optional<Imath::V2f> place_of(const Imath::V3f& from, const Imath::V3f& direction) const;
   [[nodiscard]] std::vector<WeighedPlace> places_of(std::span<const ShownRay> shown) const;
@@ -117,7 +118,8 @@ class Aim {
   Imath::V3f axis_{0, 0, 1};  // from the light to the target
   Imath::V3f side_{1, 0, 0};
   Imath::V3f top_{0, 1, 0};
-  float target_half_size_ = 0;  // at its middle,
+  float distance_ = 0;          // from the middle of the light to the target,
+  float target_half_size_ = 0;  // whose half size is this at its middle,
   float nearest_ = 0;           // and how much nearer to the light it may stand at most,
   float growth_ = 0;            // by how much its half size grows for each such metre,
   Imath::V3f center_{0, 0, 0};  // and where it stands
