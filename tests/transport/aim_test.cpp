@@ -114,8 +114,36 @@ TEST(Aim, IsAsSharpAsRaysAreMany) {
   };
   most_by_few = largest(few);
   most_by_many = largest(many);
-  EXPECT_LT(most_by_few, 20);
-  EXPECT_GT(most_by_many, 50);
+  EXPECT_LT(most_by_few, 8);
+  EXPECT_GT(most_by_many, 15);
+}
+
+// Of the target, by its points and their densities, the area of a box between those y and those z [m^2].
+double area_within(const Aim& aim, const Imath::V2f& y, const Imath::V2f& z) {
+  constexpr std::uint32_t kCount = 1 << 17;
+  double area = 0;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const auto u = Sampler(7, Purpose::pilot, 0, 0, i).group(0);
+    const AimedPoint at = aim.point({u[0], u[1]});
+    if (at.point.y > y.x && at.point.y < y.y && at.point.z > z.x && at.point.z < z.y)
+      area += 1 / static_cast<double>(at.pdf) / kCount;
+  }
+  return area;
+}
+
+// Where rays are even, and where the grids of most and of few overlap.
+TEST(Aim, PointsHaveTheDensityTheyAreDrawnBy) {
+  std::vector<ShownRay> rays;
+  for (std::uint32_t i = 0; i < 6400; ++i) {
+    const auto u = Sampler(5, Purpose::pilot, 0, 0, i).group(0);
+    rays.push_back({{0, 0, 0}, Imath::V3f(5, u[0] / 2 - 0.25F, u[1] / 2 - 0.25F).normalized(), 1});
+  }
+  Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  aim.learn(rays);
+  EXPECT_NEAR(area_within(aim, {-0.2F, 0.2F}, {-0.2F, 0.2F}), 0.16, 0.004 * 0.16);
+  for (int i = 0; i < 60; ++i) rays.push_back({{0, 0, 0}, Imath::V3f(5, 0.45F, 0).normalized(), 1});
+  aim.learn(rays);
+  EXPECT_NEAR(area_within(aim, {0.2F, 0.35F}, {-0.1F, 0.1F}), 0.03, 0.01 * 0.03);
 }
 
 // Between four places where all rays pass, light that they have not shown is drawn too, for a tenth of a

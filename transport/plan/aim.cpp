@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr std::size_t kCells = 256;  // along each side of the grid
+constexpr std::size_t kCells = 128;  // along each side of the grid
 constexpr std::size_t kGrid = kCells * kCells;
 constexpr float kEmissionShare = 0.05F;
 // Of those that are aimed, once an aim has learnt: anywhere, and, at most, where few others have gone.
@@ -77,10 +77,11 @@ void add_between(std::vector<double>& cells, const Imath::V2f& at, double worth)
   cell[kCells + 1] += worth * right * up;
 }
 
-// Each spread evenly over the square of so many cells around it, those beyond the edge lying on it; but for a
-// share that is spread over all, as where little light passes few rays or none have shown it.
+// Each spread evenly over the square of so many cells around it, mirrored where that is beyond the edge; but
+// for a share that is spread over all, as where little light passes few rays or none have shown it.
 std::vector<double> smoothed(const std::vector<double>& cells, int reach) {
   constexpr int kEdge = static_cast<int>(kCells);
+  const auto mirrored = [](int i) { return i < 0 ? -1 - i : i < kEdge ? i : 2 * kEdge - 1 - i; };
   const double total = std::accumulate(cells.begin(), cells.end(), 0.0);
   std::vector<double> spread(kGrid, kEverywhere * total / kGrid);
   const double share = (1 - kEverywhere) / ((2 * reach + 1) * (2 * reach + 1));
@@ -90,8 +91,7 @@ std::vector<double> smoothed(const std::vector<double>& cells, int reach) {
       if (amount == 0) continue;
       for (int r = row - reach; r <= row + reach; ++r)
         for (int c = column - reach; c <= column + reach; ++c)
-          spread[static_cast<std::size_t>(std::clamp(r, 0, kEdge - 1) * kEdge +
-                                          std::clamp(c, 0, kEdge - 1))] += amount;
+          spread[static_cast<std::size_t>(mirrored(r) * kEdge + mirrored(c))] += amount;
     }
   return spread;
 }
@@ -107,7 +107,7 @@ std::size_t cell_of(const Imath::V2f& at) {
 // So many that a square of them holds about sixteen of the rays, were they all over the grid.
 int reach_for(std::size_t rays) {
   constexpr double kRays = 16;
-  constexpr double kMost = 32;
+  constexpr double kMost = 16;
   const double side = std::sqrt(kRays * kGrid / static_cast<double>(rays));
   return static_cast<int>(std::clamp(std::ceil((side - 1) / 2), 1.0, kMost));
 }

@@ -56,7 +56,8 @@ void learn_aims(Plan& plan, int threads) {
     const std::vector<double> squares = relative_squares(pilots.splats, places, pilots.starts.size());
     std::vector<ShownStart> shown;
     for (std::size_t i = 0; i < squares.size(); ++i)
-      if (squares[i] > 0) shown.push_back({pilots.starts[i], std::sqrt(squares[i])});
+      if (squares[i] > 0 && std::isfinite(squares[i]))
+        shown.push_back({pilots.starts[i], std::sqrt(squares[i])});
     aim_where(shown, plan);
   }
 }
