@@ -95,7 +95,7 @@ PhotonStart start_photon(const Plan& plan, RayCaster& caster, Walk& photon) {
   const std::array<float, 4> b = photon.sampler.group(kEmissionGroup);
   const PowerLightSampler::SampledLight pick = plan.traced_lights.pick(b[3]);
   const PhotonRay start = start_ray(plan, caster, pick, {{a[0], a[1]}, {b[0], b[1]}, b[2], a[kTimeNumber]});
-  const PhotonStart told{pick.light, start.ray.origin, start.ray.direction};
+  PhotonStart told{pick.light, start.ray.origin, start.ray.direction};
   if (!(start.factor > 0)) {
     photon.packet.throughput = SampledSpectrum();
     return told;
