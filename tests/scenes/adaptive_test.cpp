@@ -145,11 +145,11 @@ double relative_variance(const Film& film) {
   return sum / (3 * static_cast<double>(pixels));
 }
 
-// At as many rays, by the films' own variances: of films so large that pilots expect a gain in all of them.
+// At as many rays, by the films' own variances.
 TEST(AdaptiveRender, HasLessErrorForItsRays) {
   for (const char* name : {"cornell.json", "materials/rough_metal.json", "materials/textures.json"}) {
     const Scene scene =
-        test::load(name, {{"/sensor/resolution", "[192, 144]"}, {"/render/integrator", "path"}});
+        test::load(name, {{"/sensor/resolution", "[128, 96]"}, {"/render/integrator", "path"}});
     RenderOptions options;
     options.time_limit_s = 1e9;
     options.samples = SampleRange{0, 96};

@@ -109,14 +109,12 @@ TEST(Limits, LightTheSensorDoesNotRespondToIsExactlyBlack) {
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
 }
 
-// But for rounding: floats know where a pilot's ray meets its target to 1e-6 of that, of which a cell is a
-// hundredth, and the density there, by which photons are weighed, is told by a dozen of such rays.
 TEST(Limits, AnImageDoesNotDependOnTheUnitOfLength) {
   const auto in = [](const char* unit) {
     return small("glass_sphere.json", {{"/units", unit}, {"/materials/glass/dielectric/ior", "1.7"}});
   };
   const RenderResult metres = in("m");
-  for (const char* unit : {"cm", "mm", "in"}) EXPECT_LT(difference(metres.film, in(unit).film), 2e-4) << unit;
+  for (const char* unit : {"cm", "mm", "in"}) EXPECT_LT(difference(metres.film, in(unit).film), 1e-5) << unit;
 }
 
 TEST(Limits, MatterOfIndexOneIsNotSeen) {

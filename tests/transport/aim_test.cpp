@@ -100,8 +100,6 @@ TEST(Aim, IsAsSharpAsRaysAreMany) {
   }
   std::vector<ShownRay> many;
   for (int i = 0; i < 1024; ++i) many.insert(many.end(), few.begin(), few.end());
-  double most_by_few = 0;
-  double most_by_many = 0;
   Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
   const auto largest = [&](const std::vector<ShownRay>& shown) {
     aim.learn(shown);
@@ -112,10 +110,8 @@ TEST(Aim, IsAsSharpAsRaysAreMany) {
     }
     return most;
   };
-  most_by_few = largest(few);
-  most_by_many = largest(many);
-  EXPECT_LT(most_by_few, 8);
-  EXPECT_GT(most_by_many, 15);
+  EXPECT_LT(largest(few), 8);
+  EXPECT_GT(largest(many), 15);
 }
 
 // Of the target, by its points and their densities, the area of a box between those y and those z [m^2].

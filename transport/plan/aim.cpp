@@ -1,6 +1,7 @@
 #include "transport/plan/aim.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -77,23 +78,35 @@ void add_between(std::vector<double>& cells, const Imath::V2f& at, double worth)
   cell[kCells + 1] += worth * right * up;
 }
 
-// Each spread evenly over the square of so many cells around it, mirrored where that is beyond the edge; but
-// for a share that is spread over all, as where little light passes few rays or none have shown it.
-std::vector<double> smoothed(const std::vector<double>& cells, int reach) {
+// Means over so many cells before and after each along one axis, mirrored beyond the edges: `step` leads from
+// a cell to the next along it, `other` along the other axis.
+void average(std::vector<double>& cells, int reach, std::size_t step, std::size_t other) {
   constexpr int kEdge = static_cast<int>(kCells);
-  const auto mirrored = [](int i) { return i < 0 ? -1 - i : i < kEdge ? i : 2 * kEdge - 1 - i; };
-  const double total = std::accumulate(cells.begin(), cells.end(), 0.0);
-  std::vector<double> spread(kGrid, kEverywhere * total / kGrid);
-  const double share = (1 - kEverywhere) / ((2 * reach + 1) * (2 * reach + 1));
-  for (int row = 0; row < kEdge; ++row)
-    for (int column = 0; column < kEdge; ++column) {
-      const double amount = share * cells[static_cast<std::size_t>(row * kEdge + column)];
-      if (amount == 0) continue;
-      for (int r = row - reach; r <= row + reach; ++r)
-        for (int c = column - reach; c <= column + reach; ++c)
-          spread[static_cast<std::size_t>(mirrored(r) * kEdge + mirrored(c))] += amount;
+  const auto mirrored = [](int i) {
+    return static_cast<std::size_t>(i < 0 ? -1 - i : i < kEdge ? i : 2 * kEdge - 1 - i);
+  };
+  std::array<double, kCells> line;
+  for (std::size_t k = 0; k < kCells; ++k) {
+    for (int i = 0; i < kEdge; ++i) {
+      double sum = 0;
+      for (int near = i - reach; near <= i + reach; ++near) sum += cells[k * other + mirrored(near) * step];
+      line[static_cast<std::size_t>(i)] = sum / (2 * reach + 1);
     }
-  return spread;
+    for (std::size_t i = 0; i < kCells; ++i) cells[k * other + i * step] = line[i];
+  }
+}
+
+// Each spread over the cells within so many of it, the less the farther, twice by half of that, so that the
+// density is continuous in where rays pass; but for a share that is spread over all, as where little light
+// passes few rays or none have shown it.
+std::vector<double> smoothed(std::vector<double> cells, int reach) {
+  const double even = std::accumulate(cells.begin(), cells.end(), 0.0) / kGrid;
+  for (int time = 0; time < 2; ++time) {
+    average(cells, (reach + 1) / 2, 1, kCells);
+    average(cells, (reach + 1) / 2, kCells, 1);
+  }
+  for (double& cell : cells) cell = (1 - kEverywhere) * cell + kEverywhere * even;
+  return cells;
 }
 
 // Of a place within the unit square.
@@ -268,11 +281,14 @@ std::optional<Imath::V2f> Aim::place_of(const Imath::V3f& from, const Imath::V3f
     const float turn = std::atan2(direction.dot(top_), direction.dot(side_)) * kInverseTurn;
     return Imath::V2f(turn < 0 ? turn + 1 : turn, (1 - direction.dot(axis_)) / 2);
   }
-  const float t = (center_ - from).dot(axis_) / direction.dot(axis_);
+  const Imath::V3d axis(axis_);
+  const Imath::V3d way(direction);
+  const Imath::V3d apart = Imath::V3d(from) - Imath::V3d(center_);
+  const double t = -apart.dot(axis) / way.dot(axis);
   if (!(far_ || t > 0)) return std::nullopt;
-  const Imath::V3f offset = from + direction * t - center_;
-  const Imath::V2f at(0.5F + offset.dot(side_) / (2 * half_size_),
-                      0.5F + offset.dot(top_) / (2 * half_size_));
+  const Imath::V3d offset = (apart + way * t) / (2 * static_cast<double>(half_size_));
+  const Imath::V2f at(static_cast<float>(0.5 + offset.dot(Imath::V3d(side_))),
+                      static_cast<float>(0.5 + offset.dot(Imath::V3d(top_))));
   if (!(at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1)) return std::nullopt;
   return at;
 }
@@ -300,10 +316,19 @@ Aim::Place Aim::draw(Imath::V2f u) const {
   return {at, pdf_at(at)};
 }
 
+Imath::V3f Aim::point_at(const Imath::V2f& at) const {
+  return center_ + side_ * ((2 * at.x - 1) * half_size_) + top_ * ((2 * at.y - 1) * half_size_);
+}
+
 AimedPoint Aim::point(Imath::V2f u) const {
   const Place place = draw(u);
-  return {center_ + side_ * ((2 * place.at.x - 1) * half_size_) + top_ * ((2 * place.at.y - 1) * half_size_),
-          place.pdf / (4 * half_size_ * half_size_)};
+  return {point_at(place.at), place.pdf / (4 * half_size_ * half_size_)};
+}
+
+Imath::V3f Aim::direction_to(const Imath::V3f& from, const Imath::V2f& at) const {
+  if (!around_) return (point_at(at) - from).normalized();
+  const Imath::V3f local = direction_at(1 - 2 * at.y, 2 * std::numbers::pi * at.x);
+  return side_ * local.x + top_ * local.y + axis_ * local.z;
 }
 
 float Aim::pdf_of_direction(const Imath::V3f& from, const Imath::V3f& direction, float pdf) const {
@@ -327,15 +352,10 @@ AimedDirection Aim::sample(const Light& light, const EmissionPoint& from, float 
   if (choice < kEmissionShare) {
     wi = emission_direction(light, from.normal, u, time);
     if (const auto at = place_of(from.point, wi)) at_target = pdf_at(*at);
-  } else if (around_) {
-    const auto [at, pdf] = draw(u);
-    const Imath::V3f local = direction_at(1 - 2 * at.y, 2 * std::numbers::pi * at.x);
-    wi = side_ * local.x + top_ * local.y + axis_ * local.z;
-    at_target = pdf;
   } else {
-    const AimedPoint target = point(u);
-    wi = (target.point - from.point).normalized();
-    at_target = target.pdf * (4 * half_size_ * half_size_);
+    const auto [at, pdf] = draw(u);
+    wi = direction_to(from.point, at);
+    at_target = pdf;
   }
   return {wi, kEmissionShare * by_emission(wi) +
                   (1 - kEmissionShare) * pdf_of_direction(from.point, wi, at_target)};

@@ -109,6 +109,8 @@ class Aim {
   [[nodiscard]] static Window window_of(const std::vector<WeighedPlace>& places);
   [[nodiscard]] Place draw(Imath::V2f u) const;
   [[nodiscard]] float pdf_at(const Imath::V2f& at) const;
+  [[nodiscard]] Imath::V3f point_at(const Imath::V2f& at) const;
+  [[nodiscard]] Imath::V3f direction_to(const Imath::V3f& from, const Imath::V2f& at) const;
   [[nodiscard]] float pdf_of_direction(const Imath::V3f& from, const Imath::V3f& direction, float pdf) const;
 
   bool guided_ = false;

@@ -26,8 +26,7 @@ std::vector<Arrivals> trace_photons(const Plan& plan, const Emissions& emissions
       });
 }
 
-// Aims photons at where others have come through.
-void learn_aims(Plan& plan, const std::vector<Arrivals>& arrived) {
+void aim_where_others_arrived(Plan& plan, const std::vector<Arrivals>& arrived) {
   std::vector<ShownStart> shown;
   for (const Arrivals& batch : arrived)
     for (const CausticPhotonTracer::Arrival& arrival : batch) shown.push_back({arrival.start, 1});
@@ -86,7 +85,7 @@ void learn_caustics(Plan& plan, int threads) {
   const std::vector<Arrivals> first =
       trace_photons(*photons, emissions, {PilotStage::caustic_aims, kFirstPhotons}, threads);
   if (count(first) < kTooFew) return;
-  learn_aims(*photons, first);
+  aim_where_others_arrived(*photons, first);
   std::vector<Arrivals> arrived;
   for (std::uint32_t traced = 0; traced < kMostPhotons && count(arrived) < kEnough; traced += kAtATime)
     for (Arrivals& batch :

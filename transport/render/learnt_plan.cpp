@@ -6,20 +6,17 @@
 
 namespace abbe {
 
-Plan make_learnt_plan(const Scene& scene, int threads) {
+Plan make_learnt_plan(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
   Plan plan = make_plan(scene);
+  if (guides != nullptr) {
+    plan.guides = *guides;
+    return plan;
+  }
   if (plan.techniques.size() > 1) {
     learn_aims(plan, threads);
     learn_wavelengths(plan, threads);
   }
   learn_caustics(plan, threads);
-  return plan;
-}
-
-Plan make_learnt_plan(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
-  if (guides == nullptr) return make_learnt_plan(scene, threads);
-  Plan plan = make_plan(scene);
-  plan.guides = *guides;
   return plan;
 }
 

@@ -10,11 +10,8 @@ namespace abbe {
 /// (`learn_aims`), with wavelengths drawn where these leave noise (`learn_wavelengths`), and whose camera
 /// paths look for caustics where photons show them (`learn_caustics`). What is learnt depends on the scene
 /// alone, neither on its seed nor on its samples, nor on the threads, which change nothing but the time it
-/// takes. Throws what `make_plan` throws.
-[[nodiscard]] Plan make_learnt_plan(const Scene& scene, int threads);
-
-/// That plan where its guides are known from before; else, of none, it learns them.
+/// takes; guides that are known from before are taken instead. Throws what `make_plan` throws.
 [[nodiscard]] Plan make_learnt_plan(const Scene& scene, int threads,
-                                    const std::shared_ptr<const Guides>& guides);
+                                    const std::shared_ptr<const Guides>& guides = {});
 
 }  // namespace abbe
