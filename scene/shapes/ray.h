@@ -46,9 +46,10 @@ struct LoggedRay {
                                              const Imath::V3f& direction) {
   // A point on a surface is off it by rounding, at most half a float step along each axis; so is the point
   // moved. Four steps of the largest coordinate clear both, and intersection decides the rest in double. Near
-  // the origin steps vanish, and the floor takes over: the size of an atom.
+  // the origin steps vanish, and the floor takes over: what double tells from 0 on planes a hundred metres
+  // wide, and no more than a float step where all of a scene is a micrometre.
   constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
-  constexpr float kLeastOffset_m = 1e-10F;
+  constexpr float kLeastOffset_m = 1e-13F;
   const float largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
   const float distance = std::max(kOffsetSteps * largest, kLeastOffset_m);
   return point + normal * std::copysign(distance, normal.dot(direction));

@@ -275,6 +275,19 @@ TEST(SceneIntersection, RaysLeavingATriangleNeverMeetItAgain) {
   EXPECT_EQ(acne, 0);
 }
 
+// In a scene of micrometres as in one of kilometres, so that they start in the same matter: by powers of two,
+// which round nothing.
+TEST(SceneIntersection, RaysStartAsFarOffAsTheSizeOfTheSceneSays) {
+  Random random(9);
+  for (const float scale : {0x1p-20F, 0x1p-10F, 0x1p10F, 0x1p20F})
+    for (int i = 0; i < 1000; ++i) {
+      const V3f point(random.direction());
+      const V3f normal(random.direction());
+      const V3f out(random.direction());
+      EXPECT_EQ(offset_point(point * scale, normal, out), offset_point(point, normal, out) * scale);
+    }
+}
+
 TEST(SceneIntersection, ShadowRaysSeeWhatTheyEndOn) {
   // A lamp across the origin of a large room: points on it are far more precise than the way to it.
   Random random(6);

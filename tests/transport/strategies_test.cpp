@@ -319,5 +319,29 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
   }
 }
 
+// Light in matter so dense that it is scattered within less than floats tell places apart.
+TEST(RecordedPaths, HaveAPlaceForEachOfTheirVertices) {
+  Scene scene = room({kPinhole, Filling::fog});
+  auto& fog = std::get<MediumMaterial>(scene.materials[2].model);
+  fog.filling.scattering_per_m = Curve(1e8);
+  scene.render.max_depth = 20;
+  scene.commit();
+  RayCaster caster(scene);
+  const Plan plan = make_plan(scene);
+  PathRecorder<TransportMode::radiance> recorder(scene, caster);
+  for (std::uint32_t i = 0; i < kBatch; ++i)
+    recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, i}, i));
+  recorder.run();
+  int within = 0;
+  for (const RecordedPath& path : recorder.paths())
+    for (std::size_t i = 0; i + 1 < path.vertices.size(); ++i) {
+      const PathVertex& to = path.vertices[i + 1];
+      within += std::holds_alternative<MediumVertex>(to.at) ? 1 : 0;
+      EXPECT_GT(way_from(path.vertices[i], to).distance, 0);
+      EXPECT_TRUE(std::isfinite(to.pdf_forward.max()));
+    }
+  EXPECT_GT(within, 2000);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -30,11 +30,13 @@ struct RecordedPath : Walk {
   SampledSpectrum direction_pdf{1.0F};
   float carried_at_start = 1;  ///< What roulette compares with.
   float eta_scale = 1;         ///< What refraction has taken off radiance, which counts as still there.
+  bool stays = false;          ///< It has come to where its last vertex is, as floats tell places.
 };
 
 /// Random walks whose vertices are kept for other techniques to join: of paths from the camera, which carry
-/// radiance, or from lights, which carry power. Vertices of matter that nothing leaves are not kept. Each is
-/// given, lane by lane,
+/// radiance, or from lights, which carry power. Vertices of matter that nothing leaves are not kept, and a
+/// walk ends where it comes to the place of its last vertex, as floats tell places. Each is given, lane by
+/// lane,
 ///     pdf_forward(x_i) = p(w_i) dw/dA pass,      p(w_i) the density of the direction to it from x_{i-1},
 ///     pdf_reverse(x_i) = p(w_i') dw/dA pass,     p(w_i') that of the direction to it from x_{i+1},
 /// `pass` being the density of coming through the matter between, and in matter that of an event there,
@@ -95,10 +97,11 @@ class PathRecorder {
     const std::int32_t light = scene_.shapes[hit.shape].light;
     if (mode == TransportMode::power || light < 0) return;
     const auto index = static_cast<std::uint32_t>(light);
-    if (emits_towards(scene_.lights[index], hit.normal, -path.ray.direction))
+    if (emits_towards(scene_.lights[index], hit.normal, -path.ray.direction) && !stays_at(path, hit.point))
       keep_light(path, {index, hit.point, hit.normal});
   }
   void reach(RecordedPath& path, const SurfaceVertex& vertex) {
+    if ((path.stays = stays_at(path, vertex.hit.point))) return;
     PathVertex here{.at = vertex};
     here.beyond = vertex.behind(scene_, path.around.inside);
     path.vertices.push_back(come_to(path, std::move(here)));
@@ -113,8 +116,12 @@ class PathRecorder {
                                                   const BsdfRandom& u) const {
     return vertex.scatter(u, path.packet.hero, mode);
   }
-  [[nodiscard]] bool follows(RecordedPath& /*path*/, const BsdfSample& /*event*/) const { return true; }
-  [[nodiscard]] bool follows_within(const RecordedPath& /*path*/) const { return true; }
+  [[nodiscard]] bool follows(const RecordedPath& path, const BsdfSample& /*event*/) const {
+    return !path.stays;
+  }
+  [[nodiscard]] bool follows_within(const RecordedPath& path) const {
+    return !stays_at(path, path.ray.origin);
+  }
   [[nodiscard]] float kept(RecordedPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
     path.vertices.back().delta = event.delta;
     if (mode == TransportMode::radiance) path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
@@ -131,6 +138,11 @@ class PathRecorder {
   void resolve_connections() {}
 
  private:
+  // From a place to itself there is no density of directions by area.
+  [[nodiscard]] static bool stays_at(const RecordedPath& path, const Imath::V3f& point) {
+    const PathVertex& last = path.vertices.back();
+    return !last.at_infinity() && point_of(last) == point;
+  }
   // Of coming from one vertex to the next, whatever stands between them.
   [[nodiscard]] SampledSpectrum passing(const PathVertex& from, const PathVertex& to) {
     if (!walks_.has_free_paths()) return SampledSpectrum(1.0F);
