@@ -100,8 +100,8 @@ MediumStack around_camera(const Scene& scene) {
   return enclosing(scene, meter_point(scene.camera, {0.5F, 0.5F}));
 }
 
-MediumStack around_light(const Scene& scene, const Light& light) {
-  if (light.at_infinity() || scene.is_far(light)) return {};
+std::optional<MediumStack> around_light(const Scene& scene, const Light& light) {
+  if (light.at_infinity() || scene.is_far(light)) return MediumStack();
   const auto around = [&](const std::array<float, 2>& u) {
     const EmissionPoint at = sample_emission_point(light, scene.shapes, {u[0], u[1]}, 0);
     return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
@@ -110,10 +110,7 @@ MediumStack around_light(const Scene& scene, const Light& light) {
   if (light.is_delta()) return middle;
   for (const std::array<float, 2>& u : kSpreadOverLight) {
     const MediumStack there = around(u);
-    if (!std::ranges::equal(there.shapes(), middle.shapes()))
-      throw Error(ErrorCode::scene, light.name,
-                  "photons cannot start from a lamp that stands in two kinds of matter at once: "
-                  "--integrator path renders it");
+    if (!std::ranges::equal(there.shapes(), middle.shapes())) return std::nullopt;
   }
   return middle;
 }

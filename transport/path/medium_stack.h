@@ -45,11 +45,11 @@ class MediumStack {
 /// Finds the shapes around a point in the scene at some time, along a ray from there and its opposite: a
 /// shape encloses the point if both leave it more often than they enter.
 [[nodiscard]] MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time = 0);
-/// Finds the shapes around a scene's camera, its lens or the middle of its meter, and around a light, which
-/// may not stand in two matters at once. A light that is far, or at infinity, stands outside of them all.
-/// Throws Error{scene} for a lamp whose corners do. Both at time 0.
+/// Finds the shapes around a scene's camera, its lens or the middle of its meter, and around a light, at time
+/// 0. A light that is far, or at infinity, stands outside of them all; nothing is told of a lamp whose
+/// corners stand in other matter than its middle.
 [[nodiscard]] MediumStack around_camera(const Scene& scene);
-[[nodiscard]] MediumStack around_light(const Scene& scene, const Light& light);
+[[nodiscard]] std::optional<MediumStack> around_light(const Scene& scene, const Light& light);
 /// Whether it may depend on time in which matter what stands in the box is, which itself moves or not; or, of
 /// what counts as moving because it is extended, on where.
 [[nodiscard]] bool matter_moves(const Scene& scene, const Imath::Box3d& box, bool moves);

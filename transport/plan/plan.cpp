@@ -178,7 +178,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   if (scene.needs.motion) look_for_moving_matter(plan);
   if (uses(plan.techniques, Technique::path)) plan.lights_along = lamps_along_matter(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]);
+    if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]).value();
   if (traces_light && plan.traced_lights.empty()) {
     std::erase(plan.techniques, Technique::light);
     plan.traced.assign(scene.lights.size(), false);
@@ -188,12 +188,11 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
 
 // Why photons cannot start from one of these lights.
 std::optional<Error> refusal_to_start(const Scene& scene, const std::vector<bool>& traced) {
-  try {
-    for (std::size_t i = 0; i < traced.size(); ++i)
-      if (traced[i]) (void)around_light(scene, scene.lights[i]);
-  } catch (const Error& refused) {
-    return refused;
-  }
+  for (std::size_t i = 0; i < traced.size(); ++i)
+    if (traced[i] && !around_light(scene, scene.lights[i]))
+      return Error(ErrorCode::scene, scene.lights[i].name,
+                   "photons cannot start from a lamp that stands in two kinds of matter at once: "
+                   "--integrator path renders it");
   return std::nullopt;
 }
 

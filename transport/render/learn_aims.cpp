@@ -1,6 +1,7 @@
 #include "transport/render/learn_aims.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace {
 struct Pilots {
   std::vector<PhotonStart> starts;
   std::vector<Splat> splats;
+  [[nodiscard]] std::size_t size() const { return splats.size(); }
 };
 
 Pilots trace_batch(LightTracer& tracer, std::span<const Sampler> photons, const RelativePlaces& places) {
@@ -48,11 +50,12 @@ Pilots trace_pilots(const Plan& plan, const RelativePlaces& places, const PilotP
 // sqrt(s) says; those drawn show p0.
 void learn_aims(Plan& plan, int threads) {
   constexpr std::uint32_t kPhotons = 1U << 17;
+  constexpr PilotPhotons kFirst{PilotStage::first_aims, kPhotons, 1U << 13};
   if (plan.traced_lights.empty()) return;
   const RelativePlaces places(plan.scene);
   // First where light passes at all, then, from photons aimed there, how much of it.
-  for (const PilotStage stage : {PilotStage::first_aims, PilotStage::aims}) {
-    const Pilots pilots = trace_pilots(plan, places, {stage, kPhotons}, threads);
+  for (const PilotPhotons& photons : {kFirst, PilotPhotons{PilotStage::aims, kPhotons}}) {
+    const Pilots pilots = trace_pilots(plan, places, photons, threads);
     const std::vector<double> squares = relative_squares(pilots.splats, places, pilots.starts.size());
     std::vector<ShownStart> shown;
     for (std::size_t i = 0; i < squares.size(); ++i)

@@ -71,26 +71,20 @@ std::vector<bool> lights_to_find(const Plan& plan) {
 }  // namespace
 
 void learn_caustics(Plan& plan, int threads) {
-  constexpr std::size_t kTooFew = 8;                 // of the first photons: so rare are none worth more
-  constexpr std::size_t kEnough = 1U << 15;          // that arrive
-  constexpr std::uint32_t kFirstPhotons = 1U << 16;  // which aim the others
-  constexpr std::uint32_t kMostPhotons = 1U << 20;
-  constexpr std::uint32_t kAtATime = 1U << 14;
+  // The first photons aim the others, and where so few of them arrive none are worth more.
+  constexpr PilotPhotons kFirst{PilotStage::caustic_aims, 1U << 16, 1U << 13};
+  constexpr std::size_t kTooFew = 8;
+  constexpr PilotPhotons kOthers{PilotStage::caustics, 1U << 20, 1U << 14};
   if (!plan.scene.needs.caustics || !uses(plan.techniques, Technique::path)) return;
   const std::vector<bool> lights = lights_to_find(plan);
   if (std::ranges::find(lights, true) == lights.end()) return;
   const Emissions emissions = emissions_of(plan.scene);
   std::optional<Plan> photons = make_photon_plan(plan.scene, emissions, lights);
   if (!photons) return;
-  const std::vector<Arrivals> first =
-      trace_photons(*photons, emissions, {PilotStage::caustic_aims, kFirstPhotons}, threads);
+  const std::vector<Arrivals> first = trace_photons(*photons, emissions, kFirst, threads);
   if (count(first) < kTooFew) return;
   aim_where_others_arrived(*photons, first);
-  std::vector<Arrivals> arrived;
-  for (std::uint32_t traced = 0; traced < kMostPhotons && count(arrived) < kEnough; traced += kAtATime)
-    for (Arrivals& batch :
-         trace_photons(*photons, emissions, {PilotStage::caustics, kAtATime, traced}, threads))
-      arrived.push_back(std::move(batch));
+  const std::vector<Arrivals> arrived = trace_photons(*photons, emissions, kOthers, threads);
   std::vector<CausticPhoton> of_paths;
   std::vector<CausticPhoton> all;
   for (const Arrivals& batch : arrived)

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -18,36 +21,46 @@ enum class PilotStage : std::uint32_t { first_aims, aims, wavelengths, caustic_a
 
 inline constexpr std::uint32_t kPilotPhotonBatch = 1U << 9;
 
-/// Those photons of a stage, in multiples of `kPilotPhotonBatch`.
+/// The photons of a stage: at most so many, in multiples of `kPilotPhotonBatch`, and no more once enough has
+/// been found.
 struct PilotPhotons {
   PilotStage stage;
-  std::uint32_t count;
-  std::uint32_t first = 0;
+  std::uint32_t most;
+  std::size_t enough = std::numeric_limits<std::size_t>::max();
 };
 
 /// What `trace(tracer, photons)` returns of each batch of photons, in their order whichever threads traced
-/// them, each thread by a tracer `make_tracer(caster)` of its own. The random numbers are the same for all
-/// scenes and seeds.
+/// them, each thread by a tracer `make_tracer(caster)` of its own; its `size()` is how much has been found.
+/// The random numbers are the same for all scenes and seeds.
 template <typename MakeTracer, typename Trace>
 [[nodiscard]] auto trace_pilot_photons(const Scene& scene, const PilotPhotons& pilots, int threads,
                                        MakeTracer make_tracer, Trace trace) {
   using Tracer = std::invoke_result_t<MakeTracer, RayCaster&>;
   using Found = std::invoke_result_t<Trace, Tracer&, std::span<const Sampler>>;
   constexpr std::uint64_t kSeed = 0;
+  constexpr std::size_t kBatchesAtATime = 32;
   const auto stage = static_cast<std::uint32_t>(pilots.stage);
-  std::vector<Found> batches(pilots.count / kPilotPhotonBatch);
-  std::atomic<std::uint32_t> next = 0;
-  run_on_threads(threads, [&] {
-    RayCaster caster(scene);
-    Tracer tracer = make_tracer(caster);
-    std::vector<Sampler> photons;
-    for (std::uint32_t batch = next++; batch < batches.size(); batch = next++) {
-      photons.clear();
-      for (std::uint32_t i = 0; i < kPilotPhotonBatch; ++i)
-        photons.emplace_back(kSeed, Purpose::pilot, stage, 0, pilots.first + batch * kPilotPhotonBatch + i);
-      batches[batch] = trace(tracer, std::span<const Sampler>(photons));
-    }
-  });
+  const std::size_t most = pilots.most / kPilotPhotonBatch;
+  std::vector<Found> batches;
+  std::size_t found = 0;
+  while (batches.size() < most && found < pilots.enough) {
+    const std::size_t first = batches.size();
+    batches.resize(std::min(first + kBatchesAtATime, most));
+    std::atomic<std::size_t> next = first;
+    run_on_threads(threads, [&] {
+      RayCaster caster(scene);
+      Tracer tracer = make_tracer(caster);
+      std::vector<Sampler> photons;
+      for (std::size_t batch = next++; batch < batches.size(); batch = next++) {
+        photons.clear();
+        for (std::uint32_t i = 0; i < kPilotPhotonBatch; ++i)
+          photons.emplace_back(kSeed, Purpose::pilot, stage, 0,
+                               static_cast<std::uint32_t>(batch) * kPilotPhotonBatch + i);
+        batches[batch] = trace(tracer, std::span<const Sampler>(photons));
+      }
+    });
+    for (std::size_t i = first; i < batches.size(); ++i) found += batches[i].size();
+  }
   return batches;
 }
 
