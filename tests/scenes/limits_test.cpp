@@ -101,6 +101,19 @@ TEST(Limits, ALightWithoutPowerChangesNothing) {
   EXPECT_EQ(difference(plain.film, with.film), 0);
 }
 
+TEST(Limits, ExposuresThatFloatsCannotHoldAreRefused) {
+  Scene scene = test::load("glass_sphere.json");
+  const auto refused = [&](double exposure_s) {
+    scene.exposure_s = exposure_s;
+    const std::optional<Error> error = refusal(scene);
+    return error ? std::string(error->what()) : "";
+  };
+  EXPECT_EQ(refused(1e-30), "");
+  EXPECT_EQ(refused(1e20), "");
+  EXPECT_NE(refused(1e-60).find("give the film less than floats can tell from nothing"), std::string::npos);
+  EXPECT_NE(refused(1e60).find("give the film more than floats can hold"), std::string::npos);
+}
+
 TEST(Limits, LightTheSensorDoesNotRespondToIsExactlyBlack) {
   const RenderResult result =
       small("glass_sphere.json", {{"/lights/0/emission", R"({"spectrum": {"band": [900, 1000]}})"},

@@ -152,6 +152,23 @@ TEST(Connect, IsSymmetric) {
   }
 }
 
+// As between a lens of a millionth of a micrometre and a card beside it: neither a product of what is small
+// nor of what is large is a float.
+TEST(Connect, HoldsWhatIsSmallAndLargeByTurns) {
+  const Scene scene = testing::lit_by(PointLight{{0, 0, 9}});
+  RayCaster caster(scene);
+  PathVertex a = surface_vertex({0, 0, 0.2F}, {0, 0, 1}, {0, 0, 1}, DiffuseBsdf{SampledSpectrum(1e25F)});
+  PathVertex b =
+      surface_vertex({1e-8F, 0, 0.4F}, {0, 0, -1}, {0, 0, 0.1F}, DiffuseBsdf{SampledSpectrum(1e25F)});
+  const auto plain = connect(scene, caster, a, b);
+  ASSERT_TRUE(plain);
+  EXPECT_FALSE(std::isfinite(plain->contribution[0]));
+  a.packet.throughput = b.packet.throughput = SampledSpectrum(1e-25F);
+  const auto joined = connect(scene, caster, a, b);
+  ASSERT_TRUE(joined);
+  EXPECT_NEAR(joined->contribution[0], 1 / (0.04 * std::numbers::pi * std::numbers::pi), 1e-5);
+}
+
 // From the wall of a ball of rough glass that absorbs: inwards through it, outwards through air.
 TEST(Connect, RunsThroughWhatLiesOnTheSideItLeavesTo) {
   Scene scene{};

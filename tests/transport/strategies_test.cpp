@@ -93,7 +93,7 @@ RecordedPath light_path(const Plan& plan, RayCaster& caster, const PathPacket& p
 
 // sum_j f_j/p(lambda_j) / sum_k P_k of two paths that are joined. [Wilkie2014]
 double value(const PathVertex& a, const PathVertex& b, const SampledSpectrum& joined) {
-  const SampledSpectrum f = a.packet.throughput * b.packet.throughput * joined / a.packet.wavelengths.pdf;
+  const SampledSpectrum f = joined / a.packet.wavelengths.pdf;
   return static_cast<double>(f.sum() / (a.packet.lane_pdf * b.packet.lane_pdf).sum());
 }
 

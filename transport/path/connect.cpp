@@ -34,9 +34,11 @@ std::optional<Connection> connect(const Scene& scene, RayCaster& caster, const P
                                   const PathVertex& b) {
   const Way way = way_from(a, b);
   if (!(way.distance > 0)) return std::nullopt;
-  SampledSpectrum f = sent_towards(scene, a, way.direction, TransportMode::radiance);
+  // Factors that are small and large by turns: lenses and pixels may be so small that floats do not hold what
+  // two of a kind make.
+  SampledSpectrum f = a.packet.throughput * sent_towards(scene, a, way.direction, TransportMode::radiance);
   if (f.is_zero()) return std::nullopt;
-  f *= sent_towards(scene, b, -way.direction, TransportMode::power);
+  f *= b.packet.throughput * sent_towards(scene, b, -way.direction, TransportMode::power);
   if (f.is_zero()) return std::nullopt;
   if (!b.at_infinity()) f *= static_cast<float>(1 / (way.distance * way.distance));
 

@@ -8,13 +8,13 @@
 
 namespace abbe {
 
-/// What joins the ends of two paths into one: with f of either end towards the other (of a camera its
-/// importance, of a light its emission), G = |cos_a cos_b|/d^2 and the transmittance T of the way [Veach1997,
-/// eq. 10.3],
-///     contribution = f_a f_b G T,
-/// so that the path contributes the throughputs of both times this, over the densities of both. To a light at
-/// infinity G is cos_a alone. Where polarisation is carried the sensor sees `seen` of a contribution of 1:
-/// what the rows of one measure of the vector of the other.
+/// What joins the ends of two paths into one: with the throughputs t of both, f of either end towards the
+/// other (of a camera its importance, of a light its emission), G = |cos_a cos_b|/d^2 and the transmittance T
+/// of the way [Veach1997, eq. 10.3],
+///     contribution = t_a f_a t_b f_b G T,
+/// so that the path contributes this over the densities of both. To a light at infinity G is cos_a alone.
+/// Where polarisation is carried the sensor sees `seen` of a contribution of 1: what the rows of one measure
+/// of the vector of the other.
 struct Connection {
   SampledSpectrum contribution;
   SampledSpectrum density;  ///< With which `propagate` passes all matter on the way, lane by lane.

@@ -45,14 +45,19 @@ double nominal_value(const Scene& scene, const Emissions& emissions) {
   return nominal * weight;
 }
 
-// Why floats cannot tell so weak an exposure from none: what paths carry is less than the least of them.
-std::optional<Error> too_faint(double nominal) {
-  constexpr double kFaintest = 1e-32;  // a float's least is 1e-38, and paths may carry less than a bright one
-  if (!(nominal > 0 && nominal < kFaintest)) return std::nullopt;
-  return Error(ErrorCode::scene, "",
-               fmt::format("exposure and lights give the film less than floats can tell from nothing (got "
-                           "about {:.2g} where it is bright, allowed {:g} or more)",
-                           nominal, kFaintest));
+// Why floats cannot hold so weak or strong an exposure: what paths carry may be far less than a bright one
+// has, and far more.
+std::optional<Error> beyond_floats(double nominal) {
+  constexpr double kFaintest = 1e-32;  // a float's least is 1e-38,
+  constexpr double kBrightest = 1e35;  // its greatest 3e38
+  const bool faint = nominal > 0 && nominal < kFaintest;
+  if (!faint && !(nominal > kBrightest)) return std::nullopt;
+  return Error(
+      ErrorCode::scene, "",
+      fmt::format("exposure and lights give the film {} (got about {:.2g} where it is bright, allowed "
+                  "{:g} to {:g})",
+                  faint ? "less than floats can tell from nothing" : "more than floats can hold", nominal,
+                  kFaintest, kBrightest));
 }
 
 // The share of a light's power that comes to the scene.
@@ -197,7 +202,7 @@ std::optional<Error> refusal_to_start(const Scene& scene, const std::vector<bool
 }
 
 std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) {
-  if (auto faint = too_faint(nominal_value(scene, emissions))) return faint;
+  if (auto beyond = beyond_floats(nominal_value(scene, emissions))) return beyond;
   std::vector<bool> traced = traced_lights(scene);
   if (auto refused = refusal_to_start(scene, traced)) return refused;
   const bool aims = uses(chosen_techniques(scene), Technique::light);

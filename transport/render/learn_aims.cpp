@@ -50,12 +50,11 @@ Pilots trace_pilots(const Plan& plan, const RelativePlaces& places, const PilotP
 // sqrt(s) says; those drawn show p0.
 void learn_aims(Plan& plan, int threads) {
   constexpr std::uint32_t kPhotons = 1U << 17;
-  constexpr PilotPhotons kFirst{PilotStage::first_aims, kPhotons, 1U << 13};
   if (plan.traced_lights.empty()) return;
   const RelativePlaces places(plan.scene);
   // First where light passes at all, then, from photons aimed there, how much of it.
-  for (const PilotPhotons& photons : {kFirst, PilotPhotons{PilotStage::aims, kPhotons}}) {
-    const Pilots pilots = trace_pilots(plan, places, photons, threads);
+  for (const PilotStage stage : {PilotStage::first_aims, PilotStage::aims}) {
+    const Pilots pilots = trace_pilots(plan, places, {stage, kPhotons}, threads);
     const std::vector<double> squares = relative_squares(pilots.splats, places, pilots.starts.size());
     std::vector<ShownStart> shown;
     for (std::size_t i = 0; i < squares.size(); ++i)

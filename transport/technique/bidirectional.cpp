@@ -240,8 +240,7 @@ void BidirectionalTracer::add_joined(std::uint32_t i, const FilmPoint& at) {
   if (!joint) return;
   joined_.passed = joint->density;
   const PathVertex& light = *joined_.z.back();
-  add(i, at, std::get<LightVertex>(light.at).light,
-      a.packet.throughput * b.packet.throughput * joint->contribution * weight(), joint->seen);
+  add(i, at, std::get<LightVertex>(light.at).light, joint->contribution * weight(), joint->seen);
 }
 
 // Of the joined path; what its ends are drawn by depends on the light and what it lights.

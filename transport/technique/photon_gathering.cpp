@@ -143,9 +143,7 @@ void PhotonGatherer::connect_to_light(GatherPath& path, const PathVertex& vertex
   const std::optional<Connection> joint = abbe::connect(scene_, caster_, vertex, *light);
   if (!joint) return;
   add(path, {std::get<LightVertex>(light->at).light, path.events + 1},
-      vertex.packet.throughput * light->packet.throughput * joint->contribution *
-          mis_weight(vertex.packet.lane_pdf, 0, 0),
-      pointer_to(joint->seen));
+      joint->contribution * mis_weight(vertex.packet.lane_pdf, 0, 0), pointer_to(joint->seen));
 }
 
 // A light that a meter sees has an angle of its own.
@@ -159,8 +157,7 @@ void PhotonGatherer::connect_meter(GatherPath& path) {
   FilmPoint at = at_[path.path];
   at.cos_film = way_from(meter, *light).direction.dot(*normal_of(scene_, meter));
   const SampledSpectrum contribution =
-      meter.packet.throughput * light->packet.throughput * joint->contribution *
-      (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light));
+      joint->contribution * (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light));
   expose(path, at, contribution);
   if (apart_) expose_apart(path, at, {std::get<LightVertex>(light->at).light, 0}, contribution);
 }

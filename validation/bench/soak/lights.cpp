@@ -38,7 +38,9 @@ Json relative(Drawing& drawing) {
 
 Json draw_emission(Drawing& drawing, const std::string& kind) {
   Random& random = drawing.random;
-  const double much = drawing.brightness * decades(random, 1e-3, 1e3);
+  // A lamp at a point lights what is a scene's size away as the others do.
+  const double away = kind == "place" ? drawing.size * drawing.unit_m : 1;
+  const double much = drawing.brightness * decades(random, 1e-3, 1e3) * away * away;
   if (chance(random, 0.4)) return {{"spectrum", chance(random, 0.05) ? Json(0) : spectrum(drawing, much)}};
   Json emission = relative(drawing);
   const bool seen = chance(random, 0.5);
