@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
+#include "transport/render/pilot_photons.h"
 
 namespace abbe {
 namespace {
@@ -53,6 +57,30 @@ TEST(Pilot, KeepsToTheCrop) {
   for (std::size_t pixel = 0; pixel < 32; ++pixel)
     EXPECT_TRUE(pixel / 8 == 1 || pilot.mean(pixel, 0) == 0) << pixel;
   EXPECT_GT(pilot.mean(8, 0) + pilot.mean(15, 0), 0);
+}
+
+// The numbers of the photons of each batch, each of which has found something.
+std::vector<std::vector<float>> pilot_photons(const PilotPhotons& pilots, int threads) {
+  return trace_pilot_photons(
+      card(8, 4), pilots, threads, [](RayCaster&) { return 0; },
+      [](int, std::span<const Sampler> photons) {
+        std::vector<float> numbers;
+        for (const Sampler& photon : photons) numbers.push_back(photon.group(0)[0]);
+        return numbers;
+      });
+}
+
+TEST(PilotPhotons, AreNoMoreThanEnough) {
+  constexpr std::uint32_t kAtATime = 1U << 14;
+  const auto photons = [](const auto& batches) { return batches.size() * kPilotPhotonBatch; };
+  const auto all = pilot_photons({PilotStage::aims, 3 * kAtATime}, 1);
+  EXPECT_EQ(photons(all), 3 * kAtATime);
+  EXPECT_EQ(photons(pilot_photons({PilotStage::aims, kPilotPhotonBatch}, 1)), kPilotPhotonBatch);
+  EXPECT_EQ(photons(pilot_photons({PilotStage::aims, 3 * kAtATime, 1}, 1)), kAtATime);
+  const auto two = pilot_photons({PilotStage::aims, 3 * kAtATime, kAtATime + 1}, 3);
+  ASSERT_EQ(photons(two), 2 * kAtATime);
+  EXPECT_TRUE(std::equal(two.begin(), two.end(), all.begin())) << "threads or how many there are matter";
+  EXPECT_NE(pilot_photons({PilotStage::caustics, kPilotPhotonBatch}, 1).front(), all.front());
 }
 
 }  // namespace

@@ -101,7 +101,8 @@ class PathRecorder {
       keep_light(path, {index, hit.point, hit.normal});
   }
   void reach(RecordedPath& path, const SurfaceVertex& vertex) {
-    if ((path.stays = stays_at(path, vertex.hit.point))) return;
+    path.stays = stays_at(path, vertex.hit.point);
+    if (path.stays) return;
     PathVertex here{.at = vertex};
     here.beyond = vertex.behind(scene_, path.around.inside);
     path.vertices.push_back(come_to(path, std::move(here)));
