@@ -74,7 +74,8 @@ TEST(PilotPhotons, AreNoMoreThanEnough) {
   constexpr std::uint32_t kAtATime = 1U << 14;
   const auto photons = [](const auto& batches) { return batches.size() * kPilotPhotonBatch; };
   const auto all = pilot_photons({PilotStage::aims, 3 * kAtATime}, 1);
-  EXPECT_EQ(photons(all), 3 * kAtATime);
+  ASSERT_EQ(photons(all), 3 * kAtATime);
+  EXPECT_NE(all[kAtATime / kPilotPhotonBatch], all.front());
   EXPECT_EQ(photons(pilot_photons({PilotStage::aims, kPilotPhotonBatch}, 1)), kPilotPhotonBatch);
   EXPECT_EQ(photons(pilot_photons({PilotStage::aims, 3 * kAtATime, 1}, 1)), kAtATime);
   const auto two = pilot_photons({PilotStage::aims, 3 * kAtATime, kAtATime + 1}, 3);
