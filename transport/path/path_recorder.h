@@ -126,11 +126,14 @@ class PathRecorder {
   [[nodiscard]] float kept(RecordedPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
     path.vertices.back().delta = event.delta;
     if (mode == TransportMode::radiance) path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-    leave(path, event.delta ? single_direction(vertex, event, path.packet.hero) : both_ways(path));
+    // As the event tells it: a lobe may be narrower than the places of vertices tell directions.
+    leave(path, event.delta ? single_direction(vertex, event, path.packet.hero)
+                            : BothWays{event.lane_pdf * event.pdf, back_again(path)});
     return carried(path);
   }
   [[nodiscard]] float kept_within(RecordedPath& path) {
-    leave(path, both_ways(path));
+    leave(path,
+          {direction_pdf(scene_, path.vertices.back(), back(path), path.ray.direction), back_again(path)});
     return carried(path);
   }
   [[nodiscard]] float carried(const RecordedPath& path) const {
@@ -166,11 +169,12 @@ class PathRecorder {
     path.met.push_back({path.vertices.size(), come_to(path, {.at = light})});
   }
 
-  [[nodiscard]] BothWays both_ways(const RecordedPath& path) const {
-    const PathVertex& vertex = path.vertices.back();
-    const Imath::V3f back = way_from(vertex, path.vertices[path.vertices.size() - 2]).direction;
-    return {direction_pdf(scene_, vertex, back, path.ray.direction),
-            direction_pdf(scene_, vertex, path.ray.direction, back)};
+  // Towards the vertex before the last.
+  [[nodiscard]] static Imath::V3f back(const RecordedPath& path) {
+    return way_from(path.vertices.back(), path.vertices[path.vertices.size() - 2]).direction;
+  }
+  [[nodiscard]] SampledSpectrum back_again(const RecordedPath& path) const {
+    return direction_pdf(scene_, path.vertices.back(), path.ray.direction, back(path));
   }
   void leave(RecordedPath& path, const BothWays& drawn) {
     const PathVertex& vertex = path.vertices.back();
