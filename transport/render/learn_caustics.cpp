@@ -72,9 +72,9 @@ std::vector<bool> lights_to_find(const Plan& plan) {
 
 void learn_caustics(Plan& plan, int threads) {
   // The first photons aim the others, and where so few of them arrive none are worth more.
-  constexpr PilotPhotons kFirst{PilotStage::caustic_aims, 1U << 16, 1U << 13};
+  constexpr PilotPhotons kFirst{PilotStage::caustic_aims, 1U << 16};
   constexpr std::size_t kTooFew = 8;
-  constexpr PilotPhotons kOthers{PilotStage::caustics, 1U << 20, 1U << 14};
+  constexpr PilotPhotons kOthers{PilotStage::caustics, 1U << 20, 1U << 15};
   if (!plan.scene.needs.caustics || !uses(plan.techniques, Technique::path)) return;
   const std::vector<bool> lights = lights_to_find(plan);
   if (std::ranges::find(lights, true) == lights.end()) return;
