@@ -9,7 +9,8 @@
 namespace abbe::soak {
 namespace {
 
-constexpr int kMostPaths = 60'000;
+constexpr int kMostPaths = 600'000;
+constexpr int kMostSamples = 10'000;
 
 // What a channel of a closed box counts lies below the wavelengths of the light beyond it.
 Json channel_curve(Drawing& drawing) {
@@ -147,7 +148,8 @@ void draw_render(Drawing& drawing) {
   const int pixels = resolution[0].get<int>() * resolution[1].get<int>();
   Json& render = drawing.scene["render"];
   render["integrator"] = one_of(random, {"auto", "auto", "path", "light", "bdpt"});
-  render["samples"] = static_cast<int>(std::min(1000, kMostPaths / pixels) * decades(random, 0.01, 1) + 1);
+  render["samples"] =
+      static_cast<int>(std::min(kMostSamples, kMostPaths / pixels) * decades(random, 0.001, 1) + 1);
   render["seed"] = integer(random, 0, 1 << 30);
   const bool plays = chance(random, 0.8);
   if (!plays || chance(random, 0.5))
