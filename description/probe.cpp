@@ -46,8 +46,7 @@ std::optional<Probe> build(const spec::Probe& probe, const LoadContext& context)
   if (const auto* disc = std::get_if<spec::Disc>(&probe.surface))
     return Probe{build(*disc, context), acceptance};
   if (const auto* side = std::get_if<spec::SphereProbe>(&probe.surface))
-    return Probe{SphereOfMeter{build(side->sphere, context), side->facing == spec::Facing::inwards},
-                 acceptance};
+    return Probe{SphereSide{build(side->sphere, context), side->facing == spec::Facing::inwards}, acceptance};
   const auto quad = build(std::get<spec::Quad>(probe.surface), context);
   return quad ? std::optional(Probe{*quad, acceptance}) : std::nullopt;
 }

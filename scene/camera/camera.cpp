@@ -34,6 +34,13 @@ void move(CameraRay& ray, const Camera& camera, float time) {
   turn(ray.images, since_opening);
 }
 
+// Where a ray that leaves the meter begins, whatever the meter lies on.
+Imath::V3f off_meter(const Camera& meter, const Ray& ray) {
+  const Imath::V3f at_rest = meter_normal(meter, seen_at_rest(meter, ray).origin);
+  const Imath::V3f normal(direction_at(meter, Imath::V3d(at_rest), ray.time));
+  return offset_point(ray.origin, normal, normal);
+}
+
 }  // namespace
 
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
@@ -87,6 +94,18 @@ std::optional<CameraDensity> density(const Camera& camera, const Ray& ray,
                  camera.kind);
   if (camera.motion && of) turn(of->images, motion_until(camera, ray.time));
   return of;
+}
+
+std::optional<CameraConnection> connection_through(const Camera& camera, const Opening& opening,
+                                                   const Ray& light, const SampledSpectrum& wavelengths_nm) {
+  const std::optional<double> distance = crossing(opening, seen_at_rest(camera, light));
+  if (!distance) return std::nullopt;
+  const Imath::V3f point(Imath::V3d(light.origin) + Imath::V3d(light.direction) * *distance);
+  const Ray back = ray_at(point, -light.direction, light.time);
+  const auto seen = density(camera, back, wavelengths_nm);
+  if (!seen) return std::nullopt;
+  return CameraConnection{seen->film, is_meter(camera) ? off_meter(camera, back) : point, seen->importance,
+                          seen->cos_film, seen->images};
 }
 
 std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time) {

@@ -52,6 +52,13 @@ void translate(Camera& camera, const Imath::V3d& by);
 /// Where the ray of a meter begins, just off its surface, at a place of its film within [0, 1]^2.
 [[nodiscard]] Imath::V3f meter_point(const Camera& meter, Imath::V2f place);
 
+/// A ray of light that by itself runs into the camera's opening (see `CameraTraits`), as a connection: power
+/// along it adds `weight` times that to the irradiance of the pixel at `film`. Nothing of one that misses the
+/// opening, or whose image is beyond the film.
+[[nodiscard]] std::optional<CameraConnection> connection_through(const Camera& camera, const Opening& opening,
+                                                                 const Ray& light,
+                                                                 const SampledSpectrum& wavelengths_nm);
+
 /// Draws a point where light comes in by way of a ghost; nothing of a camera without any.
 [[nodiscard]] std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time);
 /// The camera, seeing by way of the image alone.

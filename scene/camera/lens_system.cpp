@@ -278,8 +278,8 @@ CameraTraits LensSystem::traits() const {
           .image_distance = optics->image_distance_mm / kMmPerM,
           .f_number = optics->speed ? std::optional(optics->speed->f_number) : std::nullopt,
           .axis = frame.forward,
-          .opening =
-              Opening{entrance_center(*this), frame.right * radius, frame.up * radius, frame.forward, true}};
+          .opening = FlatOpening{entrance_center(*this), frame.right * radius, frame.up * radius,
+                                 frame.forward, true}};
 }
 
 }  // namespace abbe

@@ -6,7 +6,7 @@
 
 #include <ImathVec.h>
 
-#include "lens/iris.h"
+#include "scene/camera/opening.h"
 #include "scene/shapes/ray.h"
 #include "spectral/packet.h"
 
@@ -95,19 +95,6 @@ template <typename Of>
 [[nodiscard]] const LaneImages* images_of(const Of& of) {
   return of.images ? &*of.images : nullptr;
 }
-
-/// What light comes in through, or falls on: the points center + a u + b v, of a round one with a^2 + b^2 <=
-/// 1, else with |a|, |b| <= 1; of one with an iris those of them that this has at (a, b).
-struct Opening {
-  Imath::V3d center;
-  Imath::V3d u, v;    ///< Not parallel.
-  Imath::V3d normal;  ///< Outward, unit.
-  bool round;
-  std::optional<lens::Iris> iris = {};
-
-  /// Distance along a ray from without to where it comes in; nothing where it does not.
-  [[nodiscard]] std::optional<double> crossed_by(const Ray& ray) const;
-};
 
 /// What can be told of a camera without a ray.
 struct CameraTraits {

@@ -27,7 +27,7 @@ Imath::V3d point_at(const Disc& disc, const Imath::V2d& place) {
   return Imath::V3d(sample_area(disc, Imath::V2f(place)).point);
 }
 
-Imath::V3d point_at(const SphereOfMeter& side, const Imath::V2d& place) {
+Imath::V3d point_at(const SphereSide& side, const Imath::V2d& place) {
   return Imath::V3d(sample_area(side.sphere, Imath::V2f(place)).point);
 }
 
@@ -52,17 +52,22 @@ Imath::V2d place_of(const Disc& disc, const Imath::V3d& at) {
   return square_of_disc({local.x, local.y});
 }
 
-Imath::V2d place_of(const SphereOfMeter& side, const Imath::V3d& at) {
+Imath::V2d place_of(const SphereSide& side, const Imath::V3d& at) {
   const Imath::V3d outward = (at - side.sphere.center) / side.sphere.radius;
   const double turn = std::atan2(outward.y, outward.x) / (2 * std::numbers::pi);
   return {(1 - outward.z) / 2, turn < 0 ? turn + 1 : turn};
 }
 
+// Short of the film's end even where rounding takes it there.
+float along_film(double place, int pixels) {
+  const auto end = static_cast<float>(pixels);
+  return std::min(static_cast<float>(std::clamp(place, 0.0, 1.0) * pixels), std::nextafter(end, 0.0F));
+}
+
 Imath::V2f film_at(const Probe& probe, const FilmGrid& grid, const Imath::V3f& point) {
   const Imath::V2d place =
       std::visit([&](const auto& surface) { return place_of(surface, Imath::V3d(point)); }, probe.surface);
-  return {static_cast<float>(std::clamp(place.x, 0.0, 1.0) * grid.width),
-          static_cast<float>(std::clamp(place.y, 0.0, 1.0) * grid.height)};
+  return {along_film(place.x, grid.width), along_film(place.y, grid.height)};
 }
 
 std::optional<Opening> opening_of(const PointOfMeter& /*point*/) {
@@ -70,18 +75,17 @@ std::optional<Opening> opening_of(const PointOfMeter& /*point*/) {
 }
 
 std::optional<Opening> opening_of(const Quad& quad) {
-  return Opening{quad.corner + (quad.edge_u + quad.edge_v) * 0.5, quad.edge_u * 0.5, quad.edge_v * 0.5,
-                 normal_of(quad), false};
+  return FlatOpening{quad.corner + (quad.edge_u + quad.edge_v) * 0.5, quad.edge_u * 0.5, quad.edge_v * 0.5,
+                     normal_of(quad), false};
 }
 
 std::optional<Opening> opening_of(const Disc& disc) {
   const Basis<double> axes(disc.normal);
-  return Opening{disc.center, axes.x * disc.radius, axes.y * disc.radius, disc.normal, true};
+  return FlatOpening{disc.center, axes.x * disc.radius, axes.y * disc.radius, disc.normal, true};
 }
 
-// No single plane is where light comes in.
-std::optional<Opening> opening_of(const SphereOfMeter& /*side*/) {
-  return std::nullopt;
+std::optional<Opening> opening_of(const SphereSide& side) {
+  return side;
 }
 
 }  // namespace
@@ -134,7 +138,7 @@ const Imath::V3d& Probe::position() const {
   if (const auto* point = std::get_if<PointOfMeter>(&surface)) return point->at;
   if (const auto* quad = std::get_if<Quad>(&surface)) return quad->corner;
   if (const auto* disc = std::get_if<Disc>(&surface)) return disc->center;
-  return std::get<SphereOfMeter>(surface).sphere.center;
+  return std::get<SphereSide>(surface).sphere.center;
 }
 
 Imath::V3d Probe::middle() const {
@@ -146,14 +150,14 @@ void Probe::translate(const Imath::V3d& by) {
   if (auto* point = std::get_if<PointOfMeter>(&surface)) point->at += by;
   if (auto* quad = std::get_if<Quad>(&surface)) quad->corner += by;
   if (auto* disc = std::get_if<Disc>(&surface)) disc->center += by;
-  if (auto* side = std::get_if<SphereOfMeter>(&surface)) side->sphere.center += by;
+  if (auto* side = std::get_if<SphereSide>(&surface)) side->sphere.center += by;
 }
 
 Imath::V3f Probe::normal_at(const Imath::V3f& point) const {
   if (const auto* single = std::get_if<PointOfMeter>(&surface)) return Imath::V3f(single->normal);
   if (const auto* quad = std::get_if<Quad>(&surface)) return Imath::V3f(normal_of(*quad));
   if (const auto* disc = std::get_if<Disc>(&surface)) return Imath::V3f(disc->normal);
-  const auto& side = std::get<SphereOfMeter>(surface);
+  const auto& side = std::get<SphereSide>(surface);
   const Imath::V3d outward = (Imath::V3d(point) - side.sphere.center).normalized();
   return Imath::V3f(side.inwards ? -outward : outward);
 }
@@ -161,7 +165,7 @@ Imath::V3f Probe::normal_at(const Imath::V3f& point) const {
 double Probe::area() const {
   if (const auto* quad = std::get_if<Quad>(&surface)) return abbe::area(*quad);
   if (const auto* disc = std::get_if<Disc>(&surface)) return abbe::area(*disc);
-  if (const auto* side = std::get_if<SphereOfMeter>(&surface)) return abbe::area(side->sphere);
+  if (const auto* side = std::get_if<SphereSide>(&surface)) return abbe::area(side->sphere);
   return 0;
 }
 

@@ -12,18 +12,13 @@ struct PointOfMeter {
   Imath::V3d at{0, 0, 0};
   Imath::V3d normal{0, 0, 1};
 };
-/// A side of a sphere, which takes light from without or from within.
-struct SphereOfMeter {
-  Sphere sphere;
-  bool inwards = false;
-};
 
 /// A meter: a surface that light goes through unhindered, which counts what comes within an angle of its
 /// normal. Pixels of the film are patches of equal areas, of a quad along `edge_u` and `edge_v`. The film
 /// value is the irradiance by the light that counts, so that over the projected solid angle pi
 /// `acceptance`^2 it is the mean radiance, and times the area the flux.
 struct Probe {
-  std::variant<PointOfMeter, Quad, Disc, SphereOfMeter> surface;
+  std::variant<PointOfMeter, Quad, Disc, SphereSide> surface;
   double acceptance = 1;  ///< Sine of the greatest angle with the normal.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,

@@ -79,8 +79,8 @@ CameraTraits ThinLens::traits() const {
           .image_distance = image_distance,
           .f_number = focal_length / (2 * aperture_radius),
           .axis = frame.forward,
-          .opening = Opening{frame.position, frame.right * aperture_radius, frame.up * aperture_radius,
-                             frame.forward, true, iris}};
+          .opening = FlatOpening{frame.position, frame.right * aperture_radius, frame.up * aperture_radius,
+                                 frame.forward, true, iris}};
 }
 
 }  // namespace abbe

@@ -46,7 +46,7 @@ Camera disc_meter() {
   return {Probe{Disc{{1, 1, 1}, V3d(0, 0.6, 0.8), 2}, 0.3}, 2, 4, 1};
 }
 Camera sphere_meter() {
-  return {Probe{SphereOfMeter{{{1, 1, 1}, 2}, true}}, 2, 4, 1};
+  return {Probe{SphereSide{{{1, 1, 1}, 2}, true}}, 2, 4, 1};
 }
 Camera point_meter() {
   return {Probe{PointOfMeter{{1, 1, 1}, {0, 0, -1}}}, 2, 4, 1};
@@ -167,11 +167,38 @@ TEST(Camera, BladesLeaveAPolygonOfTheAperture) {
     for (int i = 0; i < kSide; ++i) {
       const Imath::V2d point((2 * i + 1.0) / kSide - 1, (2 * j + 1.0) / kSide - 1);
       const V3f at(V3d(1 - point.x * 0.0125, 1, 3 + point.y * 0.0125));
-      const bool crossed = opening.crossed_by({at, {0, 1, 0}}).has_value();
+      const bool crossed = crossing(opening, {at, {0, 1, 0}}).has_value();
       EXPECT_TRUE(!crossed || point.length() < 1 + 1e-3);
       within += crossed;
     }
   EXPECT_NEAR(4.0 * within / kSide / kSide / kPi, iris.share(), 0.002);
+}
+
+// Whatever rounding makes of the edge is still of the last pixel.
+TEST(Camera, EdgesOfMetersAreOnTheirFilm) {
+  const Camera meter{Probe{Quad{{0, 0, 0}, {0.9, 0, 0}, {0, 0.7, 0}}}, 48, 64, 1};
+  const Ray light{{0.9F, 0.7F, 1}, {0, 0, -1}};
+  const auto seen = connection_through(meter, traits(meter).opening.value(), light, SampledSpectrum(550));
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(static_cast<int>(seen->film.x), 47);
+  EXPECT_EQ(static_cast<int>(seen->film.y), 63);
+  EXPECT_GT(seen->lens_point.z, 0) << "off what the meter lies on";
+}
+
+// From without and from within, to the near side or the far one.
+TEST(Camera, RaysComeToTheSideOfASphereThatTakesThem) {
+  const SphereSide out{{{1, 0, 0}, 2}, false};
+  const SphereSide in{{{1, 0, 0}, 2}, true};
+  const Ray outside{{-9, 0, 0}, {1, 0, 0}};
+  const Ray inside{{0, 0, 0}, {1, 0, 0}};
+  EXPECT_NEAR(crossing(out, outside).value(), 8, 1e-9);
+  EXPECT_NEAR(crossing(in, outside).value(), 12, 1e-9);
+  EXPECT_FALSE(crossing(out, inside));
+  EXPECT_NEAR(crossing(in, inside).value(), 3, 1e-9);
+  for (const SphereSide& side : {out, in}) {
+    EXPECT_FALSE(crossing(side, Ray{{9, 0, 0}, {1, 0, 0}})) << "behind";
+    EXPECT_FALSE(crossing(side, Ray{{-9, 2.1F, 0}, {1, 0, 0}})) << "beside";
+  }
 }
 
 TEST(Camera, ConnectionsAreTheReverseOfRays) {

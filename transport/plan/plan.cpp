@@ -125,10 +125,8 @@ std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniqu
 Imath::Box3d camera_box(const Camera& camera) {
   const Imath::V3d center = middle(camera);
   const std::optional<Opening> opening = traits(camera).opening;
-  const auto* meter = std::get_if<Probe>(&camera.kind);
-  const double reach = opening ? opening->u.length() + opening->v.length()
-                       : meter ? std::sqrt(meter->area())  // beyond the radius of a sphere
-                               : (center - position(camera)).length();
+  constexpr double kBeside = 1.01;  // where rays begin
+  const double reach = opening ? kBeside * extent(*opening) : (center - position(camera)).length();
   Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
   if (!camera.motion) return box;
   const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);

@@ -68,15 +68,11 @@ void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& d
 // weighed.
 void BrutePhotonTracer::look_for_camera(const RecordedPath& path, int events) {
   if (!opening_) return;
-  const std::optional<double> distance = opening_->crossed_by(seen_at_rest(scene_.camera, path.ray));
-  if (!distance) return;
-  const Imath::V3f point(Imath::V3d(path.ray.origin) + Imath::V3d(path.ray.direction) * *distance);
-  const auto seen =
-      density(scene_.camera, ray_at(point, -path.ray.direction, path.ray.time), path.lambda_nm());
+  const auto seen = connection_through(scene_.camera, *opening_, path.ray, path.lambda_nm());
   if (!seen) return;
-  const auto through =
-      unblocked_transmission(scene_, caster_, way_between(path.ray.origin, point, path.ray.time), path.ray,
-                             path.around, path.lambda_nm(), static_cast<float>(*distance));
+  const auto through = unblocked_transmission(
+      scene_, caster_, way_between(path.ray.origin, seen->lens_point, path.ray.time), path.ray, path.around,
+      path.lambda_nm(), (seen->lens_point - path.ray.origin).length());
   if (!through) return;
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
                      path.ray.time, images_of(*seen)};
@@ -85,9 +81,8 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path, int events) {
   if (path.packet.polarisation)
     arrives = polarisation_of_film(scene_, path.ray.direction, path.ray.time, images_of(*seen))
                   .of(*path.packet.polarisation, path.ray.direction);
-  with_seen(measures_polarisation_,
-            path.packet.throughput * seen->importance * through->transmittance * scale_, pointer_to(arrives),
-            [&](const auto& light) {
+  with_seen(measures_polarisation_, path.packet.throughput * seen->weight * through->transmittance * scale_,
+            pointer_to(arrives), [&](const auto& light) {
               response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light),
                                [&](const FilmPoint& pixel, std::span<const double> values) {
                                  (*deposit_)(path.path, pixel, values);
