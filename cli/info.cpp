@@ -85,12 +85,14 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
   answer["because"] = scene.needs.because;
   answer["integrator"] = {{"name", integrator_name(choice.integrator)}, {"because", choice.because}};
-  if (choice.cost_ratio) answer["integrator"]["cost_of_path_over_bdpt"] = *choice.cost_ratio;
+  if (choice.cost_ratio)
+    answer["integrator"][fmt::format("cost_of_path_over_{}", integrator_name(choice.other))] =
+        *choice.cost_ratio;
   answer["techniques"] = Json::array();
   answer["owned"] = Json::object();
   for (const Technique technique : render.techniques) {
     answer["techniques"].push_back(name_of(technique));
-    answer["owned"][name_of(technique)] = owned_paths(technique, render.techniques);
+    answer["owned"][name_of(technique)] = owned_paths(technique, render.techniques, scene.camera);
   }
   answer["bias"] = nullptr;
   for (const Technique technique : render.techniques)

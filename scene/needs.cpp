@@ -31,7 +31,8 @@ constexpr std::array<NeedName, 15> kNeeds{{
     {"nesting", &Needs::nesting, "matter may be within other matter, or touch it"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
     {"light_tracing", &Needs::light_tracing,
-     "caustics of a light too small to be hit by chance, seen by a camera"},
+     "caustics of a light too small to be hit by chance, seen by a camera, or its light through specular "
+     "matter on a meter that is no point"},
     {"environment", &Needs::environment, "light from infinity all around"},
     {"textures", &Needs::textures,
      "a material, its relief or vertex normals vary over the surface, or it has a direction along it"},
@@ -114,8 +115,10 @@ void analyse_matter(const Scene& scene, Needs& needs) {
 }
 
 void analyse_lights(const Scene& scene, Needs& needs) {
-  const bool connectable = !is_meter(scene.camera);
-  const std::vector<SpecularCenter> centers = specular_centers(scene);
+  const bool meter = is_meter(scene.camera);
+  const std::vector<Viewpoint> centers = specular_centers(scene);
+  const std::vector<Viewpoint> looked_at_from = meter ? places_of_meter(scene) : centers;
+  const bool photons_arrive = meter ? traits(scene.camera).opening && !centers.empty() : needs.caustics;
   std::set<const Curve*> examined;  // which many lights may share
   for (const Light& light : scene.lights) {
     require(needs, &Needs::environment, light.is_environment(), "light", light.name);
@@ -123,8 +126,8 @@ void analyse_lights(const Scene& scene, Needs& needs) {
     const Curve& emission = light.emission.base();
     if (emits(light) && examined.insert(&emission).second)
       require(needs, &Needs::narrow_bands, has_narrow_feature(emission), "light", light.name);
-    needs.light_is_traced.push_back(needs.caustics && connectable && !light.is_environment() &&
-                                    emits(light) && looks_smaller(scene, light, centers, kSmallLight_sr));
+    needs.light_is_traced.push_back(photons_arrive && !light.is_environment() && emits(light) &&
+                                    looks_smaller(scene, light, looked_at_from, kSmallLight_sr));
     require(needs, &Needs::light_tracing, needs.light_is_traced.back(), "light", light.name);
   }
 }

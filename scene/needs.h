@@ -19,8 +19,9 @@ struct Needs {
   bool scattering = false;  ///< Some matter scatters light within.
   bool boundaries = false;  ///< Some matter begins and ends without an interface.
   bool caustics = false;    ///< A specular surface can focus a light onto a surface that is not specular.
-  bool light_tracing =
-      false;  ///< Caustics, a camera that can be connected to, and a light too small to be hit by chance.
+  /// A light too small to be hit by chance, and caustics of it that a camera sees which can be connected to,
+  /// or specular surfaces through which it lights a meter that photons can run into.
+  bool light_tracing = false;
   bool environment = false;
   bool textures =
       false;  ///< Some scattering depends on where on its surface: by coordinates or vertex normals.

@@ -55,13 +55,34 @@ bool has_specular_shapes(const Scene& scene) {
   });
 }
 
-// Light tracing reaches every path whose vertex next to the eye scatters.
+// The lights that paths from some places hardly ever meet by chance.
+std::vector<bool> tiny_lights(const Scene& scene, const std::vector<Viewpoint>& from) {
+  std::vector<bool> tiny;
+  for (const Light& light : scene.lights)
+    tiny.push_back(!light.is_delta() && !light.is_environment() && emits(light) &&
+                   looks_smaller(scene, light, from, kTinyLight_sr));
+  return tiny;
+}
+
+// Few directions from a meter lead there, and photons show them only where they meet a surface beside it.
+template <typename Select>
+void add_tiny_lights_of_meter(const Scene& scene, Select select, Classes& classes) {
+  if (!is_meter(scene.camera) || !has_specular_shapes(scene)) return;
+  const std::vector<bool> tiny = tiny_lights(scene, places_of_meter(scene));
+  classes.add([&](std::size_t i) { return tiny[i] && select(i); }, "E S+ L",
+              "a tiny light that a meter sees in mirrors or through glass");
+}
+
+// Light tracing reaches every path whose vertex next to the eye scatters, and all that comes to a meter that
+// is no point.
 void add_of_light_tracing(const Scene& scene, Classes& classes) {
   const auto& lights = scene.lights;
-  if (is_meter(scene.camera))
-    return classes.add(any, "E (S|D)* L", "everything: photons are not connected to a meter");
+  const bool meter = is_meter(scene.camera);
+  if (meter && !traits(scene.camera).opening)
+    return classes.add(any, "E (S|D)* L", "everything: photons do not run into a point");
   classes.add([&](std::size_t i) { return lights[i].is_environment(); }, "E (S|D)* L",
               "all light of an environment");
+  if (meter) return;
   classes.add([&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }, "E L",
               "lights seen directly");
   if (traits(scene.camera).ghosts)
@@ -73,30 +94,30 @@ void add_of_light_tracing(const Scene& scene, Classes& classes) {
 }
 
 // Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
-// vertex next to the light scatters; without it, the former.
+// vertex next to the light scatters; without it, the former. Photons of a traced light reach all others that
+// end on a meter, but for what is scattered to it of one that paths may meet.
 void add_of_path_tracing(const Scene& scene, const Needs& needs, bool light_tracing_active,
                          Classes& classes) {
   const auto& lights = scene.lights;
+  const std::vector<bool> tiny = tiny_lights(scene, specular_centers(scene));
   const bool connects = scene.render.sampling.lights != LightStrategy::bsdf;
   const auto delta = [&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); };
   const auto traced = [&](std::size_t i) { return light_tracing_active && needs.light_is_traced[i]; };
+  const auto reached = [&](std::size_t i) { return is_meter(scene.camera) && traced(i); };
   if (!connects) classes.add(delta, "E (S|D)+ L", "a point, spot or directional light, which no path meets");
   if (!has_specular_shapes(scene)) return;
-  const auto connected = [&](std::size_t i) { return connects && delta(i); };
+  const auto connected = [&](std::size_t i) { return connects && delta(i) && !reached(i); };
   classes.add(connected, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
+  add_tiny_lights_of_meter(
+      scene, [&](std::size_t i) { return !reached(i); }, classes);
   if (!needs.caustics) return;
   classes.add([&](std::size_t i) { return connected(i) && traced(i); }, "E S (S|D)* D (S|D)* S L",
               "caustics of a point, spot or directional light, seen in mirrors or through glass");
   classes.add([&](std::size_t i) { return connected(i) && !traced(i); }, "E (S|D)* D (S|D)* S L",
               "caustics of a point, spot or directional light");
-  const std::vector<SpecularCenter> centers = specular_centers(scene);
-  const auto tiny = [&](std::size_t i) {
-    return !lights[i].is_delta() && !lights[i].is_environment() && emits(lights[i]) &&
-           looks_smaller(scene, lights[i], centers, kTinyLight_sr);
-  };
-  classes.add([&](std::size_t i) { return tiny(i) && traced(i); }, "E S (S|D)* D (S|D)* S L",
+  classes.add([&](std::size_t i) { return tiny[i] && traced(i) && !reached(i); }, "E S (S|D)* D (S|D)* S L",
               "caustics of a tiny light, seen in mirrors or through glass, that pilots have not shown");
-  classes.add([&](std::size_t i) { return tiny(i) && !traced(i); }, "E (S|D)* D (S|D)* S L",
+  classes.add([&](std::size_t i) { return tiny[i] && (!traced(i) || reached(i)); }, "E (S|D)* D (S|D)* S L",
               "caustics of a tiny light that pilots have not shown");
 }
 
@@ -115,6 +136,7 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
         classes.add(
             delta, "E S+ (D S+)* L",
             "a point, spot or directional light where no two vertices in a row but the eye's scatter");
+      add_tiny_lights_of_meter(scene, any, classes);
       break;
     case Integrator::photon_map:
     case Integrator::ppm:
@@ -126,13 +148,13 @@ std::vector<PathClass> unreached(const Scene& scene, const Needs& needs, bool li
         classes.add(
             delta, "E S* (D S+)+ L",
             "a point, spot or directional light where only matter scatters, and no two events in a row");
+      add_tiny_lights_of_meter(scene, any, classes);
       break;
     case Integrator::photon_brute:
       if (traits(scene.camera).ghosts)
         classes.add(any, "E (S|D)* L", "what comes by way of the lens's ghosts");
       if (!traits(scene.camera).opening)
-        classes.add(any, "E (S|D)* L",
-                    "everything: photons come in through flat openings alone, not to a point or a sphere");
+        classes.add(any, "E (S|D)* L", "everything: photons do not come in through a point");
       break;
     case Integrator::adjoint_brute:
       classes.add(delta, "E (S|D)* L", "all light of a point, spot or directional light");

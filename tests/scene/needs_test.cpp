@@ -50,13 +50,36 @@ std::vector<std::string> unreached_expressions(const Scene& scene, bool light_tr
 }
 using Expressions = std::vector<std::string>;
 
-TEST(Needs, PhotonsAloneDoNotReachAMeter) {
+TEST(Unreached, PhotonsAloneDoNotRunIntoAPoint) {
   Scene scene{};
-  scene.camera = {Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1, 1, 0.01};
+  scene.camera = {Probe{PointOfMeter{}}, 1, 1, 0.01};
   scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, Curve(1.0)});
-  scene.render.integrator = Integrator::light;
+  for (const Integrator by : {Integrator::light, Integrator::photon_brute}) {
+    scene.render.integrator = by;
+    scene.camera.kind = Probe{PointOfMeter{}};
+    scene.commit();
+    EXPECT_EQ(unreached_expressions(scene, true), Expressions{"E (S|D)* L"});
+    for (const Probe& meter :
+         {Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, Probe{SphereSide{{{0, 0, 0}, 1}}}}) {
+      scene.camera.kind = meter;
+      scene.commit();
+      EXPECT_TRUE(unreached(scene, scene.needs, true).empty());
+    }
+  }
+}
+
+TEST(Unreached, PhotonsOfTracedLightsReachMeters) {
+  Scene scene = floor_scene();
+  add_bulb(scene);
+  scene.lights.push_back({"sun", SunLight{{0, 0, 1}, 1e-5F}, Curve(1.0)});
+  add_ball(scene, kGlass);
+  scene.camera.kind = Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   scene.commit();
-  EXPECT_EQ(unreached_expressions(scene, true), Expressions{"E (S|D)* L"});
+  const std::string caustic = "E (S|D)* D (S|D)* S L";
+  EXPECT_EQ(unreached_expressions(scene, true), Expressions{caustic}) << "of the sun, by pilots alone";
+  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E S+ L", caustic, caustic}));
+  scene.render.integrator = Integrator::bdpt;
+  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ (D S+)* L", "E S+ L"}));
 }
 
 TEST(Needs, OfAPlainScene) {
@@ -179,8 +202,11 @@ TEST(Needs, SmallLightsAreTraced) {
 
   scene.camera.kind = Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   scene.commit();
+  EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>{false, true, false, false}));
+  scene.camera.kind = Probe{PointOfMeter{}};
+  scene.commit();
   EXPECT_TRUE(scene.needs.caustics);
-  EXPECT_FALSE(scene.needs.light_tracing) << "no lens to connect to";
+  EXPECT_FALSE(scene.needs.light_tracing) << "nothing to connect to, nor to run into";
   EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>(4, false)));
 }
 
@@ -209,6 +235,10 @@ TEST(Needs, CausticsFallOnSomething) {
   scene.commit();
   EXPECT_FALSE(scene.needs.caustics);
   EXPECT_EQ(unreached_expressions(scene, false), Expressions{"E S+ L"});
+  scene.camera.kind = Probe{SphereSide{}};
+  scene.commit();
+  EXPECT_FALSE(scene.needs.caustics);
+  EXPECT_TRUE(scene.needs.light_tracing) << "photons run into it";
 }
 
 TEST(Needs, DepthOfField) {

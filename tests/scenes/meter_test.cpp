@@ -155,9 +155,49 @@ TEST_P(MeterBy, TellsTheFluxBetweenDiscs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, MeterBy,
-                         ::testing::Values(By{"path", 64}, By{"bdpt", 64}, By{"vcm", 64},
+                         ::testing::Values(By{"path", 64}, By{"light", 64}, By{"bdpt", 64}, By{"vcm", 64},
                                            By{"photon-map", 64}, By{"adjoint-brute", 256, 0.05},
                                            By{"photon-brute", 64}));
+
+// A bulb of 1000 lm: a point in the middle of a shell of glass that absorbs. What its faces of reflectance R
+// and its glass of transmittance tau throw back comes to the shell again; all else leaves it.
+TEST(Meter, PhotonsTellTheFluxOfALampWithinGlass) {
+  constexpr double kReflectance = 0.04;
+  constexpr double kAbsorption_per_m = 20;
+  constexpr double kThickness = 0.02;
+  const double tau = std::exp(-kAbsorption_per_m * kThickness);
+  const double between = 1 - std::pow(kReflectance * tau, 2);
+  const double through = std::pow(1 - kReflectance, 2) * tau / between;
+  const double thrown_back = kReflectance * (1 + std::pow((1 - kReflectance) * tau, 2) / between);
+  const std::string bulb =
+      R"("lights": [{"point": {"at": [0, 0, 0]}, "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}],
+    "materials": {"glass": {"dielectric": {"ior": 1.5, "absorption_per_m": 20}}, "air": {"dielectric": {"ior": 1}, "priority": 1}},
+    "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 0.07}, "material": "glass"},
+               {"sphere": {"center": [0, 0, 0], "radius": 0.05}, "material": "air"}])";
+  const std::string sphere =
+      R"({"measures": "flux", "sphere": {"center": [0.1, 0, 0], "radius": 0.3, "facing": "inwards"}})";
+  for (const char* integrator : {"auto", "light", "photon-brute"})
+    expect_equal(read(scene_of(sphere, bulb, integrator)).whole.luminous, 1000 * through / (1 - thrown_back));
+}
+
+// A lamp of 1000 lm in a bulb in a grey ball of 1 m: nothing else absorbs, so that the wall sends back what
+// it takes, rho/(1 - rho) of the flux, in even radiance everywhere.
+TEST(Meter, PathsAndPhotonsShareTheLightOfALampWithinGlass) {
+  const std::string bulb =
+      R"("lights": [{"sphere": {"center": [0, 0, 0], "radius": 0.03}, "material": "white", "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}],
+    "materials": {"glass": {"dielectric": {"ior": 1.5}}, "air": {"dielectric": {"ior": 1}, "priority": 1},
+                  "white": {"diffuse": {"reflectance": 1}}, "wall": {"diffuse": {"reflectance": 0.5}}},
+    "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 0.07}, "material": "glass"},
+               {"sphere": {"center": [0, 0, 0], "radius": 0.05}, "material": "air"},
+               {"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "wall"}])";
+  const std::string sphere =
+      R"({"measures": "flux", "sphere": {"center": [0.02, 0, 0], "radius": 0.5, "facing": "inwards"}})";
+  const double flux = 1000 + 0.25 * 1000 * 0.5 / (1 - 0.5);
+  expect_equal(read(scene_of(sphere, bulb, "light")).whole.luminous, flux);
+  const LightReading shared = read(scene_of(sphere, bulb, "auto", 512)).whole;
+  EXPECT_LT(shared.luminous.standard_error, 0.01 * flux);
+  expect_equal(shared.luminous, flux, 0.03);
+}
 
 // A card lit by a bulb 1.1 m above it.
 TEST(Meter, RadianceIsThatOfWhatIsSeen) {
@@ -221,7 +261,8 @@ TEST(Meter, StandsOffTheSurfaceItLiesOn) {
       R"(, "material": "black"}])";
   const std::string meter = R"({"quad": )" + board + "}";
   const double bare = read(scene_of(meter, lamp)).whole.luminous.mean;
-  expect_equal(read(scene_of(meter, lamp + black)).whole.luminous, bare);
+  for (const char* integrator : {"path", "light", "photon-brute"})
+    expect_equal(read(scene_of(meter, lamp + black, integrator, 256)).whole.luminous, bare);
 }
 
 // Inwards on the surface of a ball of ink around a lamp, and outwards on a black ball in an even sky.

@@ -43,7 +43,7 @@ std::string_view bias_of(Technique technique) {
   return "";
 }
 
-std::string owned_paths(Technique technique, std::span<const Technique> active) {
+std::string owned_paths(Technique technique, std::span<const Technique> active, const Camera& camera) {
   switch (technique) {
     case Technique::bdpt:
       return "E (S|D)* L but, of lights without area, those of no D beside another or L";
@@ -61,6 +61,9 @@ std::string owned_paths(Technique technique, std::span<const Technique> active) 
       break;
   }
   const bool alone = active.size() == 1;
+  if (technique == Technique::light && is_meter(camera))
+    return alone ? "E (S|D)* L"
+                 : "E S+ L and E S (S|D)* S L of traced lights, E (S|D)* S L of those without area";
   if (technique == Technique::light) return alone ? "E D (S|D)* L" : "E D (S|D)* S L of traced lights";
   return alone ? "E (S|D)* L" : "E (S|D)* L but those of light";
 }

@@ -50,8 +50,9 @@ enum class Technique : std::uint8_t {
 /// why.
 [[nodiscard]] std::string_view bias_of(Technique technique);
 
-/// Tells which classes of paths a technique owns beside the others of `active`, in the notation of
-/// [Heckbert1990]: E is the camera, S an event of a single direction, D any other, and L the light.
-[[nodiscard]] std::string owned_paths(Technique technique, std::span<const Technique> active);
+/// Tells which classes of paths to a camera a technique owns beside the others of `active`, in the notation
+/// of [Heckbert1990]: E is the camera, S an event of a single direction, D any other, and L the light.
+[[nodiscard]] std::string owned_paths(Technique technique, std::span<const Technique> active,
+                                      const Camera& camera);
 
 }  // namespace abbe

@@ -21,8 +21,8 @@ namespace {
 // it, where paths are long: 1.9 in the Cornell box, about 1 where they are short.
 constexpr double kCostOfJoinedRay = 2;
 
-// By how much the pilots must prefer bidirectional path tracing.
-constexpr double kLeastGainOfJoining = 1.5;
+// By how much the pilots must prefer another way.
+constexpr double kLeastGain = 1.5;
 
 // Pixels that pilots look at, and the rays that they may cast for each pixel of the film: about what path
 // tracing does in ten samples, so that a film's pilots cost little of it. The samples themselves do not
@@ -30,6 +30,9 @@ constexpr double kLeastGainOfJoining = 1.5;
 constexpr std::uint32_t kFewPixels = 512;
 constexpr std::uint32_t kManyPixels = 4096;
 constexpr double kRaysPerPixel = 64;
+
+// Films of meters have few pixels, whose mean takes many samples.
+constexpr double kRaysOfMeter = 1 << 21;
 
 // The light that merging finds and nothing else.
 std::vector<PathClass> found_by_merging(const Scene& scene, const Scene& merging) {
@@ -41,9 +44,20 @@ std::vector<PathClass> found_by_merging(const Scene& scene, const Scene& merging
   return found;
 }
 
-// What error costs by joined paths.
+// Another way than path tracing, and light tracing beside it, what error costs by it, and the rays that
+// pilots may cast to find out.
+struct OtherWay {
+  Integrator integrator;
+  double (*cost)(const PilotFindings& found);
+  double most_rays;
+};
+
 double cost_of_joining(const PilotFindings& joined) {
   return (joined.path_variance + joined.photon_variance) * joined.path_rays * kCostOfJoinedRay;
+}
+
+double cost_of_photons(const PilotFindings& found) {
+  return found.photon_variance * found.photon_rays;
 }
 
 // And by path tracing, and light tracing beside it. Light that camera paths find by chance so rare that no
@@ -57,24 +71,32 @@ double cost_apart(const PilotFindings& apart, const PilotFindings& joined) {
 
 // By few pilots first, as in most scenes it is plain enough, and by very few for what they cost. None where
 // the film is too small for them to be worth that, or has no light that would tell.
-std::optional<double> cost_ratio(const Plan& apart, const Scene& joining, int threads) {
+std::optional<double> cost_ratio(const Plan& apart, const Scene& other, const OtherWay& way, int threads) {
   constexpr std::uint32_t kFirst = 4;
   constexpr double kPlain = 0.75;
-  const double most_rays = kRaysPerPixel * joining.camera.width * joining.camera.height;
   double rays_per_pixel = 2 * kPilotPathsPerPixel;  // at least, of both
-  if (kFewPixels * rays_per_pixel > most_rays) return std::nullopt;
-  const Plan joined = make_learnt_plan(joining, threads);
+  if (kFewPixels * rays_per_pixel > way.most_rays) return std::nullopt;
+  const Plan plan = make_learnt_plan(other, threads);
   std::optional<double> ratio;
   for (const std::uint32_t pixels : {kFirst, kFewPixels, kManyPixels}) {
-    if (pixels * rays_per_pixel > most_rays) return std::nullopt;
+    if (pixels * rays_per_pixel > way.most_rays) return std::nullopt;
     const PilotFindings by_paths = try_techniques(apart, threads, pixels);
-    const PilotFindings by_joining = try_techniques(joined, threads, pixels);
-    rays_per_pixel = static_cast<double>(by_paths.rays + by_joining.rays) / pixels;
+    const PilotFindings by_other = try_techniques(plan, threads, pixels);
+    rays_per_pixel = static_cast<double>(by_paths.rays + by_other.rays) / pixels;
     if (pixels == kFirst) continue;
-    ratio = cost_apart(by_paths, by_joining) / cost_of_joining(by_joining);
+    ratio = cost_apart(by_paths, by_other) / way.cost(by_other);
     if (!(*ratio > kPlain)) break;
   }
   return ratio && std::isfinite(*ratio) ? ratio : std::nullopt;
+}
+
+// What photons bring a meter that they run into joined paths would not find. Photons alone may do, where they
+// reach everything.
+OtherWay other_way(const Plan& plan) {
+  if (is_meter(plan.scene.camera) && uses(plan.techniques, Technique::light))
+    return {Integrator::light, cost_of_photons, kRaysOfMeter};
+  return {Integrator::bdpt, cost_of_joining,
+          kRaysPerPixel * plan.scene.camera.width * plan.scene.camera.height};
 }
 
 Scene with_integrator(Scene scene, Integrator integrator) {
@@ -94,14 +116,17 @@ IntegratorChoice choose_integrator(const Scene& scene, int threads) {
       return {Integrator::vcm, fmt::format("merging finds {}", fmt::join(found, "; "))};
   }
   Plan plan = make_learnt_plan(scene, threads);
-  const Scene joining = with_integrator(scene, Integrator::bdpt);
+  const OtherWay way = other_way(plan);
+  const Integrator by = way.integrator;
+  const Scene other = with_integrator(scene, by);
+  const bool reaches_enough = by != Integrator::light || unreached(other).empty();
   std::optional<double> ratio;
-  if (open && !refusal(joining)) ratio = cost_ratio(plan, joining, threads);
-  if (ratio && *ratio > kLeastGainOfJoining)
-    return {Integrator::bdpt,
+  if (open && !refusal(other) && reaches_enough) ratio = cost_ratio(plan, other, way, threads);
+  if (ratio && *ratio > kLeastGain)
+    return {by,
             fmt::format("pilots take it for {:.2g} times as cheap at equal error as path tracing", *ratio),
-            ratio};
-  return {scene.render.integrator, "", ratio, std::make_shared<const Guides>(std::move(plan.guides))};
+            ratio, by};
+  return {scene.render.integrator, "", ratio, by, std::make_shared<const Guides>(std::move(plan.guides))};
 }
 
 }  // namespace abbe

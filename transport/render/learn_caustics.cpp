@@ -57,10 +57,10 @@ bool sees_specular(const Scene& scene) {
 }
 
 // Per light, whether camera paths may meet it through specular matter where photons do not bring its light:
-// of a traced one, where the camera sees it through such matter.
+// of a traced one, where the camera sees it through such matter, or surfaces scatter it to a meter.
 std::vector<bool> lights_to_find(const Plan& plan) {
   const Scene& scene = plan.scene;
-  const bool through = !is_meter(scene.camera) && sees_specular(scene);
+  const bool through = is_meter(scene.camera) || sees_specular(scene);
   std::vector<bool> found;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     found.push_back(scene.lights[i].is<AreaLight, SunLight>() && scene.lights[i].emission.max() > 0 &&

@@ -20,7 +20,12 @@ namespace {
 
 constexpr std::uint32_t kPhotonsPerPixel = 2 * kPilotPathsPerPixel;
 constexpr std::uint32_t kTechniqueBatches = 64;
-constexpr int kGrid = 16;  // regions along an edge of the film
+constexpr int kGrid = 16;
+
+// Regions along an edge of the film. A meter tells its mean.
+int regions_along(const Camera& camera) {
+  return is_meter(camera) ? 1 : kGrid;
+}
 
 // What the pilots found in one region, a value being the sum of |film value| over the channels.
 struct Region {
@@ -40,7 +45,8 @@ struct Findings {
   std::uint64_t photon_rays = 0;
 
   Region& at(const Camera& camera, int x, int y) {
-    return regions[static_cast<std::size_t>(y * kGrid / camera.height * kGrid + x * kGrid / camera.width)];
+    const int n = regions_along(camera);
+    return regions[static_cast<std::size_t>(y * n / camera.height * n + x * n / camera.width)];
   }
   void add(const Findings& more) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -178,10 +184,11 @@ Findings try_all(const Plan& plan, int threads, std::uint32_t pixels) {
 
 // How many pixels each region has: none, where the film has fewer along an edge than there are regions.
 std::vector<double> region_sizes(const Camera& camera) {
-  const auto cut = [](int film, int region) { return (region * film + kGrid - 1) / kGrid; };
+  const int n = regions_along(camera);
+  const auto cut = [n](int film, int region) { return (region * film + n - 1) / n; };
   std::vector<double> sizes;
-  for (int y = 0; y < kGrid; ++y)
-    for (int x = 0; x < kGrid; ++x)
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
       sizes.push_back(static_cast<double>(cut(camera.width, x + 1) - cut(camera.width, x)) *
                       (cut(camera.height, y + 1) - cut(camera.height, y)));
   return sizes;

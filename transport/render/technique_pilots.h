@@ -8,7 +8,7 @@ namespace abbe {
 
 /// What pilots find of the techniques of a plan. Variances and squares are of film values, the sum of their
 /// magnitudes over the channels, relative to the squared mean of a sixteenth of the film's edges around, as
-/// relMSE takes them, and summed over the pixels.
+/// relMSE takes them, of a meter to that of its film, and summed over the pixels.
 struct PilotFindings {
   double path_variance = 0;    ///< Of a camera path through each pixel,
   double path_square = 0;      ///< and the mean square.

@@ -8,6 +8,13 @@
 #include "transport/path/polarised_ends.h"
 
 namespace abbe {
+namespace {
+
+std::optional<Opening> opening_of_meter(const Camera& camera) {
+  return is_meter(camera) ? traits(camera).opening : std::nullopt;
+}
+
+}  // namespace
 
 LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
     : plan_(plan),
@@ -15,6 +22,7 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
       caster_(caster),
       scale_(static_cast<float>(share * plan.scene.exposure_s)),
       alone_(!uses(plan.techniques, Technique::path)),
+      meter_(opening_of_meter(plan.scene.camera)),
       response_(film_response_of(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       walks_(plan.scene, caster) {}
@@ -22,9 +30,10 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
 // The estimate of a film value is, over photons y_0 y_1 ... of power Phi from the lights,
 //     sum_n w_n Phi [T_n / P_n] f cos W,
 // T_n being the throughput up to y_n and P_n its density, and W what the camera makes of intensity towards
-// its lens: each vertex is connected to the lens, and `mis_weight` balances the lanes. A photon has a time of
-// the whole span in which the film is exposed, and W contains what the shutter of the row that it comes to
-// passes then (`Shutter::weight`).
+// its lens: each vertex is connected to the lens, and `mis_weight` balances the lanes. A meter has no lens:
+// of a photon that runs into it after y_n the term is w_n Phi [T_(n+1) / P_(n+1)] W, W being what it makes of
+// power that comes in. A photon has a time of the whole span in which the film is exposed, and W contains
+// what the shutter of the row that it comes to passes then (`Shutter::weight`).
 void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit) {
   deposit_ = &deposit;
   starts_.assign(photons.size(), {});
@@ -34,7 +43,9 @@ void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit
     LightPath& path = paths.emplace_back(photons[i], i);
     starts_[i] = start_photon(plan_, caster_, path);
     path.power = path.packet.throughput.max();
-    if (!path.packet.throughput.is_zero()) walks_.going().push_back(i);
+    if (path.packet.throughput.is_zero()) continue;
+    if (meter_ && alone_) run_into_meter(path, 0);
+    walks_.going().push_back(i);
   }
   walks_.run(*this);
 }
@@ -51,7 +62,7 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
   if (path.packet.polarisation) arrives = arriving(path, vertex.mueller(wi, false), towards, *lens);
   Surroundings crossed;
   if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-  connect_to(path, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
+  connect_to(path, path.events + 1, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
              crosses ? crossed : path.around, arrives);
 }
 
@@ -63,7 +74,7 @@ void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, co
   std::optional<StokesSpectrum> arrives;
   if (path.packet.polarisation)
     arrives = arriving(path, mueller(phase, path.ray.direction, towards), towards, *lens);
-  connect_to(path, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
+  connect_to(path, path.events + 1, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
              ray_at(path.ray.origin, towards, path.ray.time), path.around, arrives);
 }
 
@@ -76,9 +87,19 @@ StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<
   return polarisation_of_film(scene_, towards, path.ray.time, images_of(lens)).of(light, towards);
 }
 
-// `scattered` is the share of the photon's power that leaves along `ray`, towards the lens [1/sr], were it
-// unpolarised, and `arrives` how it is polarised there, where that is carried.
-void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens,
+void LightTracer::run_into_meter(const LightPath& path, int events) {
+  const auto lens = connection_through(scene_.camera, *meter_, path.ray, path.lambda_nm());
+  if (!lens) return;
+  std::optional<StokesSpectrum> arrives;
+  if (path.packet.polarisation)
+    arrives = polarisation_of_film(scene_, path.ray.direction, path.ray.time, images_of(*lens))
+                  .of(*path.packet.polarisation, path.ray.direction);
+  connect_to(path, events, *lens, SampledSpectrum(1.0F), path.ray, path.around, arrives);
+}
+
+// After so many events `scattered` is the share of the photon's power that leaves along `ray`, towards the
+// lens [1/sr], were it unpolarised, and `arrives` how it is polarised there, where that is carried.
+void LightTracer::connect_to(const LightPath& path, int events, const CameraConnection& lens,
                              const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
                              const std::optional<StokesSpectrum>& arrives) {
   const BasicRay<double> way = way_between(ray.origin, lens.lens_point, ray.time);
@@ -95,7 +116,7 @@ void LightTracer::connect_to(const LightPath& path, const CameraConnection& lens
   }
   connections_.push_back(
       {path.path,
-       path.events + 1,
+       events,
        contribution,
        {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
   if (lens.images) images_.push_back(*lens.images);

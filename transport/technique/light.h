@@ -24,7 +24,8 @@ struct LightPath : Walk {
 
 /// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
 /// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
-/// it, unless no other technique is in the plan. Serves one thread.
+/// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by those that
+/// come from a specular vertex, or that no path would find. Serves one thread.
 class LightTracer {
  public:
   using Path = LightPath;
@@ -59,11 +60,14 @@ class LightTracer {
   [[nodiscard]] bool follows_within(const LightPath& path) const { return owned(path); }
   // The power a photon starts with says nothing about what it adds to the film: roulette goes by what the
   // event itself keeps.
-  [[nodiscard]] float kept(const LightPath& /*path*/, const SurfaceVertex& /*vertex*/,
-                           const BsdfSample& event) const {
+  [[nodiscard]] float kept(const LightPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& event) {
+    if (meter_ && (event.delta || owns_scattered(path))) run_into_meter(path, path.events + 1);
     return event.weight.max() / event.lane_pdf.max();
   }
-  [[nodiscard]] float kept_within(const LightPath& /*path*/) const { return 1; }
+  [[nodiscard]] float kept_within(const LightPath& path) {
+    if (meter_ && owns_scattered(path)) run_into_meter(path, path.events + 1);
+    return 1;
+  }
   [[nodiscard]] float carried(const LightPath& path) const { return path.packet.carried() / path.power; }
   void resolve_connections();
 
@@ -76,8 +80,15 @@ class LightTracer {
   };
 
   [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || alone_; }
-  void connect_to(const LightPath& path, const CameraConnection& lens, const SampledSpectrum& scattered,
-                  const Ray& ray, const Surroundings& around, const std::optional<StokesSpectrum>& arrives);
+  // Whether also what scattering sends a meter is for photons alone.
+  [[nodiscard]] bool owns_scattered(const LightPath& path) const {
+    return alone_ || scene_.lights[starts_[path.path].light].is_delta();
+  }
+  // By the ray that the path goes on along after so many events.
+  void run_into_meter(const LightPath& path, int events);
+  void connect_to(const LightPath& path, int events, const CameraConnection& lens,
+                  const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
+                  const std::optional<StokesSpectrum>& arrives);
   [[nodiscard]] StokesSpectrum arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
                                         const Imath::V3f& towards, const CameraConnection& lens) const;
   template <typename Contribution>
@@ -88,6 +99,7 @@ class LightTracer {
   RayCaster& caster_;
   float scale_;
   bool alone_;  // owns all that photons bring
+  std::optional<Opening> meter_;
   FilmResponse response_;
   bool measures_polarisation_;
   RandomWalks<LightTracer> walks_;

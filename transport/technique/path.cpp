@@ -148,7 +148,7 @@ StokesSpectrum PathTracer::measured(const CameraPath& path, const std::optional<
 // Whether photons, or connections of the lens, bring what a light that the path has met sends along it.
 bool PathTracer::owned_by_others(const CameraPath& path, std::uint32_t light) const {
   if (path.events == 0) return path.route > 0;
-  return path.events > 0 && path.connected == 0 && !path.first_delta && plan_.traced[light];
+  return path.events > 0 && path.connected == 0 && !path.owns_caustics && plan_.traced[light];
 }
 
 // With which a connection from its last vertex would have drawn the path's ray to the light.
@@ -257,11 +257,12 @@ bool PathTracer::accepted(const Imath::V3f& direction, const Imath::V3f& normal,
   return BsdfSample{.wi = wi, .weight = SampledSpectrum(1.0F), .pdf = wi.z / disc_area(acceptance)};
 }
 
-// The photons bring what comes through specular matter from traced lights, but for what is seen through it.
+// The photons bring what comes through specular matter from traced lights, but for what is seen through it,
+// and what a surface or matter scatters to a meter.
 void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
   if (narrow_ && path.events == kMeterEvent) return;
-  const CausticGuide& guide =
-      path.first_delta ? plan_.guides.caustics_seen_through : plan_.guides.caustics_of_paths;
+  const bool of_traced = path.owns_caustics || (camera_.meter_acceptance && path.events == 0);
+  const CausticGuide& guide = of_traced ? plan_.guides.caustics_seen_through : plan_.guides.caustics_of_paths;
   path.caustics = !guide.empty() && scatters(vertex.bsdf) ? guide.at(vertex.hit.point) : CausticLobes();
 }
 
@@ -307,7 +308,7 @@ void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
 }
 
 bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {
-  if (path.events == 0) path.first_delta = event.delta;
+  if (path.events == 0) path.owns_caustics = event.delta != camera_.meter_acceptance.has_value();
   return true;
 }
 

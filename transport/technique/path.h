@@ -23,12 +23,12 @@ namespace abbe {
 struct CameraPath : Walk {
   using Walk::Walk;
   FilmPoint at;
-  SampledSpectrum scale;     ///< What radiance along its first ray exposes, times the exposure time.
-  SampledSpectrum found;     ///< Light it has found so far, balanced over lanes and techniques.
-  float eta_scale = 1;       ///< What refraction and guiding have taken off radiance.
-  bool first_delta = false;  ///< The event next to the camera was of a single direction.
-  CausticLobes caustics;     ///< Where to look for them from the vertex it has come to.
-  LensRoute route = 0;       ///< By which it left the film.
+  SampledSpectrum scale;       ///< What radiance along its first ray exposes, times the exposure time.
+  SampledSpectrum found;       ///< Light it has found so far, balanced over lanes and techniques.
+  float eta_scale = 1;         ///< What refraction and guiding have taken off radiance.
+  bool owns_caustics = false;  ///< Whether what it finds of traced lights through specular matter is its own.
+  CausticLobes caustics;       ///< Where to look for them from the vertex it has come to.
+  LensRoute route = 0;         ///< By which it left the film.
 };
 
 /// One sample of a pixel.
@@ -46,7 +46,8 @@ struct PixelSample {
 /// to draw one. Serves one thread.
 ///
 /// Owned: every path that ends on an area, environment or sun light or by a connection, except those whose
-/// vertex next to the camera is not specular while the one next to a traced light is.
+/// vertex next to a traced light is specular while the one next to the camera is not, or the one next to a
+/// meter is.
 class PathTracer {
  public:
   using Path = CameraPath;
@@ -76,7 +77,10 @@ class PathTracer {
     return path.caustics.empty() ? scatter_unguided(path, vertex, u) : scatter_guided(path, vertex, u);
   }
   [[nodiscard]] bool follows(CameraPath& path, const BsdfSample& event) const;
-  [[nodiscard]] bool follows_within(const CameraPath& /*path*/) const { return true; }
+  [[nodiscard]] bool follows_within(CameraPath& path) const {
+    if (path.events == 0) path.owns_caustics = camera_.meter_acceptance.has_value();
+    return true;
+  }
   [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
   [[nodiscard]] float kept_within(const CameraPath& path) const { return carried(path); }
   // What refraction into glass takes off radiance counts as still there.

@@ -94,7 +94,8 @@ CaseResult measure(const Case& item, const TechniqueMean& method, const CaseSett
   CaseResult result = classes.empty() ? measure_film(item, std::move(film), settings)
                                       : CaseResult{{}, item.margin, Verdict::pass, 0, 0, 0};
   result.unreached = std::move(classes);
-  for (const Technique technique : techniques) result.owned.push_back(owned_paths(technique, techniques));
+  for (const Technique technique : techniques)
+    result.owned.push_back(owned_paths(technique, techniques, scene.camera));
   return result;
 }
 

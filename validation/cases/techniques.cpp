@@ -39,32 +39,30 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
   static const Override few_neighbours{"/render/photons/nearest", "12"};  // no farther than 48 of the usual
   static const Override many_places{"/sensor/resolution", "[128, 128]"};  // which `ppm` never leaves
   static const Films gathered{"T1-0.2", "T9-outer", "T12-white", "T13-60", "T15-T"};
-  // The sun in a ball of glass covers a ten-thousandth of what a meter under it sees.
-  static const Films by_rare_chance{"ball-meter"};
-  static const Films of_long_paths{"T1-0.8", "T1-0.95", "T8",        "T10-upper",      "T10-lower", "T11",
-                                   "T11-16", "layer-1", "layer-0.2", "scattered-blue", "ball-meter"};
+  static const Films of_long_paths{"T1-0.8", "T1-0.95", "T8",      "T10-upper", "T10-lower",
+                                   "T11",    "T11-16",  "layer-1", "layer-0.2", "scattered-blue"};
   static const Films of_long_paths_or_rare = [] {
     Films both = of_long_paths;
     both.insert("ball-disc");
     return both;
   }();
   static const std::array<Measured, kIntegratorNames.size()> all{
-      {{.by = Integrator::automatic, .never = by_rare_chance},
+      {{.by = Integrator::automatic, .tests = {"ball-meter"}},
        {.by = Integrator::path,
         .tests = {"T1-0.2", "T5-axis", "T11", "T12-white", "T12-glass", "T13-60", "T16-inside", "pane-thick",
-                  "ball-axis", "scattered-once", "scattered-blue", "layer-1"},
-        .never = by_rare_chance},
+                  "ball-axis", "scattered-once", "scattered-blue", "layer-1"}},
        // The sphere of T17 is met by one photon in 4e8, and the line of sight of the lamp in fog by fewer.
        {.by = Integrator::light,
         .patience = 16,
         .quick = {"ball-disc"},
+        .tests = {"T1-0.2", "T6-discs", "ball-meter", "ball-inside"},
         .never = {"T17-0", "T17-60", "T17-90", "scattered-once", "scattered-blue"}},
        {.by = Integrator::bdpt,
         .quick = {"T1-0.2", "T3-corner", "T5-axis", "T6-discs", "T9-outer", "T12-glass", "T13-60", "T17-60",
                   "ball-axis", "ball-inside"},
         .thorough = {"layer-1", "scattered-blue"},
         .others = Tier::tests,
-        .never = {"T1-0.95", "T8", "layer-0.2", "ball-meter"}},
+        .never = {"T1-0.95", "T8", "layer-0.2"}},
        {.by = Integrator::photon_map,
         .least_samples = kSharedWavelengths,
         .fine_margin = 0.01,
