@@ -103,9 +103,12 @@ Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& et
   constexpr double kTurn = 2 * std::numbers::pi;
   const Complex<T> one{T(1), T(0)};
   const Complex<T> q_t = normal_component(cos_i, eta, k);
-  const Complex<T> p_t = q_t / square(eta, k);
+  const Complex<T> eps_t = square(eta, k);
+  // H of p vanishes on a substrate of index 0, which lets nothing in.
+  const bool closed = !(norm(eps_t) > T(0));
+  const Complex<T> p_t = closed ? Complex<T>{T(0), T(0)} : q_t / eps_t;
   Fields<T> s{one, q_t, T(1)};
-  Fields<T> p{one, p_t, T(1)};
+  Fields<T> p = closed ? Fields<T>{p_t, one, T(1)} : Fields<T>{one, p_t, T(1)};
   for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
     const Complex<T> q = normal_component(cos_i, layer->eta, layer->k);
     const T length = T(kTurn) * layer->thickness;

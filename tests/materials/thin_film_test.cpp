@@ -202,6 +202,22 @@ TEST(ThinFilm, ThickMetalIsOpaqueAndHidesItsSubstrate) {
   EXPECT_NEAR((film_power<float>(1, in_float, 1.5F, 0).R()), 1, 1e-6);
 }
 
+TEST(ThinFilm, NothingEntersASubstrateOfIndexZero) {
+  for (const Layers& layers : {Layers{}, Layers{quarter(1.5)}, Layers{quarter(2.4, 0.3), quarter(1.4, 7)}})
+    for (const double cos_i : {1e-4, 0.3, 0.9, 1.0}) {
+      const FresnelPower<double> f = stack(cos_i, layers, 0);
+      EXPECT_NEAR(f.Rs, 1, kExact) << cos_i;
+      EXPECT_NEAR(f.Rp, 1, kExact) << cos_i;
+      EXPECT_EQ(f.Ts, 0);
+      EXPECT_EQ(f.Tp, 0);
+      const FresnelPower<double> nearly = stack(cos_i, layers, 1e-9);
+      EXPECT_NEAR(nearly.Rp, f.Rp, 1e-6);
+    }
+  const FresnelPower<double> absorbing = stack(0.7, {{1.5, 0.1, 0.5}}, 0);
+  EXPECT_GT(absorbing.Rp, 0);
+  EXPECT_LT(absorbing.Rp, 1);
+}
+
 TEST(ThinFilm, HoldsAtTheCriticalAngleOfALayer) {
   const double eta = 0.8;
   const double cos_i = std::sqrt(1 - eta * eta);
