@@ -85,6 +85,7 @@ void Scene::measure_extent() {
     bounds.extendBy(box);
     coarsest_ = std::max(coarsest_, instance.rounding);
   }
+  if (is_meter(camera) && traits(camera).opening) bounds.extendBy(abbe::bounds(camera));
 }
 
 bool Scene::is_far(const Light& light) const {

@@ -169,7 +169,7 @@ class Scene {
   Needs needs;
   Imath::V3d origin_m{0, 0, 0};
   double unit_m = 1;      ///< Metres per scene-file unit.
-  Imath::Box3d bounds;    ///< Of the shapes, but for those that are far.
+  Imath::Box3d bounds;    ///< Of the shapes, but for those that are far, and of a meter that is no point.
   double far_from_m = 0;  ///< What lies wholly beyond this distance from the camera is far; see Extent.
   std::string sha256;     ///< Of the scene file after overrides, and of every file it names.
 

@@ -94,8 +94,9 @@ void add_of_light_tracing(const Scene& scene, Classes& classes) {
 }
 
 // Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
-// vertex next to the light scatters; without it, the former. Photons of a traced light reach all others that
-// end on a meter, but for what is scattered to it of one that paths may meet.
+// vertex next to the light scatters; without it, the former. Photons that run into a meter
+// reach the others of a traced light if it is without area, else those whose vertex next to the meter is
+// specular.
 void add_of_path_tracing(const Scene& scene, const Needs& needs, bool light_tracing_active,
                          Classes& classes) {
   const auto& lights = scene.lights;

@@ -159,6 +159,17 @@ Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point) {
   return std::get<Probe>(meter.kind).normal_at(point);
 }
 
+Imath::Box3d bounds(const Camera& camera) {
+  const Imath::V3d center = middle(camera);
+  const std::optional<Opening> opening = traits(camera).opening;
+  constexpr double kBeside = 1.01;  // where rays begin
+  const double reach = opening ? kBeside * extent(*opening) : (center - position(camera)).length();
+  Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
+  if (!camera.motion) return box;
+  const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);
+  return {path.min - Imath::V3d(reach), path.max + Imath::V3d(reach)};
+}
+
 Imath::V3f meter_point(const Camera& meter, Imath::V2f place) {
   const FilmGrid film = meter.film();
   const Imath::V2f at(place.x * static_cast<float>(film.width), place.y * static_cast<float>(film.height));

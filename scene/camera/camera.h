@@ -49,6 +49,8 @@ void translate(Camera& camera, const Imath::V3d& by);
 /// The outward unit normal of a meter at one of its points.
 [[nodiscard]] Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point);
 
+/// Around where rays leave the camera, at all times.
+[[nodiscard]] Imath::Box3d bounds(const Camera& camera);
 /// Where the ray of a meter begins, just off its surface, at a place of its film within [0, 1]^2.
 [[nodiscard]] Imath::V3f meter_point(const Camera& meter, Imath::V2f place);
 

@@ -199,6 +199,20 @@ TEST(Meter, PathsAndPhotonsShareTheLightOfALampWithinGlass) {
   expect_equal(shared.luminous, flux, 0.03);
 }
 
+// A black ball of 0.1 m above a disc, and beside a sphere, of 1 m: photons from afar must not be sent to the
+// ball alone.
+TEST(Meter, SunlightReachesWhatIsBeyondTheShapes) {
+  const std::string sun =
+      R"("lights": [{"sun": {"towards": [0, 0, 1], "illuminance": 1}}], "materials": {"black": {"diffuse": {"reflectance": 0}}},
+    "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 0.1}, "material": "black"}])";
+  const std::string disc = R"({"disc": {"center": [0, 0, -0.2], "normal": [0, 0, 1], "radius": 1}})";
+  const std::string sphere = R"({"measures": "flux", "sphere": {"center": [2, 0, 0], "radius": 1}})";
+  for (const char* integrator : {"path", "light", "photon-brute"}) {
+    expect_equal(read(scene_of(disc, sun, integrator, 256)).whole.luminous, 0.99);
+    expect_equal(read(scene_of(sphere, sun, integrator, 256)).whole.luminous, kPi);
+  }
+}
+
 // A card lit by a bulb 1.1 m above it.
 TEST(Meter, RadianceIsThatOfWhatIsSeen) {
   const std::string card = std::string(kBulb) +

@@ -121,24 +121,12 @@ std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniqu
              : pixels;
 }
 
-// Around where rays leave the camera, at all times.
-Imath::Box3d camera_box(const Camera& camera) {
-  const Imath::V3d center = middle(camera);
-  const std::optional<Opening> opening = traits(camera).opening;
-  constexpr double kBeside = 1.01;  // where rays begin
-  const double reach = opening ? kBeside * extent(*opening) : (center - position(camera)).length();
-  Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
-  if (!camera.motion) return box;
-  const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);
-  return {path.min - Imath::V3d(reach), path.max + Imath::V3d(reach)};
-}
-
 // A meter of some size may stand in several kinds of matter at once.
 bool camera_matter_varies(const Scene& scene) {
   const auto* meter = std::get_if<Probe>(&scene.camera.kind);
   const bool extended = meter != nullptr && meter->area() > 0;
   return (scene.needs.motion || extended) &&
-         matter_moves(scene, camera_box(scene.camera), scene.camera.motion != nullptr || extended);
+         matter_moves(scene, bounds(scene.camera), scene.camera.motion != nullptr || extended);
 }
 
 void look_for_moving_matter(Plan& plan) {

@@ -63,7 +63,7 @@ std::string owned_paths(Technique technique, std::span<const Technique> active, 
   const bool alone = active.size() == 1;
   if (technique == Technique::light && is_meter(camera))
     return alone ? "E (S|D)* L"
-                 : "E S+ L and E S (S|D)* S L of traced lights, E (S|D)* S L of those without area";
+                 : "E S L and E S (S|D)* S L of traced lights, E (S|D)* S L of those without area";
   if (technique == Technique::light) return alone ? "E D (S|D)* L" : "E D (S|D)* S L of traced lights";
   return alone ? "E (S|D)* L" : "E (S|D)* L but those of light";
 }

@@ -108,7 +108,12 @@ Scene with_integrator(Scene scene, Integrator integrator) {
 
 IntegratorChoice choose_integrator(const Scene& scene, int threads) {
   const bool open = scene.render.integrator == Integrator::automatic;
-  if (refusal(scene)) return {scene.render.integrator, ""};
+  if (const auto refused = refusal(scene)) {
+    const bool by_paths =
+        open && is_meter(scene.camera) && !refusal(with_integrator(scene, Integrator::path));
+    if (by_paths) return {Integrator::path, refused->what()};
+    return {scene.render.integrator, ""};
+  }
   if (open && scene.render.consistent) {
     const Scene merging = with_integrator(scene, Integrator::vcm);
     const std::vector<PathClass> found = found_by_merging(scene, merging);

@@ -98,7 +98,8 @@ void LightTracer::run_into_meter(const LightPath& path, int events) {
 }
 
 // After so many events `scattered` is the share of the photon's power that leaves along `ray`, towards the
-// lens [1/sr], were it unpolarised, and `arrives` how it is polarised there, where that is carried.
+// lens [1/sr], or all of it, into a meter, were it unpolarised, and `arrives` how it is polarised there,
+// where that is carried.
 void LightTracer::connect_to(const LightPath& path, int events, const CameraConnection& lens,
                              const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
                              const std::optional<StokesSpectrum>& arrives) {

@@ -24,8 +24,9 @@ struct LightPath : Walk {
 
 /// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
 /// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
-/// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by those that
-/// come from a specular vertex, or that no path would find. Serves one thread.
+/// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by
+/// all of them, or beside path tracing by those whose last vertex is specular and all of lights without area.
+/// Serves one thread.
 class LightTracer {
  public:
   using Path = LightPath;
@@ -59,7 +60,7 @@ class LightTracer {
   }
   [[nodiscard]] bool follows_within(const LightPath& path) const { return owned(path); }
   // The power a photon starts with says nothing about what it adds to the film: roulette goes by what the
-  // event itself keeps.
+  // event itself keeps. Its ray has left by then.
   [[nodiscard]] float kept(const LightPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& event) {
     if (meter_ && (event.delta || owns_scattered(path))) run_into_meter(path, path.events + 1);
     return event.weight.max() / event.lane_pdf.max();

@@ -257,8 +257,8 @@ bool PathTracer::accepted(const Imath::V3f& direction, const Imath::V3f& normal,
   return BsdfSample{.wi = wi, .weight = SampledSpectrum(1.0F), .pdf = wi.z / disc_area(acceptance)};
 }
 
-// The photons bring what comes through specular matter from traced lights, but for what is seen through it,
-// and what a surface or matter scatters to a meter.
+// The photons bring what comes through specular matter from traced lights, but for what a camera sees through
+// it, and for what a surface or matter scatters to a meter.
 void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
   if (narrow_ && path.events == kMeterEvent) return;
   const bool of_traced = path.owns_caustics || (camera_.meter_acceptance && path.events == 0);

@@ -45,9 +45,9 @@ struct PixelSample {
 /// plan's guide where it knows of caustics that no other technique owns, and the density is that of both ways
 /// to draw one. Serves one thread.
 ///
-/// Owned: every path that ends on an area, environment or sun light or by a connection, except those whose
-/// vertex next to a traced light is specular while the one next to the camera is not, or the one next to a
-/// meter is.
+/// Owned: every path that ends on an area, environment or sun light or by a connection. Of a traced light
+/// whose vertex next to it is specular, a camera's only if the vertex next to it is specular too, and a
+/// meter's only if that scatters.
 class PathTracer {
  public:
   using Path = CameraPath;
