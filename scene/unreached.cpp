@@ -94,9 +94,8 @@ void add_of_light_tracing(const Scene& scene, Classes& classes) {
 }
 
 // Path tracing with light sampling reaches every path that ends on a light with area, and every one whose
-// vertex next to the light scatters; without it, the former. Photons that run into a meter
-// reach the others of a traced light if it is without area, else those whose vertex next to the meter is
-// specular.
+// vertex next to the light scatters; without it, the former. Photons that run into a meter reach the others
+// of a traced light if it is without area, else those whose vertex next to the meter is specular.
 void add_of_path_tracing(const Scene& scene, const Needs& needs, bool light_tracing_active,
                          Classes& classes) {
   const auto& lights = scene.lights;

@@ -2,85 +2,15 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
+#include "floor_scenes.h"
 #include "scene/extent.h"
-#include "scene/unreached.h"
-#include "scenes.h"
 #include "spectral/sources.h"
 
 namespace abbe {
 namespace {
 
+using namespace testing;
 using Imath::V3d;
-
-constexpr std::uint32_t kDiffuse = 0;
-constexpr std::uint32_t kMirror = 1;
-constexpr std::uint32_t kGlass = 2;
-
-// A diffuse floor, looked at by a pinhole; the tests add to it.
-Scene floor_scene() {
-  Scene scene{};
-  scene.camera = testing::pinhole();
-  scene.materials = {testing::diffuse(), testing::mirror(), testing::glass()};
-  scene.shapes.push_back({"floor", Quad{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, kDiffuse});
-  scene.channels.push_back(energy_channel("Y", Curve(1.0)));
-  return scene;
-}
-void add_bulb(Scene& scene) {
-  scene.lights.push_back({"bulb", PointLight{{0, 0, 3}}, Curve(1.0)});
-}
-void add_lamp(Scene& scene, double size) {
-  scene.lights.push_back(
-      {"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size()), false}, Curve(1.0)});
-  scene.shapes.push_back({"lamp", Quad{{0, 0, 3}, {0, size, 0}, {size, 0, 0}}, kDiffuse});
-}
-void add_sky(Scene& scene) {
-  scene.lights.push_back({"sky", EnvironmentLight{}, Curve(1.0)});
-}
-void add_ball(Scene& scene, std::uint32_t material) {
-  scene.shapes.push_back({"ball", Sphere{{0, 0, 1}, 0.5}, material});
-}
-
-std::vector<std::string> unreached_expressions(const Scene& scene, bool light_tracing) {
-  std::vector<std::string> expressions;
-  for (const PathClass& path : unreached(scene, scene.needs, light_tracing))
-    expressions.push_back(path.substr(0, path.find(':')));
-  return expressions;
-}
-using Expressions = std::vector<std::string>;
-
-TEST(Unreached, PhotonsAloneDoNotRunIntoAPoint) {
-  Scene scene{};
-  scene.camera = {Probe{PointOfMeter{}}, 1, 1, 0.01};
-  scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, Curve(1.0)});
-  for (const Integrator by : {Integrator::light, Integrator::photon_brute}) {
-    scene.render.integrator = by;
-    scene.camera.kind = Probe{PointOfMeter{}};
-    scene.commit();
-    EXPECT_EQ(unreached_expressions(scene, true), Expressions{"E (S|D)* L"});
-    for (const Probe& meter :
-         {Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, Probe{SphereSide{{{0, 0, 0}, 1}}}}) {
-      scene.camera.kind = meter;
-      scene.commit();
-      EXPECT_TRUE(unreached(scene, scene.needs, true).empty());
-    }
-  }
-}
-
-TEST(Unreached, PhotonsOfTracedLightsReachMeters) {
-  Scene scene = floor_scene();
-  add_bulb(scene);
-  scene.lights.push_back({"sun", SunLight{{0, 0, 1}, 1e-5F}, Curve(1.0)});
-  add_ball(scene, kGlass);
-  scene.camera.kind = Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-  scene.commit();
-  const std::string caustic = "E (S|D)* D (S|D)* S L";
-  EXPECT_EQ(unreached_expressions(scene, true), Expressions{caustic}) << "of the sun, by pilots alone";
-  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E S+ L", caustic, caustic}));
-  scene.render.integrator = Integrator::bdpt;
-  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ (D S+)* L", "E S+ L"}));
-}
 
 TEST(Needs, OfAPlainScene) {
   Scene scene = floor_scene();
@@ -275,39 +205,6 @@ TEST(Needs, NarrowFeatures) {
   EXPECT_TRUE(scene.needs.narrow_bands);
 }
 
-TEST(Unreached, ClassesOfADeltaLight) {
-  Scene scene = floor_scene();
-  add_bulb(scene);
-  add_lamp(scene, 0.1);
-  add_sky(scene);
-  add_ball(scene, kGlass);
-  scene.commit();
-  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E S+ L", "E S (S|D)* D (S|D)* S L"}));
-  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E (S|D)* D (S|D)* S L"}));
-  const auto classes = unreached(scene, scene.needs, false);
-  EXPECT_EQ(classes[0],
-            "E S+ L: a point, spot or directional light seen in mirrors or through glass (\"bulb\")");
-}
-
-// Paths that are not connected to lights never meet those without area, specular matter or not.
-TEST(Unreached, ADeltaLightWithoutConnections) {
-  Scene scene = floor_scene();
-  add_bulb(scene);
-  add_lamp(scene, 0.1);
-  scene.commit();
-  scene.render.integrator = Integrator::path;
-  EXPECT_TRUE(unreached(scene, scene.needs, false).empty());
-  scene.render.sampling.lights = LightStrategy::bsdf;
-  EXPECT_EQ(unreached(scene, scene.needs, false),
-            (std::vector<PathClass>{
-                "E (S|D)+ L: a point, spot or directional light, which no path meets (\"bulb\")"}));
-  add_ball(scene, kGlass);
-  scene.commit();
-  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E (S|D)+ L"}));
-  scene.render.sampling.lights = LightStrategy::light;
-  EXPECT_EQ(unreached_expressions(scene, false), (Expressions{"E S+ L", "E (S|D)* D (S|D)* S L"}));
-}
-
 TEST(Needs, SunsAndBeamsAreTracedUnlessTheyLookLarge) {
   Scene scene = floor_scene();
   add_ball(scene, kGlass);
@@ -350,35 +247,6 @@ TEST(Extent, WhatIsNearDecides) {
   EXPECT_TRUE(extent_of(meter.camera, meter.shapes).near.isEmpty()) << "a meter is lit where it is";
 }
 
-TEST(Unreached, ClassesOfTheLightTracerAlone) {
-  Scene scene = floor_scene();
-  scene.render.integrator = Integrator::light;
-  add_bulb(scene);
-  scene.commit();
-  EXPECT_TRUE(unreached(scene, scene.needs, true).empty());
-  add_lamp(scene, 0.1);
-  add_sky(scene);
-  add_ball(scene, kGlass);
-  scene.commit();
-  EXPECT_EQ(unreached_expressions(scene, true), (Expressions{"E (S|D)* L", "E L", "E S (S|D)* L"}));
-}
-
-TEST(Unreached, ClassesOfBidirectionalPathTracing) {
-  Scene scene = floor_scene();
-  scene.render.integrator = Integrator::bdpt;
-  add_bulb(scene);
-  scene.commit();
-  EXPECT_TRUE(unreached(scene, scene.needs, false).empty()) << "nothing is specular";
-  add_ball(scene, kGlass);
-  scene.commit();
-  EXPECT_EQ(unreached_expressions(scene, false), Expressions{"E S+ (D S+)* L"});
-  scene.lights.clear();
-  add_lamp(scene, 0.1);
-  add_sky(scene);
-  scene.commit();
-  EXPECT_TRUE(unreached(scene, scene.needs, false).empty()) << "both have area";
-}
-
 TEST(Needs, EveryLampIsHeldAgainstEverySpecularShape) {
   Scene scene = floor_scene();
   testing::Random random(31);
@@ -408,16 +276,6 @@ TEST(Needs, EveryLampIsHeldAgainstEverySpecularShape) {
   }
   EXPECT_GT(small, 50);
   EXPECT_LT(small, 350);
-}
-
-TEST(Unreached, NamesTheFirstOfManyLights) {
-  Scene scene = floor_scene();
-  scene.shapes.push_back({"pane", Quad{{-5, -5, 1}, {10, 0, 0}, {0, 10, 0}}, kGlass});
-  for (int i = 0; i < 20; ++i) scene.lights.push_back({fmt::format("l{}", i), PointLight{}, Curve(1.0)});
-  scene.commit();
-  const std::vector<PathClass> classes = unreached(scene, scene.needs, true);
-  ASSERT_FALSE(classes.empty());
-  EXPECT_NE(classes[0].find("\"l7\" and 12 more"), std::string::npos) << classes[0];
 }
 
 }  // namespace

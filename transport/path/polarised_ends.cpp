@@ -55,6 +55,12 @@ Polarisation polarisation_of_lamp(const Light& light, const Imath::V3f& travels)
                                    SampledSpectrum(of->v)}};
 }
 
+std::optional<StokesSpectrum> seen_on_film(const Scene& scene, const PathPacket& packet,
+                                           const Imath::V3f& travels, float time, const LaneImages* images) {
+  if (!packet.polarisation) return std::nullopt;
+  return polarisation_of_film(scene, travels, time, images).of(*packet.polarisation, travels);
+}
+
 std::optional<StokesSpectrum> seen_of(const Light& light, const PathPacket& packet,
                                       const Imath::V3f& towards) {
   if (!packet.polarisation) return std::nullopt;

@@ -24,6 +24,13 @@ namespace abbe {
 [[nodiscard]] std::optional<StokesSpectrum> seen_of(const Light& light, const PathPacket& packet,
                                                     const Imath::V3f& towards);
 
+/// What the film measures of a packet from a light that comes in along the unit vector `travels`, as
+/// `polarisation_of_film` has it, over what it would measure did the packet carry no polarisation; nothing if
+/// it carries none.
+[[nodiscard]] std::optional<StokesSpectrum> seen_on_film(const Scene& scene, const PathPacket& packet,
+                                                         const Imath::V3f& travels, float time,
+                                                         const LaneImages* images);
+
 /// Nothing of what is not there.
 [[nodiscard]] inline const StokesSpectrum* pointer_to(const std::optional<StokesSpectrum>& of) {
   return of ? &*of : nullptr;

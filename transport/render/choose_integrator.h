@@ -29,8 +29,8 @@ struct IntegratorChoice {
 /// that costs so much less that the pilots' noise does not make the difference, on a meter that photons run
 /// into and where they reach everything Integrator::light likewise, else Integrator::automatic, as it is
 /// where the film has so few pixels that pilots would not pay. A function of the scene alone, whatever its
-/// seed and samples, and the threads. Never throws what `make_plan` does: there
-/// it is Integrator::automatic, or on a meter Integrator::path where that is not refused.
+/// seed and samples, and the threads. Never throws what `make_plan` does: there it is Integrator::automatic,
+/// or on a meter Integrator::path where that is not refused.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 
 }  // namespace abbe

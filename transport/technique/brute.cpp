@@ -77,10 +77,7 @@ void BrutePhotonTracer::look_for_camera(const RecordedPath& path, int events) {
   const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
                      path.ray.time, images_of(*seen)};
   const LightHistory of{std::get<LightVertex>(path.vertices.front().at).light, events};
-  std::optional<StokesSpectrum> arrives;
-  if (path.packet.polarisation)
-    arrives = polarisation_of_film(scene_, path.ray.direction, path.ray.time, images_of(*seen))
-                  .of(*path.packet.polarisation, path.ray.direction);
+  const auto arrives = seen_on_film(scene_, path.packet, path.ray.direction, path.ray.time, images_of(*seen));
   with_seen(measures_polarisation_, path.packet.throughput * seen->weight * through->transmittance * scale_,
             pointer_to(arrives), [&](const auto& light) {
               response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light),

@@ -90,11 +90,8 @@ StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<
 void LightTracer::run_into_meter(const LightPath& path, int events) {
   const auto lens = connection_through(scene_.camera, *meter_, path.ray, path.lambda_nm());
   if (!lens) return;
-  std::optional<StokesSpectrum> arrives;
-  if (path.packet.polarisation)
-    arrives = polarisation_of_film(scene_, path.ray.direction, path.ray.time, images_of(*lens))
-                  .of(*path.packet.polarisation, path.ray.direction);
-  connect_to(path, events, *lens, SampledSpectrum(1.0F), path.ray, path.around, arrives);
+  connect_to(path, events, *lens, SampledSpectrum(1.0F), path.ray, path.around,
+             seen_on_film(scene_, path.packet, path.ray.direction, path.ray.time, images_of(*lens)));
 }
 
 // After so many events `scattered` is the share of the photon's power that leaves along `ray`, towards the

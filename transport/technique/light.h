@@ -24,9 +24,9 @@ struct LightPath : Walk {
 
 /// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
 /// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
-/// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by
-/// all of them, or beside path tracing by those whose last vertex is specular and all of lights without area.
-/// Serves one thread.
+/// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by all of
+/// them, or beside path tracing by those whose last vertex is specular and all of lights without area. Serves
+/// one thread.
 class LightTracer {
  public:
   using Path = LightPath;
