@@ -49,6 +49,7 @@ PlannedRender planned(const Scene& scene, const std::shared_ptr<const Guides>& g
   PlannedRender render{plan.techniques, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
   if (costs)
     render.shares = {{"photons_per_sample", plan.photons},
+                     {"photons_part", plan.photons_part},
                      {"path_interval", plan.path_interval},
                      {"camera_paths", json_of(costs->camera_paths)},
                      {"photons", json_of(costs->photons)}};

@@ -150,6 +150,12 @@ std::array<std::array<float, 4>, 2> Sampler::two_groups(std::uint32_t first) con
   return numbers({key_, reversed_index_, first}, {key_, reversed_index_, first + 1});
 }
 
+Sampler Sampler::branch(std::uint32_t number) const {
+  Sampler part = *this;
+  part.key_ = combine(key_, ~number);  // groups are counted from 0 on
+  return part;
+}
+
 std::array<float, 4> Sampler::group(std::uint32_t group) const {
   const GroupPoint point(key_, reversed_index_, group);
   return numbers(point, point)[0];

@@ -22,6 +22,8 @@ class Sampler {
   [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
   /// The numbers of two groups that follow each other, at the cost of one.
   [[nodiscard]] std::array<std::array<float, 4>, 2> two_groups(std::uint32_t first) const;
+  /// Numbers of its own, of the same index, for a part of a path that goes on apart from the others.
+  [[nodiscard]] Sampler branch(std::uint32_t number) const;
 
  private:
   std::uint32_t key_;

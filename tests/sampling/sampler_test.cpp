@@ -78,6 +78,19 @@ TEST(Sampler, IntegratesASmoothFunctionFasterThanChance) {
   EXPECT_NEAR(sum / kCount, 1, 0.005);
 }
 
+TEST(Sampler, BranchesHaveStratifiedNumbersOfTheirOwn) {
+  std::set<std::uint32_t> boxes;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    const auto u = at(i).branch(3).group(0);
+    boxes.insert(static_cast<std::uint32_t>(u[0] * 16) << 8 | static_cast<std::uint32_t>(u[1] * 16));
+    for (std::uint32_t group = 0; group < 8; ++group) {
+      EXPECT_NE(u, at(i).group(group));
+      EXPECT_NE(u, at(i).branch(group == 3 ? 4 : group).group(0));
+    }
+  }
+  EXPECT_EQ(boxes.size(), 256U);
+}
+
 TEST(Sampler, TwoGroupsAreThoseOfEach) {
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const auto [first, second] = at(i * 7919, i).two_groups(i);

@@ -11,10 +11,8 @@ namespace abbe {
 namespace {
 
 float factor(const PathPacket& packet, const std::optional<MuellerMatrix>& matrix, const Imath::V3f& along,
-             TransportMode mode) {
-  return packet.polarisation->through(matrix, light_travels(along, mode), mode)
-      .of_unpolarised()
-      .i[packet.hero];
+             TransportMode mode, int lane) {
+  return packet.polarisation->through(matrix, light_travels(along, mode), mode).of_unpolarised().i[lane];
 }
 
 // phi + [a sin 2 phi + b (1 - cos 2 phi)]/2 = x in [0, 2 pi), a^2 + b^2 <= 1: the left side grows with phi,
@@ -40,12 +38,19 @@ bool draws_polarised(const Bsdf& bsdf) {
   return std::holds_alternative<DielectricBsdf>(bsdf);
 }
 
+float polarised_reflectance(const PathPacket& packet, const SurfaceVertex& vertex, const Imath::V3f& along,
+                            TransportMode mode, int lane) {
+  const float as_unpolarised = std::get<DielectricBsdf>(vertex.bsdf).reflectance(vertex.wo, lane);
+  if (as_unpolarised >= 1) return 1;
+  const auto mirror = vertex.mueller(mirrored(vertex.wo), true, lane);
+  return std::min(1.0F, as_unpolarised * factor(packet, mirror, along, mode, lane));
+}
+
 float polarised_choice(const PathPacket& packet, const SurfaceVertex& vertex, const Imath::V3f& along,
                        TransportMode mode, float u) {
   const float as_unpolarised = std::get<DielectricBsdf>(vertex.bsdf).reflectance(vertex.wo, packet.hero);
   if (as_unpolarised >= 1) return u;
-  const auto mirror = vertex.mueller(mirrored(vertex.wo), true, packet.hero);
-  const float chosen = std::min(1.0F, as_unpolarised * factor(packet, mirror, along, mode));
+  const float chosen = polarised_reflectance(packet, vertex, along, mode, packet.hero);
   if (u < chosen) return std::min(u / chosen, 1 - 1e-6F) * as_unpolarised;
   return as_unpolarised + (u - chosen) / (1 - chosen) * (1 - as_unpolarised);
 }
@@ -59,7 +64,7 @@ TurnedDirection polarised_turn(const PathPacket& packet, const PhaseFunction& ph
     return TurnedDirection{frame.to_world(turned.direction), turned.pdf};
   };
   const auto excess = [&](float number) {
-    return factor(packet, mueller(phase, along, drawn(number).direction), along, mode) - 1;
+    return factor(packet, mueller(phase, along, drawn(number).direction), along, mode, packet.hero) - 1;
   };
   const float azimuth = solve_azimuth(excess(0), excess(0.125F), kTurn * u.y);
   return drawn(azimuth / kTurn);

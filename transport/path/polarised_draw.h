@@ -15,6 +15,11 @@ namespace abbe {
 /// Whether the model's events are drawn so: smooth glass reflects or refracts.
 [[nodiscard]] bool draws_polarised(const Bsdf& bsdf);
 
+/// With which probability such a model would reflect what the packet carries, come along the unit vector
+/// `along`, were that lane the hero.
+[[nodiscard]] float polarised_reflectance(const PathPacket& packet, const SurfaceVertex& vertex,
+                                          const Imath::V3f& along, TransportMode mode, int lane);
+
 /// For a number `u` in [0, 1) that would let such a model choose as of unpolarised light the one that lets it
 /// choose as of what the packet carries, come along the unit vector `along`.
 [[nodiscard]] float polarised_choice(const PathPacket& packet, const SurfaceVertex& vertex,

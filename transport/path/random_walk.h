@@ -53,6 +53,13 @@ concept WalkingTechnique = requires(T technique, typename T::Path& path, const S
 template <typename Technique>
 inline constexpr bool kDrawsPolarised = true;
 
+/// Whether a smooth dispersive model refracts each lane its own way, and never reflects one that draws the
+/// number `kRefracted` unless all of its light is reflected.
+[[nodiscard]] inline bool refracts_each_lane(const Bsdf& bsdf) {
+  return std::holds_alternative<DielectricBsdf>(bsdf) || std::holds_alternative<CoatedDielectricBsdf>(bsdf);
+}
+inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
+
 /// Random walks of many paths that take each step together: rays are cast together, and each path goes on by
 /// itself. What becomes of a path does not depend on the others.
 template <typename Technique>
@@ -86,18 +93,61 @@ class RandomWalks {
         drawn ? polarised_choice(path.packet, vertex, path.ray.direction, Technique::kMode, u[2]) : u[2];
     const auto event = technique.scatter(path, vertex, BsdfRandom{choice, {u[0], u[1]}});
     if (!event || !technique.follows(path, *event)) return false;
-    path.connected = event->delta ? 0.0F : path.packet.lane_pdf.sum() / event->pdf;
-    path.last = vertex.place();
-    advance(path.packet, *event);
-    if (path.packet.polarisation)
-      polarise(path, vertex.mueller(event->wi, event->delta, path.packet.lone_lane()), drawn);
-    if (event->transmitted)
-      path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-    path.ray = spawn(vertex.hit, vertex.frame.to_world(event->wi), path.ray.time);
-    return survives(path, technique.kept(path, vertex, *event), u[3]);
+    if constexpr (requires { technique.parts_lanes(); })
+      if (event->dispersive && technique.parts_lanes() && refracts_each_lane(vertex.bsdf) &&
+          !path.packet.lone_lane()) {
+        part(technique, path, vertex, drawn, u[3]);
+        return false;
+      }
+    return follow(technique, path, vertex, *event, drawn, u[3]);
   }
 
  private:
+  // Takes a path on after an event. Whether it goes on.
+  bool follow(Technique& technique, Path& path, const SurfaceVertex& vertex, const BsdfSample& event,
+              bool drawn, float u) {
+    path.connected = event.delta ? 0.0F : path.packet.lane_pdf.sum() / event.pdf;
+    path.last = vertex.place();
+    advance(path.packet, event);
+    if (path.packet.polarisation)
+      polarise(path, vertex.mueller(event.wi, event.delta, path.packet.lone_lane()), drawn);
+    if (event.transmitted)
+      path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
+    path.ray = spawn(vertex.hit, vertex.frame.to_world(event.wi), path.ray.time);
+    return survives(path, technique.kept(path, vertex, event), u);
+  }
+
+  // Where a path is refracted by dispersive glass, each of its lanes goes on by itself, along its own
+  // refraction and by its own random numbers. With t_k the probability that lane k would have refracted, the
+  // path has come there with a density in proportion to sum_k P_k t_k, whichever lane is the hero, and lane j
+  // carries f_j over that.
+  void part(Technique& technique, const Path& path, const SurfaceVertex& vertex, bool drawn, float u) {
+    std::array<std::optional<BsdfSample>, kLanes> ways;
+    float density = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(path.packet.lane_pdf[lane] > 0)) continue;
+      const auto way = vertex.scatter(kRefracted, lane, Technique::kMode);
+      if (!way || !way->transmitted) continue;
+      density +=
+          path.packet.lane_pdf[lane] *
+          (drawn ? 1 - polarised_reflectance(path.packet, vertex, path.ray.direction, Technique::kMode, lane)
+                 : way->pdf);
+      ways[static_cast<std::size_t>(lane)] = way;
+    }
+    if (!(density > 0)) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto& way = ways[static_cast<std::size_t>(lane)];
+      const float carried = path.packet.throughput[lane];
+      if (!way || !(carried > 0)) continue;
+      Path& parted = parted_.emplace_back(path);
+      parted.sampler = path.sampler.branch(static_cast<std::uint32_t>(lane));
+      parted.packet.hero = lane;
+      parted.packet.throughput = SampledSpectrum::only(lane, carried * way->pdf / density);
+      parted.packet.lane_pdf = SampledSpectrum::only(lane, 1);
+      if (!follow(technique, parted, vertex, *way, false, u)) parted_.pop_back();
+    }
+  }
+
   void step(Technique& technique) {
     rays_.clear();
     for (const std::uint32_t i : going_) rays_.push_back(paths_[i].ray);
@@ -107,6 +157,11 @@ class RandomWalks {
     for (std::size_t k = 0; k < going_.size(); ++k)
       if (advance_path(technique, paths_[going_[k]], hits_[k])) going_[left++] = going_[k];
     going_.resize(left);
+    for (Path& path : parted_) {
+      going_.push_back(static_cast<std::uint32_t>(paths_.size()));
+      paths_.push_back(std::move(path));
+    }
+    parted_.clear();
     technique.resolve_connections();
   }
 
@@ -200,6 +255,7 @@ class RandomWalks {
   bool has_free_paths_;
   int most_events_;
   std::vector<Path> paths_;
+  std::vector<Path> parted_;  // that the step under way has added
   std::vector<std::uint32_t> going_;
   std::vector<Ray> rays_;  // of those
   std::vector<std::optional<SurfaceHit>> hits_;

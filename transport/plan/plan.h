@@ -51,6 +51,8 @@ struct Plan {
   float gather_radius = 0;                    ///< Of the first sample [m].
   /// Those at points that camera paths connect to along matter that scatters.
   PowerLightSampler lights_along{std::vector<double>()};
+  /// Whether those of light tracing go on lane by lane where glass disperses them, each along its own way.
+  bool photons_part = false;
   SamplingDensity density = {};  ///< How many there are then, where path tracing has them.
 
   /// Where camera paths through a pixel draw theirs from.

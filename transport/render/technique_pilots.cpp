@@ -4,7 +4,10 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,7 @@ namespace abbe {
 namespace {
 
 constexpr std::uint32_t kPhotonsPerPixel = 2 * kPilotPathsPerPixel;
+constexpr std::uint32_t kParted = 16;  // times fewer of those that part
 constexpr std::uint32_t kTechniqueBatches = 64;
 constexpr int kGrid = 16;
 
@@ -35,14 +39,17 @@ struct Region {
   double path_squares = 0;          // and of the mean square
   double path_tracing_squares = 0;  // that path tracing would have of what was joined
   double photons = 0;               // sum of all splats of photons that each stand for all of a sample's,
-  double squares = 0;               // and of their squares
+  double squares = 0;               // and of their squares,
+  double parted_squares = 0;        // and the latter of photons that part into their lanes
 };
 
 struct Findings {
   std::array<Region, static_cast<std::size_t>(kGrid) * kGrid> regions;
   double photons_traced = 0;
+  double photons_parted = 0;
   std::uint64_t path_rays = 0;
   std::uint64_t photon_rays = 0;
+  std::uint64_t parted_rays = 0;
 
   Region& at(const Camera& camera, int x, int y) {
     const int n = regions_along(camera);
@@ -57,10 +64,13 @@ struct Findings {
       regions[i].path_tracing_squares += more.regions[i].path_tracing_squares;
       regions[i].photons += more.regions[i].photons;
       regions[i].squares += more.regions[i].squares;
+      regions[i].parted_squares += more.regions[i].parted_squares;
     }
     photons_traced += more.photons_traced;
+    photons_parted += more.photons_parted;
     path_rays += more.path_rays;
     photon_rays += more.photon_rays;
+    parted_rays += more.parted_rays;
   }
   void add_splat(const Camera& camera, const FilmPoint& at_film, double value) {
     Region& region = at(camera, at_film.x, at_film.y);
@@ -106,15 +116,33 @@ void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, Fi
   add_paths(values, found.at(camera, x, y));
 }
 
-void try_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch, std::uint32_t photons_of_all,
-                 Findings& found) {
+std::vector<Sampler> photons_of_batch(std::uint32_t batch, std::uint32_t photons_of_all) {
   std::vector<Sampler> photons;
   for (std::uint32_t i = batch; i < photons_of_all; i += kTechniqueBatches)
     photons.emplace_back(kSeedOfPilots, Purpose::pilot, 2, 0, i);
+  return photons;
+}
+
+void try_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch, std::uint32_t photons_of_all,
+                 Findings& found) {
+  const std::vector<Sampler> photons = photons_of_batch(batch, photons_of_all);
   tracer.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
     found.add_splat(camera, at, magnitude(values));
   });
   found.photons_traced += static_cast<double>(photons.size());
+}
+
+// Lanes of one photon that come to one pixel are one value there.
+void try_parted_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch,
+                        std::uint32_t photons_of_all, Findings& found) {
+  const std::vector<Sampler> photons = photons_of_batch(batch, photons_of_all);
+  std::map<std::tuple<std::uint32_t, int, int>, double> values_at;
+  tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint& at, std::span<const double> values) {
+    values_at[{photon, at.x, at.y}] += magnitude(values);
+  });
+  for (const auto& [place, value] : values_at)
+    found.at(camera, std::get<1>(place), std::get<2>(place)).parted_squares += value * value;
+  found.photons_parted += static_cast<double>(photons.size());
 }
 
 // Of what a path from a light exposes, other pixels count as those of a photon.
@@ -148,7 +176,9 @@ void try_joined(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pil
   add_paths(values, region);
 }
 
-Findings try_batch(const Plan& plan, std::uint32_t batch, std::uint32_t pixels) {
+// `parting` is the plan whose photons part, where there is one.
+Findings try_batch(const Plan& plan, const std::optional<Plan>& parting, std::uint32_t batch,
+                   std::uint32_t pixels) {
   Findings found;
   RayCaster path_caster(plan.scene);
   RayCaster photon_caster(plan.scene);
@@ -165,17 +195,28 @@ Findings try_batch(const Plan& plan, std::uint32_t batch, std::uint32_t pixels) 
     LightTracer tracer(plan, photon_caster, 1);
     try_photons(tracer, plan.scene.camera, batch, pixels * kPhotonsPerPixel, found);
   }
+  if (parting) {
+    RayCaster caster(plan.scene);
+    LightTracer tracer(*parting, caster, 1);
+    try_parted_photons(tracer, plan.scene.camera, batch, pixels * kPhotonsPerPixel / kParted, found);
+    found.parted_rays = caster.rays();
+  }
   found.path_rays = path_caster.rays();
   found.photon_rays = photon_caster.rays();
   return found;
 }
 
 Findings try_all(const Plan& plan, int threads, std::uint32_t pixels) {
+  std::optional<Plan> parting;
+  if (plan.scene.needs.dispersion && uses(plan.techniques, Technique::light)) {
+    parting.emplace(plan);
+    parting->photons_part = true;
+  }
   std::vector<Findings> batches(kTechniqueBatches);
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     for (std::uint32_t batch = next++; batch < kTechniqueBatches; batch = next++)
-      batches[batch] = try_batch(plan, batch, pixels);
+      batches[batch] = try_batch(plan, parting, batch, pixels);
   });
   Findings all;
   for (const Findings& batch : batches) all.add(batch);  // in their order, whichever threads traced them
@@ -194,6 +235,14 @@ std::vector<double> region_sizes(const Camera& camera) {
   return sizes;
 }
 
+// Photons that part have that variance, and cast so many rays.
+void part_where_cheaper(double variance, double rays, PilotFindings& told) {
+  if (!(variance > 0 && variance * rays < told.photon_variance * told.photon_rays)) return;
+  told.rays_of_parting = rays / told.photon_rays;
+  told.photon_variance = variance;
+  told.photon_rays = rays;
+}
+
 PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_t tried) {
   const double pixels = static_cast<double>(camera.width) * camera.height;
   const double photons = std::max(1.0, found.photons_traced);
@@ -205,20 +254,24 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
   for (std::size_t i = 0; i < sizes.size(); ++i)
     if (sizes[i] > 0) film_mean += mean(found.regions.at(i), sizes[i]) * sizes[i] / pixels;
   PilotFindings told;
+  double parted_variance = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Region& region = found.regions.at(i);
     const double scale =
         sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kUsualFloor * film_mean * film_mean : 0;
     if (!(scale > 0)) continue;
     told.photon_variance += region.squares / (photons * pixels) / scale;
+    parted_variance += region.parted_squares / (std::max(1.0, found.photons_parted) * pixels) / scale;
     if (!(region.pixels > 0)) continue;
     told.path_variance += sizes[i] * region.variance / region.pixels / scale;
     told.path_square += sizes[i] * region.path_squares / region.pixels / scale;
     told.path_tracing_square += sizes[i] * region.path_tracing_squares / region.pixels / scale;
   }
   told.path_rays = static_cast<double>(found.path_rays) / (tried * kPilotPathsPerPixel);
-  told.rays = found.path_rays + found.photon_rays;
+  told.rays = found.path_rays + found.photon_rays + found.parted_rays;
   told.photon_rays = static_cast<double>(found.photon_rays) / photons;
+  if (found.photons_parted > 0)
+    part_where_cheaper(parted_variance, static_cast<double>(found.parted_rays) / found.photons_parted, told);
   return told;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "transport/plan/plan.h"
 
@@ -18,6 +19,9 @@ struct PilotFindings {
   double path_tracing_square = 0;
   double path_rays = 0;    ///< Of one camera path,
   double photon_rays = 0;  ///< and of one photon; none where both are traced as one.
+  /// Rays of a photon that parts into its lanes where glass disperses it, over those of one that goes on with
+  /// its hero alone, where error costs less so: what is told of photons is told of such then.
+  std::optional<double> rays_of_parting = {};
   std::uint64_t rays = 0;  ///< Of all pilots.
 };
 
@@ -26,8 +30,9 @@ inline constexpr std::uint32_t kPilotPathsPerPixel = 8;
 
 /// Tries the techniques of a plan, path tracing and light tracing or bidirectional path tracing, by
 /// `kPilotPathsPerPixel` camera paths through each of so many pixels, and twice as many photons, of
-/// bidirectional path tracing as many as camera paths, whose splats count as those of photons. Costs are rays
-/// counted: what is found depends on nothing but the plan.
+/// bidirectional path tracing as many as camera paths, whose splats count as those of photons, and where
+/// glass disperses by an eighth of so many photons that part into their lanes. Costs are rays counted: what
+/// is found depends on nothing but the plan.
 [[nodiscard]] PilotFindings try_techniques(const Plan& plan, int threads, std::uint32_t pixels = 4096);
 
 }  // namespace abbe

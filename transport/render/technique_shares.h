@@ -23,6 +23,9 @@ struct TechniqueCosts {
 /// least for what they cost: as many photons as pixels and a path through each, or of one of the two a half,
 /// a quarter or an eighth.
 ///
+/// Photons part into their lanes where that makes V' c' less: so few of them set out then, by a power of two,
+/// that they cast about as many rays as those that do not.
+///
 /// With variances V and V' and costs c and c' of a camera path per pixel and of as many photons, V/n + V'/m
 /// is least at the cost n c + m c' for m/n = sqrt(V' c/(V c')). Below 1 that is the share of photons. The
 /// share of camera paths is n/m with the mean square in place of V, as pixels skip paths by chance, whatever

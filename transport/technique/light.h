@@ -25,8 +25,8 @@ struct LightPath : Walk {
 /// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
 /// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
 /// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by all of
-/// them, or beside path tracing by those whose last vertex is specular and all of lights without area. Serves
-/// one thread.
+/// them, or beside path tracing by those whose last vertex is specular and all of lights without area. Where
+/// the plan says so photons part into their lanes in dispersive glass. Serves one thread.
 class LightTracer {
  public:
   using Path = LightPath;
@@ -59,6 +59,8 @@ class LightTracer {
     return event.delta || owned(path);
   }
   [[nodiscard]] bool follows_within(const LightPath& path) const { return owned(path); }
+  // Whether the lanes of a photon go on by themselves where glass disperses them.
+  [[nodiscard]] bool parts_lanes() const { return plan_.photons_part; }
   // The power a photon starts with says nothing about what it adds to the film: roulette goes by what the
   // event itself keeps. Its ray has left by then.
   [[nodiscard]] float kept(const LightPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& event) {
