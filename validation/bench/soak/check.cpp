@@ -1,6 +1,9 @@
 #include "validation/bench/soak/check.h"
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,6 +16,11 @@
 namespace abbe::soak {
 namespace {
 
+// A component of the Stokes vector but the intensity, which may be negative.
+bool has_sign(const std::string& plane) {
+  return plane.starts_with("S1.") || plane.starts_with("S2.") || plane.starts_with("S3.");
+}
+
 // The first value that may not be, in words.
 std::string faulty_value(const Film& film, const std::vector<std::string>& planes, const DrawnScene& drawn) {
   const auto width = static_cast<std::size_t>(film.width());
@@ -20,14 +28,38 @@ std::string faulty_value(const Film& film, const std::vector<std::string>& plane
     for (int plane = 0; plane < film.channels(); ++plane) {
       const double value = film.mean(pixel, plane);
       const std::string& name = planes[static_cast<std::size_t>(plane)];
-      const char* fault = !std::isfinite(value) || !std::isfinite(film.variance(pixel, plane))
-                              ? "is not finite"
-                          : value < 0 && !drawn.signed_response                   ? "is negative"
-                          : value != 0 && drawn.closed && name == kOutsideChannel ? "came out of a closed box"
-                                                                                  : nullptr;
+      const char* fault =
+          !std::isfinite(value) || !std::isfinite(film.variance(pixel, plane)) ? "is not finite"
+          : value < 0 && !drawn.signed_response && !has_sign(name)             ? "is negative"
+          : value != 0 && drawn.closed && name.ends_with(kOutsideChannel)      ? "came out of a closed box"
+                                                                               : nullptr;
       if (fault != nullptr)
         return fmt::format("{} of pixel ({}, {}) {}: {}", name, pixel % width, pixel / width, fault, value);
     }
+  return "";
+}
+
+constexpr int kBounces = 2;  // and all beyond in one layer
+
+// The layers add up to the film, but for what floats round of the light of single paths.
+std::string fault_of_layers(const Film& film, const Film& layers) {
+  constexpr double kRounding = 1e-5;
+  const auto pixels = static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    std::vector<double> sums(static_cast<std::size_t>(film.channels()), 0.0);
+    double all = 0;
+    for (int plane = 0; plane < layers.channels(); ++plane) {
+      const double value = layers.mean(pixel, plane);
+      sums[static_cast<std::size_t>(plane % film.channels())] += value;
+      all += std::abs(value);
+    }
+    for (int plane = 0; plane < film.channels(); ++plane) {
+      const double sum = sums[static_cast<std::size_t>(plane)];
+      const double whole = film.mean(pixel, plane);
+      if (!(std::abs(sum - whole) <= kRounding * all))
+        return fmt::format("plane {} of pixel {} is {}, its layers {}", plane, pixel, whole, sum);
+    }
+  }
   return "";
 }
 
@@ -35,18 +67,19 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
   const auto samples = static_cast<std::uint64_t>(scene.render.samples);
   RenderOptions options;
   options.threads = 1;
+  options.layers = bounce_layers(kBounces);
   options.samples = SampleRange{0, samples / 3};
-  std::optional<RenderResult> parts;
-  if (samples / 3 > 0) parts = render(scene, options);
+  std::optional<RenderResult> first;
+  if (samples / 3 > 0) first = render(scene, options);
   options.samples = SampleRange{samples / 3, samples};
-  const RenderResult rest = render(scene, options);
-  const std::uint64_t rays = rest.stats.rays + (parts ? parts->stats.rays : 0);
-  const Film* sum = &rest.film;
-  if (parts) {
-    parts->film.add(rest.film);
-    sum = &parts->film;
+  RenderResult sum = render(scene, options);
+  const std::uint64_t rays = sum.stats.rays + (first ? first->stats.rays : 0);
+  if (first) {
+    sum.film.add(first->film);
+    sum.layers->add(*first->layers);
   }
-  if (sum->bytes() == whole.film.bytes() && rays == whole.stats.rays) return "";
+  if (sum.film.bytes() == whole.film.bytes() && rays == whole.stats.rays)
+    return fault_of_layers(sum.film, *sum.layers);
   return fmt::format("other bits in parts of {} and {} samples, by one thread: {} rays instead of {}",
                      samples / 3, samples - samples / 3, rays, whole.stats.rays);
 }
@@ -55,8 +88,8 @@ std::string failure_of(const Scene& scene, const RenderResult& whole, const Draw
   if (whole.stats.nonfinite_samples > 0)
     return fmt::format("{} samples are not finite", whole.stats.nonfinite_samples);
   if (std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty()) return fault;
-  if (std::string traps = traps_seen(); !traps.empty()) return traps;
-  return difference_of_parts(scene, whole);
+  if (std::string fault = difference_of_parts(scene, whole); !fault.empty()) return fault;
+  return traps_seen();
 }
 
 // Photons refuse some lamps, with an error that says so: such scenes are for path tracing.

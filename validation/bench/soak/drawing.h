@@ -19,6 +19,10 @@ using Json = nlohmann::ordered_json;
 inline constexpr double kInsideBelow = 1000;
 inline constexpr const char* kOutsideChannel = "outside";
 
+/// Longest exposure, that floats hold what sensors count of the brightest light, also where a channel's own
+/// multiplies the scene's.
+inline constexpr double kLongest_s = 10;
+
 /// A material by name, and which shapes may be made of it.
 struct DrawnMaterial {
   std::string name;
@@ -37,6 +41,10 @@ struct Drawing {
   double size = 1;  ///< The box reaches from -size to size on each axis, around `middle`.
   std::array<double, 3> middle{0, 0, 0};
   double brightness = 1;  ///< Order of magnitude of radiances.
+  bool metered = false;   ///< A meter in place of a camera.
+  bool moves = false;     ///< Shapes, lamps and the camera may move while the shutter is open:
+  double opens_s = 0;     ///< from then on,
+  double exposure_s = 1;  ///< for so long.
   std::vector<DrawnMaterial> matter;
   std::vector<Json> targets;  ///< Where shapes stand, for the camera to look at.
   Json scene;
@@ -50,6 +58,9 @@ struct Drawing {
 [[nodiscard]] Json draw_direction(Drawing& drawing);
 /// A place at most `share` of the box's half width from its middle, on each axis.
 [[nodiscard]] Json draw_place(Drawing& drawing, double share);
+
+/// Lets a shape, lamp or camera that is described so far move, now and then where things do.
+void let_move(Drawing& drawing, Json& what);
 
 /// Each writes a file of drawn content to the folder and returns its name. Throws Error{output}.
 /// An image of a few pixels, whose channels have values in [low, high).

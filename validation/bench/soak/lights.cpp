@@ -34,9 +34,7 @@ Json relative(Drawing& drawing) {
   }
 }
 
-}  // namespace
-
-Json draw_emission(Drawing& drawing, const std::string& kind) {
+Json unpolarised_emission(Drawing& drawing, const std::string& kind) {
   Random& random = drawing.random;
   // A lamp at a point lights what is a scene's size away as the others do.
   const double away = kind == "place" ? drawing.size * drawing.unit_m : 1;
@@ -50,6 +48,20 @@ Json draw_emission(Drawing& drawing, const std::string& kind) {
     emission[seen ? "luminous_intensity" : "intensity"] = much;
   else
     emission[seen ? "illuminance" : "irradiance"] = much;
+  return emission;
+}
+
+}  // namespace
+
+Json draw_emission(Drawing& drawing, const std::string& kind) {
+  Random& random = drawing.random;
+  Json emission = unpolarised_emission(drawing, kind);
+  if (!chance(random, 0.15)) return emission;
+  if (chance(random, 0.6))
+    emission["polarised"]["axis"] = draw_direction(drawing);
+  else
+    emission["polarised"]["circular"] = one_of(random, {"left", "right"});
+  if (chance(random, 0.5)) emission["polarised"]["degree"] = uniform(random, 0, 1);
   return emission;
 }
 
@@ -73,6 +85,7 @@ Json area_light(Drawing& drawing) {
                        {"edge_v", {r * decades(random, 1e-3, 1), r * uniform(random, -1, 1), 0}}};
   }
   light["emission"] = draw_emission(drawing, "area");
+  let_move(drawing, light);
   if (!light.contains("sphere") && chance(random, 0.5)) light["two_sided"] = true;
   const DrawnMaterial& matter = one_of(random, drawing.matter);
   if (!matter.entered && chance(random, 0.4)) light["material"] = matter.name;
@@ -89,6 +102,7 @@ Json small_light(Drawing& drawing) {
                      {"direction", draw_direction(drawing)},
                      {"half_angle_deg", decades(random, 0.1, 180)}};
   light["emission"] = draw_emission(drawing, "place");
+  let_move(drawing, light);
   return light;
 }
 

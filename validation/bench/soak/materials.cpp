@@ -129,6 +129,24 @@ Json principled(Drawing& drawing, DrawnMaterial& matter) {
   return paint;
 }
 
+// What light crosses straight on and comes out of polarised otherwise.
+Json thin_element(Drawing& drawing, const std::string& name) {
+  Random& random = drawing.random;
+  Json element = Json::object();
+  if (chance(random, 0.5)) element["transmittance"] = draw_curve(drawing, 1);
+  if (name == "depolariser") return element;
+  if (chance(random, 0.5)) element["angle_deg"] = uniform(random, -360, 360);
+  if (name == "polariser") {
+    if (chance(random, 0.5)) element["extinction_ratio"] = decades(random, 1, 1e9);
+  } else if (chance(random, 0.5)) {
+    element["retardance_deg"] = chance(random, 0.3) ? 90 : uniform(random, -720, 720);
+  } else {
+    element["birefringence"] = decades(random, 1e-9, 1);
+    element["thickness"] = drawing.size * decades(random, 1e-9, 1e-3);
+  }
+  return element;
+}
+
 // Models that are a reflectance and perhaps one number more.
 Json reflecting(Drawing& drawing, DrawnMaterial& matter, const std::string& model) {
   Random& random = drawing.random;
@@ -158,6 +176,10 @@ Json model(Drawing& drawing, DrawnMaterial& matter, const std::string& name) {
   if (name == "conductor") return conductor(drawing.random, matter);
   if (name == "film") return {{"layers", layers(drawing.random)}};
   if (name == "thin_glass") return thin_glass(drawing);
+  if (name == "polariser" || name == "wave_plate" || name == "depolariser") {
+    matter.needs_surface_uv = name != "depolariser";
+    return thin_element(drawing, name);
+  }
   if (name == "principled") return principled(drawing, matter);
   if (name == "mixture") return mixture(drawing, matter);
   if (name == "schlick" && chance(drawing.random, 0.5)) return {{"ior", metal_index(drawing.random)}};
@@ -176,7 +198,8 @@ void add_relief(Drawing& drawing, Json& material, DrawnMaterial& matter) {
 void add(Drawing& drawing, const std::string& name) {
   DrawnMaterial matter{fmt::format("{}{}", name, drawing.matter.size())};
   matter.entered = name == "dielectric" || name == "medium";
-  matter.mixes = !matter.entered && name != "film" && name != "mixture";
+  const bool has_axis = name == "polariser" || name == "wave_plate";
+  matter.mixes = !matter.entered && !has_axis && name != "film" && name != "mixture";
   Json material;
   material[name] = model(drawing, matter, name);
   if (name == "dielectric" && chance(drawing.random, 0.5))
@@ -194,10 +217,12 @@ void add(Drawing& drawing, const std::string& name) {
 void draw_materials(Drawing& drawing) {
   add(drawing, "diffuse");  // which a mixture may be made of
   for (int i = integer(drawing.random, 1, 6); i > 0; --i)
-    add(drawing, one_of(drawing.random,
-                        {"diffuse", "dielectric", "dielectric", "dielectric", "conductor", "conductor",
-                         "medium", "film", "mirror", "oren_nayar", "coated_diffuse", "thin_glass",
-                         "principled", "mixture", "schlick", "cosine_power", "phong", "retroreflector"}));
+    add(drawing,
+        one_of(drawing.random,
+               {"diffuse",    "dielectric", "dielectric", "dielectric",   "conductor",      "conductor",
+                "medium",     "film",       "mirror",     "oren_nayar",   "coated_diffuse", "thin_glass",
+                "principled", "mixture",    "schlick",    "cosine_power", "phong",          "retroreflector",
+                "polariser",  "wave_plate", "depolariser"}));
 }
 
 }  // namespace abbe::soak

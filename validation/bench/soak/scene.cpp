@@ -31,7 +31,11 @@ DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder) {
   drawing.folder = folder;
   drawing.closed = chance(drawing.random, 0.3);
   drawing.signed_response = chance(drawing.random, 0.1);
-  drawing.brightness = decades(drawing.random, 1e-15, 1e9);  // that floats hold what sensors count
+  drawing.brightness = decades(drawing.random, 1e-15, 1e8);
+  drawing.metered = chance(drawing.random, 0.1);
+  drawing.moves = chance(drawing.random, 0.3);
+  drawing.opens_s = drawing.moves ? uniform(drawing.random, -5, 5) : 0;
+  drawing.exposure_s = decades(drawing.random, 1e-6, kLongest_s);
   drawing.scene["abbe"] = 1;
   draw_place_of_all(drawing);
   draw_materials(drawing);

@@ -233,8 +233,11 @@ void add_instances(Drawing& drawing) {
   Json& object = drawing.scene["objects"]["thing"]["shapes"];
   for (int i = integer(drawing.random, 1, 2); i > 0; --i)
     object.push_back(draw_shape(drawing, one_of(drawing.random, drawing.matter)));
-  for (int i = integer(drawing.random, 1, 4); i > 0; --i)
-    drawing.scene["shapes"].push_back({{"instance", {{"of", "thing"}, {"transform", affine(drawing)}}}});
+  for (int i = integer(drawing.random, 1, 4); i > 0; --i) {
+    Json instance{{"instance", {{"of", "thing"}, {"transform", affine(drawing)}}}};
+    let_move(drawing, instance);
+    drawing.scene["shapes"].push_back(instance);
+  }
 }
 
 void add_chart(Drawing& drawing) {
@@ -275,6 +278,7 @@ void draw_shapes(Drawing& drawing) {
       if (!shape.contains("sphere") && !shape.contains("prism") && chance(random, 0.5))
         shape["two_sided"] = true;
     }
+    let_move(drawing, shape);
     drawing.scene["shapes"].push_back(shape);
   }
   if (chance(random, 0.4)) add_nest(drawing);

@@ -18,6 +18,7 @@ namespace {
 constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 constexpr std::uint32_t kFlags = 0x3f;        // MXCSR: what has been raised,
 constexpr std::uint32_t kMasksAbove = 7;      // and, so many bits above, what does not trap
+constexpr std::uint16_t kX87Flags = 0x80ff;   // what the x87 unit, which long doubles are for, has raised
 constexpr std::uint64_t kSingleStep = 0x100;  // of RFLAGS
 // Steps cost microseconds, and Embree raises some hundred exceptions for a path that meets balls: a thread
 // that has made so many is left alone.
@@ -57,19 +58,26 @@ void record(const std::uint8_t* at, int code) {
   }
 }
 
+// Whether what is watched traps in a thread, of vectors and of the x87 unit; forgets what has been raised.
+void set_traps(_libc_fpstate& unit, bool on) {
+  constexpr auto kMasks = static_cast<std::uint32_t>(kWatched) << kMasksAbove;
+  constexpr auto kX87Masks = static_cast<std::uint16_t>(kWatched);
+  unit.mxcsr = (on ? unit.mxcsr & ~kMasks : unit.mxcsr | kMasks) & ~kFlags;
+  unit.cwd = static_cast<std::uint16_t>(on ? unit.cwd & ~kX87Masks : unit.cwd | kX87Masks);
+  unit.swd = static_cast<std::uint16_t>(unit.swd & ~kX87Flags);
+}
+
 // Lets the instruction do as it would have, and comes back after it.
 void step_over(int, siginfo_t* info, void* context) {
   auto& machine = static_cast<ucontext_t*>(context)->uc_mcontext;
   record(static_cast<const std::uint8_t*>(info->si_addr), info->si_code);
-  std::uint32_t& control = machine.fpregs->mxcsr;
-  control = (control | (static_cast<std::uint32_t>(kWatched) << kMasksAbove)) & ~kFlags;
+  set_traps(*machine.fpregs, false);
   if (++steps < kMostSteps) machine.gregs[REG_EFL] |= static_cast<greg_t>(kSingleStep);
 }
 
 void watch_again(int, siginfo_t*, void* context) {
   auto& machine = static_cast<ucontext_t*>(context)->uc_mcontext;
-  std::uint32_t& control = machine.fpregs->mxcsr;
-  control &= ~(static_cast<std::uint32_t>(kWatched) << kMasksAbove) & ~kFlags;
+  set_traps(*machine.fpregs, true);
   machine.gregs[REG_EFL] &= ~static_cast<greg_t>(kSingleStep);
 }
 

@@ -1,0 +1,56 @@
+#include <algorithm>
+
+#include "validation/bench/soak/drawing.h"
+
+namespace abbe::soak {
+namespace {
+
+constexpr int kMostPaths = 600'000;
+constexpr int kMostSamples = 10'000;
+
+// How many photons are traced, and how they are gathered. Returns how many each sample has at least.
+int draw_photons(Drawing& drawing, Json& render) {
+  Random& random = drawing.random;
+  const int per_sample = static_cast<int>(decades(random, 1, 2e4));
+  render["photons"]["per_sample"] = per_sample;
+  if (chance(random, 0.5)) render["photons"]["radius"] = drawing.size * decades(random, 1e-4, 1);
+  if (render["integrator"] == "photon-map") {
+    render["photons"]["nearest"] = static_cast<int>(decades(random, 1, 1000));
+    render["photons"]["final_gather"] = chance(random, 0.5);
+  }
+  return per_sample;
+}
+
+void draw_strategies(Random& random, Json& render) {
+  render["directions"] = one_of(random, {"bsdf", "cosine", "uniform"});
+  render["lights"] = one_of(random, {"mis", "bsdf", "light"});
+  if (render["lights"] == "mis") render["heuristic"] = one_of(random, {"balance", "power"});
+}
+
+}  // namespace
+
+void draw_render(Drawing& drawing) {
+  Random& random = drawing.random;
+  const Json& resolution = drawing.scene["sensor"]["resolution"];
+  int per_sample = resolution[0].get<int>() * resolution[1].get<int>();
+  Json& render = drawing.scene["render"];
+  const std::string integrator =
+      one_of(random, {"auto", "auto", "auto", "path", "path", "light", "bdpt", "vcm", "sppm", "ppm",
+                      "photon-map", "photon-brute", "adjoint-brute"});
+  render["integrator"] = integrator;
+  if (integrator == "auto" && chance(random, 0.1)) render["consistent"] = true;
+  if (integrator == "path" && chance(random, 0.2)) draw_strategies(random, render);
+  const bool counts_photons = integrator == "sppm" || integrator == "ppm" || integrator == "photon-map" ||
+                              integrator == "photon-brute";
+  if (counts_photons) per_sample = std::max(per_sample, draw_photons(drawing, render));
+  render["samples"] =
+      static_cast<int>(std::min(kMostSamples, kMostPaths / per_sample) * decades(random, 0.001, 1) + 1);
+  if (chance(random, 0.1)) render["polarisation"] = "off";
+  render["seed"] = integer(random, 0, 1 << 30);
+  const bool plays = chance(random, 0.8);
+  if (!plays || chance(random, 0.5))
+    render["max_depth"] = static_cast<int>(decades(random, 1, plays ? 1000 : 60));
+  render["roulette_depth"] = plays ? integer(random, 0, 12) : -1;
+}
+
+}  // namespace abbe::soak
