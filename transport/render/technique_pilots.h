@@ -29,10 +29,10 @@ struct PilotFindings {
 inline constexpr std::uint32_t kPilotPathsPerPixel = 8;
 
 /// Tries the techniques of a plan, path tracing and light tracing or bidirectional path tracing, by
-/// `kPilotPathsPerPixel` camera paths through each of so many pixels, and twice as many photons, of
-/// bidirectional path tracing as many as camera paths, whose splats count as those of photons, and where
-/// glass disperses by an eighth of so many photons that part into their lanes. Costs are rays counted: what
-/// is found depends on nothing but the plan.
+/// `kPilotPathsPerPixel` camera paths through each of so many pixels and twice as many photons, where glass
+/// disperses by a sixteenth of these again, which part into their lanes. Bidirectional path tracing has as
+/// many photons as camera paths, whose splats count as those of photons. Costs are rays counted: what is
+/// found depends on nothing but the plan.
 [[nodiscard]] PilotFindings try_techniques(const Plan& plan, int threads, std::uint32_t pixels = 4096);
 
 }  // namespace abbe
