@@ -14,9 +14,11 @@ template <typename Scalar>
 constexpr Scalar kConverged = 45 * std::numeric_limits<Scalar>::epsilon();
 
 // The conic is c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0; of the ray's two points on it the one is taken where
-// the gradient (-c x, -c y, 1 - (1 + k) c z) has the ray's sense, which must be on the vertex's sheet.
+// the gradient (-c x, -c y, 1 - (1 + k) c z) has the ray's sense, which must be on the vertex's sheet. A
+// plane has none for rays that lead backwards.
 template <typename Real>
 Meeting<Real> meet_conic(double c, double k, const BasicRay<Real>& ray) {
+  using std::abs;
   using std::sqrt;
   const auto& [o, d] = ray;
   const Real a = c * (1 + k * d.z * d.z);
@@ -25,8 +27,10 @@ Meeting<Real> meet_conic(double c, double k, const BasicRay<Real>& ray) {
   const Real square = b * b - a * rest;
   const Real root = sqrt(select(square > 0, square, 1));
   const Truth<Real> onwards = b + root > 0;
-  const Real t = select(onwards, rest, b - root) / select(onwards, b + root, a);
-  return {square > 0 && (1 - (1 + k) * c * (o.z + t * d.z) > 0), t};
+  const Real divisor = select(onwards, b + root, a);
+  const Truth<Real> there = abs(divisor) > 0;
+  const Real t = select(onwards, rest, b - root) / select(there, divisor, 1);
+  return {square > 0 && there && (1 - (1 + k) * c * (o.z + t * d.z) > 0), t};
 }
 
 template <typename Real>

@@ -1,5 +1,6 @@
 #include "lens/profile.h"
 
+#include <cfenv>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,15 @@ TEST(LensProfile, RaysThatMissEndWithoutAPoint) {
   EXPECT_FALSE(Profile({0.1, 0, {}}).intersect({V3d(0, 0, 15), V3d(0, 1, 0)}));
   EXPECT_FALSE(Profile({0.1, -5, {}}).intersect({V3d(0, 8, -20), V3d(0, 0.99, std::sqrt(1 - 0.99 * 0.99))}));
   EXPECT_FALSE(Profile({0.1, 0, {0, 1e-6}}).intersect(parallel(10.5)));
+}
+
+// Light that ghosts turn back comes to planes from behind.
+TEST(LensProfile, RaysThatLeadAwayFromAPlaneDivideByNothing) {
+  std::feclearexcept(FE_ALL_EXCEPT);
+  EXPECT_FALSE(Profile({0, 0, {}}).intersect({V3d(1, 2, 15), V3d(0.6, 0, -0.8)}));
+  EXPECT_FALSE(Profile({0, 0, {}}).intersect({V3d(1, 2, 15), V3d(0, 0, -1)}));
+  EXPECT_FALSE(Profile({0, 0, {}}).intersect({V3d(1, 2, 15), V3d(1, 0, 0)}));
+  EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW), 0);
 }
 
 // Of the two points of a sphere that on its front half, also of a ray across the axis.
