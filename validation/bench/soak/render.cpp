@@ -40,9 +40,11 @@ void draw_render(Drawing& drawing) {
   render["integrator"] = integrator;
   if (integrator == "auto" && chance(random, 0.1)) render["consistent"] = true;
   if (integrator == "path" && chance(random, 0.2)) draw_strategies(random, render);
-  const bool counts_photons = integrator == "sppm" || integrator == "ppm" || integrator == "photon-map" ||
-                              integrator == "photon-brute";
-  if (counts_photons) per_sample = std::max(per_sample, draw_photons(drawing, render));
+  const bool gathers = integrator == "sppm" || integrator == "ppm" || integrator == "photon-map";
+  if (gathers || integrator == "photon-brute")
+    per_sample = std::max(per_sample, draw_photons(drawing, render));
+  // What is merged is blurred, over the edges of walls too.
+  if (gathers || integrator == "vcm" || render.contains("consistent")) drawing.closed = false;
   render["samples"] =
       static_cast<int>(std::min(kMostSamples, kMostPaths / per_sample) * decades(random, 0.001, 1) + 1);
   if (chance(random, 0.1)) render["polarisation"] = "off";
