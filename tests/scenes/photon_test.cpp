@@ -228,5 +228,19 @@ TEST(BruteForce, PhotonsAndTheirAdjointsAgree) {
                0.15);
 }
 
+// At the corners of a film that the lens does not fill no path begins.
+TEST(BruteForce, AdjointPhotonsThatNoLensLetsThroughAreNotTraced) {
+  const Scene scene = test::load_text(
+      R"({"abbe": 1, "camera": {"lens_system": {"prescription": "double_gauss", "f_number": 16}, "from": [0, 0, 0],
+          "to": [0, 1, 0], "up": [0, 0, 1]},
+        "sensor": {"resolution": [4, 4], "observer": "1931", "pixel_pitch_um": 40000},
+        "lights": [{"name": "sky", "environment": {}, "emission": {"spectrum": 1}}],
+        "render": {"integrator": "adjoint-brute", "samples": 64}})");
+  const RenderResult result = render(scene, {});
+  EXPECT_GT(mean_of(result.film), 0);
+  EXPECT_GT(result.stats.rays, 0U);
+  EXPECT_LT(result.stats.rays, result.stats.paths / 2);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -114,6 +114,7 @@ void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Depos
       advance(path.packet, others, others);
     }
     keep_hero(path.packet);
+    if (path.packet.throughput.is_zero()) continue;  // no light comes through a lens or a shutter there
     path.carried_at_start = path.packet.carried();
     walks_.going().push_back(i);
   }
