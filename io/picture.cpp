@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/picture_codec.h"
+#include "io/png.h"
 
 namespace abbe {
 namespace {
@@ -48,13 +49,20 @@ PictureHeader described(const std::filesystem::path& path, const Image& image, s
   return header;
 }
 
+// Almost every picture is a PNG, which needs no module.
+std::string encode(const std::filesystem::path& path, const PictureHeader& header,
+                   const PictureCodes& codes) {
+  return path.extension() == ".png" ? encode_png(path.string(), header, codes)
+                                    : picture_codec().encode(path.string(), header, codes);
+}
+
 std::string display_bytes(const std::filesystem::path& path, const Image& image) {
   const std::size_t channels = image.channels.size() < 3 ? 1 : 3;
   PictureHeader header = described(path, image, channels);
   // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
   // memory.
   if (!is_tiff(path)) header.metadata["oiio:ColorSpace"] = "sRGB";
-  return picture_codec().encode(path.string(), header, interleaved(image, channels, code_value));
+  return encode(path, header, interleaved(image, channels, code_value));
 }
 
 /// Channel by channel what is pixel by pixel in `values`.
@@ -87,8 +95,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
                     ", allowed any number in a .tif)");
   PictureHeader header = described(path, image, channels);
   if (!is_tiff(path)) header.metadata["oiio:ColorSpace"] = "Linear";  // without which PNG means sRGB
-  const std::vector<std::uint16_t> codes = interleaved(image, channels, whole_number);
-  write_atomically(path, picture_codec().encode(path.string(), header, codes));
+  write_atomically(path, encode(path, header, interleaved(image, channels, whole_number)));
 }
 
 Image read_picture(const std::filesystem::path& path, Inputs* inputs) {

@@ -24,8 +24,8 @@ using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::ui
 
 /// What the module of pictures offers: OpenImageIO, libtiff and cfitsio, of which the first brings some 250
 /// shared libraries and with them a fifth of a second at every start, is loaded with it when a picture is
-/// first met. The module holds no state of the program's rooms: all it needs is in the arguments, and it
-/// reports failures as `Error`.
+/// first read, or written as anything but a PNG. The module holds no state of the program's rooms: all it
+/// needs is in the arguments, and it reports failures as `Error`.
 struct PictureCodec {
   /// The bytes of a file of the format that the extension of `path` names, checked to read back. Throws
   /// Error{output}.

@@ -46,6 +46,18 @@ TEST(Picture, OneChannelIsGreyAndTheExtensionChoosesTheFormat) {
   }
 }
 
+// A plain text of a PNG is Latin-1, an international one UTF-8.
+TEST(Picture, ATextOfAPngIsOfAnyLanguage) {
+  const auto path = test_folder() / "a.png";
+  const std::map<std::string, std::string> texts{{"scene", "Prüfling Nr. 3.json"}, {"lamp", "灯"}};
+  write_picture(path, {1, 1, {{"Y", {0}}}, texts});
+  const Image read = read_picture(path);
+  for (const auto& [key, text] : texts) {
+    EXPECT_EQ(read.metadata.at(key), text);
+    EXPECT_NE(bytes_of(path).find("iTXt" + key), std::string::npos);
+  }
+}
+
 TEST(Picture, RowsRunFromTheTopLeft) {
   const auto path = test_folder() / "a.png";
   write_picture(path, {2, 2, {{"Y", {0, 0.2F, 0.4F, 0.6F}}}, {}});

@@ -1,0 +1,102 @@
+#include "io/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstddef>
+
+#include "io/error.h"
+
+namespace abbe {
+namespace {
+
+constexpr const char* kColorSpace = "oiio:ColorSpace";
+
+// What libpng works with, and what it said when it gave up.
+struct Png {
+  png_structp write = nullptr;
+  png_infop info = nullptr;
+  std::string bytes = {};
+  std::string said = {};
+};
+
+struct Pixels {
+  const png_byte* first;
+  std::size_t row_bytes;
+  int bits;
+};
+
+[[noreturn]] void give_up(png_structp write, const char* message) {
+  static_cast<Png*>(png_get_error_ptr(write))->said = message;
+  png_longjmp(write, 1);
+}
+
+void say_nothing(png_structp /*write*/, const char* /*message*/) {}
+
+void append(png_structp write, png_bytep bytes, std::size_t count) {
+  static_cast<Png*>(png_get_io_ptr(write))->bytes.append(reinterpret_cast<const char*>(bytes), count);
+}
+
+// Referring to the header. What is not ASCII is an international text.
+std::vector<png_text> texts_of(const PictureHeader& header) {
+  std::vector<png_text> texts;
+  for (const auto& [key, value] : header.metadata) {
+    if (key == kColorSpace) continue;
+    const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
+    png_text& text = texts.emplace_back();
+    text.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+    text.key = const_cast<char*>(key.c_str());  // png_text serves readers too
+    text.text = const_cast<char*>(value.c_str());
+    text.text_length = value.size();
+  }
+  return texts;
+}
+
+// Whether libpng has not given up. As it jumps back here then, nothing between has a destructor.
+bool write(Png& png, const PictureHeader& header, const std::string& space,
+           const std::vector<png_text>& texts, const Pixels& pixels) {
+  if (setjmp(png_jmpbuf(png.write)) != 0) return false;
+  png_set_write_fn(png.write, &png, append, nullptr);
+  png_set_IHDR(png.write, png.info, static_cast<png_uint_32>(header.width),
+               static_cast<png_uint_32>(header.height), pixels.bits,
+               header.channels.size() == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (space == "sRGB") png_set_sRGB_gAMA_and_cHRM(png.write, png.info, PNG_sRGB_INTENT_ABSOLUTE);
+  if (space == "Linear") png_set_gAMA(png.write, png.info, 1);
+  png_set_text(png.write, png.info, texts.data(), static_cast<int>(texts.size()));
+  png_write_info(png.write, png.info);
+  if (pixels.bits == 16) png_set_swap(png.write);
+  for (std::int64_t y = 0; y < header.height; ++y)
+    png_write_row(png.write, pixels.first + static_cast<std::size_t>(y) * pixels.row_bytes);
+  png_write_end(png.write, nullptr);
+  return true;
+}
+
+Pixels pixels_of(const PictureHeader& header, const PictureCodes& codes) {
+  const std::size_t row = static_cast<std::size_t>(header.width) * header.channels.size();
+  return std::visit(
+      [row](const auto& values) {
+        const auto bytes = sizeof values[0];
+        return Pixels{reinterpret_cast<const png_byte*>(values.data()), row * bytes,
+                      static_cast<int>(8 * bytes)};
+      },
+      codes);
+}
+
+}  // namespace
+
+std::string encode_png(const std::string& path, const PictureHeader& header, const PictureCodes& codes) {
+  Png png;
+  png.write = png_create_write_struct(PNG_LIBPNG_VER_STRING, &png, give_up, say_nothing);
+  if (png.write != nullptr) png.info = png_create_info_struct(png.write);
+  const auto space = header.metadata.find(kColorSpace);
+  const bool written =
+      png.info != nullptr && write(png, header, space == header.metadata.end() ? "" : space->second,
+                                   texts_of(header), pixels_of(header, codes));
+  png_destroy_write_struct(&png.write, &png.info);
+  if (!written) throw Error(ErrorCode::output, path, "libpng: " + png.said);
+  return std::move(png.bytes);
+}
+
+}  // namespace abbe
