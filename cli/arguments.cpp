@@ -1,6 +1,7 @@
 #include "cli/arguments.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -44,11 +45,15 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
 
 std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
                            std::int64_t high) {
+  std::int64_t exact = 0;  // of more digits than a double may have
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exact);
+  const bool digits = error == std::errc() && end == text.data() + text.size();
   const std::optional<double> number = parse_number(text);
-  const bool good = number && *number == std::floor(*number) && *number >= static_cast<double>(low) &&
-                    *number <= static_cast<double>(high);
+  const bool good = digits ? exact >= low && exact <= high
+                           : number && *number == std::floor(*number) &&
+                                 *number >= static_cast<double>(low) && *number <= static_cast<double>(high);
   if (!good) refuse(option, "\"" + text + "\"", fmt::format("whole numbers in [{}, {}]", low, high));
-  return static_cast<std::int64_t>(*number);
+  return digits ? exact : static_cast<std::int64_t>(*number);
 }
 
 std::size_t parse_choice(const std::string& option, const std::string& text,
@@ -81,7 +86,7 @@ std::size_t parse_bytes(const std::string& option, const std::string& text) {
   const std::optional<double> number = parse_number(text.substr(0, text.size() - (has_unit ? 1 : 0)));
   const double bytes = number.value_or(0) * (has_unit ? std::pow(1e3, static_cast<double>(unit + 1)) : 1);
   if (!(bytes >= 1 && bytes <= kMost))
-    refuse(option, "\"" + text + "\"", "an amount of memory such as 4G, 500M or a number of bytes");
+    refuse(option, "\"" + text + "\"", "an amount of memory such as 4G, 500M, 20k or a number of bytes");
   return static_cast<std::size_t>(bytes);
 }
 

@@ -117,8 +117,20 @@ abbe::RenderOptions how_to_render(const RenderOptions& options, const Scene& sce
   return how;
 }
 
+// A film has the samples that are asked for, and no others.
+void require_no_more(const fs::path& path, const SampleRanges& held, const abbe::RenderOptions& how,
+                     int samples) {
+  if (how.time_limit_s || how.target_error || held.empty()) return;
+  const SampleRange asked = how.samples.value_or(SampleRange{0, static_cast<std::uint64_t>(samples)});
+  if (held.front().first < asked.first || held.back().last > asked.last)
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("holds samples that are not asked for (got {}, allowed {})", to_text(held),
+                            to_text(SampleRanges{asked})));
+}
+
 // What an earlier run left, if it is asked for and there is some.
-std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIdentity& identity) {
+std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIdentity& identity,
+                                    const abbe::RenderOptions& how, int samples) {
   const fs::path& path = options.checkpoint;
   std::error_code ignored;
   if (path.empty() || !fs::exists(path, ignored)) {
@@ -133,6 +145,7 @@ std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIden
   if (!part.areas.empty())
     throw Error(ErrorCode::input, path.string(),
                 "has pixels with different samples, which merge alone completes");
+  require_no_more(path, part.result.samples, how, samples);
   if (!options.quiet)
     say(fmt::format("{}: going on after samples {}{}", path.string(), to_text(part.result.samples),
                     part.result.unfinished ? " and a part of the next" : ""));
@@ -211,7 +224,7 @@ RenderPart develop(const Scene& scene, const RenderOptions& options,
       try_to_save(checkpoint, identity, result);
       if (watch.stop() && result.unfinished) say("ending with the sample begun; another signal ends at once");
     };
-  RenderPart part{identity, abbe::render(scene, how, earlier(options, identity))};
+  RenderPart part{identity, abbe::render(scene, how, earlier(options, identity, how, scene.render.samples))};
   display.finish();
   return part;
 }

@@ -31,6 +31,7 @@ struct Needs {
   bool depth_of_field = false;
   bool angular_response = false;  ///< Some filter shifts with the angle of incidence on the film.
   bool motion = false;            ///< A shape, a light or the camera moves while the film is exposed.
+  bool matter = false;            ///< A shape holds matter, in which paths may start.
   /// By the names of `need_names`: what in the scene asks for a need that holds, as 'shape "prism"'.
   std::map<std::string, std::string> because = {};
   std::vector<bool> light_is_traced = {};  ///< Per light: so small that its caustics are the light tracer's.

@@ -36,6 +36,13 @@ TEST(Arguments, IntegersAreWholeAndInRange) {
               fmt::format("--spp: got \"{}\", allowed whole numbers in [1, 16777216]", text));
 }
 
+// One more than doubles tell from its neighbours.
+TEST(Arguments, WholeNumbersAreNotRounded) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  EXPECT_EQ(parse_integer("--seed", "9007199254740992", 0, kMost), kMost);
+  EXPECT_NE(refusal([] { return parse_integer("--seed", "9007199254740993", 0, kMost); }), "accepted");
+}
+
 TEST(Arguments, ChoicesGoByName) {
   EXPECT_EQ(parse_choice("--integrator", "path", {"auto", "path"}), 1U);
   EXPECT_EQ(refusal([] {

@@ -66,6 +66,12 @@ TEST(Layers, AddUpInTheFile) {
     EXPECT_EQ(value(lights, "Y", pixel), value(bounces, "Y", pixel));
 }
 
+TEST(Layers, ALightIsAskedForByTheNameThatTheSceneGivesIt) {
+  ASSERT_EQ(rendered(coloured(), "asked.exr", "--layers 'lights:lamp 1'").code, 0);
+  const Image film = read_exr(file("asked.exr"));
+  expect_sum(film, {"light.lamp_1", "light.rest"}, "Y");
+}
+
 TEST(Layers, OfSpectralFilmsAreRadiances) {
   ASSERT_EQ(rendered(spectral(), "bands.exr", "--layers lights").code, 0);
   const Image film = read_exr(file("bands.exr"));

@@ -314,5 +314,19 @@ TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
     EXPECT_NE(run.err.find(output + ": another process is writing it"), std::string::npos) << run.err;
 }
 
+// What is asked for is a film of those samples, and not of others.
+TEST(Resume, RefusesACheckpointOfMoreSamplesThanAreAskedFor) {
+  const std::string saving =
+      " --checkpoint " + file("more.abbepart") + " -o " + file("more.exr") + " --quiet";
+  ASSERT_EQ(abbe("render " + ball() + saving).code, 0);
+  const Outcome fewer = abbe("render " + ball() + saving + " --resume --spp 4");
+  EXPECT_EQ(fewer.code, 4);
+  EXPECT_NE(fewer.err.find("more.abbepart: holds samples that are not asked for (got 0:8, allowed 0:4)"),
+            std::string::npos)
+      << fewer.err;
+  EXPECT_EQ(abbe("render " + ball() + saving + " --resume --sample-range 2:8").code, 4);
+  EXPECT_EQ(abbe("render " + ball() + saving + " --resume").code, 0);
+}
+
 }  // namespace
 }  // namespace abbe::test

@@ -129,6 +129,27 @@ TEST(Depth, PhotonsWithoutPowerAreNotCut) {
   EXPECT_LE(stats.cut.throughput(), 1.01 * static_cast<double>(stats.cut.paths));
 }
 
+// Lobes of a caustic point where the hero of some paths would not be scattered to at all, only other lanes.
+TEST(Depth, WhatIsCutIsOfTheOrderOfItsPathsWhereACausticIsLookedFor) {
+  const Scene scene = test::load_text(R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -3, 2], "to": [0, 0, 0], "up": [0, 0, 1]},
+    "sensor": {"resolution": [32, 32], "observer": "1931"},
+    "materials": {"white": {"diffuse": {"reflectance": 0.5}}, "glass": {"dielectric": {"ior": 1.5}},
+      "mirror": {"mirror": {"reflectance": 0.9}},
+      "floor": {"mixture": [{"material": "mirror", "weight": {"band": [550, 700]}},
+                            {"material": "white", "weight": {"band": [400, 549]}}]}},
+    "lights": [{"name": "lamp", "sphere": {"center": [0, 0, 2], "radius": 0.2},
+                "emission": {"spectrum": 1, "radiance": 100}}],
+    "shapes": [{"quad": {"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}, "material": "floor"},
+               {"quad": {"corner": [-2, 2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 0, 4]}, "material": "white"},
+               {"quad": {"corner": [-2, -2, 0], "edge_u": [0, 4, 0], "edge_v": [0, 0, 4]}, "material": "white"},
+               {"sphere": {"center": [0, 0, 0.6], "radius": 0.3}, "material": "glass"}],
+    "render": {"integrator": "path", "samples": 64, "max_depth": 6}})");
+  const TruncatedPaths cut = render(scene, {}).stats.cut;
+  EXPECT_GT(cut.paths, 0U);
+  EXPECT_LT(cut.throughput(), 10 * static_cast<double>(cut.paths));
+}
+
 TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
   RenderSettings settings;
   EXPECT_FALSE(plays_roulette(settings, 3));

@@ -55,6 +55,26 @@ SampleRanges cut(int pieces, std::mt19937& random) {
   return ranges;
 }
 
+// From so far that rays come in along the film's normal as floats tell, where the light of paths from lamps
+// is told from that of others by where it falls alone.
+TEST(Crop, HasWhatPathsFromLightsBringWhoseOwnPixelsItLeavesOut) {
+  for (const char* integrator : {"bdpt", "vcm", "light"}) {
+    const Scene scene = test::load_text(fmt::format(R"({{"abbe": 1,
+      "camera": {{"pinhole": {{"fov_deg": 0.01}}, "from": [0, 0, 200], "to": [0, 0, 0], "up": [0, 1, 0]}},
+      "sensor": {{"resolution": [4, 4], "observer": "1931"}},
+      "materials": {{"grey": {{"diffuse": {{"reflectance": 0.5}}}}}},
+      "lights": [{{"spot": {{"at": [0, 0, 0.3], "direction": [0, 0, -1], "half_angle_deg": 5}},
+                   "emission": {{"spectrum": 1, "intensity": 10}}}}],
+      "shapes": [{{"quad": {{"corner": [-0.2, -0.2, 0], "edge_u": [0.4, 0, 0], "edge_v": [0, 0.4, 0]}},
+                   "material": "grey"}}],
+      "render": {{"integrator": "{}", "samples": 64}}}})",
+                                                    integrator));
+    const Film whole = render(scene, {}).film;
+    EXPECT_GT(whole.mean(0, 1), 0) << integrator;
+    EXPECT_EQ(render(scene, {.crop = Crop{0, 0, 1, 1}}).film.mean(0, 1), whole.mean(0, 1)) << integrator;
+  }
+}
+
 class Partition : public testing::TestWithParam<Seen> {
  protected:
   const Scene scene_ = GetParam().load();
@@ -157,6 +177,13 @@ TEST(Resume, AStopByErrorFallsOnTheSameSample) {
   odd.target_error = {};
   odd.time_limit_s = 1e9;
   goes_on_to_the_same(render(scene, odd));
+}
+
+// What a path costs is not known before, so the first passes are short.
+TEST(Time, EndsASmallFilmAfterASampleThatTakesLonger) {
+  RenderOptions soon;
+  soon.time_limit_s = 1e-9;
+  EXPECT_EQ(render(small("cornell.json"), soon).stats.samples_per_pixel, 1U);
 }
 
 // Amid a sample, the photons of which are traced again and not counted twice.

@@ -209,6 +209,27 @@ TEST(Photons, MapsBlurLessTheMorePhotonsThereAre) {
   EXPECT_LT(std::abs(gathered), 0.85 * std::abs(many));  // the first of the bounces is not blurred
 }
 
+// What a lamp in glass sends through fog to a floor that lies in the shade of all else: matter scatters it
+// after the floor, so that no photon of a caustic brings it there.
+TEST(Photons, AFinalGatherMeetsLampsInGlassThroughFog) {
+  const std::string scene = R"({"abbe": 1,
+    "camera": {"pinhole": {"fov_deg": 20}, "from": [0, 0, 0.5], "to": [0, 0, 0], "up": [0, 1, 0]},
+    "sensor": {"resolution": [4, 4], "channels": {"Y": {"band": [500, 600]}}},
+    "materials": {"grey": {"diffuse": {"reflectance": 0.5}}, "black": {"diffuse": {"reflectance": 0}},
+                  "glass": {"dielectric": {"ior": 1.5}}, "fog": {"medium": {"scattering_per_m": 0.5}}},
+    "lights": [{"sphere": {"center": [3, 0, 1], "radius": 0.95}, "emission": {"spectrum": 1, "radiance": 1000}}],
+    "shapes": [{"quad": {"corner": [-0.5, -0.5, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]}, "material": "grey"},
+               {"sphere": {"center": [3, 0, 1], "radius": 1}, "material": "glass"},
+               {"quad": {"corner": [1.2, -1.5, -1], "edge_u": [0, 3, 0], "edge_v": [0, 0, 2]}, "material": "black"},
+               {"sphere": {"center": [0, 0, 0], "radius": 6}, "material": "fog"}],
+    "render": {"max_depth": 30, "photons": {"per_sample": 512, "nearest": 50, "final_gather": true}}})";
+  const auto mean = [&](const Rendered& how) {
+    const Film film = film_of(how, scene);
+    return test::region(film, 0, 0, 0, film.width(), film.height()).mean;
+  };
+  EXPECT_NEAR(mean({"photon-map", 4096}) / mean({"path", 8192}), 1, 0.2);
+}
+
 // Photons that find an opening by themselves, from the lamps, see what paths that leave it do: in coloured
 // glass that takes some of them, and off a metal.
 TEST(BruteForce, PhotonsAndTheirAdjointsAgree) {

@@ -79,9 +79,7 @@ std::optional<std::uint32_t> MediumStack::entry_of(const Scene& scene, std::uint
 
 MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time) {
   MediumStack inside;
-  bool any = false;
-  for (std::uint32_t i = 0; i < scene.shapes.size() && !any; ++i) any = filled(scene, i);
-  if (!any) return inside;
+  if (!scene.needs.matter) return inside;
   const auto ahead = crossings(scene, point, askew_direction<float>(), time);
   const auto behind = crossings(scene, point, -askew_direction<float>(), time);
   std::vector<std::pair<float, std::uint32_t>> around;

@@ -13,7 +13,7 @@ namespace abbe {
 /// from the outermost. What is around the point is the last one's matter, or air where there is none.
 class MediumStack {
  public:
-  /// The most shapes held; of more than these the first are forgotten.
+  /// The most shapes held.
   static constexpr std::size_t kMost = 16;
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -22,7 +22,7 @@ class MediumStack {
   [[nodiscard]] std::span<const std::uint32_t> shapes() const { return {shapes_.data(), count_}; }
 
   /// The path crosses the surface of `shape`, which it comes to be inside of or leaves. Where it is already,
-  /// as through a surface that is not closed, nothing changes.
+  /// as through a surface that is not closed, nothing changes. Throws Error{resource} for more than `kMost`.
   void cross(const Scene& scene, std::uint32_t shape, bool entering) {
     if (entering)
       enter(scene, shape);

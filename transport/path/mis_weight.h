@@ -21,6 +21,11 @@ namespace abbe {
   return 1 / (scattered.sum() + connection_pdf * connected);
 }
 
+/// Where there is one way alone the balance heuristic over the lanes is left, 1 / sum_k P_k.
+[[nodiscard]] inline float lane_balance(const SampledSpectrum& lane_pdf) {
+  return 1 / lane_pdf.sum();
+}
+
 /// What `mis_weight` is where a render asks for another combination of both ways. Let S = sum_k P_k s_k and
 /// C = c sum_k P_k be the densities of both over all lanes. Each way is weighed as a whole, and its weight
 /// shared among the lanes by the balance heuristic:

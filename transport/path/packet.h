@@ -41,8 +41,7 @@ struct PathPacket {
 }
 
 /// Takes a packet through an event that leaves `weight` = f / P_hero of each lane and that lane k would have
-/// brought about with `lane_pdf` times the hero's density. Here and in `polarise` alone throughput and
-/// densities change.
+/// brought about with `lane_pdf` times the hero's density.
 inline void advance(PathPacket& packet, const SampledSpectrum& weight, const SampledSpectrum& lane_pdf) {
   packet.throughput *= weight;
   packet.lane_pdf *= lane_pdf;

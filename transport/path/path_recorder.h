@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "transport/path/connect.h"
+#include "transport/path/met_lights.h"
 #include "transport/path/path_vertex.h"
 #include "transport/path/random_walk.h"
 
@@ -85,20 +86,13 @@ class PathRecorder {
 
   // What RandomWalks asks.
   void escape(RecordedPath& path) {
-    if (mode == TransportMode::power || scene_.background().empty()) return;
-    path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
-    for (const std::uint32_t light : scene_.background()) {
-      const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
-      if (sun == nullptr || sun->shows(path.ray.direction))
-        keep_light(path, {light, path.ray.direction, Imath::V3f(0), true});
-    }
+    if (mode == TransportMode::power) return;
+    find_background(scene_, path, [&](const LightVertex& light) { keep_light(path, light); });
   }
   void meet(RecordedPath& path, const SurfaceHit& hit) {
-    const std::int32_t light = scene_.shapes[hit.shape].light;
-    if (mode == TransportMode::power || light < 0) return;
-    const auto index = static_cast<std::uint32_t>(light);
-    if (emits_towards(scene_.lights[index], hit.normal, -path.ray.direction) && !stays_at(path, hit.point))
-      keep_light(path, {index, hit.point, hit.normal});
+    if (mode == TransportMode::power) return;
+    const std::optional<LightVertex> light = light_met(scene_, hit, path.ray.direction);
+    if (light && !stays_at(path, hit.point)) keep_light(path, *light);
   }
   void reach(RecordedPath& path, const SurfaceVertex& vertex) {
     path.stays = stays_at(path, vertex.hit.point);

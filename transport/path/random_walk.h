@@ -19,12 +19,23 @@
 namespace abbe {
 
 /// What a technique does with its paths on their way. A path is a `Walk` of its direction; `kMode` says which
-/// quantity it carries. `u` are numbers in [0, 1).
+/// quantity it carries. `u` are numbers in [0, 1). The calls come in this order: at the end of each ray
+/// `escape`, or `meet`; if the path may have another event there and the surface is not black `reach`,
+/// `connect` where it scatters, `scatter`, `follows`, and `kept` once packet, ray and surroundings are those
+/// after the event. Where matter scatters the path before its ray ends `follows_within`, `connect_within` and
+/// `kept_within`. Whatever has to be done when the path has left a vertex, along its new ray, is done in
+/// `kept` and `kept_within`.
+///
+/// A technique may have `parts_lanes()` besides, whether its paths are to go on lane by lane where smooth
+/// glass disperses them, and `connects_along()` with `connect_along(path, stretch, u)`, a connection from
+/// along matter that scatters evenly, before the event that ends the stretch. One that works out by itself
+/// with which density each event was drawn makes `kDrawsPolarised` false.
 template <typename T>
-concept WalkingTechnique = requires(T technique, typename T::Path& path, const SurfaceHit& hit,
-                                    const SurfaceVertex& vertex, const PhaseFunction& phase,
-                                    const BsdfSample& event, const BsdfRandom& random,
-                                    const std::array<float, 4>& u) {
+concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&
+    std::constructible_from<typename T::Path, const Sampler&, std::uint32_t> &&
+    requires(T technique, typename T::Path& path, const SurfaceHit& hit, const SurfaceVertex& vertex,
+             const PhaseFunction& phase, const BsdfSample& event, const BsdfRandom& random,
+             const std::array<float, 4>& u) {
   { T::kMode } -> std::convertible_to<TransportMode>;
   // A path leaves the scene, or comes to a surface.
   technique.escape(path);
@@ -80,6 +91,7 @@ class RandomWalks {
 
   /// Takes the paths that go on to their ends.
   void run(Technique& technique) {
+    static_assert(WalkingTechnique<Technique>);
     while (!going_.empty()) step(technique);
   }
 

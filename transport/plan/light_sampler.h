@@ -23,9 +23,6 @@ class LightSampler {
   /// Whether no light can be chosen.
   [[nodiscard]] bool empty() const { return roots_.empty(); }
 
-  /// Whether the choice depends on the place: there is more than one light.
-  [[nodiscard]] bool asks_for_places() const { return lights_ > 1; }
-
   /// Irradiance at a place by all lights together, nothing standing in between, as `pick` weighs them, in the
   /// unit of `seen` times what `light_bounds` measures by.
   [[nodiscard]] double irradiance(const Imath::V3f& point, const Imath::V3f* normal) const;

@@ -25,7 +25,7 @@ enum class Technique : std::uint8_t {
   sppm,
   vcm,            ///< Vertex connection and merging [Georgiev2012]: `BidirectionalTracer`. Alone.
   photon_brute,   ///< Photons that come through the lens by themselves: `BrutePhotonTracer`. Alone.
-  adjoint_brute,  ///< Paths from the camera that meet lights by themselves: `BruteTracer`. Alone.
+  adjoint_brute,  ///< Paths from the camera that meet lights by themselves: `AdjointBruteTracer`. Alone.
 };
 
 /// The name of a technique in scenes and answers.

@@ -54,12 +54,14 @@ std::string layer_name(std::string light) {
 Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> there = layers_of_lights(scene);
   if (there.empty()) throw Error(ErrorCode::usage, "--layers", "the scene has no light to tell apart");
-  Layers layers{each_once(names.empty() ? there : names)};
-  for (const std::string& name : layers.names)
-    if (std::find(there.begin(), there.end(), name) == there.end())
+  for (const std::string& name : names)
+    if (std::find(there.begin(), there.end(), layer_name(name)) == there.end())
       throw Error(ErrorCode::usage, "--layers",
                   fmt::format("no light has such a name (got \"{}\", allowed {})", name,
                               fmt::join(each_once(there), ", ")));
+  std::vector<std::string> asked;
+  for (const std::string& name : names) asked.push_back(layer_name(name));
+  Layers layers{each_once(names.empty() ? there : asked)};
   const bool all = std::all_of(there.begin(), there.end(), [&](const std::string& name) {
     return std::find(layers.names.begin(), layers.names.end(), name) != layers.names.end();
   });

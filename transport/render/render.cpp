@@ -125,10 +125,18 @@ class Rendering {
     while (std::ssize(round) < options_.crew.size && (round.empty() || !look_is_due(count(done)))) {
       const auto next = first_missing(done, wanted_);
       if (!next) break;
-      round.push_back({next->first, std::min(next->last, (next->first / step_ + 1) * step_)});
+      round.push_back({next->first, std::min(next->last, end_of_pass(next->first))});
       (void)add(done, round.back());
     }
     return round;
+  }
+
+  // Of a pass that begins with that sample. What a path costs is not known, so where time decides the first
+  // passes are of one sample, one, two, four and so on.
+  [[nodiscard]] std::uint64_t end_of_pass(std::uint64_t first) const {
+    const std::uint64_t end = (first / step_ + 1) * step_;
+    if (!options_.time_limit_s) return end;
+    return std::min(end, first + std::max<std::uint64_t>(1, first - wanted_.first));
   }
 
   void run_round(const std::vector<SampleRange>& round) {

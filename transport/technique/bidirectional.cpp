@@ -275,8 +275,8 @@ FilmPoint BidirectionalTracer::film_point(std::uint32_t i, std::size_t t, const 
 void BidirectionalTracer::add(std::uint32_t i, const FilmPoint& at, std::uint32_t light,
                               const SampledSpectrum& contribution,
                               const std::optional<StokesSpectrum>& seen) {
-  const bool own =
-      at.x == at_[i].x && at.y == at_[i].y && at.cos_film == at_[i].cos_film && at.images == at_[i].images;
+  const bool own = samples_[i].seen && at.x == at_[i].x && at.y == at_[i].y &&
+                   at.cos_film == at_[i].cos_film && at.images == at_[i].images;
   if (own)
     found_.add(i, contribution, pointer_to(seen));
   else

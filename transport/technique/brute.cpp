@@ -6,6 +6,7 @@
 
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
+#include "transport/path/met_lights.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/subpaths.h"
 
@@ -149,18 +150,11 @@ void AdjointBruteTracer::add_met(const RecordedPath& path, std::uint32_t light) 
 }
 
 void AdjointBruteTracer::escape(RecordedPath& path) {
-  path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
-  for (const std::uint32_t light : scene_.background()) {
-    const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
-    if (sun == nullptr || sun->shows(path.ray.direction)) add_met(path, light);
-  }
+  find_background(scene_, path, [&](const LightVertex& light) { add_met(path, light.light); });
 }
 
 void AdjointBruteTracer::meet(RecordedPath& path, const SurfaceHit& hit) {
-  const std::int32_t index = scene_.shapes[hit.shape].light;
-  if (index < 0) return;
-  const auto light = static_cast<std::uint32_t>(index);
-  if (emits_towards(scene_.lights[light], hit.normal, -path.ray.direction)) add_met(path, light);
+  if (const auto light = light_met(scene_, hit, path.ray.direction)) add_met(path, light->light);
 }
 
 }  // namespace abbe

@@ -17,9 +17,9 @@ namespace abbe {
 /// Receives the values of all planes of the features that a sample of a pixel shows.
 using FeatureDeposit = std::function<void(const PixelSample& sample, std::span<const double> values)>;
 
-/// Tells what samples of pixels see first: the features of the surface that the ray meets which a camera path
-/// of that sample sets out on. Boundaries of matter at which nothing is refracted are passed, and what
-/// scatters within matter is not looked at. Serves one thread.
+/// Tells what samples of pixels see first: the features of the surface that a ray meets which sets out as a
+/// path of `PathTracer` would, one in each sample whatever paths it has. Boundaries of matter at which
+/// nothing is refracted are passed, and what scatters within matter is not looked at. Serves one thread.
 ///
 /// Depth is the distance from the plane of the lens, or of the meter, along its axis, and position the point,
 /// both in units and coordinates of the scene file. The normal is that of the shape, the shading normal that

@@ -102,7 +102,7 @@ void LightTracer::connect_to(const LightPath& path, int events, const CameraConn
                              const std::optional<StokesSpectrum>& arrives) {
   const BasicRay<double> way = way_between(ray.origin, lens.lens_point, ray.time);
   SampledSpectrum contribution =
-      scattered * (path.packet.throughput * (lens.weight * mis_weight(path.packet.lane_pdf, 0, 0)));
+      scattered * (path.packet.throughput * (lens.weight * lane_balance(path.packet.lane_pdf)));
   const float distance = (lens.lens_point - ray.origin).length();
   if (walks_.has_free_paths()) {
     const std::optional<Transmission> through =

@@ -133,6 +133,7 @@ bool PathTracer::start(const PixelSample& sample, const CameraRay& ray, CameraPa
   const SampledSpectrum openings = openings_over_own(scene_.shutter, path.at);
   path.scale *= openings;
   path.packet.lane_pdf = ray.lane_pdf * openings;
+  path.eta_scale = path.packet.lane_pdf.max();
   return !openings.is_zero();
 }
 
@@ -152,37 +153,26 @@ bool PathTracer::owned_by_others(const CameraPath& path, std::uint32_t light) co
 }
 
 // With which a connection from its last vertex would have drawn the path's ray to the light.
-float PathTracer::connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
-                                 const Imath::V3f& normal) const {
+float PathTracer::connection_pdf(const CameraPath& path, const LightVertex& met) const {
   if (path.connected == 0) return 0;
-  return plan_.path_lights.probability(light, path.last.point, path.last.normal()) *
-         light_pdf(scene_.lights[light], scene_.shapes, path.ray.origin, path.ray.direction, point, normal,
-                   path.ray.time);
+  return plan_.path_lights.probability(met.light, path.last.point, path.last.normal()) *
+         light_pdf(scene_.lights[met.light], scene_.shapes, path.ray.origin, path.ray.direction, met.point,
+                   met.normal, path.ray.time);
 }
 
 void PathTracer::escape(CameraPath& path) {
-  if (scene_.background().empty()) return;
-  path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
-  for (const std::uint32_t light : scene_.background()) {
-    const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
-    if ((sun != nullptr && !sun->shows(path.ray.direction)) || owned_by_others(path, light)) continue;
-    add_met(path, light, Imath::V3f(0), Imath::V3f(0));
-  }
+  find_background(scene_, path, [&](const LightVertex& light) { add_met(path, light); });
 }
 
 void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
-  const std::int32_t index = scene_.shapes[hit.shape].light;
-  if (index < 0) return;
-  const auto light = static_cast<std::uint32_t>(index);
-  if (!emits_towards(scene_.lights[light], hit.normal, -path.ray.direction) || owned_by_others(path, light))
-    return;
-  add_met(path, light, hit.point, hit.normal);
+  if (const auto light = light_met(scene_, hit, path.ray.direction)) add_met(path, *light);
 }
 
-// Light that the path has come to by itself, at that place of it.
-void PathTracer::add_met(CameraPath& path, std::uint32_t light, const Imath::V3f& point,
-                         const Imath::V3f& normal) {
-  const float pdf = connection_pdf(path, light, point, normal);
+// Light that the path has come to by itself.
+void PathTracer::add_met(CameraPath& path, const LightVertex& met) {
+  const std::uint32_t light = met.light;
+  if (owned_by_others(path, light)) return;
+  const float pdf = connection_pdf(path, met);
   const Imath::V3f& towards = path.ray.direction;
   const SampledSpectrum contribution = path.packet.throughput *
                                        emission_from(scene_.lights[light], towards, path.lambda_nm()) *
@@ -303,7 +293,7 @@ void PathTracer::reach(CameraPath& path, const SurfaceVertex& vertex) const {
   if (!(event->pdf > 0)) return std::nullopt;
   event->weight = scattered * (1 / event->pdf);
   event->lane_pdf = mixed * (1 / event->pdf);
-  path.eta_scale *= std::max(1.0F, event->pdf / scattering_pdf[path.packet.hero]);
+  path.eta_scale *= std::max(1.0F, mixed.max() / scattering_pdf.max());
   return event;
 }
 

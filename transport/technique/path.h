@@ -10,6 +10,7 @@
 #include "sampling/sampler.h"
 #include "scene/camera/camera_rays.h"
 #include "transport/path/film_response.h"
+#include "transport/path/met_lights.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/random_walk.h"
 #include "transport/path/ray_caster.h"
@@ -23,9 +24,9 @@ namespace abbe {
 struct CameraPath : Walk {
   using Walk::Walk;
   FilmPoint at;
-  SampledSpectrum scale;       ///< What radiance along its first ray exposes, times the exposure time.
-  SampledSpectrum found;       ///< Light it has found so far, balanced over lanes and techniques.
-  float eta_scale = 1;         ///< What refraction and guiding have taken off radiance.
+  SampledSpectrum scale;  ///< What radiance along its first ray exposes, times the exposure time.
+  SampledSpectrum found;  ///< Light it has found so far, balanced over lanes and techniques.
+  float eta_scale = 1;    ///< What refraction, guiding and the lens's parting of lanes have taken off it.
   bool owns_caustics = false;  ///< Whether what it finds of traced lights through specular matter is its own.
   CausticLobes caustics;       ///< Where to look for them from the vertex it has come to.
   LensRoute route = 0;         ///< By which it left the film.
@@ -135,8 +136,7 @@ class PathTracer {
   [[nodiscard]] ChosenLight choose_light(const LightSampleContext& place, const std::array<float, 4>& u,
                                          float time) const;
   [[nodiscard]] float pdf_along(const Stretch& stretch, float distance, std::uint32_t light) const;
-  [[nodiscard]] float connection_pdf(const CameraPath& path, std::uint32_t light, const Imath::V3f& point,
-                                     const Imath::V3f& normal) const;
+  [[nodiscard]] float connection_pdf(const CameraPath& path, const LightVertex& met) const;
   [[nodiscard]] static StokesSpectrum measured(const CameraPath& path,
                                                const std::optional<MuellerMatrix>& matrix, const Light& light,
                                                const Imath::V3f& wi);
@@ -144,7 +144,7 @@ class PathTracer {
   void connect_through_media(CameraPath& path, const ChosenLight& chosen, const SampledSpectrum& contribution,
                              const SampledSpectrum& scattering_pdf, const Ray& ray,
                              const Surroundings& around, float cos_film, const StokesSpectrum* seen);
-  void add_met(CameraPath& path, std::uint32_t light, const Imath::V3f& point, const Imath::V3f& normal);
+  void add_met(CameraPath& path, const LightVertex& met);
   void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film,
            const StokesSpectrum* seen);
   template <typename Contribution>

@@ -7,6 +7,7 @@
 #include "materials/bsdf/warp.h"
 #include "transport/path/connect.h"
 #include "transport/path/merge.h"
+#include "transport/path/met_lights.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/subpaths.h"
@@ -77,12 +78,12 @@ void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
     found_.tell(path.path, [&](const auto& found) { expose(path, at_[path.path], found); });
 }
 
-// What a connection would have found is not counted again where a path meets it; from a meter both are
-// balanced.
+// What a connection would have found is not counted again where a path meets it, nor what photons of caustics
+// have brought; from a meter both are balanced.
 void PhotonGatherer::add_met(GatherPath& path, const LightVertex& light) {
-  if (path.connected != 0 || path.final_gather) return;
+  if (path.connected != 0 || path.seeks_photons) return;
   if (path.events == 0 && on_ghost(path.vertices.front())) return;  // see `GhostLights`
-  float weight = mis_weight(path.packet.lane_pdf, 0, 0);
+  float weight = lane_balance(path.packet.lane_pdf);
   if (meter_ && path.events == 0) weight *= 1 - share_of_connecting(path.vertices.front(), {.at = light});
   const Light& emitter = scene_.lights[light.light];
   const Imath::V3f& towards = path.ray.direction;
@@ -102,21 +103,11 @@ float PhotonGatherer::share_of_connecting(const PathVertex& meter, const PathVer
 }
 
 void PhotonGatherer::escape(GatherPath& path) {
-  if (scene_.background().empty()) return;
-  path.around.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
-  for (const std::uint32_t light : scene_.background()) {
-    const auto* sun = std::get_if<SunLight>(&scene_.lights[light].kind);
-    if (sun == nullptr || sun->shows(path.ray.direction))
-      add_met(path, {light, path.ray.direction, Imath::V3f(0), true});
-  }
+  find_background(scene_, path, [&](const LightVertex& light) { add_met(path, light); });
 }
 
 void PhotonGatherer::meet(GatherPath& path, const SurfaceHit& hit) {
-  const std::int32_t index = scene_.shapes[hit.shape].light;
-  if (index < 0) return;
-  const auto light = static_cast<std::uint32_t>(index);
-  if (emits_towards(scene_.lights[light], hit.normal, -path.ray.direction))
-    add_met(path, {light, hit.point, hit.normal});
+  if (const auto light = light_met(scene_, hit, path.ray.direction)) add_met(path, *light);
 }
 
 void PhotonGatherer::connect(GatherPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
@@ -143,7 +134,7 @@ void PhotonGatherer::connect_to_light(GatherPath& path, const PathVertex& vertex
   const std::optional<Connection> joint = abbe::connect(scene_, caster_, vertex, *light);
   if (!joint) return;
   add(path, {std::get<LightVertex>(light->at).light, path.events + 1},
-      joint->contribution * mis_weight(vertex.packet.lane_pdf, 0, 0), pointer_to(joint->seen));
+      joint->contribution * lane_balance(vertex.packet.lane_pdf), pointer_to(joint->seen));
 }
 
 // A light that a meter sees has an angle of its own.
@@ -157,7 +148,7 @@ void PhotonGatherer::connect_meter(GatherPath& path) {
   FilmPoint at = at_[path.path];
   at.cos_film = way_from(meter, *light).direction.dot(*normal_of(scene_, meter));
   const SampledSpectrum contribution =
-      joint->contribution * (mis_weight(meter.packet.lane_pdf, 0, 0) * share_of_connecting(meter, *light));
+      joint->contribution * (lane_balance(meter.packet.lane_pdf) * share_of_connecting(meter, *light));
   expose(path, at, contribution);
   if (apart_) expose_apart(path, at, {std::get<LightVertex>(light->at).light, 0}, contribution);
 }
@@ -198,7 +189,7 @@ void PhotonGatherer::expose_apart(const GatherPath& path, const FilmPoint& at, c
 bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {
   if (event.delta) return true;
   const bool goes_on = kernel_.final_gather && !path.final_gather;
-  path.final_gather = true;
+  path.final_gather = path.seeks_photons = true;
   return goes_on;
 }
 
@@ -230,7 +221,7 @@ void PhotonGatherer::gather(const Photon& photon, const GatherPath& path, const 
   if (f.is_zero()) return;
   add(path, {photon.light, path.events + 1 + photon.events},
       path.packet.throughput * photon.power * f *
-          (per_area * mis_weight(path.packet.lane_pdf * photon.lane_pdf, 0, 0)),
+          (per_area * lane_balance(path.packet.lane_pdf * photon.lane_pdf)),
       pointer_to(merged_polarisation(vertex, path.packet.polarisation, photon.from, photon.polarisation)));
 }
 

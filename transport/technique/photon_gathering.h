@@ -33,7 +33,9 @@ struct GatherKernel {
 /// A path from the camera that gathers photons, under way.
 struct GatherPath : RecordedPath {
   using RecordedPath::RecordedPath;
-  bool final_gather = false;  ///< It has left the surface where only photons of caustics are gathered.
+  bool final_gather = false;  ///< It has left the surface where only photons of caustics are gathered,
+  /// and since then no matter has scattered it: of light that it meets those photons have told.
+  bool seeks_photons = false;
 };
 
 /// Photon density estimation [Jensen1996]: paths from the camera go on from events of a single direction and
@@ -68,7 +70,10 @@ class PhotonGatherer {
     return vertex.scatter(u, path.packet.hero, kMode);
   }
   [[nodiscard]] bool follows(GatherPath& path, const BsdfSample& event) const;
-  [[nodiscard]] bool follows_within(const GatherPath& /*path*/) const { return true; }
+  [[nodiscard]] bool follows_within(GatherPath& path) const {
+    path.seeks_photons = false;
+    return true;
+  }
   [[nodiscard]] float kept(GatherPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
     path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
     return carried(path);

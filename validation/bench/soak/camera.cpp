@@ -31,8 +31,7 @@ Json probe(Drawing& drawing) {
       break;
   }
   Json edge_u = Json::array();
-  for (int axis = 0; axis < 3; ++axis)
-    edge_u.push_back(drawing.size * decades(random, 1e-4, 0.2) * one_of(random, {-1, 1}));
+  for (int axis = 0; axis < 3; ++axis) edge_u.push_back(drawing.size * signed_decades(random, 1e-4, 0.2));
   Json edge_v = cross(edge_u, {drawing.size, 0.3 * drawing.size, -0.1 * drawing.size});
   for (Json& length : edge_v) length = length.get<double>() / drawing.size;
   return {{"quad", {{"corner", at}, {"edge_u", edge_u}, {"edge_v", edge_v}}}};

@@ -9,6 +9,7 @@
 
 #include "description/load.h"
 #include "io/error.h"
+#include "transport/render/choose_integrator.h"
 #include "transport/render/render.h"
 #include "validation/bench/soak/drawing.h"
 #include "validation/bench/soak/traps.h"
@@ -84,11 +85,32 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
                      samples / 3, samples - samples / 3, rays, whole.stats.rays);
 }
 
+// Of the values that a crop to the first quarter has.
+std::string difference_of_crop(const Scene& scene, const RenderResult& whole) {
+  RenderOptions options;
+  options.threads = 1;
+  const int width = (scene.camera.width + 1) / 2;
+  const int height = (scene.camera.height + 1) / 2;
+  options.crop = Crop{0, 0, width, height};
+  const Film film = render(scene, options).film;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.camera.width) +
+                         static_cast<std::size_t>(x);
+      for (int plane = 0; plane < film.channels(); ++plane)
+        if (film.mean(pixel, plane) != whole.film.mean(pixel, plane))
+          return fmt::format("plane {} of pixel ({}, {}) is {}, in a crop {}", plane, x, y,
+                             whole.film.mean(pixel, plane), film.mean(pixel, plane));
+    }
+  return "";
+}
+
 std::string failure_of(const Scene& scene, const RenderResult& whole, const DrawnScene& drawn) {
   if (whole.stats.nonfinite_samples > 0)
     return fmt::format("{} samples are not finite", whole.stats.nonfinite_samples);
   if (std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty()) return fault;
   if (std::string fault = difference_of_parts(scene, whole); !fault.empty()) return fault;
+  if (std::string fault = difference_of_crop(scene, whole); !fault.empty()) return fault;
   return traps_seen();
 }
 
@@ -97,10 +119,14 @@ RenderResult rendered(Scene& scene) {
   RenderOptions options;
   options.threads = 2;
   try {
+    const IntegratorChoice choice = choose_integrator(scene, options.threads);
+    scene.render.integrator = choice.integrator;
+    options.guides = choice.guides;
     return render(scene, options);
   } catch (const Error& error) {
     if (error.code != ErrorCode::scene) throw;
     scene.render.integrator = Integrator::path;
+    options.guides = {};
     return render(scene, options);
   }
 }

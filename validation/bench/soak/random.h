@@ -10,7 +10,8 @@
 namespace abbe::soak {
 
 /// The draws of a scene. The distributions of the standard library differ from one implementation to the
-/// next, so those below are written out: a seed means the same scene everywhere.
+/// next, so those below are written out, and no expression draws twice but lists in braces, which have an
+/// order: a seed means the same scene everywhere.
 using Random = std::mt19937_64;
 
 /// Uniform in [low, high).
@@ -21,6 +22,12 @@ inline double uniform(Random& random, double low, double high) {
 /// Uniform in the logarithm, in [low, high) with 0 < low.
 inline double decades(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
+}
+
+/// The same of either sign.
+inline double signed_decades(Random& random, double low, double high) {
+  const double size = decades(random, low, high);
+  return uniform(random, 0, 1) < 0.5 ? -size : size;
 }
 
 inline bool chance(Random& random, double probability) {

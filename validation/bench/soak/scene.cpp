@@ -20,7 +20,7 @@ void draw_place_of_all(Drawing& drawing) {
   drawing.unit_m = unit.metres;
   drawing.size = decades(random, 1e-2, 1e5);
   if (chance(random, 0.5))
-    for (double& x : drawing.middle) x = drawing.size * decades(random, 1e-3, 1e3) * one_of(random, {-1, 1});
+    for (double& x : drawing.middle) x = drawing.size * signed_decades(random, 1e-3, 1e3);
 }
 
 }  // namespace

@@ -44,9 +44,11 @@ Json octahedron(const Point& half) {
 Json rubble(Random& random, double half) {
   Json vertices = Json::array();
   const int count = integer(random, 3, 30);
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
+    const double flatness = decades(random, 1e-6, 1);
     vertices.push_back({half * uniform(random, -1, 1), half * uniform(random, -1, 1),
-                        half * uniform(random, -1, 1) * decades(random, 1e-6, 1)});
+                        half * flatness * uniform(random, -1, 1)});
+  }
   Json triangles = Json::array();
   for (int i = 0; i + 2 < count; ++i) triangles.push_back({i, i + 1, i + 2});
   if (chance(random, 0.5)) triangles.push_back(triangles.front());
