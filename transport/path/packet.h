@@ -49,6 +49,10 @@ inline void advance(PathPacket& packet, const SampledSpectrum& weight, const Sam
 inline void advance(PathPacket& packet, const BsdfSample& event) {
   advance(packet, event.weight, event.lane_pdf);
 }
+/// The share of a packet that an event keeps, the same whichever lane is the hero.
+[[nodiscard]] inline float kept_by(const BsdfSample& event) {
+  return event.weight.max() / event.lane_pdf.max();
+}
 /// Takes the polarisation of a packet that carries any through the same event, whose Mueller matrix is
 /// nothing where it depolarises; light travels along `travels` on that side of it on which the packet was.
 /// What the event leaves of unpolarised light becomes what it leaves of the packet's.

@@ -32,6 +32,9 @@ struct RecordedPath : Walk {
   float carried_at_start = 1;  ///< What roulette compares with.
   float eta_scale = 1;         ///< What refraction has taken off radiance, which counts as still there.
   bool stays = false;          ///< It has come to where its last vertex is, as floats tell places.
+
+  /// Its throughput over what it set out with.
+  [[nodiscard]] float carried() const { return packet.carried() * eta_scale / carried_at_start; }
 };
 
 /// Random walks whose vertices are kept for other techniques to join: of paths from the camera, which carry
@@ -130,9 +133,7 @@ class PathRecorder {
           {direction_pdf(scene_, path.vertices.back(), back(path), path.ray.direction), back_again(path)});
     return carried(path);
   }
-  [[nodiscard]] float carried(const RecordedPath& path) const {
-    return path.packet.carried() * path.eta_scale / path.carried_at_start;
-  }
+  [[nodiscard]] float carried(const RecordedPath& path) const { return path.carried(); }
   void resolve_connections() {}
 
  private:

@@ -26,6 +26,9 @@ struct Stretch {
   float lanes = 0;   ///< Sum of the lane densities at its origin, in the unit of the path's.
 };
 
+/// How many paths take each step together: as many as a near cache holds.
+inline constexpr std::uint32_t kPathsTogether = 64;
+
 /// A path of either direction under way: the ray it leaves its last vertex on, and all that is needed to go
 /// on from there.
 struct Walk {

@@ -13,8 +13,6 @@
 namespace abbe {
 namespace {
 
-constexpr std::uint64_t kStepBatch = 64;  // paths that take each step together
-
 // Calls `batch(caster, first, last)` for all paths, on that many threads, with a caster and a `Tracer` of
 // each.
 template <typename Tracer, typename Batch>
@@ -24,8 +22,8 @@ void trace_all(const Plan& plan, int threads, PassCounts& counts, const Batch& b
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     Tracer tracer(plan, caster);
-    for (std::uint64_t first = kStepBatch * next++; first < plan.photons; first = kStepBatch * next++)
-      batch(tracer, first, std::min(first + kStepBatch, plan.photons));
+    for (std::uint64_t first = kPathsTogether * next++; first < plan.photons; first = kPathsTogether * next++)
+      batch(tracer, first, std::min(first + kPathsTogether, plan.photons));
     const std::scoped_lock lock(mutex);
     counts.rays += caster.rays();
     counts.cut += caster.cut();
@@ -82,10 +80,10 @@ std::size_t bytes_of_light_paths(const Scene& scene) {
 
 PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, float time,
                             const LightNumbers& numbers, int threads, PassCounts& counts) {
-  std::vector<std::vector<Photon>> batches((plan.photons + kStepBatch - 1) / kStepBatch);
+  std::vector<std::vector<Photon>> batches((plan.photons + kPathsTogether - 1) / kPathsTogether);
   trace_all<PhotonTracer>(
       plan, threads, counts, [&](PhotonTracer& tracer, std::uint64_t first, std::uint64_t last) {
-        tracer.trace(numbers_of(numbers, first, last), packet, time, batches[first / kStepBatch]);
+        tracer.trace(numbers_of(numbers, first, last), packet, time, batches[first / kPathsTogether]);
       });
   std::vector<Photon> photons;  // in the order of their paths, whichever threads traced them
   for (const std::vector<Photon>& batch : batches) photons.insert(photons.end(), batch.begin(), batch.end());
@@ -94,10 +92,10 @@ PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, float ti
 
 LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float time, float radius,
                                const LightNumbers& numbers, int threads, PassCounts& counts) {
-  std::vector<std::vector<RecordedPath>> batches((plan.photons + kStepBatch - 1) / kStepBatch);
+  std::vector<std::vector<RecordedPath>> batches((plan.photons + kPathsTogether - 1) / kPathsTogether);
   trace_all<LightRecorder>(plan, threads, counts,
                            [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
-                             batches[first / kStepBatch] =
+                             batches[first / kPathsTogether] =
                                  std::move(recorder.record(numbers_of(numbers, first, last), packet, time));
                            });
   std::vector<RecordedPath> paths;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -58,9 +59,14 @@ std::optional<FilmShape> parse_shape(const std::string& text) {
                         as_int(4),
                         static_cast<std::uint64_t>((*n)[5]),
                         static_cast<std::uint32_t>((*n)[6])};
-  const bool possible = shape.width > 0 && shape.width <= kMaxImageEdge && shape.height > 0 &&
-                        shape.height <= kMaxImageEdge && shape.channels > 0 && shape.channels <= 1 << 14 &&
-                        shape.replicates > 0 && shape.replicates <= 1 << 14;
+  constexpr double kMostSums = 0x1p48;    // of which no machine holds the bytes
+  constexpr int kMostExponent = 1 << 10;  // of doubles, and so of values
+  const bool possible =
+      shape.width > 0 && shape.width <= kMaxImageEdge && shape.height > 0 && shape.height <= kMaxImageEdge &&
+      shape.channels > 0 && shape.channels <= 1 << 14 && shape.replicates > 0 &&
+      shape.replicates <= 1 << 14 &&
+      double{1} * shape.width * shape.height * shape.channels * shape.replicates <= kMostSums &&
+      std::abs(static_cast<std::int64_t>(shape.unit_exponent)) <= 2 * kMostExponent;
   return possible ? std::optional(shape) : std::nullopt;
 }
 

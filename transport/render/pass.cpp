@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::uint32_t kTile = 16;
 constexpr std::uint32_t kPhotonBatch = 4096;
-constexpr std::uint32_t kTogether = 64;  // photons that take each step together
 
 constexpr std::uint32_t pieces(std::uint64_t whole, std::uint32_t piece) {
   return static_cast<std::uint32_t>((whole + piece - 1) / piece);
@@ -371,8 +370,8 @@ void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     const Deposit deposit = splats_of(s, worker);
     worker.light_tracer.tell_apart(splats_apart(s, worker));
-    for (std::uint64_t first = begin; first < end; first += kTogether) {
-      take_photons(s, first, std::min<std::uint64_t>(first + kTogether, end), worker);
+    for (std::uint64_t first = begin; first < end; first += kPathsTogether) {
+      take_photons(s, first, std::min<std::uint64_t>(first + kPathsTogether, end), worker);
       worker.light_tracer.trace(worker.photons, deposit);
     }
   }

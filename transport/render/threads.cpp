@@ -20,7 +20,7 @@ void run_on_threads(int threads, const std::function<void()>& task) {
       task();
     } catch (...) {
       const std::scoped_lock lock(mutex);
-      failure = std::current_exception();
+      if (!failure) failure = std::current_exception();
     }
   };
   {

@@ -75,8 +75,8 @@ void BidirectionalTracer::trace(std::span<const PixelPair> samples, const LightP
 
 void BidirectionalTracer::trace(std::span<const PixelPair> samples, const Deposit& deposit) {
   deposit_ = &deposit;
-  for (std::size_t first = 0; first < samples.size(); first += kTogether)
-    trace_together(samples.subspan(first, std::min(kTogether, samples.size() - first)),
+  for (std::size_t first = 0; first < samples.size(); first += kPathsTogether)
+    trace_together(samples.subspan(first, std::min<std::size_t>(kPathsTogether, samples.size() - first)),
                    static_cast<std::uint32_t>(first));
 }
 

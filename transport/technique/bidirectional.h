@@ -65,9 +65,6 @@ class BidirectionalTracer {
   void trace(std::span<const PixelPair> samples, const LightPaths& from_lights, const Deposit& deposit);
 
  private:
-  // Samples whose paths take each step together.
-  static constexpr std::size_t kTogether = 64;
-
   void trace_together(std::span<const PixelPair> samples, std::uint32_t first);
   void join(std::uint32_t i);
   void meet(std::uint32_t i, const MetLight& met);

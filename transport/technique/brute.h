@@ -36,9 +36,7 @@ class BruteWalk {
                                                   const BsdfRandom& u) const;
   [[nodiscard]] bool follows(RecordedPath& /*path*/, const BsdfSample& /*event*/) const { return true; }
   [[nodiscard]] bool follows_within(const RecordedPath& /*path*/) const { return true; }
-  [[nodiscard]] float carried(const RecordedPath& path) const {
-    return path.packet.carried() * path.eta_scale / path.carried_at_start;
-  }
+  [[nodiscard]] float carried(const RecordedPath& path) const { return path.carried(); }
   void resolve_connections() {}
 };
 

@@ -58,7 +58,7 @@ class CausticPhotonTracer {
   [[nodiscard]] bool follows_within(const CausticPath& /*path*/) const { return false; }
   [[nodiscard]] float kept(const CausticPath& /*path*/, const SurfaceVertex& /*vertex*/,
                            const BsdfSample& event) const {
-    return event.weight.max() / event.lane_pdf.max();
+    return kept_by(event);
   }
   [[nodiscard]] float kept_within(const CausticPath& /*path*/) const { return 1; }
   [[nodiscard]] float carried(const CausticPath& path) const { return path.packet.carried(); }

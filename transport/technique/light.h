@@ -65,7 +65,7 @@ class LightTracer {
   // event itself keeps. Its ray has left by then.
   [[nodiscard]] float kept(const LightPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& event) {
     if (meter_ && (event.delta || owns_scattered(path))) run_into_meter(path, path.events + 1);
-    return event.weight.max() / event.lane_pdf.max();
+    return kept_by(event);
   }
   [[nodiscard]] float kept_within(const LightPath& path) {
     if (meter_ && owns_scattered(path)) run_into_meter(path, path.events + 1);

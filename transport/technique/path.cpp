@@ -43,8 +43,8 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
 // per lane, and exposed at the end of a path at once.
 void PathTracer::trace(std::span<const PixelSample> samples, const Deposit& deposit) {
   deposit_ = &deposit;
-  for (first_ = 0; first_ < samples.size(); first_ += kTogether)
-    trace_together(samples.subspan(first_, std::min<std::size_t>(kTogether, samples.size() - first_)));
+  for (first_ = 0; first_ < samples.size(); first_ += kPathsTogether)
+    trace_together(samples.subspan(first_, std::min<std::size_t>(kPathsTogether, samples.size() - first_)));
 }
 
 void PathTracer::trace_together(std::span<const PixelSample> samples) {

@@ -89,9 +89,6 @@ class PathTracer {
   void resolve_connections();
 
  private:
-  // Paths that take each step together: as many as a near cache holds.
-  static constexpr std::uint32_t kTogether = 64;
-
   // A light, a direction towards it from a point, if it can reach that, and the density of both.
   struct ChosenLight {
     std::uint32_t index;

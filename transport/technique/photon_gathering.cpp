@@ -49,12 +49,11 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
 // shutter passes then.
 void PhotonGatherer::trace(std::span<const PixelSample> samples, const PhotonCloud& cloud,
                            const GatherKernel& kernel, const Deposit& deposit) {
-  constexpr std::uint32_t kTogether = 64;
   cloud_ = &cloud;
   kernel_ = kernel;
   deposit_ = &deposit;
-  for (first_ = 0; first_ < samples.size(); first_ += kTogether)
-    trace_together(samples.subspan(first_, std::min<std::size_t>(kTogether, samples.size() - first_)));
+  for (first_ = 0; first_ < samples.size(); first_ += kPathsTogether)
+    trace_together(samples.subspan(first_, std::min<std::size_t>(kPathsTogether, samples.size() - first_)));
 }
 
 void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {

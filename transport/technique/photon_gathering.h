@@ -79,9 +79,7 @@ class PhotonGatherer {
     return carried(path);
   }
   [[nodiscard]] float kept_within(const GatherPath& path) const { return carried(path); }
-  [[nodiscard]] float carried(const GatherPath& path) const {
-    return path.packet.carried() * path.eta_scale / path.carried_at_start;
-  }
+  [[nodiscard]] float carried(const GatherPath& path) const { return path.carried(); }
   void resolve_connections() {}
 
  private:

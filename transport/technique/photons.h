@@ -59,12 +59,10 @@ class PhotonTracer {
   // As in light tracing, roulette goes by what the event keeps.
   [[nodiscard]] float kept(const RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
                            const BsdfSample& event) const {
-    return event.weight.max() / event.lane_pdf.max();
+    return kept_by(event);
   }
   [[nodiscard]] float kept_within(const RecordedPath& /*path*/) const { return 1; }
-  [[nodiscard]] float carried(const RecordedPath& path) const {
-    return path.packet.carried() / path.carried_at_start;
-  }
+  [[nodiscard]] float carried(const RecordedPath& path) const { return path.carried(); }
   void resolve_connections() {}
 
  private:
