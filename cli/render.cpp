@@ -117,15 +117,14 @@ abbe::RenderOptions how_to_render(const RenderOptions& options, const Scene& sce
   return how;
 }
 
-// A film has the samples that are asked for, and no others.
+// A film of so many samples has no others, though a range of them may be added to what is there.
 void require_no_more(const fs::path& path, const SampleRanges& held, const abbe::RenderOptions& how,
                      int samples) {
-  if (how.time_limit_s || how.target_error || held.empty()) return;
-  const SampleRange asked = how.samples.value_or(SampleRange{0, static_cast<std::uint64_t>(samples)});
-  if (held.front().first < asked.first || held.back().last > asked.last)
-    throw Error(ErrorCode::input, path.string(),
-                fmt::format("holds samples that are not asked for (got {}, allowed {})", to_text(held),
-                            to_text(SampleRanges{asked})));
+  const SampleRange asked{0, static_cast<std::uint64_t>(samples)};
+  if (how.time_limit_s || how.target_error || held.empty() || held.back().last <= asked.last) return;
+  throw Error(ErrorCode::input, path.string(),
+              fmt::format("holds samples that are not asked for (got {}, allowed {})", to_text(held),
+                          to_text(SampleRanges{asked})));
 }
 
 // What an earlier run left, if it is asked for and there is some.

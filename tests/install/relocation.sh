@@ -16,10 +16,10 @@ for file in share/man/man1/abbe.1.gz share/bash-completion/completions/abbe shar
 done
 zcat "$scratch/second place/share/man/man1/abbe.1.gz" | grep -q '^\.TH ABBE 1 ' || fail "the manual page is none"
 
-# Pictures need the module that lies beside the program; the film does not, nor does anything else.
-with_picture() { "$program" render "$data/scenes/furnace.json" --spp 2 --quiet -o "$scratch/film.exr" --display "$scratch/film.png"; }
+# Pictures other than PNGs need the module that lies beside the program; the film does not, nor does anything else.
+with_picture() { "$program" render "$data/scenes/furnace.json" --spp 2 --quiet -o "$scratch/film.exr" --display "$scratch/film.jpg"; }
 with_picture
-[ -s "$scratch/film.png" ] || fail "no picture"
+[ -s "$scratch/film.jpg" ] || fail "no picture"
 rm "$scratch/film.exr"
 mv "$scratch/second place/lib/abbe" "$scratch/modules"
 code=0

@@ -11,7 +11,10 @@ std::string_view name_of(Technique technique) {
 }
 
 std::vector<Technique> chosen_techniques(const Scene& scene) {
-  // Both lists have one order, but for `automatic`, which comes first.
+  // Both lists have one order, but for `automatic`, which comes first, and their words too.
+  constexpr auto kLast = static_cast<std::size_t>(Technique::adjoint_brute);
+  static_assert(static_cast<std::size_t>(Integrator::adjoint_brute) == kLast + 1);
+  static_assert(kIntegratorNames.size() == kLast + 2);
   if (scene.render.integrator != Integrator::automatic)
     return {static_cast<Technique>(static_cast<int>(scene.render.integrator) - 1)};
   if (scene.needs.light_tracing) return {Technique::path, Technique::light};

@@ -131,11 +131,11 @@ class Rendering {
     return round;
   }
 
-  // Of a pass that begins with that sample. What a path costs is not known, so where time decides the first
-  // passes are of one sample, one, two, four and so on.
+  // Of a pass that begins with that sample. What a path costs is not known, so where time alone decides the
+  // first passes are of one sample, one, two, four and so on; an error of so few would be none to stop by.
   [[nodiscard]] std::uint64_t end_of_pass(std::uint64_t first) const {
     const std::uint64_t end = (first / step_ + 1) * step_;
-    if (!options_.time_limit_s) return end;
+    if (!options_.time_limit_s || options_.target_error) return end;
     return std::min(end, first + std::max<std::uint64_t>(1, first - wanted_.first));
   }
 

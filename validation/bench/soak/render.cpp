@@ -50,8 +50,10 @@ void draw_render(Drawing& drawing) {
   if (chance(random, 0.1)) render["polarisation"] = "off";
   render["seed"] = integer(random, 0, 1 << 30);
   const bool plays = chance(random, 0.8);
-  if (!plays || chance(random, 0.5))
-    render["max_depth"] = static_cast<int>(decades(random, 1, plays ? 1000 : 60));
+  // Joining two paths of n events takes n^3 steps.
+  const bool joins = integrator == "bdpt" || integrator == "vcm";
+  if (joins || !plays || chance(random, 0.5))
+    render["max_depth"] = static_cast<int>(decades(random, 1, plays && !joins ? 1000 : 60));
   render["roulette_depth"] = plays ? integer(random, 0, 12) : -1;
 }
 
