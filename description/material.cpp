@@ -15,7 +15,8 @@ Material build_material(const schema::Named<spec::Material>& said, LoadContext& 
   if (auto model = build_model(said.value, context)) material.model = *std::move(model);
   if (const auto& priority = said.value.priority) {
     if (interior(material) == nullptr)
-      context.diagnostics.error(priority->where, "a priority goes with matter behind an interface, which a medium has none of");
+      context.diagnostics.error(
+          priority->where, "a priority goes with matter behind an interface, which a medium has none of");
     material.priority = priority->value;
   }
   if (const auto* normals = std::get_if<spec::NormalMap>(&said.value.relief))
