@@ -83,8 +83,9 @@ std::optional<double> cost_ratio(const Plan& apart, const Scene& other, const Ot
     const PilotFindings by_paths = try_techniques(apart, threads, pixels);
     const PilotFindings by_other = try_techniques(plan, threads, pixels);
     rays_per_pixel = static_cast<double>(by_paths.rays + by_other.rays) / pixels;
-    if (pixels == kFirst) continue;
-    ratio = cost_apart(by_paths, by_other) / way.cost(by_other);
+    const double cost = way.cost(by_other);
+    if (pixels == kFirst || !(cost > 0)) continue;
+    ratio = cost_apart(by_paths, by_other) / cost;
     if (!(*ratio > kPlain)) break;
   }
   return ratio && std::isfinite(*ratio) ? ratio : std::nullopt;
