@@ -120,11 +120,11 @@ abbe::RenderOptions how_to_render(const RenderOptions& options, const Scene& sce
 // A film of so many samples has no others, though a range of them may be added to what is there.
 void require_no_more(const fs::path& path, const SampleRanges& held, const abbe::RenderOptions& how,
                      int samples) {
-  const SampleRange asked{0, static_cast<std::uint64_t>(samples)};
-  if (how.time_limit_s || how.target_error || held.empty() || held.back().last <= asked.last) return;
+  const SampleRanges asked{{0, static_cast<std::uint64_t>(samples)}};
+  if (how.time_limit_s || how.target_error || held.empty() || held.back().last <= asked.back().last) return;
   throw Error(ErrorCode::input, path.string(),
               fmt::format("holds samples that are not asked for (got {}, allowed {})", to_text(held),
-                          to_text(SampleRanges{asked})));
+                          to_text(asked)));
 }
 
 // What an earlier run left, if it is asked for and there is some.

@@ -188,7 +188,8 @@ Fields fields(Tag<Material>) {
               under<Retroreflector>("retroreflector"), under<Polariser>("polariser"),
               under<WavePlate>("wave_plate"), under<Depolariser>("depolariser")),
        field("priority", &Material::priority, {-1000, 1000},
-             "Of the matter behind an interface, 0 when absent: where shapes overlap, that of the highest priority is "
+             "Of the matter behind an interface, 0 when absent: where shapes overlap, that of the highest "
+             "priority is "
              "there, of equals the one that light enters last."),
        at_most_one(&Material::relief, "a material has a normal_map or a bump_map",
                    under<NormalMap>("normal_map"), under<BumpMap>("bump_map"))});

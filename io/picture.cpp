@@ -61,7 +61,7 @@ std::string display_bytes(const std::filesystem::path& path, const Image& image)
   PictureHeader header = described(path, image, channels);
   // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
   // memory.
-  if (!is_tiff(path)) header.metadata["oiio:ColorSpace"] = "sRGB";
+  if (!is_tiff(path)) header.metadata[kColorSpace] = "sRGB";
   return encode(path, header, interleaved(image, channels, code_value));
 }
 
@@ -94,7 +94,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
                 "a file of this kind holds one plane or three (got " + std::to_string(channels) +
                     ", allowed any number in a .tif)");
   PictureHeader header = described(path, image, channels);
-  if (!is_tiff(path)) header.metadata["oiio:ColorSpace"] = "Linear";  // without which PNG means sRGB
+  if (!is_tiff(path)) header.metadata[kColorSpace] = "Linear";  // without which PNG means sRGB
   write_atomically(path, encode(path, header, interleaved(image, channels, whole_number)));
 }
 

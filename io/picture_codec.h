@@ -19,6 +19,9 @@ struct PictureHeader {
   std::map<std::string, std::string> metadata;  ///< Attributes that are texts, by OpenImageIO's names.
 };
 
+/// The attribute that says how a picture's codes are to be read, "sRGB" or "Linear".
+inline constexpr const char* kColorSpace = "oiio:ColorSpace";
+
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;
 

@@ -11,8 +11,6 @@
 namespace abbe {
 namespace {
 
-constexpr const char* kColorSpace = "oiio:ColorSpace";
-
 // What libpng works with, and what it said when it gave up.
 struct Png {
   png_structp write = nullptr;

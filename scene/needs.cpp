@@ -95,7 +95,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
     const RefractiveIndex* inside = interior(material);
     require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
     const Medium* filling = medium(material);
-    needs.matter = needs.matter || inside != nullptr || filling != nullptr;
+    needs.matter = needs.matter || encloses_medium(material);
     const bool absorbing = (inside != nullptr && inside->absorbing()) || (filling && filling->absorbs());
     const bool turbid = filling != nullptr && filling->scatters();
     require(needs, &Needs::media, absorbing, "shape", instance.name);

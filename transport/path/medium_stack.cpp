@@ -14,8 +14,7 @@ namespace abbe {
 namespace {
 
 bool filled(const Scene& scene, std::uint32_t shape) {
-  const Material& material = scene.materials[scene.shapes[shape].material];
-  return interior(material) != nullptr || medium(material) != nullptr;
+  return encloses_medium(scene.materials[scene.shapes[shape].material]);
 }
 
 // How often more a ray leaves a shape than it enters it, and where it does so last.

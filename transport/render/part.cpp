@@ -52,21 +52,17 @@ std::optional<FilmShape> parse_shape(const std::string& text) {
   if (!n || *std::max_element(n->begin(), n->begin() + 5) > std::numeric_limits<int>::max())
     return std::nullopt;
   const auto as_int = [&n](std::size_t i) { return static_cast<int>((*n)[i]); };
-  const FilmShape shape{as_int(0),
-                        as_int(1),
-                        as_int(2),
-                        as_int(3),
-                        as_int(4),
-                        static_cast<std::uint64_t>((*n)[5]),
-                        static_cast<std::uint32_t>((*n)[6])};
-  constexpr double kMostSums = 0x1p48;    // of which no machine holds the bytes
-  constexpr int kMostExponent = 1 << 10;  // of doubles, and so of values
+  const auto photons = static_cast<std::uint64_t>((*n)[5]);
+  const auto interval = static_cast<std::uint32_t>((*n)[6]);
+  const FilmShape shape{as_int(0), as_int(1), as_int(2), as_int(3), as_int(4), photons, interval};
+  constexpr double kMostSums = 0x1p48;  // of which no machine holds the bytes
+  constexpr int kMostExponent = 2048;   // of what doubles hold, and the digits below
+  const auto up_to = [](int number, int most) { return number > 0 && number <= most; };
   const bool possible =
-      shape.width > 0 && shape.width <= kMaxImageEdge && shape.height > 0 && shape.height <= kMaxImageEdge &&
-      shape.channels > 0 && shape.channels <= 1 << 14 && shape.replicates > 0 &&
-      shape.replicates <= 1 << 14 &&
+      up_to(shape.width, kMaxImageEdge) && up_to(shape.height, kMaxImageEdge) &&
+      up_to(shape.channels, 1 << 14) && up_to(shape.replicates, 1 << 14) &&
       double{1} * shape.width * shape.height * shape.channels * shape.replicates <= kMostSums &&
-      std::abs(static_cast<std::int64_t>(shape.unit_exponent)) <= 2 * kMostExponent;
+      std::abs((*n)[4]) <= kMostExponent;
   return possible ? std::optional(shape) : std::nullopt;
 }
 

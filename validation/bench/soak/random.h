@@ -24,14 +24,14 @@ inline double decades(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
 
-/// The same of either sign.
-inline double signed_decades(Random& random, double low, double high) {
-  const double size = decades(random, low, high);
-  return uniform(random, 0, 1) < 0.5 ? -size : size;
-}
-
 inline bool chance(Random& random, double probability) {
   return uniform(random, 0, 1) < probability;
+}
+
+/// As `decades`, of either sign.
+inline double signed_decades(Random& random, double low, double high) {
+  const double size = decades(random, low, high);
+  return chance(random, 0.5) ? -size : size;
 }
 
 /// Uniform in [low, high], both included.
