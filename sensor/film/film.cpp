@@ -94,8 +94,11 @@ Int128 to_fixed(double value, int unit_exponent) {
   return mantissa >= 0 ? (mantissa + half) >> -shift : -((-mantissa + half) >> -shift);
 }
 
+// The power of two is written into a number's bits where it has them: films ask for millions of values.
 double from_fixed(Int128 fixed, int unit_exponent) {
-  return std::ldexp(static_cast<double>(fixed), unit_exponent);
+  const auto mantissa = static_cast<double>(fixed);
+  if (unit_exponent < -1022 || unit_exponent > 1023) return std::ldexp(mantissa, unit_exponent);
+  return mantissa * std::bit_cast<double>(static_cast<std::uint64_t>(unit_exponent + 1023) << 52);
 }
 
 Film::Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons,

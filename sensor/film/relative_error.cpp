@@ -82,27 +82,26 @@ Histogram first_guess(const Histogram& seen, const Histogram& spread) {
   return guess;
 }
 
-// One round: each step's share times the mean, over what it spreads to, of seen over expected.
+// One round: each step's share times the mean, over what it spreads to, of seen over expected. The steps of
+// the spread are the outer loop, so that the inner one runs along arrays.
 void improve(Histogram& guess, const Histogram& seen, const Histogram& spread) {
   const std::ptrdiff_t n = guess.size();
-  const auto each = [&](std::ptrdiff_t from, auto visit) {  // of the steps that `from` spreads to
-    const std::ptrdiff_t last = std::min(n - 1, from + spread.first + spread.size() - 1);
-    for (std::ptrdiff_t to = std::max<std::ptrdiff_t>(0, from + spread.first); to <= last; ++to)
-      visit(static_cast<std::size_t>(to), spread.share[static_cast<std::size_t>(to - from - spread.first)]);
+  const auto each = [&](std::ptrdiff_t k, auto visit) {  // of the steps that spread by the kth of `spread`
+    const std::ptrdiff_t by = spread.first + k;
+    const double p = spread.share[static_cast<std::size_t>(k)];
+    const std::ptrdiff_t last = std::min(n, n - by);
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, -by); j < last; ++j)
+      visit(static_cast<std::size_t>(j), static_cast<std::size_t>(j + by), p);
   };
-  std::vector<double> expected(guess.share.size(), 0.0);
-  for (std::ptrdiff_t j = 0; j < n; ++j)
-    each(j, [&, share = guess.share[static_cast<std::size_t>(j)]](std::size_t i, double p) {
-      expected[i] += p * share;
-    });
-  std::vector<double> ratio(expected.size());
-  for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] = expected[i] > 0 ? seen.share[i] / expected[i] : 0;
+  std::vector<double> ratio(guess.share.size());
+  std::vector<double> mean(guess.share.size());
+  for (std::ptrdiff_t k = spread.size(); k-- > 0;)
+    each(k, [&](std::size_t j, std::size_t to, double p) { ratio[to] += p * guess.share[j]; });
+  for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] = ratio[i] > 0 ? seen.share[i] / ratio[i] : 0;
+  for (std::ptrdiff_t k = 0; k < spread.size(); ++k)
+    each(k, [&](std::size_t j, std::size_t to, double p) { mean[j] += p * ratio[to]; });
   double sum = 0;
-  for (std::ptrdiff_t j = 0; j < n; ++j) {
-    double mean = 0;
-    each(j, [&](std::size_t i, double p) { mean += p * ratio[i]; });
-    sum += guess.share[static_cast<std::size_t>(j)] *= mean;
-  }
+  for (std::size_t j = 0; j < mean.size(); ++j) sum += guess.share[j] *= mean[j];
   for (double& share : guess.share) share /= sum;
 }
 

@@ -88,7 +88,7 @@ class Rendering {
     stats.threads = threads_;
     stats.processes = options_.crew.size;
     if (!leads()) forget();
-    if (leads() && !result_.unfinished && look_is_due()) look_at_error();
+    if (leads() && !result_.unfinished && look_is_due() && asks_for_error()) look_at_error();
   }
 
   RenderResult run() {
@@ -100,7 +100,7 @@ class Rendering {
     }
     collect();
     RenderStats& stats = result_.stats;
-    if (leads() && (asks_for_error() || options_.measure_error)) stats.error = error_now();
+    if (leads() && (asks_for_error() || options_.measure_error) && looked_at_ != samples()) look_at_error();
     stats.wall_s = elapsed();
     stats.cpu_s = cpu_of_all();
     if (options_.measure_replay) stats.embree_replay_share = measure_replay_share(plan_);
@@ -214,20 +214,23 @@ class Rendering {
             result_.layers ? &*result_.layers : nullptr};
   }
 
-  // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
-  // and known once every replicate has some. When depends on nothing but the number of samples, so that a
-  // render goes on after an interruption as it would have without.
+  // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so
+  // where it may end the render, by as many where it is only told, and known once every replicate has some.
+  // When depends on nothing but the number of samples, so that a render goes on after an interruption as it
+  // would have without.
   [[nodiscard]] bool look_is_due(std::uint64_t samples) const {
     if (samples < static_cast<std::uint64_t>(result_.film.replicates())) return false;
-    const auto stage = [](std::uint64_t n) {
-      return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
+    const double growth = options_.target_error ? 1.25 : 2;
+    const auto stage = [growth](std::uint64_t n) {
+      return std::floor(std::log(static_cast<double>(n)) / std::log(growth));
     };
     const std::uint64_t before = (samples - 1) / step_ * step_;
     return before == 0 || stage(before) != stage(samples);
   }
   [[nodiscard]] bool look_is_due() const { return look_is_due(samples()); }
   void look_at_error() {
-    if (asks_for_error()) result_.stats.error = error_now();
+    result_.stats.error = error_now();
+    looked_at_ = samples();
   }
 
   [[nodiscard]] bool asks_for_error() const { return options_.progress || options_.target_error; }
@@ -295,6 +298,7 @@ class Rendering {
   std::uint64_t step_;
   RenderResult result_;
   std::optional<std::vector<std::size_t>> lit_;  // once asked for
+  std::uint64_t looked_at_ = 0;                  // how many samples the film had then
   double last_save_s_ = 0;
   double saving_s_ = 0;
   bool saved_at_stop_ = false;
