@@ -22,12 +22,12 @@ Plan unlearnt(Plan plan) {
   return plan;
 }
 
-// By how much the mean squared error is less, relative to a reference that both share.
-// At night of three times as many samples.
+// By how much the mean squared error is less, relative to a reference that both share. At night of more
+// samples.
 template <typename PictureOf>
 double gain(const Scene& scene, const Plan& plan, const PictureOf& picture_of) {
   const int samples = test::nightly() ? 48 : 16;
-  const Image reference = picture_of(test::film_of(scene, plan, 4 * samples));
+  const Image reference = picture_of(test::film_of(scene, plan, test::nightly() ? 256 : 64));
   const double before = rel_mse(picture_of(test::film_of(scene, unlearnt(plan), samples, 1)), reference);
   const double after = rel_mse(picture_of(test::film_of(scene, plan, samples, 2)), reference);
   std::printf("error %.3f times less\n", before / after);

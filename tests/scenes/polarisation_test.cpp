@@ -3,7 +3,6 @@
 
 #include "materials/interface/fresnel.h"
 #include "tests/scenes/polarised_scene.h"
-#include "tests/tier.h"
 
 namespace abbe::test {
 namespace {
@@ -204,9 +203,7 @@ TEST(Polarisation, AirSeenBySingleScattering) {
   }
 }
 
-// At night of four times as many samples.
 TEST(Polarisation, FilmsOfStokesVectorsAreTheSameByEveryIntegrator) {
-  const int more = nightly() ? 4 : 1;
   const auto seen = [](const char* integrator, int samples) {
     return render(load_text(hall(""),
                             {{"/render/integrator", integrator},
@@ -218,8 +215,8 @@ TEST(Polarisation, FilmsOfStokesVectorsAreTheSameByEveryIntegrator) {
   };
   const Film path = seen("path", 2048);
   for (const auto& [integrator, samples] :
-       {std::pair("light", 512), {"bdpt", 64}, {"vcm", 64}, {"sppm", 128}, {"adjoint-brute", 512}}) {
-    const Comparison c = compare_regions(path, seen(integrator, samples * more), 2);
+       {std::pair("light", 2048), {"bdpt", 256}, {"vcm", 256}, {"sppm", 512}, {"adjoint-brute", 2048}}) {
+    const Comparison c = compare_regions(path, seen(integrator, samples), 2);
     std::printf("%s: largest z %.2f\n", integrator, c.largest_z);
     EXPECT_LT(c.largest_z, 5.5) << integrator;
   }

@@ -20,6 +20,14 @@ TEST(FixedPoint, RoundTripsDoublesExactlyAboveItsUnit) {
   EXPECT_EQ(to_fixed(0.0, -80), 0);
 }
 
+// Where doubles hold the unit, where they have it among the subnormal numbers, and where they do not have it.
+TEST(FixedPoint, IsAMultipleOfAnyUnit) {
+  const Int128 many = (static_cast<Int128>(0x123456789abcdef) << 60) + 1;
+  for (const int exponent : {-1200, -1100, -1074, -1023, -1022, -1021, -80, 0, 900, 1023, 1024})
+    for (const Int128 fixed : {Int128{0}, Int128{1}, Int128{-3}, many, -many})
+      EXPECT_EQ(from_fixed(fixed, exponent), std::ldexp(static_cast<double>(fixed), exponent)) << exponent;
+}
+
 TEST(FixedPoint, RoundsToTheNearestUnit) {
   EXPECT_EQ(to_fixed(2.5, 0), 3);
   EXPECT_EQ(to_fixed(-2.5, 0), -3);

@@ -10,10 +10,10 @@ std::string soak(const std::string& paths, const std::string& seed, const std::s
 }
 
 TEST(Soak, NothingGoesWrongInDrawnScenes) {
-  const Outcome run = abbe(soak("100000", "1", "fine"));
+  const Outcome run = abbe(soak("300000", "1", "fine"));
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_GE(run.json()["paths"], 100000);
-  EXPECT_GE(run.json()["scenes"], 2);
+  EXPECT_GE(run.json()["paths"], 300000);
+  EXPECT_GE(run.json()["scenes"], 5);
   EXPECT_EQ(run.json()["failures"], 0);
   EXPECT_TRUE(std::filesystem::is_empty(scratch() / "fine"));
 }

@@ -214,15 +214,13 @@ class Rendering {
             result_.layers ? &*result_.layers : nullptr};
   }
 
-  // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so
-  // where it may end the render, by as many where it is only told, and known once every replicate has some.
-  // When depends on nothing but the number of samples, so that a render goes on after an interruption as it
-  // would have without.
+  // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
+  // and known once every replicate has some. When depends on nothing but the number of samples, so that a
+  // render goes on after an interruption as it would have without.
   [[nodiscard]] bool look_is_due(std::uint64_t samples) const {
     if (samples < static_cast<std::uint64_t>(result_.film.replicates())) return false;
-    const double growth = options_.target_error ? 1.25 : 2;
-    const auto stage = [growth](std::uint64_t n) {
-      return std::floor(std::log(static_cast<double>(n)) / std::log(growth));
+    const auto stage = [](std::uint64_t n) {
+      return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
     };
     const std::uint64_t before = (samples - 1) / step_ * step_;
     return before == 0 || stage(before) != stage(samples);
@@ -298,7 +296,7 @@ class Rendering {
   std::uint64_t step_;
   RenderResult result_;
   std::optional<std::vector<std::size_t>> lit_;  // once asked for
-  std::uint64_t looked_at_ = 0;                  // how many samples the film had then
+  std::uint64_t looked_at_ = 0;                  // samples of the film whose error was worked out last
   double last_save_s_ = 0;
   double saving_s_ = 0;
   bool saved_at_stop_ = false;
