@@ -101,6 +101,17 @@ template <typename Visitor>
       bsdf);
 }
 
+/// The density of a delta event of `bsdf`, lane by lane, that is the same whichever of its two ways light
+/// takes: its probability. Films that absorb let light through with a probability that depends on the side it
+/// comes from; the transmittance, which does not, stands there for both. `squared_eta` is the square of the
+/// index it goes on in over that it came in.
+[[nodiscard]] inline SampledSpectrum delta_density(const Bsdf& bsdf, const BsdfSample& event,
+                                                   float squared_eta, TransportMode mode) {
+  if (event.transmitted && std::holds_alternative<CoatedDielectricBsdf>(bsdf))
+    return event.weight * (event.pdf * (mode == TransportMode::radiance ? squared_eta : 1));
+  return event.lane_pdf * event.pdf;
+}
+
 /// Whether light may leave in more than single directions, so that connecting to lights pays.
 [[nodiscard]] inline bool scatters(const Bsdf& bsdf) {
   return visit_model([]<typename Model>(const Model&) { return Model::kScatters; }, bsdf);

@@ -31,13 +31,4 @@ struct BsdfSample {
   bool dispersive = false;  ///< wi depends on wavelength: only the hero follows.
 };
 
-/// The share of the light that a delta event leads on, lane by lane, whichever of its two ways light takes:
-/// the probability of a reflection, the transmittance of what is let through. `squared_eta` is the square of
-/// the index it goes on in over that it came in.
-[[nodiscard]] inline SampledSpectrum delta_share(const BsdfSample& event, float squared_eta,
-                                                 TransportMode mode) {
-  if (!event.transmitted) return event.lane_pdf * event.pdf;
-  return event.weight * (event.pdf * (mode == TransportMode::radiance ? squared_eta : 1));
-}
-
 }  // namespace abbe

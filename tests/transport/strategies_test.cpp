@@ -2,6 +2,7 @@
 // the same.
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <span>
 
 #include "scene/lights/emission.h"
@@ -20,7 +21,7 @@ using Imath::V3f;
 constexpr std::uint32_t kCount = 1 << 15;
 constexpr std::uint32_t kBatch = 1 << 10;
 
-enum class Filling { nothing, fog, glass, gold, sky };
+enum class Filling { nothing, fog, glass, gold, sky, filter };
 
 struct Look {
   Camera camera;
@@ -29,7 +30,8 @@ struct Look {
 
 // A coloured wall, a rough golden panel and a lamp, all apart from one another. A ball of fog that scatters
 // and absorbs unevenly may hang before the wall, or one of gold; one of glass that disperses may stick in the
-// wall; or there are a sky, a wide sun and a small lamp as well.
+// wall; there are a sky, a wide sun and a small lamp as well; or before all that is seen a plate lets few
+// wavelengths pass.
 Scene room(const Look& look) {
   Scene scene{};
   scene.camera = look.camera;
@@ -51,6 +53,10 @@ Scene room(const Look& look) {
         {"glass", DielectricMaterial{"glass", RefractiveIndex(Curve({{300, 1.7}, {1100, 1.4}}), Curve(),
                                                               IndexMedium::air, 300, 1100)}});
     scene.shapes.push_back({"ball", Sphere{{0, -1.4, 4}, 1.4}, 2});
+  }
+  if (look.filling == Filling::filter) {
+    scene.materials.push_back({"plate", DepolariserMaterial{{band(540, 560, 0.9)}}});
+    scene.shapes.push_back({"plate", Quad{{-1.8, -1.8, 2.4}, {0, 3.6, 0}, {3.6, 0, 0}}, 2});
   }
   if (look.filling == Filling::gold) scene.shapes.push_back({"ball", Sphere{{0, 0, 2.4}, 1}, 1});
   if (look.filling == Filling::fog) {
@@ -219,13 +225,14 @@ Estimate found_bidirectionally(const Scene& scene) {
 }
 
 // Weighed over all of them by the densities that are stored, they add up to what path tracing finds: of paths
-// of any number of events, through fog and glass, off gold, of lights of all kinds, and into a meter, which
-// no photon is connected to. Where path tracing is at its best, the others' share of the weight costs little.
+// of any number of events, through fog, glass and a filter, off gold, of lights of all kinds, and into a
+// meter, which no photon is connected to. Where path tracing is at its best, the others' share of the weight
+// costs little.
 class BalancedStrategies : public testing::TestWithParam<Filling> {};
 
 TEST_P(BalancedStrategies, AddUp) {
   for (const Camera& camera : {kPinhole, kLens, kMeter})
-    for (const int events : {1, 4}) {
+    for (const int events : {GetParam() == Filling::filter ? 2 : 1, 4}) {
       SCOPED_TRACE(testing::Message() << events << " events");
       Scene scene = room({camera, GetParam()});
       scene.render.max_depth = events;
@@ -240,7 +247,30 @@ TEST_P(BalancedStrategies, AddUp) {
 
 INSTANTIATE_TEST_SUITE_P(Fillings, BalancedStrategies,
                          testing::Values(Filling::nothing, Filling::fog, Filling::glass, Filling::gold,
-                                         Filling::sky));
+                                         Filling::sky, Filling::filter));
+
+// As at the rim of a narrow sun, which a direction drawn within may miss when it is rounded.
+TEST(StrategyWeights, WhatIsDrawnWithNoDensityWeighsNothing) {
+  const Scene scene = room({kPinhole, Filling::nothing});
+  RayCaster caster(scene);
+  const Plan plan = make_plan(scene);
+  PathRecorder<TransportMode::radiance> recorder(scene, caster);
+  recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, 0}, 0));
+  recorder.run();
+  const std::vector<PathVertex>& x = recorder.paths().front().vertices;
+  const auto light = light_for(plan, x.at(1), {0.5F, 0.5F, 0.5F, 0.5F});
+  ASSERT_TRUE(light);
+  const JoinedPath path{.z = {&x[0], &x[1], &*light}, .t = 2};
+  StrategyWeights weights(scene, caster);
+  EndDensities ends = end_densities(plan, x[1], *light);
+  EXPECT_GT(weights.of(path, ends), 0);
+  EXPECT_GT(weights.by_path_tracing(), 0);
+  ends.light_connection = 0;
+  std::feclearexcept(FE_ALL_EXCEPT);
+  EXPECT_EQ(weights.of(path, ends), 0);
+  EXPECT_EQ(weights.by_path_tracing(), 0);
+  EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
+}
 
 // A path that glass refracts or mirrors has the same densities whichever end records it.
 TEST(RecordedPaths, SingleDirectionsAreAsDenseFromEitherEnd) {

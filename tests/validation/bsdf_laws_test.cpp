@@ -283,8 +283,8 @@ TYPED_TEST(BsdfLaws, SingleDirectionsMayBeReversed) {
         const float n = back->transmitted ? index_inside(bsdf, hero) : 1;
         const float squared_eta = there->wi.z > 0 ? n * n : 1 / (n * n);
         const auto seen = sample(bsdf, there->wi, {lobe, {0, 0}}, hero, TransportMode::radiance);
-        const SampledSpectrum a = delta_share(*there, 1, TransportMode::power);
-        const SampledSpectrum b = delta_share(*seen, squared_eta, TransportMode::radiance);
+        const SampledSpectrum a = delta_density(bsdf, *there, 1, TransportMode::power);
+        const SampledSpectrum b = delta_density(bsdf, *seen, squared_eta, TransportMode::radiance);
         for (int lane = 0; lane < kLanes; ++lane) EXPECT_NEAR(a[lane], b[lane], 2e-5) << lane;
         break;
       }

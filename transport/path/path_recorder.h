@@ -46,10 +46,9 @@ struct RecordedPath : Walk {
 /// `pass` being the density of coming through the matter between, and in matter that of an event there,
 /// e^(-depth) s_k with the extinction s_k. [Veach1997, sec. 10.2]
 ///
-/// Of a single direction p is the event's share of the light, the same both ways: the probability of a
-/// reflection, the transmittance of what is let through. It is the factor of a Dirac distribution over the
-/// directions towards the light. The distribution over those towards the camera, which a path from there
-/// would draw back, is as dense times
+/// Of a single direction p is the event's `delta_density`, the same both ways. It is the factor of a Dirac
+/// distribution over the directions towards the light. The distribution over those towards the camera, which
+/// a path from there would draw back, is as dense times
 ///     dw_light/dw_camera = (n_c^2 |cos_c|)/(n_l^2 |cos_l|),
 /// so that the densities of all ways in which a path may come about are in one measure.
 template <TransportMode mode>
@@ -80,11 +79,11 @@ class PathRecorder {
                                                  int hero) {
     const float eta2 = vertex.squared_eta(event, hero);
     const float cosines = std::abs(vertex.wo.z / event.wi.z);
-    const SampledSpectrum share = delta_share(event, eta2, mode);
+    const SampledSpectrum density = delta_density(vertex.bsdf, event, eta2, mode);
     if constexpr (mode == TransportMode::radiance)
-      return {share, share * (cosines / eta2)};
+      return {density, density * (cosines / eta2)};
     else
-      return {share * (eta2 / cosines), share};
+      return {density * (eta2 / cosines), density};
   }
 
   // What RandomWalks asks.

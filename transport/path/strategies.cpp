@@ -94,18 +94,21 @@ float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
   // Everything over the hero's density of the strategy in hand. First what the light makes of z_t' ... z_k,
   at_.resize(last + 1);
   from_light_.assign(last + 2, SampledSpectrum(1.0F));
+  sum_ = own_ = SampledSpectrum();
   for (std::size_t i = last; i > 0; --i) {
     Densities& at = at_[i];
     at.by_camera = by_camera(path, i);
     at.by_light = by_light(path, ends, i);
     at.ours = i < path.t ? at.by_camera[hero] : at.by_light[hero];
     if (i == last && path.t == last && path.merged == nullptr) at.ours = ends.light_connection;
+    // What was drawn on the rim of a lamp's cone, or left for what is far, may be nothing that the lamp
+    // sends.
+    if (!(at.ours > 0)) return 0;
     from_light_[i] = from_light_[i + 1] * at.by_light * (1 / at.ours);
   }
   // then, strategy by strategy, times what the camera makes of z_1 ... z_{t'-1}.
   const SampledSpectrum connected(ends.light_connection / at_[last].ours);
   SampledSpectrum from_camera(1.0F);
-  sum_ = own_ = SampledSpectrum();
   for (std::size_t t = 1; t <= last + 1; ++t) {
     if (const float n = count(path, ends, t); n > 0) {
       const SampledSpectrum density = from_camera * (t == last ? connected : from_light_[t]) * n;
