@@ -178,8 +178,10 @@ void moving_occluded(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
-SurfaceHit surface_hit(const ShapeHit<double>& hit, std::uint32_t shape, std::uint32_t primitive) {
-  return {Imath::V3f(hit.point), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape, primitive};
+SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray, std::uint32_t shape,
+                       std::uint32_t primitive) {
+  return {rounded_back(hit.point, ray.direction), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape,
+          primitive};
 }
 
 // Of barycentric coordinates: well beyond what points keep off edges, in all but the smallest triangles.
@@ -208,10 +210,10 @@ std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit
   if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
     point += shift_in_world(set, hit, at, local, t, Imath::V3f(point));
   if (instance == nullptr)
-    return SurfaceHit{Imath::V3f(point), set.normals[hit.primID], static_cast<float>(t), hit.geomID,
-                      hit.primID};
+    return SurfaceHit{rounded_back(point, ray.direction), set.normals[hit.primID], static_cast<float>(t),
+                      hit.geomID, hit.primID};
   const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
-  return surface_hit({t, point, normal_to_world(*at, normal)}, hit.instID[0], hit.primID);
+  return surface_hit({t, point, normal_to_world(*at, normal)}, ray, hit.instID[0], hit.primID);
 }
 
 [[gnu::noinline]] std::optional<SurfaceHit> moving_triangle_hit(const TriangleSet& set, const RTCHit& hit,
@@ -276,8 +278,8 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
   const auto* instance = std::get_if<SceneInstance>(&attached);
   const auto* set = instance == nullptr ? std::get_if<TriangleSet>(&attached)
                                         : std::get_if<TriangleSet>(&instance->of->geometry);
-  if (set == nullptr) return surface_hit(context.nearest[number], shape, 0);
   const BasicRay<double>& ray = context.rays[number];
+  if (set == nullptr) return surface_hit(context.nearest[number], ray, shape, 0);
   const Placement* at = instance == nullptr ? nullptr : instance->at.get();
   return at != nullptr && at->motion ? moving_triangle_hit(*set, hit, *instance, ray)
                                      : triangle_hit(*set, hit, instance, at, ray);

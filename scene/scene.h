@@ -133,6 +133,19 @@ struct SurfaceHit {
   return spawn(hit.point + hit.normal * clear, hit.normal, direction, time);
 }
 
+/// The same of a ray that came there from the unit direction `from`. One that leaves to the side it came from
+/// starts a few floats back on its way as well, twice as many: where surfaces meet, rounding may have taken
+/// the further one for the nearer, and the ray beyond that.
+[[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& from, const Imath::V3f& direction,
+                               float time) {
+  Ray ray = spawn(hit, direction, time);
+  if (!(hit.normal.dot(from) * hit.normal.dot(direction) > 0)) return ray;
+  const float back = std::min(2 * kOffsetSteps * largest_coordinate(hit.point), 0.5F * hit.t);
+  ray.origin =
+      rounded_back(Imath::V3d(ray.origin) + Imath::V3d(from) * static_cast<double>(back), -Imath::V3d(from));
+  return ray;
+}
+
 /// Surfaces met together.
 struct TouchingSurfaces {
   static constexpr std::size_t kMost = 16;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <ImathVec.h>
@@ -38,20 +40,41 @@ struct LoggedRay {
   bool shadow;
 };
 
+/// A coordinate of where a ray of that direction has come to, rounded to the side that it has come from: to
+/// the nearest float, it may lie on what the ray would have met next, or beyond, where walls along the axes
+/// meet. One that is a float but for what is left of double stays what it is.
+[[nodiscard]] inline float rounded_back(double x, double direction) {
+  constexpr double kExact = 0x1p-44;
+  const auto nearest = static_cast<float>(x);
+  const double past = static_cast<double>(nearest) - x;
+  if (nearest == 0 || !(past * direction > 0 && std::abs(past) > kExact * std::abs(x))) return nearest;
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(nearest) +
+                              ((nearest > 0) == (direction > 0) ? -1 : 1));
+}
+[[nodiscard]] inline Imath::V3f rounded_back(const Imath::V3d& point, const Imath::V3d& direction) {
+  return {rounded_back(point.x, direction.x), rounded_back(point.y, direction.y),
+          rounded_back(point.z, direction.z)};
+}
+
+/// The largest of the coordinates of a point, which says how far apart floats are there.
+[[nodiscard]] inline float largest_coordinate(const Imath::V3f& point) {
+  return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+}
+/// Some steps of floats for each unit of the largest coordinate: what clears a point of its own rounding.
+inline constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
+
 /// The point of a surface with outward `normal`, moved by a few representable floats to the side `direction`
 /// leaves on, so that a ray from there cannot meet the surface it starts from, whatever the scale of the
 /// scene. After [Wachter2019], but with steps of the largest coordinate and no fixed length, since
 /// Scene::intersect is exact about sides.
 [[nodiscard]] inline Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal,
                                              const Imath::V3f& direction) {
-  // A point on a surface is off it by rounding, at most half a float step along each axis; so is the point
-  // moved. Four steps of the largest coordinate clear both, and intersection decides the rest in double. Near
-  // the origin steps vanish, and the floor takes over: what double tells from 0 on planes a hundred metres
-  // wide, and no more than a float step where all of a scene is a micrometre.
-  constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
+  // A point on a surface is off it by rounding, at most a float step along each axis, and the point moved by
+  // half a step. Four steps of the largest coordinate clear both, and intersection decides the rest in
+  // double. Near the origin steps vanish, and the floor takes over: what double tells from 0 on planes a
+  // hundred metres wide, and no more than a float step where all of a scene is a micrometre.
   constexpr float kLeastOffset_m = 1e-13F;
-  const float largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-  const float distance = std::max(kOffsetSteps * largest, kLeastOffset_m);
+  const float distance = std::max(kOffsetSteps * largest_coordinate(point), kLeastOffset_m);
   return point + normal * std::copysign(distance, normal.dot(direction));
 }
 

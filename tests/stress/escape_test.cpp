@@ -88,5 +88,45 @@ TEST(Stress, NoPathLeavesABox) {
   }
 }
 
+// Walls that go on beyond one another, of a room of that half size.
+Scene hall(const V3d& half) {
+  std::vector<Shape> walls;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      V3d corner = half * -1.5;
+      corner[axis] = side * half[axis];
+      V3d u(0), v(0);
+      u[(axis + 1) % 3] = 3 * half[(axis + 1) % 3];
+      v[(axis + 2) % 3] = 3 * half[(axis + 2) % 3];
+      walls.emplace_back(Quad{corner, u, v});
+    }
+  return scene_of(walls);
+}
+
+// Rays to where two walls meet are scattered by one of them, in front of the other.
+TEST(Stress, NoPathLeavesBetweenWallsThatCross) {
+  Random random(20);
+  for (const V3d& half : {V3d(1), V3d(390.184), V3d(0.39, 0.517, 3.07), V3d(1.4e-7)}) {
+    const Scene scene = hall(half);
+    int escaped = 0;
+    for (int i = 0; i < 100'000 * kEffort; ++i) {
+      const V3f from(random.in_cube(0.5) * half);
+      V3f edge = V3f(half);
+      for (int axis = 0; axis < 3; ++axis)
+        if (random.uniform() < 0.5F) edge[axis] = -edge[axis];
+      edge[i % 3] *= 0.9F * random.uniform();
+      const V3f along = (edge - from).normalized();
+      const auto hit = scene.intersect({from, along});
+      ASSERT_TRUE(hit);
+      V3f in(random.direction());
+      const V3f inwards = hit->normal * (hit->normal.dot(hit->point) > 0 ? -1.0F : 1.0F);
+      if (in.dot(inwards) < 0) in = -in;
+      if (in.dot(inwards) < 1e-6F) in += inwards;  // as above
+      escaped += !scene.intersect(spawn(*hit, -along, in.normalized(), 0));
+    }
+    EXPECT_EQ(escaped, 0) << half.x;
+  }
+}
+
 }  // namespace
 }  // namespace abbe

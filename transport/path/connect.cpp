@@ -15,8 +15,7 @@ Surroundings surroundings(const Scene& scene, const PathVertex& vertex, const Im
 }  // namespace
 
 Ray leave_towards(const PathVertex& vertex, const Imath::V3f& w) {
-  if (const auto* surface = std::get_if<SurfaceVertex>(&vertex.at))
-    return spawn(surface->hit, w, vertex.time);
+  if (const auto* surface = std::get_if<SurfaceVertex>(&vertex.at)) return surface->leave(w, vertex.time);
   const auto* light = std::get_if<LightVertex>(&vertex.at);
   if (light != nullptr && light->normal.length2() > 0)
     return spawn(light->point, light->normal, w, vertex.time);

@@ -66,8 +66,8 @@ std::optional<SurfaceHit> surface_at(const Scene& scene, const Ray& ray, const S
 
 // The point that far along a ray, where its matter lasts to `end`: another than its origin, a float step from
 // it, where floats do not tell the two apart.
-Imath::V3f point_along(const Ray& ray, float distance, float end) {
-  const Imath::V3f point = ray.origin + ray.direction * distance;
+Imath::V3f other_point_along(const Ray& ray, float distance, float end) {
+  const Imath::V3f point = point_along(ray, distance);
   if (point != ray.origin) return point;
   const auto step = static_cast<float>(2 * float_step(largest_coordinate(Imath::V3d(point))));
   return ray.origin + ray.direction * std::min(step, end / 2);
@@ -90,7 +90,7 @@ bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth, const
     advance(walk.packet, passed.lanes * medium.scattering_per_m, passed.lanes * medium.extinction_per_m);
     walk.stretch.lanes *= passed.unit;
     rescale(walk);
-    walk.ray.origin = point_along(ray, way.distance, distance);
+    walk.ray.origin = other_point_along(ray, way.distance, distance);
     return true;
   }
   advance(walk.packet, passed.lanes, passed.lanes);

@@ -13,6 +13,12 @@ namespace abbe {
   return scene.needs.scattering || scene.needs.boundaries;
 }
 
+/// The point that far along a ray, as a float before what the ray meets there.
+[[nodiscard]] inline Imath::V3f point_along(const Ray& ray, float distance) {
+  const Imath::V3d direction(ray.direction);
+  return rounded_back(Imath::V3d(ray.origin) + direction * static_cast<double>(distance), direction);
+}
+
 /// Is told of each stretch of even matter that scatters which a walk comes to, as it is at its origin.
 using StretchVisitor = std::function<void(const Stretch&)>;
 

@@ -125,7 +125,7 @@ class RandomWalks {
       polarise(path, vertex.mueller(event.wi, event.delta, path.packet.lone_lane()), drawn);
     if (event.transmitted)
       path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-    path.ray = spawn(vertex.hit, vertex.frame.to_world(event.wi), path.ray.time);
+    path.ray = vertex.leave(vertex.frame.to_world(event.wi), path.ray.time);
     return survives(path, technique.kept(path, vertex, event), u);
   }
 

@@ -60,6 +60,11 @@ struct SurfaceVertex {
     return {hit.point, wo.z > 0 ? hit.normal : -hit.normal};
   }
 
+  /// A ray that leaves it into the unit direction `w`, at that time of the exposure.
+  [[nodiscard]] Ray leave(const Imath::V3f& w, float time) const {
+    return spawn(hit, frame.to_world(wo), w, time);
+  }
+
   /// The model's event, corrected on a relief. In line, as a call would cost every path.
   [[nodiscard, gnu::always_inline]] std::optional<BsdfSample> scatter(const BsdfRandom& u, int hero,
                                                                       TransportMode mode) const {

@@ -62,7 +62,7 @@ void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const st
   if (path.packet.polarisation) arrives = arriving(path, vertex.mueller(wi, false), towards, *lens);
   Surroundings crossed;
   if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-  connect_to(path, path.events + 1, *lens, f * std::abs(wi.z), spawn(vertex.hit, towards, path.ray.time),
+  connect_to(path, path.events + 1, *lens, f * std::abs(wi.z), vertex.leave(towards, path.ray.time),
              crosses ? crossed : path.around, arrives);
 }
 

@@ -207,7 +207,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   if (path.events == kMeterEvent && !accepted(world, vertex.hit.normal, contribution, scattering_pdf)) return;
   if (!path.caustics.empty() && !chosen.light.is_delta())
     scattering_pdf = mixed_pdf(scattering_pdf, path.caustics, vertex.hit.point, world);
-  const Ray ray = spawn(vertex.hit, world, path.ray.time);
+  const Ray ray = vertex.leave(world, path.ray.time);
   const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
   if (walks_.has_free_paths()) {
     Surroundings around = path.around;
