@@ -56,7 +56,7 @@ Json lens_system(Drawing& drawing) {
   if (chance(random, 0.6))
     lens["focus_distance"] =
         chance(random, 0.3) ? Json("infinity") : Json(decades(random, 1, 100) / drawing.unit_m);
-  if (chance(random, 0.5)) lens["f_number"] = decades(random, 8, 64);
+  if (chance(random, 0.5)) lens["f_number"] = decades(random, 10, 64);  // all of them open as far
   if (chance(random, 0.3)) lens["focus"] = "paraxial";
   if (chance(random, 0.2)) lens["ghosts"] = true;
   add_blades(random, lens);

@@ -43,10 +43,13 @@ std::string faulty_value(const Film& film, const std::vector<std::string>& plane
 
 constexpr int kBounces = 2;  // and all beyond in one layer
 
-// The layers add up to the film, but for what floats round of the light of single paths, of the faintest all.
+// The layers add up to the film, but for what floats round of the light of single paths, of the faintest all,
+// and for the units of the film to which each path rounds in it and in every layer.
 std::string fault_of_layers(const Film& film, const Film& layers) {
   constexpr double kRounding = 1e-5;
   constexpr double kFaintest = 64.0 * std::numeric_limits<float>::min();
+  const double rounded =
+      std::ldexp(0.5, film.shape().unit_exponent) * (1 + layers.channels() / film.channels());
   const auto pixels = static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     std::vector<double> sums(static_cast<std::size_t>(film.channels()), 0.0);
@@ -59,8 +62,9 @@ std::string fault_of_layers(const Film& film, const Film& layers) {
     for (int plane = 0; plane < film.channels(); ++plane) {
       const double sum = sums[static_cast<std::size_t>(plane)];
       const double whole = film.mean(pixel, plane);
-      if (!(std::abs(sum - whole) <= kRounding * all + kFaintest))
-        return fmt::format("plane {} of pixel {} is {}, its layers {}", plane, pixel, whole, sum);
+      if (!(std::abs(sum - whole) <= kRounding * all + kFaintest + rounded))
+        return fmt::format("plane {} of pixel {} is {}, its layers {}, in units of 2^{}", plane, pixel, whole,
+                           sum, film.shape().unit_exponent);
     }
   }
   return "";
