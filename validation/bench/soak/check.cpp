@@ -1,5 +1,6 @@
 #include "validation/bench/soak/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -43,13 +44,24 @@ std::string faulty_value(const Film& film, const std::vector<std::string>& plane
 
 constexpr int kBounces = 2;  // and all beyond in one layer
 
+// What single contributions may lose of a film value: floats hold no energy [J/nm] below the least of them,
+// and a channel makes values of energies by its weight, lanes being drawn with at least a density of one over
+// all wavelengths.
+double faintest_value(const Scene& scene) {
+  constexpr double kContributions = 64.0;
+  double weight = 0;
+  for (const Channel& channel : scene.channels)
+    weight = std::max(weight, static_cast<double>(envelope(channel).max()));
+  return kContributions * std::numeric_limits<float>::min() *
+         (1 + weight * (kMaxWavelengthNm - kMinWavelengthNm));
+}
+
 // The layers add up to the film, but for what floats round of the light of single paths, of the faintest all,
 // and for the units of the film to which each path rounds in it and in every layer.
-std::string fault_of_layers(const Film& film, const Film& layers) {
+std::string fault_of_layers(const Film& film, const Film& layers, double faintest) {
   constexpr double kRounding = 1e-5;
-  constexpr double kFaintest = 64.0 * std::numeric_limits<float>::min();
-  const double rounded =
-      std::ldexp(0.5, film.shape().unit_exponent) * (1 + layers.channels() / film.channels());
+  const int films = 1 + layers.channels() / film.channels();
+  const double rounded = std::ldexp(0.5, film.shape().unit_exponent) * films;
   const auto pixels = static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     std::vector<double> sums(static_cast<std::size_t>(film.channels()), 0.0);
@@ -62,7 +74,7 @@ std::string fault_of_layers(const Film& film, const Film& layers) {
     for (int plane = 0; plane < film.channels(); ++plane) {
       const double sum = sums[static_cast<std::size_t>(plane)];
       const double whole = film.mean(pixel, plane);
-      if (!(std::abs(sum - whole) <= kRounding * all + kFaintest + rounded))
+      if (!(std::abs(sum - whole) <= kRounding * all + faintest + rounded))
         return fmt::format("plane {} of pixel {} is {}, its layers {}, in units of 2^{}", plane, pixel, whole,
                            sum, film.shape().unit_exponent);
     }
@@ -86,7 +98,7 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
     sum.layers->add(*first->layers);
   }
   if (sum.film.bytes() == whole.film.bytes() && rays == whole.stats.rays)
-    return fault_of_layers(sum.film, *sum.layers);
+    return fault_of_layers(sum.film, *sum.layers, faintest_value(scene));
   return fmt::format("other bits in parts of {} and {} samples, by one thread: {} rays instead of {}",
                      samples / 3, samples - samples / 3, rays, whole.stats.rays);
 }
