@@ -45,8 +45,7 @@ std::string faulty_value(const Film& film, const std::vector<std::string>& plane
 constexpr int kBounces = 2;  // and all beyond in one layer
 
 // What single contributions may lose of a film value: floats hold no energy [J/nm] below the least of them,
-// and a channel makes values of energies by its weight, lanes being drawn with at least a density of one over
-// all wavelengths.
+// and a channel makes values of energies by its weight, here as of lanes drawn evenly over all wavelengths.
 double faintest_value(const Scene& scene) {
   constexpr double kContributions = 64.0;
   double weight = 0;
