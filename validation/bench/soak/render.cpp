@@ -7,6 +7,7 @@ namespace {
 
 constexpr int kMostPaths = 600'000;
 constexpr int kMostSamples = 10'000;
+constexpr double kMostPairs = 3e7;  // of vertices, or of a vertex and a photon: minutes of CPU time at most
 
 // How many photons are traced, and how they are gathered. Returns how many each sample has at least.
 int draw_photons(Drawing& drawing, Json& render) {
@@ -21,6 +22,14 @@ int draw_photons(Drawing& drawing, Json& render) {
   return per_sample;
 }
 
+// Each of two paths of n events may be joined at each event, and what gathers photons may find each event of
+// all of them.
+double pairs_of_sample(const Json& render, int pixels, int photons) {
+  constexpr int kUsualDepth = 100;
+  const double depth = render.value("max_depth", kUsualDepth);
+  return pixels * depth * (photons > 0 ? photons : depth);
+}
+
 void draw_strategies(Random& random, Json& render) {
   render["directions"] = one_of(random, {"bsdf", "cosine", "uniform"});
   render["lights"] = one_of(random, {"mis", "bsdf", "light"});
@@ -32,7 +41,7 @@ void draw_strategies(Random& random, Json& render) {
 void draw_render(Drawing& drawing) {
   Random& random = drawing.random;
   const Json& resolution = drawing.scene["sensor"]["resolution"];
-  int per_sample = resolution[0].get<int>() * resolution[1].get<int>();
+  const int pixels = resolution[0].get<int>() * resolution[1].get<int>();
   Json& render = drawing.scene["render"];
   const std::string integrator =
       one_of(random, {"auto", "auto", "auto", "path", "path", "light", "bdpt", "vcm", "sppm", "ppm",
@@ -41,20 +50,20 @@ void draw_render(Drawing& drawing) {
   if (integrator == "auto" && chance(random, 0.1)) render["consistent"] = true;
   if (integrator == "path" && chance(random, 0.2)) draw_strategies(random, render);
   const bool gathers = integrator == "sppm" || integrator == "ppm" || integrator == "photon-map";
-  if (gathers || integrator == "photon-brute")
-    per_sample = std::max(per_sample, draw_photons(drawing, render));
+  const int photons = gathers || integrator == "photon-brute" ? draw_photons(drawing, render) : 0;
   // What is merged is blurred, over the edges of walls too.
   if (gathers || integrator == "vcm" || render.contains("consistent")) drawing.closed = false;
-  render["samples"] =
-      static_cast<int>(std::min(kMostSamples, kMostPaths / per_sample) * decades(random, 0.001, 1) + 1);
+  const double part_of_most = decades(random, 0.001, 1);
   if (chance(random, 0.1)) render["polarisation"] = "off";
   render["seed"] = integer(random, 0, 1 << 30);
   const bool plays = chance(random, 0.8);
-  // Joining two paths of n events takes n^3 steps.
   const bool joins = integrator == "bdpt" || integrator == "vcm";
   if (joins || !plays || chance(random, 0.5))
     render["max_depth"] = static_cast<int>(decades(random, 1, plays && !joins ? 1000 : 60));
   render["roulette_depth"] = plays ? integer(random, 0, 12) : -1;
+  double most = std::min(kMostSamples, kMostPaths / std::max(pixels, photons));
+  if (joins || gathers) most = std::min(most, kMostPairs / pairs_of_sample(render, pixels, photons));
+  render["samples"] = static_cast<int>(most * part_of_most + 1);
 }
 
 }  // namespace abbe::soak
