@@ -180,6 +180,15 @@ TEST(Layers, OfSomeLightsLeaveARest) {
   EXPECT_THROW((void)light_layers(taken, {"rest"}), Error);
 }
 
+TEST(Layers, LightsShareOneByTheirNameAndNotByWhatFilesMakeOfIt) {
+  Scene scene = test::load_text(lamps("", "path"));
+  scene.lights[0].name = scene.lights[1].name = "key 1";
+  EXPECT_EQ(light_layers(scene, {}).of_light, (std::vector<std::uint32_t>{0, 0, 1}));
+  scene.lights[1].name = "key_1";
+  EXPECT_THROW((void)light_layers(scene, {}), Error);
+  EXPECT_THROW((void)light_layers(scene, {"key_1"}), Error);
+}
+
 TEST(Layers, TheirBitsDependOnNothingButTheSamples) {
   for (const Told& told : {kTold[0], kTold[1], kTold[2]}) {
     const Scene scene = small(told, "12");

@@ -1,6 +1,7 @@
 #include "transport/render/layers.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -17,6 +18,18 @@ std::vector<std::string> layers_of_lights(const Scene& scene) {
   std::vector<std::string> names;
   for (const Light& light : scene.lights) names.push_back(layer_name(light.name));
   return names;
+}
+
+// Lights may share a layer by having one name, not by what files make of two.
+void refuse_names_that_become_one(const Scene& scene) {
+  std::map<std::string, std::string> names;
+  for (const Light& light : scene.lights) {
+    const std::string& other = names.try_emplace(layer_name(light.name), light.name).first->second;
+    if (other != light.name)
+      throw Error(ErrorCode::usage, "--layers",
+                  fmt::format("lights \"{}\" and \"{}\" would both be {}{}: call one otherwise", other,
+                              light.name, kLightLayer, layer_name(light.name)));
+  }
 }
 
 std::vector<std::string> each_once(std::vector<std::string> all,
@@ -54,6 +67,7 @@ std::string layer_name(std::string light) {
 Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> there = layers_of_lights(scene);
   if (there.empty()) throw Error(ErrorCode::usage, "--layers", "the scene has no light to tell apart");
+  refuse_names_that_become_one(scene);
   for (const std::string& name : names)
     if (std::find(there.begin(), there.end(), layer_name(name)) == there.end())
       throw Error(ErrorCode::usage, "--layers",
