@@ -187,6 +187,7 @@ TEST(Layers, LightsShareOneByTheirNameAndNotByWhatFilesMakeOfIt) {
   scene.lights[1].name = "key_1";
   EXPECT_THROW((void)light_layers(scene, {}), Error);
   EXPECT_THROW((void)light_layers(scene, {"key_1"}), Error);
+  EXPECT_EQ(light_layers(scene, {scene.lights[2].name}).of_light, (std::vector<std::uint32_t>{1, 1, 0}));
 }
 
 TEST(Layers, TheirBitsDependOnNothingButTheSamples) {

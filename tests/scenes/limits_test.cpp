@@ -156,9 +156,9 @@ TEST(Limits, AnImageThroughGlassDoesNotDependOnTheUnitOfLength) {
   }
 }
 
-// Photons and camera paths go where those of pilots have shown light. In centimetres one of 33 000 of these
-// falls, by rounding, on another block of the film, so that the others of the caustic lie elsewhere: as
-// elsewhere as with another seed of the pilots, and where the caustic is alone.
+// Photons and camera paths go where those of pilots have shown light. In centimetres one of 33 000 pilot
+// photons falls, by rounding, on another block of the film, so that photons of the caustic are aimed
+// otherwise.
 TEST(Limits, AGuidedImageDoesNotDependOnTheUnitOfLengthButInItsCaustic) {
   const RenderResult metres = through_glass("m", "auto");
   for (const char* unit : {"cm", "mm", "in"}) {

@@ -20,15 +20,15 @@ std::vector<std::string> layers_of_lights(const Scene& scene) {
   return names;
 }
 
-// Lights may share a layer by having one name, not by what files make of two.
-void refuse_names_that_become_one(const Scene& scene) {
+// Lights may share one of these layers by having one name, not by what files make of two.
+void refuse_names_that_become_one(const Scene& scene, const std::vector<std::string>& layers) {
   std::map<std::string, std::string> names;
   for (const Light& light : scene.lights) {
-    const std::string& other = names.try_emplace(layer_name(light.name), light.name).first->second;
-    if (other != light.name)
+    const auto& [layer, other] = *names.try_emplace(layer_name(light.name), light.name).first;
+    if (other != light.name && std::find(layers.begin(), layers.end(), layer) != layers.end())
       throw Error(ErrorCode::usage, "--layers",
                   fmt::format("lights \"{}\" and \"{}\" would both be {}{}: call one otherwise", other,
-                              light.name, kLightLayer, layer_name(light.name)));
+                              light.name, kLightLayer, layer));
   }
 }
 
@@ -67,7 +67,6 @@ std::string layer_name(std::string light) {
 Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> there = layers_of_lights(scene);
   if (there.empty()) throw Error(ErrorCode::usage, "--layers", "the scene has no light to tell apart");
-  refuse_names_that_become_one(scene);
   for (const std::string& name : names)
     if (std::find(there.begin(), there.end(), layer_name(name)) == there.end())
       throw Error(ErrorCode::usage, "--layers",
@@ -76,6 +75,7 @@ Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   std::vector<std::string> asked;
   for (const std::string& name : names) asked.push_back(layer_name(name));
   Layers layers{each_once(names.empty() ? there : asked)};
+  refuse_names_that_become_one(scene, layers.names);
   const bool all = std::all_of(there.begin(), there.end(), [&](const std::string& name) {
     return std::find(layers.names.begin(), layers.names.end(), name) != layers.names.end();
   });

@@ -29,7 +29,7 @@ struct Layers {
 /// A layer `light.NAME` for each of some lights, by the names that `layer_name` makes of theirs, which
 /// several lights may have, and `light.rest` for all others, if there are some. Of no names, all that the
 /// scene's lights have. Throws Error{usage} for a name that none has, for a scene without lights, where two
-/// names become one, and where one of them is called `rest` while there are others.
+/// names become that of one layer, and where one of them is called `rest` while there are others.
 [[nodiscard]] Layers light_layers(const Scene& scene, const std::vector<std::string>& names);
 /// The name of a light with _ for all but letters, digits, - and _, so that channels of files can have it.
 [[nodiscard]] std::string layer_name(std::string light);
