@@ -169,8 +169,9 @@ template <typename Real>
     if (how.reflects) first_ = second_ = Vec3<Real>(0);
     return;
   }
+  // A ray that grazes the surface may seem to come from behind it by rounding.
   const Real cosine = how.forwards ? from.dot(hit.normal) : -from.dot(hit.normal);
-  const Real cos_i = select(cosine < 1, cosine, 1);
+  const Real cos_i = select(cosine > 0, select(cosine < 1, cosine, 1), 0);
   const Real eta = how.forwards ? at.n_behind / at.n_before : at.n_before / at.n_behind;
   const auto power = [&] {
     return bare ? fresnel_dielectric<Real>(cos_i, eta)

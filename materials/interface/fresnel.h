@@ -67,7 +67,7 @@ FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
   const T Ts = T(4) * (cos_i / s) * (eta * cos_t / s);
   const T Tp = T(4) * (eta * cos_i / p) * (cos_t / p);
   const auto R = [](const T& r, const T& transmitted) {
-    return transmitted < T(0.5) ? T(1) - transmitted : r * r;
+    return select(transmitted < T(0.5), T(T(1) - transmitted), T(r * r));
   };
   return {R(rs, Ts), R(rp, Tp), Ts, Tp, cos_t};
 }

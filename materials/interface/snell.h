@@ -59,6 +59,13 @@ template <typename T>
   return ((e - 1) * (e + 1) + c * c) + 2 * (e * e_tail + c * c_tail) + (e_tail * e_tail + c_tail * c_tail);
 }
 
+/// The one of two numbers that a condition tells. Types that stand for several numbers choose lane by lane,
+/// by a function of this name beside them.
+template <typename T>
+[[nodiscard]] T select(bool which, const T& yes, const T& no) {
+  return which ? yes : no;
+}
+
 template <typename T>
 T refracted_cosine(const T& cos_i, const T& eta) {
   using std::sqrt;

@@ -63,7 +63,8 @@ SampledSpectrum spectrum(const lens::Floats& lanes, std::size_t packet) {
   return std::bit_cast<std::array<SampledSpectrum, 2>>(lanes)[packet];
 }
 
-// From the fields that a lens leaves of those along the first axis, in the scene, and across it.
+// From the fields that a lens leaves of those along the first axis, in the scene, and across it; 0 of lanes
+// that do not arrive.
 std::array<LensJones, 2> jones(const std::array<V3f, 2>& axes,
                                const lens::BasicArrival<lens::Floats>& arrival) {
   using Lanes = Imath::Vec3<lens::Floats>;
@@ -71,7 +72,9 @@ std::array<LensJones, 2> jones(const std::array<V3f, 2>& axes,
   const lens::Floats over_root = 1 / sqrt(select(power > 0, power * 0.5, 1));
   const Lanes y = lens::unit(arrival.direction.cross(Lanes(1, 0, 0)));  // x is the picture's right
   const Lanes x = y.cross(arrival.direction);
-  const auto element = [&](const Lanes& to, const Lanes& field) { return to.dot(field) * over_root; };
+  const auto element = [&](const Lanes& to, const Lanes& field) {
+    return select(arrival.arrived, to.dot(field) * over_root, 0);
+  };
   const lens::Floats xx = element(x, arrival.first);
   const lens::Floats xy = element(x, arrival.second);
   const lens::Floats yx = element(y, arrival.first);

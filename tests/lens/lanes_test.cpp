@@ -7,6 +7,7 @@
 #include "lens/beam.h"
 #include "lens/spectral_system.h"
 #include "lenses.h"
+#include "materials/interface/fresnel.h"
 
 // The lanes of a packet go through a lens together as each of them goes alone.
 
@@ -48,6 +49,28 @@ std::vector<Case> cases() {
           {"tilted", with_tilt()},
           {"aspheric", with_asphere()},
           {"coated", with_coating()}};
+}
+
+// Even where others of the same packet are near grazing or totally reflected: cemented surfaces reflect less
+// than a millionth, which 1 - T does not tell in floats, and nothing of p at Brewster's angle.
+TEST(Lanes, ReflectAsEachDoesAlone) {
+  constexpr std::array<double, 4> kCosines{0.98, 0.76025933, 0.061, 0.5};
+  constexpr std::array<double, 4> kIndices{1.00080872, 1.011, 1.6, 0.612};
+  Floats cosine;
+  Floats eta;
+  for (int j = 0; j < Floats::kCount; ++j) {
+    cosine.set(j, static_cast<float>(kCosines[static_cast<std::size_t>(j % 4)]));
+    eta.set(j, static_cast<float>(kIndices[static_cast<std::size_t>(j / 4)]));
+  }
+  const FresnelPower<Floats> lanes = fresnel_dielectric(cosine, eta);
+  for (int j = 0; j < Floats::kCount; ++j) {
+    const auto alone = fresnel_dielectric(static_cast<double>(cosine[j]), static_cast<double>(eta[j]));
+    EXPECT_GE(lanes.Rp[j], 0) << j;
+    EXPECT_NEAR(lanes.Rs[j], alone.Rs, 1e-5 * alone.Rs) << j;
+    EXPECT_NEAR(lanes.Rp[j], alone.Rp, 1e-5 * alone.Rp + 1e-13) << j;
+    EXPECT_NEAR(lanes.Ts[j], alone.Ts, 1e-5 * alone.Ts) << j;
+    EXPECT_NEAR(lanes.Tp[j], alone.Tp, 1e-5 * alone.Tp) << j;
+  }
 }
 
 // In floats, by way of the image and of a ghost.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "lens_cameras.h"
@@ -24,6 +25,30 @@ using testing::looking_through;
 using testing::Random;
 using testing::spread_wavelengths;
 using Ghosts = LensOptics::Ghosts;
+
+// Of lanes that a ghost's way ends for, by an edge or total reflection, too.
+TEST(LensCamera, TellsFiniteNumbersOfEveryLane) {
+  const lens::System lens = lens_named("double_gauss");
+  const Camera camera = looking_through(lens, lens::stop_radius(lens), 16, Ghosts::enumerated);
+  Random random(3);
+  int parted = 0;  // ghosts by which some lanes come and others do not
+  for (int i = 0; i < 200000; ++i) {
+    const V2f film(16 * random.uniform(), 16 * random.uniform());
+    const CameraRay ray = sample_ray(camera, film, random.pair(), spread_wavelengths(), i % kLanes, 0);
+    if (ray.weight.is_zero()) continue;
+    const auto& [axis, xx, xy, yx, yy] = ray.images->jones;
+    bool dark = false;
+    for (int j = 0; j < kLanes; ++j) {
+      for (const SampledSpectrum* of : {&ray.weight, &ray.lane_pdf, &ray.images->x, &ray.images->y,
+                                        &ray.images->cos_film, &xx, &xy, &yx, &yy})
+        ASSERT_TRUE(std::isfinite((*of)[j])) << "route " << ray.route << ", lane " << j;
+      ASSERT_GE(ray.weight[j], 0);
+      dark = dark || ray.weight[j] == 0;
+    }
+    parted += dark ? 1 : 0;
+  }
+  EXPECT_GT(parted, 1000);
+}
 
 TEST(LensCamera, TellsTheSameOfARayFromBothEnds) {
   const lens::System lens = lens_named("double_gauss");
