@@ -55,8 +55,10 @@ void enclose_medium(Mesh& mesh, const std::string& name, const Material& materia
 
 void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
                         const SourcePosition& where, const LoadContext& context) {
-  if (encloses_medium(material)) enclose_medium(mesh, name, material, where, context);
-  mesh.slivers = {};  // nothing asks for them any more
+  if (encloses_medium(material))
+    enclose_medium(mesh, name, material, where, context);
+  else
+    mesh.slivers = {};  // nothing asks for them any more
 }
 
 }  // namespace abbe::description

@@ -14,9 +14,9 @@ Material build_material(const schema::Named<spec::Material>& said, LoadContext& 
   Material material{said.name, DiffuseMaterial{Curve(0.0)}};
   if (auto model = build_model(said.value, context)) material.model = *std::move(model);
   if (const auto& priority = said.value.priority) {
-    if (interior(material) == nullptr)
+    if (!encloses_medium(material))
       context.diagnostics.error(
-          priority->where, "a priority goes with matter behind an interface, which a medium has none of");
+          priority->where, "a priority goes with matter within a shape: a dielectric, a film or a medium");
     material.priority = priority->value;
   }
   if (const auto* normals = std::get_if<spec::NormalMap>(&said.value.relief))

@@ -187,10 +187,10 @@ Fields fields(Tag<Material>) {
               under<CosinePower>("cosine_power"), under<Phong>("phong"),
               under<Retroreflector>("retroreflector"), under<Polariser>("polariser"),
               under<WavePlate>("wave_plate"), under<Depolariser>("depolariser")),
-       field("priority", &Material::priority, {-1000, 1000},
-             "Of the matter behind an interface, 0 when absent: where shapes overlap, that of the highest "
-             "priority is "
-             "there, of equals the one that light enters last."),
+       field(
+           "priority", &Material::priority, {-1000, 1000},
+           "Of the matter within a shape, 0 when absent: where shapes overlap, that of the highest priority "
+           "is there, of equals that of the smallest shape."),
        at_most_one(&Material::relief, "a material has a normal_map or a bump_map",
                    under<NormalMap>("normal_map"), under<BumpMap>("bump_map"))});
 }

@@ -55,7 +55,7 @@ struct Material {
   std::string name;
   MaterialModel model;
   std::shared_ptr<const Relief> relief = nullptr;  ///< Turns the normal that scattering sees.
-  /// Where matter overlaps, that of the highest priority is there; of equals that which light enters last.
+  /// Where matter overlaps, that of the highest priority is there; of equals that of the smallest shape.
   int priority = 0;
 };
 

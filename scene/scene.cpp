@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "scene/extent.h"
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
+#include "scene/shapes/solid.h"
 
 namespace abbe {
 namespace {
@@ -17,6 +19,22 @@ namespace {
 double touching_at(double size) {
   return 6 * float_step(size);
 }
+
+// The volumes of shapes, of a prototype worked out once.
+struct VolumeMeter {
+  std::map<const Prototype*, double> prototypes = {};
+
+  template <typename S>
+  double operator()(const S& shape) {
+    return enclosed_volume(shape);
+  }
+  double operator()(const PlacedShape& placed) {
+    const auto [known, added] = prototypes.emplace(placed.of.get(), 0);
+    if (added)
+      known->second = std::visit([](const auto& shape) { return enclosed_volume(shape); }, placed.of->shape);
+    return known->second * std::abs(placed.at->to_world.determinant());
+  }
+};
 
 }  // namespace
 
@@ -88,6 +106,15 @@ void Scene::measure_extent() {
   if (is_meter(camera) && traits(camera).opening) bounds.extendBy(abbe::bounds(camera));
 }
 
+void Scene::measure_matter() {
+  std::vector<ShapeInstance*> filled;
+  for (ShapeInstance& instance : shapes)
+    if (encloses_medium(materials[instance.material])) filled.push_back(&instance);
+  if (filled.size() < 2) return;
+  VolumeMeter meter;
+  for (ShapeInstance* instance : filled) instance->volume = std::visit(meter, instance->shape);
+}
+
 bool Scene::is_far(const Light& light) const {
   if (const auto* emitter = std::get_if<AreaLight>(&light.kind)) return shapes[emitter->shape].far;
   const Imath::V3f* at = place(light);
@@ -96,6 +123,7 @@ bool Scene::is_far(const Light& light) const {
 
 void Scene::commit() {
   measure_extent();
+  measure_matter();
   background_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].at_infinity() && !lights[i].is_delta())

@@ -16,6 +16,7 @@ struct ShapeInstance {
   // Worked out by `Scene::commit`:
   bool far = false;     ///< Wholly beyond `Scene::far_from_m`.
   double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
+  double volume = 0;    ///< Of matter [m^3], see `enclosed_volume`; 0 where no other shape holds any.
 };
 
 }  // namespace abbe

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -133,9 +134,13 @@ std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_
   return flawed;
 }
 
-// The closed components of which no triangle is wound against the others any more, and how many were.
-std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTable& edges, Turning& turning) {
-  const auto count = static_cast<std::uint32_t>(turning.turned.size());
+/// The closed components, and of each the triangles that wind against its first.
+struct ClosedComponents {
+  std::vector<Component> all;
+  std::vector<std::vector<std::uint32_t>> against;
+};
+
+ClosedComponents closed_components(const EdgeTable& edges, std::uint32_t count) {
   Windings sets(count);
   edges.for_each([&sets](std::span<const EdgeSide> sides) {
     if (sides.size() == 2)
@@ -143,19 +148,24 @@ std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTabl
   });
   const std::vector<bool> flawed = flawed_sets(edges, sets, count);
   std::vector<std::uint32_t> number(count, count);  // of the component, by the first of its set
-  std::vector<Component> components;
-  std::vector<std::vector<std::uint32_t>> against;
+  ClosedComponents found;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto [first, opposed] = sets.find(i);
     if (flawed[first]) continue;
     if (number[first] == count) {
-      number[first] = static_cast<std::uint32_t>(components.size());
-      components.emplace_back();
-      against.emplace_back();
+      number[first] = static_cast<std::uint32_t>(found.all.size());
+      found.all.emplace_back();
+      found.against.emplace_back();
     }
-    components[number[first]].triangles.push_back(i);
-    if (opposed) against[number[first]].push_back(i);
+    found.all[number[first]].triangles.push_back(i);
+    if (opposed) found.against[number[first]].push_back(i);
   }
+  return found;
+}
+
+// The closed components of which no triangle is wound against the others any more, and how many were.
+std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTable& edges, Turning& turning) {
+  auto [components, against] = closed_components(edges, static_cast<std::uint32_t>(turning.turned.size()));
   std::size_t rewound = 0;
   for (std::size_t i = 0; i < components.size(); ++i) {
     std::vector<std::uint32_t>& fewer = against[i];
@@ -306,6 +316,20 @@ SolidReport make_solid(Mesh& mesh) {
   turn_outward(components, turning, report);
   count_faults(*edges, turning, report);
   return report;
+}
+
+double enclosed_volume(const Mesh& mesh) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size() + mesh.slivers.size());
+  double largest = 0;
+  for (Component& component : closed_components(EdgeTable(mesh), count).all) {
+    measure(mesh, component);
+    largest = std::max(largest, std::abs(component.volume));
+  }
+  return largest;
+}
+
+double enclosed_volume(const Sphere& sphere) {
+  return 4 * std::numbers::pi / 3 * sphere.radius * sphere.radius * sphere.radius;
 }
 
 }  // namespace abbe

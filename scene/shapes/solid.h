@@ -32,4 +32,16 @@ struct SolidReport {
 /// is turned is turned with it.
 [[nodiscard]] SolidReport make_solid(Mesh& mesh);
 
+/// The volume [m^3] that a shape encloses: of a mesh, the largest of its closed components, cavities not
+/// taken off. 0 of what encloses nothing. What lies wholly in a shape has less, unless the shape has further
+/// components.
+[[nodiscard]] double enclosed_volume(const Mesh& mesh);
+[[nodiscard]] double enclosed_volume(const Sphere& sphere);
+[[nodiscard]] inline double enclosed_volume(const Disc&) {
+  return 0;
+}
+[[nodiscard]] inline double enclosed_volume(const Quad&) {
+  return 0;
+}
+
 }  // namespace abbe

@@ -170,8 +170,8 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "thickness_nm: error: expected a number (got -1, allowed"},
       {"a priority of what has no inside",
        R"({"materials": {"m": {"diffuse": {"reflectance": 0}, "priority": 1}}})", ErrorCode::scene,
-       "/materials/m/priority: error: a priority goes with matter behind an interface, which a medium has "
-       "none of"},
+       "/materials/m/priority: error: a priority goes with matter within a shape: a dielectric, a film "
+       "or a medium"},
       {"a fractional priority", R"({"materials": {"m": {"dielectric": {"ior": 1.5}, "priority": 0.5}}})",
        ErrorCode::scene, "expected an integer (got 0.5, allowed [-1000, 1000])"},
       {"28 roughness", R"({"materials": {"m": {"dielectric": {"ior": 1.5, "roughness": -0.1}}}})",

@@ -227,9 +227,20 @@ TEST_F(SolidTest, TrianglesWithoutAreaJoinEdges) {
   const Loaded joint = made_of(kGlass, testing::inline_mesh(split));
   EXPECT_EQ(joint.text().find("open edges"), std::string::npos) << joint.text();
   EXPECT_EQ(std::get<Mesh>(joint->shapes[0].shape).triangles.size(), 13U);
-  for (const char* matter : {kGlass, R"("diffuse": {"reflectance": 0.5})"})
-    EXPECT_TRUE(std::get<Mesh>(made_of(matter, testing::inline_mesh(split))->shapes[0].shape).slivers.empty())
-        << matter;
+  EXPECT_NEAR(enclosed_volume(std::get<Mesh>(joint->shapes[0].shape)), 1, 1e-12);
+  const Loaded opaque = made_of(R"("diffuse": {"reflectance": 0.5})", testing::inline_mesh(split));
+  EXPECT_TRUE(std::get<Mesh>(opaque->shapes[0].shape).slivers.empty());
+}
+
+TEST(EnclosedVolume, IsThatOfTheLargestComponentOfWhatIsClosed) {
+  Mesh two = joined(kBox, box({1e5, 0, 0}, {1e5 + 2, 2, 2}));
+  EXPECT_NEAR(enclosed_volume(kBox), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(inside_out(kBox)), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(two), 8, 1e-9);
+  two.triangles.pop_back();
+  EXPECT_NEAR(enclosed_volume(two), 1, 1e-12) << "the other is open";
+  EXPECT_NEAR(enclosed_volume(Sphere{{1, 2, 3}, 0.5}), 0.5235987755982989, 1e-15);
+  EXPECT_EQ(enclosed_volume(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), 0);
 }
 
 }  // namespace

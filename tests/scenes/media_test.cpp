@@ -257,6 +257,65 @@ TEST(Media, TheSkyIsBlue) {
 }
 
 // Stress 30: what is left of light after optical depths from 1e-8 to 1e4.
+// Slabs before a wall that a lamp lights from beyond them: where two share a place, there is the matter of
+// one of them, the same for light from either end.
+TEST(Media, WhatOverlapsInPartIsTheSameFromBothEnds) {
+  const auto slab = [](const std::string& material, double from, double to) {
+    return fmt::format(R"(, {{"material": "{0}", "mesh": {{
+        "vertices": [[-2, {1}, -2], [2, {1}, -2], [2, {2}, -2], [-2, {2}, -2], [-2, {1}, 2], [2, {1}, 2], [2, {2}, 2], [-2, {2}, 2]],
+        "triangles": [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
+                      [2, 3, 7], [2, 7, 6], [1, 2, 6], [1, 6, 5], [0, 4, 7], [0, 7, 3]]}}}})",
+                       material, from, to);
+  };
+  const std::string thin = slab("thin", -1, 1);
+  const std::string dense = slab("dense", 0, 2);
+  const std::string within = R"("from": [0, 0.5, 0], "to": [0, 5, 0], "up": [0, 0, 1])";
+  struct Case {
+    std::string shapes;
+    double depth;
+    int priority = 0;  // of the thin one
+    std::string camera = Bench().camera;
+  };
+  const std::vector<Case> cases{
+      {thin + dense, 0.3 + 2 * 0.9},  // of equal volumes the later one of the scene
+      {dense + thin, 2 * 0.3 + 0.9},
+      {thin + dense, 2 * 0.3 + 0.9, 1},
+      {thin + slab("dense", 0, 4), 2 * 0.3 + 3 * 0.9},  // the smaller volume
+      {slab("dense", 0, 4) + thin, 2 * 0.3 + 3 * 0.9},
+      {slab("dense", -0.5, 0.5) + thin, 0.3 + 0.9},  // what lies within, whichever comes first
+      {thin + slab("dense", -0.5, 0.5), 0.3 + 0.9},
+      {thin + dense, 1.5 * 0.9, 0, within},
+      {dense + thin, 0.5 * 0.3 + 0.9, 0, within}};
+  const auto lit_wall = [&](const Case& c, const std::string& slabs, const char* integrator) {
+    Bench bench;
+    bench.bands = R"("G": {"band": [545, 555]})";
+    bench.materials = fmt::format(
+        R"("wall": {{"diffuse": {{"reflectance": 0.5}}}}, "dense": {{"medium": {{"absorption_per_m": 0.9}}}},
+           "thin": {{"medium": {{"absorption_per_m": 0.3}}, "priority": {}}})",
+        c.priority);
+    bench.shapes =
+        R"({"quad": {"corner": [-1, 5, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2]}, "material": "wall"})" +
+        slabs;
+    bench.lights =
+        R"({"spot": {"at": [0, 4.5, 1], "direction": [0, 0.5, -1], "half_angle_deg": 8}, "emission": {"spectrum": 1}})";
+    bench.camera = c.camera;
+    bench.integrator = integrator;
+    bench.samples = 1024;
+    bench.depth = R"("max_depth": 1, )";
+    return test::region(rendered(bench).film, 0, 0, 0, 4, 4);
+  };
+  for (const Case& c : cases) {
+    const test::Region bare = lit_wall(c, "", "path");
+    for (const char* integrator : {"path", "light", "bdpt"}) {
+      const test::Region seen = lit_wall(c, c.shapes, integrator);
+      const double error = std::sqrt(bare.variance + seen.variance) / bare.mean;
+      EXPECT_LT(error, 0.04 * std::exp(-c.depth));
+      EXPECT_NEAR(seen.mean / bare.mean, std::exp(-c.depth), kLargestZ * error + 2e-4 * std::exp(-c.depth))
+          << integrator << " of " << c.shapes;
+    }
+  }
+}
+
 TEST(Media, TransmittanceHoldsAtAnyOpticalDepth) {
   for (const double depth : {1e-8, 1e-4, 0.1, 1.0, 10.0, 20.0, 1e4}) {
     const auto found =

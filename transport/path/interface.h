@@ -10,8 +10,8 @@
 namespace abbe {
 
 /// Where matter is nested, surfaces are interfaces only where what is there changes: of all the matter that a
-/// point lies in, that of the highest priority, and among equals the one entered last [Schmidt2002]. Surfaces
-/// that touch are crossed together, from what was before all of them to what is behind.
+/// point lies in, that of the highest priority [Schmidt2002], and among equals of the smallest shape.
+/// Surfaces that touch are crossed together, from what was before all of them to what is behind.
 
 /// A surface on a ray's way: into its shape, or out of it.
 struct CrossedSurface {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +16,17 @@ namespace {
 
 bool filled(const Scene& scene, std::uint32_t shape) {
   return encloses_medium(scene.materials[scene.shapes[shape].material]);
+}
+
+// Whether, where both shapes are, the matter of `a` is there: by priorities; of equals that of the smaller
+// volume, which is the one that lies in the other if either does; of equal volumes the later of the scene. So
+// it does not depend on which of them a path entered first, but where one encloses no volume by itself.
+bool displaces(const Scene& scene, std::uint32_t a, std::uint32_t b) {
+  const auto priority = [&](std::uint32_t of) { return scene.materials[scene.shapes[of].material].priority; };
+  if (priority(a) != priority(b)) return priority(a) > priority(b);
+  const double of_a = scene.shapes[a].volume;
+  const double of_b = scene.shapes[b].volume;
+  return of_a > 0 && of_b > 0 && std::tuple(of_b, a) > std::tuple(of_a, b);
 }
 
 // How often more a ray leaves a shape than it enters it, and where it does so last.
@@ -48,7 +60,6 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
 void MediumStack::enter(const Scene& scene, std::uint32_t shape) {
   if (!filled(scene, shape)) return;  // a pane modelled as one surface
   const auto begin = shapes_.begin();
-  const auto priority = [&](std::uint32_t of) { return scene.materials[scene.shapes[of].material].priority; };
   if (std::find(begin, begin + static_cast<std::ptrdiff_t>(count_), shape) !=
       begin + static_cast<std::ptrdiff_t>(count_))
     return;
@@ -56,7 +67,7 @@ void MediumStack::enter(const Scene& scene, std::uint32_t shape) {
     throw Error(ErrorCode::resource, scene.shapes[shape].name,
                 fmt::format("too many shapes with matter in each other (allowed {})", kMost));
   std::size_t at = count_++;
-  for (; at > 0 && priority(shapes_[at - 1]) > priority(shape); --at) shapes_[at] = shapes_[at - 1];
+  for (; at > 0 && displaces(scene, shapes_[at - 1], shape); --at) shapes_[at] = shapes_[at - 1];
   shapes_[at] = shape;
 }
 

@@ -9,8 +9,10 @@
 
 namespace abbe {
 
-/// The closed shapes filled with matter that a point of a path lies in, in order of priority and among equals
-/// from the outermost. What is around the point is the last one's matter, or air where there is none.
+/// The closed shapes filled with matter that a point of a path lies in, in order of priority, among equals
+/// from the largest volume to the smallest, and of equal ones in the scene's order. A shape that encloses no
+/// volume by itself, as a face of a body does not, is above the equals entered before it. What is around the
+/// point is the last one's matter, or air where there is none.
 class MediumStack {
  public:
   /// The most shapes held.

@@ -202,8 +202,7 @@ void add(Drawing& drawing, const std::string& name) {
   matter.mixes = !matter.entered && !has_axis && name != "film" && name != "mixture";
   Json material;
   material[name] = model(drawing, matter, name);
-  if (name == "dielectric" && chance(drawing.random, 0.5))
-    material["priority"] = integer(drawing.random, -2, 2);
+  if (matter.entered && chance(drawing.random, 0.5)) material["priority"] = integer(drawing.random, -2, 2);
   if (name != "medium" && drawing.matter.size() > 0 && chance(drawing.random, 0.15)) {
     add_relief(drawing, material, matter);
     matter.mixes = false;
