@@ -34,7 +34,13 @@ endfunction()
 # `"literal" + std::string` where there are none (GCC bug 105651), so -Wrestrict is off. Nothing traps floating-point exceptions or reads errno,
 # and saying so turns branches in loops over wavelengths into selections on whole vectors; values do not change. GCC copies structs in pieces of
 # 16 bytes unless told otherwise, and loading a vector of 32 after storing it in two pieces waits for memory.
-function(abbe_compile_options target)
+function(abbe_common_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-restrict -march=x86-64-v3 -fno-math-errno
     -fno-trapping-math $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-mmove-max=256 -mstore-max=256>)
+endfunction()
+
+# Those and the build's sanitizers, for all that is not a test.
+function(abbe_compile_options target)
+  abbe_common_options(${target})
+  target_compile_options(${target} PRIVATE ${ABBE_SANITIZERS})
 endfunction()

@@ -20,8 +20,7 @@ function(abbe_test name)
   add_executable(test_${name} ${TEST_SOURCES})
   set_target_properties(test_${name} PROPERTIES UNITY_BUILD OFF)  # tests' own helpers share names
   target_link_libraries(test_${name} PRIVATE ${TEST_LINKS} GTest::gtest_main)
-  abbe_compile_options(test_${name})
-  target_compile_options(test_${name} PRIVATE ${ABBE_TEST_OPTIONS})
+  abbe_common_options(test_${name})  # as of any build, so that those of a release serve its sanitizers too
   if(TEST_LABEL STREQUAL "unit")
     add_dependencies(unit_tests test_${name})
   endif()
