@@ -170,8 +170,9 @@ template <typename Real>
     return;
   }
   // A ray that grazes the surface may seem to come from behind it by rounding.
+  constexpr double kGrazing = 1e-30;
   const Real cosine = how.forwards ? from.dot(hit.normal) : -from.dot(hit.normal);
-  const Real cos_i = select(cosine > 0, select(cosine < 1, cosine, 1), 0);
+  const Real cos_i = select(cosine > kGrazing, select(cosine < 1, cosine, 1), kGrazing);
   const Real eta = how.forwards ? at.n_behind / at.n_before : at.n_before / at.n_behind;
   const auto power = [&] {
     return bare ? fresnel_dielectric<Real>(cos_i, eta)
