@@ -10,6 +10,7 @@
 #include "io/part_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/source_tree.h"
 
 // Films that are cut into crops, each of them into ranges of samples.
 
@@ -65,7 +66,7 @@ TEST(CropParts, AddUpWherePhotonsAreTraced) {
 
 // On a smaller film.
 TEST(CropParts, TheDocumentedExampleWorks) {
-  std::string text = read_file(ABBE_DOCS "/distributed.md");
+  std::string text = read_file(source_tree() / "docs/distributed.md");
   const std::size_t begin = text.find("```sh\n", text.find("\nFilms are cut by `--crop`")) + 6;
   text = text.substr(begin, text.find("```", begin) - begin);
   for (const auto& [from, to] : {std::pair{std::string("./abbe"), std::string(ABBE_BINARY)},

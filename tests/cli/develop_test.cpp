@@ -13,6 +13,7 @@
 #include "sensor/readout/readout.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/source_tree.h"
 
 // From films to digital numbers, files and pictures.
 
@@ -284,7 +285,7 @@ TEST(Develop, MergedPartsDevelopLikeTheirWhole) {
 }
 
 TEST(Develop, TheGuidesCommandsWork) {
-  const std::string text = read_file(ABBE_DOCS "/ccd.md");
+  const std::string text = read_file(source_tree() / "docs/ccd.md");
   fs::remove(scratch() / "data");
   fs::create_directory_symlink(data_directory(), scratch() / "data");
   const std::regex line("(?:^|\n)abbe ([^\n]*)");

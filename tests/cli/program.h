@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,7 +12,18 @@
 
 #include <nlohmann/json.hpp>
 
+/// The program under test as shells read it: that of the build which the test's program, in a folder of its
+/// `tests`, is of. So objects do not depend on the folder they were compiled in.
+#define ABBE_BINARY "\"$ABBE_BINARY\""
+
 namespace abbe::test {
+
+inline const int kShellsKnowTheProgram =
+    setenv("ABBE_BINARY",
+           (std::filesystem::canonical("/proc/self/exe").parent_path() / "../../cli/abbe")
+               .lexically_normal()
+               .c_str(),
+           1);
 
 /// What a run of the program gave.
 struct Outcome {

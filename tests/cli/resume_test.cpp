@@ -7,6 +7,7 @@
 #include "io/part_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/source_tree.h"
 
 // Parts, checkpoints and interruptions, as a user of the program meets them.
 
@@ -172,7 +173,7 @@ TEST(Merge, UsageErrors) {
 
 // The first example of the documentation, on a smaller film.
 TEST(Merge, TheDocumentedParallelExampleWorks) {
-  std::string text = read_file(ABBE_DOCS "/distributed.md");
+  std::string text = read_file(source_tree() / "docs/distributed.md");
   const std::size_t begin = text.find("```sh\n") + 6;
   text = text.substr(begin, text.find("```", begin) - begin);
   const auto replace_all = [&text](const std::string& from, const std::string& to) {
@@ -191,9 +192,9 @@ TEST(Merge, TheDocumentedParallelExampleWorks) {
 
 // Which the cluster's nightly test runs.
 TEST(Merge, TheDocumentedJobsAreTheirFiles) {
-  const std::string text = read_file(ABBE_DOCS "/distributed.md");
+  const std::string text = read_file(source_tree() / "docs/distributed.md");
   for (const char* name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
-    const std::string job = read_file(fmt::format("{}/distributed/{}", ABBE_DOCS, name));
+    const std::string job = read_file(source_tree() / "docs/distributed" / name);
     EXPECT_FALSE(job.empty()) << name;
     EXPECT_NE(text.find("```sh\n" + job + "```\n"), std::string::npos) << name;
   }

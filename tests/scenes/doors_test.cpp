@@ -7,6 +7,7 @@
 
 #include "description/doors/doors.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/source_tree.h"
 
 namespace abbe {
 namespace {
@@ -36,7 +37,8 @@ Scene converted(const fs::path& file) {
 
 TEST_P(Doors, SameWithinOnePercentOfEachTile) {
   constexpr int kTiles = 4;
-  const Film theirs = render(converted(fs::path(ABBE_DOORS) / GetParam().theirs), {}).film;
+  const Film theirs =
+      render(converted(test::source_tree() / "tests/scenes/doors" / GetParam().theirs), {}).film;
   const Film ours = render(test::load_file(data_directory() / GetParam().ours, {}), {}).film;
   ASSERT_TRUE(theirs.shape() == ours.shape());
   double worst = 0;

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/cli/program.h"
+
 // What a scene does not need costs nothing. Instructions are counted under Valgrind, inside the function that
 // traces one camera path, so that the counts depend on the program alone: not on the machine, its load or its
 // clock.

@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "tests/source_tree.h"
+
 namespace abbe {
 namespace {
 
@@ -16,7 +18,7 @@ std::string contents(const std::filesystem::path& path) {
 }
 
 TEST(References, EveryCitationInTheCodeIsInTheBibliography) {
-  const std::filesystem::path root = ABBE_SOURCE;
+  const std::filesystem::path root = test::source_tree();
   std::set<std::string> known;
   const std::string bibliography = contents(root / "docs" / "references.bib");
   const std::regex entry(R"(@\w+\{(\w+),)");

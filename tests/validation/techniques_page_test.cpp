@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string>
 
+#include "tests/source_tree.h"
 #include "validation/cases/case.h"
 
 namespace abbe {
@@ -18,7 +19,7 @@ struct Rows {
   std::ptrdiff_t cells = 0;
 };
 Rows rows_that_begin(const std::string& beginning) {
-  std::ifstream page(std::filesystem::path(ABBE_SOURCE) / "docs" / "techniques.md");
+  std::ifstream page(test::source_tree() / "docs" / "techniques.md");
   Rows rows;
   for (std::string line; std::getline(page, line);) {
     if (!line.starts_with(beginning)) continue;
@@ -50,7 +51,7 @@ TEST(TechniquesPage, HasEveryFilmAndAllOfItsCells) {
 }
 
 TEST(TechniquesPage, ShowsNoCellThatDoesNotPass) {
-  std::ifstream page(std::filesystem::path(ABBE_SOURCE) / "docs" / "techniques.md");
+  std::ifstream page(test::source_tree() / "docs" / "techniques.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
   for (const char* verdict : {"FAIL", "UNDECIDED"})
     EXPECT_EQ(text.find(verdict), std::string::npos) << verdict;
