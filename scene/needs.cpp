@@ -4,9 +4,12 @@
 #include <array>
 #include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "scene/coincidence.h"
 #include "scene/polarisation_need.h"
 #include "scene/scene.h"
 #include "scene/shapes/placed.h"
@@ -28,7 +31,7 @@ constexpr std::array<NeedName, 15> kNeeds{{
     {"media", &Needs::media, "matter absorbs along the path"},
     {"scattering", &Needs::scattering, "matter scatters light within"},
     {"boundaries", &Needs::boundaries, "matter begins and ends without an interface"},
-    {"nesting", &Needs::nesting, "matter may be within other matter, or touch it"},
+    {"nesting", &Needs::nesting, "matter may be within other matter, or touch it or a wall"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
     {"light_tracing", &Needs::light_tracing,
      "caustics of a light too small to be hit by chance, seen by a camera, or its light through specular "
@@ -81,6 +84,26 @@ const ShapeInstance* nested_shape(const Scene& scene) {
   return nullptr;
 }
 
+// A shape that light goes into, and that has a face in one of a shape which ends light's way.
+const ShapeInstance* shape_on_wall(const Scene& scene) {
+  constexpr std::size_t kMostPairs = 50'000'000;
+  const double reach = scene.touch_distance();
+  std::vector<std::pair<Imath::Box3d, const ShapeInstance*>> walls;
+  for (const ShapeInstance& instance : scene.shapes)
+    if (!encloses_medium(material_of(scene, instance))) walls.emplace_back(bounds(instance.shape), &instance);
+  std::size_t pairs = 0;
+  for (const ShapeInstance& instance : scene.shapes) {
+    if (!encloses_medium(material_of(scene, instance))) continue;
+    const Imath::Box3d box = bounds(instance.shape);
+    const Imath::Box3d grown(box.min - Imath::V3d(reach), box.max + Imath::V3d(reach));
+    for (const auto& [wall_box, wall] : walls)
+      if (++pairs > kMostPairs ||
+          (grown.intersects(wall_box) && may_coincide(instance.shape, wall->shape, reach)))
+        return &instance;
+  }
+  return nullptr;
+}
+
 // Whether scattering depends on where on the surface it happens.
 bool varies(const ShapeInstance& instance, const Material& material) {
   const auto* mesh = plain<Mesh>(instance.shape);
@@ -109,8 +132,9 @@ void analyse_matter(const Scene& scene, Needs& needs) {
   const bool lit = std::any_of(scene.lights.begin(), scene.lights.end(),
                                [](const Light& light) { return !light.is_environment() && emits(light); });
   if (specular != nullptr) require(needs, &Needs::caustics, scattering && lit, "shape", specular->name);
-  if (const ShapeInstance* nested = nested_shape(scene))
-    require(needs, &Needs::nesting, true, "shape", nested->name);
+  const ShapeInstance* nested = nested_shape(scene);
+  if (nested == nullptr) nested = shape_on_wall(scene);
+  if (nested != nullptr) require(needs, &Needs::nesting, true, "shape", nested->name);
   if (const auto polarising = polarisation_need(scene))
     require(needs, &Needs::polarisation_matters, true, polarising->kind, polarising->name);
 }

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "floor_scenes.h"
+#include "meshes.h"
 #include "scene/extent.h"
+#include "scene/shapes/placed.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -95,6 +97,39 @@ TEST(Needs, NestingOfWhatAnIndexTells) {
   EXPECT_FALSE(nests(kMirror, within, kMirror));
   for (const Imath::V3d& apart : {V3d(1.2, 0, 1), V3d(0, 1.2, 1), V3d(0, 0, 2.2), V3d(-1.2, 0, 1)})
     EXPECT_FALSE(nests(kGlass, Sphere{apart, 0.5})) << apart;
+}
+
+// Of matter with a face in one of what ends light's way, whichever kind of shape either is, and however it is
+// placed.
+TEST(Needs, NestingOfWhatStandsOnAWall) {
+  const Imath::M44d turned = Imath::M44d().setAxisAngle(Imath::V3d(1, 2, 3).normalized(), 0.6);
+  const auto placed = [](PlainShape shape, const Imath::M44d& at) {
+    return PlacedShape{make_prototype(std::move(shape)), std::make_shared<Placement>(placement(at))};
+  };
+  const auto nests = [](const Shape& matter, const Shape& wall) {
+    Scene scene = floor_scene();
+    scene.shapes = {{"matter", matter, kGlass}, {"wall", wall, kDiffuse}};
+    scene.commit();
+    const bool found = scene.needs.nesting;
+    std::swap(scene.shapes[0], scene.shapes[1]);
+    scene.commit();
+    EXPECT_EQ(scene.needs.nesting, found) << "in the other order";
+    return found;
+  };
+  const Mesh block = testing::box({-1, -1, 0}, {1, 1, 1});
+  const Quad table{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}};
+  const Quad lower{{-3, -3, -1e-3}, {6, 0, 0}, {0, 6, 0}};
+  EXPECT_TRUE(nests(block, table));
+  EXPECT_TRUE(nests(block, Disc{{0.2, 0, 0}, {0, 0, 1}, 0.1}));
+  EXPECT_TRUE(nests(block, testing::box({-3, -3, -1}, {3, 3, 0})));
+  EXPECT_TRUE(nests(block, testing::box({-1, -1, 0}, {1, 1, 1})));
+  EXPECT_TRUE(nests(placed(block, turned), placed(table, turned)));
+  EXPECT_TRUE(nests(Sphere{{0, 0, 1}, 1}, Sphere{{0, 0, 1}, 1}));
+  EXPECT_FALSE(nests(block, lower));
+  EXPECT_FALSE(nests(block, Quad{{1.5, -3, 0}, {6, 0, 0}, {0, 6, 0}})) << "beside it";
+  EXPECT_FALSE(nests(block, Quad{{-3, -3, 0.5}, {6, 0, 0}, {0, 6, 0}})) << "through it";
+  EXPECT_FALSE(nests(placed(block, turned), placed(lower, turned)));
+  EXPECT_FALSE(nests(Sphere{{0, 0, 1}, 1}, table)) << "in a point";
 }
 
 TEST(Needs, PolarisationMattersBetweenInterfaces) {

@@ -35,7 +35,7 @@ constexpr const char* kMatter = R"("materials": {
   "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
   "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
   "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
-  "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
+  "fog": {"medium": {"scattering_per_m": 1}}, "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
 
 // Shapes in light of radiance 1 from everywhere, unless there are `lights`.
 Scene scene_of(const std::string& shapes,
@@ -145,6 +145,52 @@ TEST(Nesting, NothingIsLostOrGainedInAFurnace) {
     const RenderResult result = render(scene_of(shapes, both), {});
     EXPECT_LT(furthest(result.film), 2e-5) << shapes;
     EXPECT_EQ(result.stats.nonfinite_samples, 0U);
+  }
+}
+
+std::string block(const std::string& material, const V3d& from, const V3d& to, double turned_deg = 0) {
+  return fmt::format(
+      R"({{"material": "{0}", "transform": {{"rotate": {{"axis": [1, 2, 3], "deg": {7}}}}}, "mesh": {{
+        "vertices": [[{1}, {2}, {3}], [{4}, {2}, {3}], [{1}, {5}, {3}], [{4}, {5}, {3}],
+                     [{1}, {2}, {6}], [{4}, {2}, {6}], [{1}, {5}, {6}], [{4}, {5}, {6}]],
+        "triangles": [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+                      [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]}}}})",
+      material, from.x, from.y, from.z, to.x, to.y, to.z, turned_deg);
+}
+
+// A block of glass on a black table is as bright from above as what its face reflects: nothing comes through
+// the table, in whatever order both stand in the scene.
+TEST(Nesting, GlassOnBlackIsBlackBehindItsReflection) {
+  const std::string glass = block("flint", {-0.5, -0.5, 0}, {0.5, 0.5, 1});
+  const std::string table =
+      R"({"material": "black", "quad": {"corner": [-3, -3, 0], "edge_u": [6, 0, 0], "edge_v": [0, 6, 0]}})";
+  const auto middle = [](const std::string& shapes) {
+    Scene scene = scene_of(shapes, R"("max_depth": 1000)",
+                           R"({"environment": {}, "emission": {"spectrum": 1}})", "0.3, -1, 4");
+    scene.render.samples = 1024;
+    return test::region(render(scene, {}).film, 0, 10, 10, 14, 14).mean;
+  };
+  const double bare = middle("");
+  const double face = fresnel_dielectric(4 / std::sqrt(0.3 * 0.3 + 1 + 4 * 4), 1.7).R();
+  EXPECT_NEAR(middle(glass + "," + table) / bare, face, 0.15 * face);
+  EXPECT_NEAR(middle(table + "," + glass) / bare, face, 0.15 * face);
+}
+
+// Matter flush with the walls of a closed room, in front of them or on both sides, lets nothing in.
+TEST(Nesting, MatterFlushWithWallsLetsNoLightIn) {
+  for (const double turned_deg : {0.0, 37.0}) {
+    const std::string room = block("white", {-1, -1, -1}, {1, 1, 1}, turned_deg);
+    for (const std::string& within : {block("flint", {0.8, -1, -1}, {1, 1, 1}, turned_deg),
+                                      block("flint", {-1, 0.9, -1}, {1, 1.1, 1}, turned_deg),
+                                      block("fog", {-1, -1, -1}, {1, 1, 1}, turned_deg)})
+      for (const std::string& shapes : {room + "," + within, within + "," + room}) {
+        const Film film =
+            render(scene_of(shapes, R"("max_depth": 30)",
+                            R"({"environment": {}, "emission": {"spectrum": 1e6}})", "0.5, 0.3, 0.2"),
+                   {})
+                .film;
+        ASSERT_EQ(test::region(film, 0, 0, 0, 24, 24).mean, 0) << shapes;
+      }
   }
 }
 
