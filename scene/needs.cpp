@@ -84,16 +84,16 @@ const ShapeInstance* nested_shape(const Scene& scene) {
   return nullptr;
 }
 
-// A shape that light goes into, and that has a face in one of a shape which ends light's way.
+// A shape that lets light on, and that has a face in one of a shape which does not.
 const ShapeInstance* shape_on_wall(const Scene& scene) {
   constexpr std::size_t kMostPairs = 50'000'000;
   const double reach = scene.touch_distance();
   std::vector<std::pair<Imath::Box3d, const ShapeInstance*>> walls;
   for (const ShapeInstance& instance : scene.shapes)
-    if (!encloses_medium(material_of(scene, instance))) walls.emplace_back(bounds(instance.shape), &instance);
+    if (opaque(material_of(scene, instance))) walls.emplace_back(bounds(instance.shape), &instance);
   std::size_t pairs = 0;
   for (const ShapeInstance& instance : scene.shapes) {
-    if (!encloses_medium(material_of(scene, instance))) continue;
+    if (opaque(material_of(scene, instance))) continue;
     const Imath::Box3d box = bounds(instance.shape);
     const Imath::Box3d grown(box.min - Imath::V3d(reach), box.max + Imath::V3d(reach));
     for (const auto& [wall_box, wall] : walls)

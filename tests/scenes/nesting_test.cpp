@@ -35,7 +35,7 @@ constexpr const char* kMatter = R"("materials": {
   "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
   "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
   "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
-  "fog": {"medium": {"scattering_per_m": 1}}, "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
+  "pane": {"thin_glass": {"ior": 1.5}}, "fog": {"medium": {"scattering_per_m": 1}}, "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
 
 // Shapes in light of radiance 1 from everywhere, unless there are `lights`.
 Scene scene_of(const std::string& shapes,
@@ -174,6 +174,10 @@ TEST(Nesting, GlassOnBlackIsBlackBehindItsReflection) {
   const double face = fresnel_dielectric(4 / std::sqrt(0.3 * 0.3 + 1 + 4 * 4), 1.7).R();
   EXPECT_NEAR(middle(glass + "," + table) / bare, face, 0.15 * face);
   EXPECT_NEAR(middle(table + "," + glass) / bare, face, 0.15 * face);
+  const std::string pane =
+      R"({"material": "pane", "quad": {"corner": [-1, -1, 0], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}})";
+  EXPECT_EQ(middle(pane + "," + table), 0) << "a sheet on a wall is lost";
+  EXPECT_EQ(middle(table + "," + pane), 0);
 }
 
 // Matter flush with the walls of a closed room, in front of them or on both sides, lets nothing in.

@@ -29,12 +29,15 @@ bool same_around(const MediumStack& a, const MediumStack& b) {
 
 ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
                              const MediumStack& inside) {
-  const auto opaque = std::find_if(surfaces.begin(), surfaces.end(), [&](const CrossedSurface& s) {
-    const Material& material = material_of(scene, s.shape);
-    return interior(material) == nullptr && medium(material) == nullptr;
-  });
-  if (opaque != surfaces.end())
-    return {static_cast<std::size_t>(opaque - surfaces.begin()), index_of(scene, inside), inside};
+  const auto first_of = [&](const auto& kind) {
+    return std::find_if(surfaces.begin(), surfaces.end(),
+                        [&](const CrossedSurface& s) { return kind(material_of(scene, s.shape)); });
+  };
+  auto alone = first_of([](const Material& material) { return opaque(material); });
+  if (alone == surfaces.end())
+    alone = first_of([](const Material& material) { return !encloses_medium(material); });
+  if (alone != surfaces.end())
+    return {static_cast<std::size_t>(alone - surfaces.begin()), index_of(scene, inside), inside};
 
   MediumStack before = inside;
   for (const CrossedSurface& s : surfaces)

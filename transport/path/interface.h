@@ -27,8 +27,9 @@ struct ActingSurface {
 };
 
 /// Tells which of the surfaces that a ray within `inside` meets together acts on it. The first opaque one
-/// acts, else that of the higher priority of the two that bound what was before and what is behind, of equals
-/// the later one of the scene. A shape left that was never entered counts as entered before.
+/// acts, else the first sheet, else that of the higher priority of the two that bound what was before and
+/// what is behind, of equals the later one of the scene. A shape left that was never entered counts as
+/// entered before.
 [[nodiscard]] ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
                                            const MediumStack& inside);
 
