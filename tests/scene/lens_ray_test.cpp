@@ -32,7 +32,7 @@ TEST(LensCamera, TellsFiniteNumbersOfEveryLane) {
   const Camera camera = looking_through(lens, lens::stop_radius(lens), 16, Ghosts::enumerated);
   Random random(3);
   int parted = 0;  // ghosts by which some lanes come and others do not
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < 60000; ++i) {
     const V2f film(16 * random.uniform(), 16 * random.uniform());
     const CameraRay ray = sample_ray(camera, film, random.pair(), spread_wavelengths(), i % kLanes, 0);
     if (ray.weight.is_zero()) continue;
@@ -47,7 +47,7 @@ TEST(LensCamera, TellsFiniteNumbersOfEveryLane) {
     }
     parted += dark ? 1 : 0;
   }
-  EXPECT_GT(parted, 1000);
+  EXPECT_GT(parted, 300);
 }
 
 TEST(LensCamera, TellsTheSameOfARayFromBothEnds) {

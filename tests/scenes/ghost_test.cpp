@@ -80,6 +80,21 @@ TEST(Ghosts, OfPointsAreTheSameByEveryTechnique) {
   EXPECT_GT(test::compare_regions(bright_ghosts("path", 64, without), path, 4).ratio, 1.02);
 }
 
+// On a film so wide that a lens stops some wavelengths of a path and lets others through, by an edge or by
+// total reflection: those it stops bring nothing, polarised or not.
+TEST(Ghosts, StopWavelengthsWithoutHarmToOthers) {
+  const Scene room = test::load_text(R"({"abbe": 1,
+    "camera": {"lens_system": {"prescription": "double_gauss", "focus_distance": 1.0, "ghosts": true},
+               "from": [0.05, -0.8, 0.1], "to": [0, 1, -0.3], "up": [0, 0, 1]},
+    "sensor": {"resolution": [16, 16], "channels": {"b": {"band": [430, 470]}, "r": {"band": [600, 700]}},
+               "exposure_s": 0.1, "pixel_pitch_um": 1500, "stokes": true},
+    "materials": {"w": {"diffuse": {"reflectance": 0.5}}},
+    "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1.3}, "material": "w"}],
+    "lights": [{"sphere": {"center": [0.2, 0, 0.7], "radius": 0.15}, "emission": {"spectrum": 1}}],
+    "render": {"integrator": "path", "samples": 1024, "seed": 1}})");
+  EXPECT_EQ(render(room, {}).stats.nonfinite_samples, 0U);
+}
+
 // Of what a mirror lights by a lamp without size, photons are connected to the lens by its ghosts.
 TEST(Ghosts, OfWhatPhotonsLightAreTheSameByEveryTechnique) {
   const V3d at(1, -0.2, 0.5);
