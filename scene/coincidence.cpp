@@ -93,10 +93,12 @@ bool same_sphere(const Shape& a, const Shape& b, double reach) {
 
 bool may_coincide(const Shape& a, const Shape& b, double reach) {
   constexpr std::size_t kMostPairs = 50'000'000;
-  if (!grown(bounds(a), reach).intersects(bounds(b))) return false;
+  const Box3d near_a = grown(bounds(a), reach);
+  const Box3d near_b = grown(bounds(b), reach);
+  if (!near_a.intersects(near_b)) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr || same_sphere(a, b, reach)) return true;
-  const std::vector<Face> of_a = faces_near(a, grown(bounds(b), reach));
-  const std::vector<Face> of_b = faces_near(b, grown(bounds(a), reach));
+  const std::vector<Face> of_a = faces_near(a, near_b);
+  const std::vector<Face> of_b = faces_near(b, near_a);
   std::size_t pairs = 0;
   auto first = of_b.begin();
   double widest = 0;  // of the faces of b along x

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
 #include "validation/cases/radiative_transfer.h"
 
@@ -256,16 +257,12 @@ TEST(Media, TheSkyIsBlue) {
   expect_near(found, expected, 0.02, "air");
 }
 
-// Stress 30: what is left of light after optical depths from 1e-8 to 1e4.
 // Slabs before a wall that a lamp lights from beyond them: where two share a place, there is the matter of
 // one of them, the same for light from either end.
 TEST(Media, WhatOverlapsInPartIsTheSameFromBothEnds) {
   const auto slab = [](const std::string& material, double from, double to) {
-    return fmt::format(R"(, {{"material": "{0}", "mesh": {{
-        "vertices": [[-2, {1}, -2], [2, {1}, -2], [2, {2}, -2], [-2, {2}, -2], [-2, {1}, 2], [2, {1}, 2], [2, {2}, 2], [-2, {2}, 2]],
-        "triangles": [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
-                      [2, 3, 7], [2, 7, 6], [1, 2, 6], [1, 6, 5], [0, 4, 7], [0, 7, 3]]}}}})",
-                       material, from, to);
+    return fmt::format(R"(, {{"material": "{}", "mesh": {}}})", material,
+                       testing::inline_mesh(testing::box({-2, from, -2}, {2, to, 2})));
   };
   const std::string thin = slab("thin", -1, 1);
   const std::string dense = slab("dense", 0, 2);
@@ -316,6 +313,7 @@ TEST(Media, WhatOverlapsInPartIsTheSameFromBothEnds) {
   }
 }
 
+// Stress 30: what is left of light after optical depths from 1e-8 to 1e4.
 TEST(Media, TransmittanceHoldsAtAnyOpticalDepth) {
   for (const double depth : {1e-8, 1e-4, 0.1, 1.0, 10.0, 20.0, 1e4}) {
     const auto found =

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "materials/interface/fresnel.h"
+#include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/path/ray_trace.h"
 
@@ -15,14 +16,8 @@ namespace {
 using Imath::V3d;
 
 std::string box(const std::string& material, double x0, double x1) {
-  std::string vertices;
-  for (int i = 0; i < 8; ++i)
-    vertices +=
-        fmt::format("{}[{}, {}, {}]", i ? ", " : "", i & 1 ? x1 : x0, i & 2 ? 0.6 : -0.7, i & 4 ? 0.8 : -0.5);
-  return fmt::format(R"({{"name": "{0}", "material": "{0}", "mesh": {{"vertices": [{1}], "triangles": [
-      [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
-      [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]}}}})",
-                     material, vertices);
+  return fmt::format(R"({{"name": "{0}", "material": "{0}", "mesh": {1}}})", material,
+                     testing::inline_mesh(testing::box({x0, -0.7, -0.5}, {x1, 0.6, 0.8})));
 }
 std::string ball(const std::string& material, double radius, const std::string& center = "0, 0, 0") {
   return fmt::format(R"({{"name": "{0}", "material": "{0}", "sphere": {{"center": [{2}], "radius": {1}}}}})",
@@ -35,7 +30,8 @@ constexpr const char* kMatter = R"("materials": {
   "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
   "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
   "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
-  "pane": {"thin_glass": {"ior": 1.5}}, "fog": {"medium": {"scattering_per_m": 1}}, "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
+  "pane": {"thin_glass": {"ior": 1.5}}, "fog": {"medium": {"scattering_per_m": 1}},
+  "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
 
 // Shapes in light of radiance 1 from everywhere, unless there are `lights`.
 Scene scene_of(const std::string& shapes,
@@ -150,12 +146,8 @@ TEST(Nesting, NothingIsLostOrGainedInAFurnace) {
 
 std::string block(const std::string& material, const V3d& from, const V3d& to, double turned_deg = 0) {
   return fmt::format(
-      R"({{"material": "{0}", "transform": {{"rotate": {{"axis": [1, 2, 3], "deg": {7}}}}}, "mesh": {{
-        "vertices": [[{1}, {2}, {3}], [{4}, {2}, {3}], [{1}, {5}, {3}], [{4}, {5}, {3}],
-                     [{1}, {2}, {6}], [{4}, {2}, {6}], [{1}, {5}, {6}], [{4}, {5}, {6}]],
-        "triangles": [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
-                      [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]}}}})",
-      material, from.x, from.y, from.z, to.x, to.y, to.z, turned_deg);
+      R"({{"material": "{}", "transform": {{"rotate": {{"axis": [1, 2, 3], "deg": {}}}}}, "mesh": {}}})",
+      material, turned_deg, testing::inline_mesh(testing::box(from, to)));
 }
 
 // A block of glass on a black table is as bright from above as what its face reflects: nothing comes through
