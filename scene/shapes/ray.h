@@ -63,19 +63,24 @@ struct LoggedRay {
 /// Some steps of floats for each unit of the largest coordinate: what clears a point of its own rounding.
 inline constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
 
+/// How far [m] off a surface at `point` is what does not lie on it, for all that floats tell: what a ray that
+/// leaves the surface there starts at.
+[[nodiscard]] inline float offset_length(const Imath::V3f& point) {
+  // A point on a surface is off it by rounding, at most a float step along each axis, and the point moved by
+  // half a step. Four steps of the largest coordinate clear both, and intersection decides the rest in
+  // double. Near the origin steps vanish, and the floor takes over: what double tells from 0 on planes a
+  // hundred metres wide, and no more than a float step where all of a scene is a micrometre.
+  constexpr float kLeastOffset_m = 1e-13F;
+  return std::max(kOffsetSteps * largest_coordinate(point), kLeastOffset_m);
+}
+
 /// The point of a surface with outward `normal`, moved by a few representable floats to the side `direction`
 /// leaves on, so that a ray from there cannot meet the surface it starts from, whatever the scale of the
 /// scene. After [Wachter2019], but with steps of the largest coordinate and no fixed length, since
 /// Scene::intersect is exact about sides.
 [[nodiscard]] inline Imath::V3f offset_point(const Imath::V3f& point, const Imath::V3f& normal,
                                              const Imath::V3f& direction) {
-  // A point on a surface is off it by rounding, at most a float step along each axis, and the point moved by
-  // half a step. Four steps of the largest coordinate clear both, and intersection decides the rest in
-  // double. Near the origin steps vanish, and the floor takes over: what double tells from 0 on planes a
-  // hundred metres wide, and no more than a float step where all of a scene is a micrometre.
-  constexpr float kLeastOffset_m = 1e-13F;
-  const float distance = std::max(kOffsetSteps * largest_coordinate(point), kLeastOffset_m);
-  return point + normal * std::copysign(distance, normal.dot(direction));
+  return point + normal * std::copysign(offset_length(point), normal.dot(direction));
 }
 
 /// A ray that starts there into `direction`, at that time of the exposure.

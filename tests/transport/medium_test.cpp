@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/scene/scenes.h"
+#include "transport/path/free_path.h"
 #include "transport/path/medium_at.h"
 
 namespace abbe {
@@ -39,6 +41,34 @@ TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {
   medium().attenuate(lanes, std::numeric_limits<float>::infinity());
   EXPECT_EQ(lanes[0], 0);
   EXPECT_EQ(lanes[3], 0.5F);
+}
+
+// Rounded to floats, a third of these would lie behind the plane that the ray ends at.
+TEST(FreePath, WhatFloatsDoNotTellFromASurfaceLiesInFrontOfIt) {
+  testing::Random random(3);
+  const auto draw = [&] {
+    return Imath::V3f(random.uniform(), random.uniform(), random.uniform()) - Imath::V3f(0.5F);
+  };
+  for (int i = 0; i < 10'000; ++i) {
+    const Imath::V3f normal = draw().normalized();
+    const Ray ray{draw() * 8, draw().normalized()};
+    const float end = 1 + random.uniform();
+    const Imath::V3d plane = Imath::V3d(ray.origin) + Imath::V3d(ray.direction) * static_cast<double>(end);
+    const double towards = Imath::V3d(normal).dot(Imath::V3d(ray.direction));
+    for (const float distance : {end, std::nextafter(end, 0.0F), end * (1 - 3e-7F), 0.5F * end}) {
+      const Imath::V3d point(point_along(ray, distance, end, normal));
+      ASSERT_GT((plane - point).dot(Imath::V3d(normal)) * std::copysign(1.0, towards), 0) << distance / end;
+      const Imath::V3d straight =
+          Imath::V3d(ray.origin) + Imath::V3d(ray.direction) * static_cast<double>(distance);
+      ASSERT_LT((point - straight).length(), 8e-7 * 6) << distance / end;
+    }
+  }
+}
+
+TEST(FreePath, WaysWithoutAnEndStayStraight) {
+  const Ray ray{{1, 2, 3}, {0, 0, 1}};
+  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(point_along(ray, 0.5F, infinity, Imath::V3f(0)), Imath::V3f(1, 2, 3.5F));
 }
 
 std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {

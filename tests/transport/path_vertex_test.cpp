@@ -65,6 +65,16 @@ std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u)
                     static_cast<double>(sample->pdf) * cosine / std::pow(static_cast<double>(hit->t), 2)};
 }
 
+// Two points of one face are seen from each other along it, whichever side of it each is on.
+TEST(SurfaceVertex, SendsNothingToWhatMayLieOnEitherSide) {
+  const PathVertex x = surface_vertex({0, 0, 0}, {0, 0, 1}, {0, 0, 1}, DiffuseBsdf{uneven(0.2F)});
+  const auto sent = [&](float cosine) {
+    return std::get<SurfaceVertex>(x.at).towards({1, 0, cosine}, TransportMode::radiance).f;
+  };
+  for (const float cosine : {0.0F, 2e-7F, -2e-7F}) EXPECT_TRUE(sent(cosine).is_zero()) << cosine;
+  EXPECT_FALSE(sent(1e-6F).is_zero());
+}
+
 // As the path tracer adds it: f |cos| L factor/p for the direction drawn, for each kind of light.
 TEST(Connect, ToALightIsWhatPathTracingAdds) {
   for (const auto& [name, scene] : all_light_kinds()) {

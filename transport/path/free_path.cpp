@@ -66,8 +66,8 @@ std::optional<SurfaceHit> surface_at(const Scene& scene, const Ray& ray, const S
 
 // The point that far along a ray, where its matter lasts to `end`: another than its origin, a float step from
 // it, where floats do not tell the two apart.
-Imath::V3f other_point_along(const Ray& ray, float distance, float end) {
-  const Imath::V3f point = point_along(ray, distance);
+Imath::V3f other_point_along(const Ray& ray, float distance, float end, const Imath::V3f& end_normal) {
+  const Imath::V3f point = point_along(ray, distance, end, end_normal);
   if (point != ray.origin) return point;
   const auto step = static_cast<float>(2 * float_step(largest_coordinate(Imath::V3d(point))));
   return ray.origin + ray.direction * std::min(step, end / 2);
@@ -75,13 +75,16 @@ Imath::V3f other_point_along(const Ray& ray, float distance, float end) {
 
 // Takes the walk as far as its matter lasts along `ray`, or to where the hero's optical `depth` is used up.
 // Whether it is.
-bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth, const StretchVisitor& visitor) {
+bool scatters_on(Walk& walk, const Ray& ray, const std::optional<SurfaceHit>& hit, float& depth,
+                 const StretchVisitor& visitor) {
   const MediumAt& medium = walk.around.medium;
+  const float distance = hit ? hit->t : kInfinity;
   if (medium.scattering == nullptr) {
     medium.attenuate(walk.packet.throughput, medium.march(ray, distance, kInfinity).column);
     return false;
   }
-  walk.stretch = {ray, medium.grid == nullptr ? distance : 0, walk.packet.lane_pdf.sum()};
+  const Imath::V3f end_normal = hit ? hit->normal : Imath::V3f(0);
+  walk.stretch = {ray, medium.grid == nullptr ? distance : 0, walk.packet.lane_pdf.sum(), end_normal};
   if (visitor && walk.stretch.length > 0) visitor(walk.stretch);
   const float extinction = medium.extinction_per_m[walk.packet.hero];
   const GridStretch way = medium.march(ray, distance, extinction > 0 ? depth / extinction : kInfinity);
@@ -90,7 +93,7 @@ bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth, const
     advance(walk.packet, passed.lanes * medium.scattering_per_m, passed.lanes * medium.extinction_per_m);
     walk.stretch.lanes *= passed.unit;
     rescale(walk);
-    walk.ray.origin = other_point_along(ray, way.distance, distance);
+    walk.ray.origin = other_point_along(ray, way.distance, distance, end_normal);
     return true;
   }
   advance(walk.packet, passed.lanes, passed.lanes);
@@ -102,6 +105,17 @@ bool scatters_on(Walk& walk, const Ray& ray, float distance, float& depth, const
 
 }  // namespace
 
+Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V3f& end_normal) {
+  const Imath::V3d direction(ray.direction);
+  const Imath::V3d normal(end_normal);
+  Imath::V3d point = Imath::V3d(ray.origin) + direction * static_cast<double>(distance);
+  const double least = static_cast<double>(offset_length(Imath::V3f(point)));
+  const double towards = normal.dot(direction);
+  const double off = (static_cast<double>(end) - static_cast<double>(distance)) * std::abs(towards);
+  if (off < least && towards != 0) point -= normal * std::copysign(least - off, towards);
+  return rounded_back(point, direction);
+}
+
 bool propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
                std::optional<SurfaceHit>& hit, const StretchVisitor& visitor) {
   constexpr float kDigits = 0x1p-24F;  // of a random number
@@ -109,7 +123,7 @@ bool propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk&
   Ray ray = walk.ray;
   float gone = 0;  // to its origin
   while (true) {
-    if (scatters_on(walk, ray, hit ? hit->t : kInfinity, depth, visitor)) return true;
+    if (scatters_on(walk, ray, hit, depth, visitor)) return true;
     if (!hit) return false;
     if (const std::optional<SurfaceHit> surface = surface_at(scene, ray, *hit)) {
       hit = surface;

@@ -13,11 +13,10 @@ namespace abbe {
   return scene.needs.scattering || scene.needs.boundaries;
 }
 
-/// The point that far along a ray, as a float before what the ray meets there.
-[[nodiscard]] inline Imath::V3f point_along(const Ray& ray, float distance) {
-  const Imath::V3d direction(ray.direction);
-  return rounded_back(Imath::V3d(ray.origin) + direction * static_cast<double>(distance), direction);
-}
+/// The point that far along a ray that ends at `end`, perhaps infinite, on a surface of that unit normal, or
+/// at none where it is 0. A point that floats do not tell from the surface is moved off it, as far as rays
+/// that leave the surface start: rounded as it is, it might lie behind.
+[[nodiscard]] Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V3f& end_normal);
 
 /// Is told of each stretch of even matter that scatters which a walk comes to, as it is at its origin.
 using StretchVisitor = std::function<void(const Stretch&)>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -96,15 +97,18 @@ struct SurfaceVertex {
     return f;
   }
 
-  /// What goes on towards a direction of the world.
+  /// What goes on towards a direction of the world: nothing towards one that floats do not tell from the
+  /// plane of the surface, as it may lead to either side.
   struct Departure {
     Imath::V3f wi;      ///< The direction, local.
     SampledSpectrum f;  ///< See `f`; what goes on is this times |wi.z|.
     bool crosses;       ///< To the other side of the surface than the path came from.
   };
   [[nodiscard]] Departure towards(const Imath::V3f& world, TransportMode mode) const {
+    constexpr float kGrazing = 4 * std::numeric_limits<float>::epsilon();
     const Imath::V3f wi = frame.to_local(world);
-    return {wi, f(world, wi, mode), wi.z * wo.z < 0};
+    const bool leaves = std::abs(wi.z) > kGrazing;
+    return {wi, leaves ? f(world, wi, mode) : SampledSpectrum(0.0F), wi.z * wo.z < 0};
   }
 
  private:

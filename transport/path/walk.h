@@ -22,8 +22,9 @@ struct LightSampleContext {
 /// A stretch of even matter that scatters, along a ray from its origin, and what a path has come there with.
 struct Stretch {
   Ray ray;
-  float length = 0;  ///< [m], perhaps infinite; 0 where there is none.
-  float lanes = 0;   ///< Sum of the lane densities at its origin, in the unit of the path's.
+  float length = 0;                ///< [m], perhaps infinite; 0 where there is none.
+  float lanes = 0;                 ///< Sum of the lane densities at its origin, in the unit of the path's.
+  Imath::V3f end_normal{0, 0, 0};  ///< Unit, of the surface at its end; 0 where it ends at none.
 };
 
 /// How many paths take each step together: as many as a near cache holds.

@@ -28,7 +28,7 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   const auto part = Equiangular::along(stretch.ray, stretch.length, light);
   if (!part) return;
   const float t = part->sample(u.y);
-  const Imath::V3f point = point_along(stretch.ray, t);
+  const Imath::V3f point = point_along(stretch.ray, t, stretch.length, stretch.end_normal);
   const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {0, 0}, path.ray.time);
   if (!towards) return;
   const MediumAt& medium = path.around.medium;
