@@ -13,9 +13,9 @@
 
 namespace abbe {
 
-/// The largest magnitude of a number, and of an integer: 2^53, beyond which a double skips some.
+/// The largest magnitude of a number, and of an integer: 2^53 - 1, up to which no two are read as one double.
 inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
-inline constexpr double kLargestInteger = 9007199254740992;
+inline constexpr double kLargestInteger = 9007199254740991;
 
 /// The numbers a field accepts. `text()` is how an error names them, e.g. "(0, 180)" or "[0, inf)".
 struct Range {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "description/render_limits.h"
+
 namespace abbe::cli {
 namespace {
 
@@ -38,9 +40,9 @@ TEST(Arguments, IntegersAreWholeAndInRange) {
 
 // One more than doubles tell from its neighbours.
 TEST(Arguments, WholeNumbersAreNotRounded) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;
-  EXPECT_EQ(parse_integer("--seed", "9007199254740992", 0, kMost), kMost);
-  EXPECT_NE(refusal([] { return parse_integer("--seed", "9007199254740993", 0, kMost); }), "accepted");
+  EXPECT_EQ(parse_integer("--seed", "9007199254740991", 0, kMaxSeed), kMaxSeed);
+  EXPECT_NE(refusal([] { return parse_integer("--seed", "9007199254740992", 0, kMaxSeed); }), "accepted");
+  EXPECT_NE(refusal([] { return parse_integer("--seed", "9007199254740993", 0, kMaxSeed); }), "accepted");
 }
 
 TEST(Arguments, ChoicesGoByName) {

@@ -86,16 +86,19 @@ TEST_F(JsonValues, NumbersOutOfRange) {
 }
 
 TEST_F(JsonValues, CountsAreWholeAndInRange) {
-  parse(R"({"a": 3.5, "b": -5, "c": 1e300, "d": 9007199254740992})");
+  parse(R"({"a": 3.5, "b": -5, "c": 1e300, "d": 9007199254740991, "e": 9007199254740993})");
   EXPECT_EQ(read_integer(at("a"), {1}, diagnostics_), std::nullopt);
   EXPECT_EQ(read_integer(at("b"), {1}, diagnostics_), std::nullopt);
   EXPECT_EQ(read_integer(at("c"), {1}, diagnostics_), std::nullopt);
-  EXPECT_EQ(read_integer(at("d"), {1}, diagnostics_), std::int64_t{9007199254740992});
+  EXPECT_EQ(read_integer(at("d"), {1}, diagnostics_), std::int64_t{9007199254740991});
+  EXPECT_EQ(read_integer(at("e"), {1}, diagnostics_), std::nullopt);  // a double of two numbers
   EXPECT_EQ(
       complaints(),
       "a.json:1:7: /a: error: expected an integer (got 3.5, allowed [1, inf))\n"
       "a.json:1:17: /b: error: expected an integer (got -5, allowed [1, inf))\n"
-      "a.json:1:26: /c: error: expected an integer (got 1e+300, allowed magnitudes to 9007199254740992)\n");
+      "a.json:1:26: /c: error: expected an integer (got 1e+300, allowed magnitudes to 9007199254740991)\n"
+      "a.json:1:61: /e: error: expected an integer (got 9007199254740992, allowed magnitudes to "
+      "9007199254740991)\n");
 }
 
 TEST_F(JsonValues, ChoicesAreNumberedFromZero) {

@@ -92,13 +92,13 @@ class Renders(Test):
 
     def test_renders_are_bounded_as_those_of_the_command(self):
         scene = abbe.Scene(box())
-        for option, argument, last in (("--spp", "spp", 2 ** 24), ("--seed", "seed", 2 ** 53), ("--threads", "threads", 1024)):
+        for option, argument, last in (("--spp", "spp", 2 ** 24), ("--seed", "seed", 2 ** 53 - 1), ("--threads", "threads", 1024)):
             self.assertIn(f"in [{1 if argument == 'spp' else 0}, {last}]", self.refused("render", "x", option, last + 2))
             for beyond in (-1, last + 2):
                 with self.subTest(argument=argument), self.assertRaises(abbe.UsageError) as caught:
                     abbe.render(scene, **{argument: beyond})
                 self.assertIn(f"--{caught.exception}".replace(f"got {beyond}", f'got "{beyond}"'), self.refused("render", "x", option, beyond))
-        self.assertEqual(abbe.render(scene, seed=2 ** 53).metadata["seed"], str(2 ** 53))
+        self.assertEqual(abbe.render(scene, seed=2 ** 53 - 1).metadata["seed"], str(2 ** 53 - 1))
 
     def test_samples_that_are_given_exclude_time_and_error(self):
         scene = abbe.Scene(box())
