@@ -76,6 +76,29 @@ std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {
   return {inside.shapes().begin(), inside.shapes().end()};
 }
 
+// Two bodies of six faces each, of one material.
+TEST(MediumStack, KnowBodiesMadeOfFaces) {
+  Scene scene{};
+  scene.materials = {{"fog", DielectricMaterial{"glass", RefractiveIndex(1.5)}}};
+  const Imath::V3d x(1, 0, 0);
+  const Imath::V3d y(0, 1, 0);
+  const Imath::V3d z(0, 0, 1);
+  for (const double left : {0.0, 3.0}) {
+    const Imath::V3d low(left, 0, 0);
+    const Imath::V3d high = low + x + y + z;
+    for (const auto& [u, v] : {std::pair(x, y), std::pair(y, z), std::pair(z, x)}) {
+      scene.shapes.push_back({"", Quad{high, -u, -v}, 0});
+      scene.shapes.push_back({"", Quad{low, v, u}, 0});
+    }
+  }
+  scene.commit();
+  EXPECT_EQ(around(scene, Imath::V3f(0.2F, 0.6F, 0.7F) - Imath::V3f(scene.origin_m)).size(), 1U);
+  EXPECT_LT(around(scene, Imath::V3f(0.2F, 0.6F, 0.7F) - Imath::V3f(scene.origin_m)).at(0), 6U);
+  EXPECT_GE(around(scene, Imath::V3f(3.5F, 0.5F, 0.5F) - Imath::V3f(scene.origin_m)).at(0), 6U);
+  EXPECT_TRUE(around(scene, Imath::V3f(2, 0.5F, 0.5F) - Imath::V3f(scene.origin_m)).empty());
+  EXPECT_TRUE(around(scene, Imath::V3f(-0.5F, -0.8F, -1) - Imath::V3f(scene.origin_m)).empty());
+}
+
 // A ball of glass within another, beside a cube, a card and a pane of glass that encloses nothing.
 TEST(MediumStack, AreFoundFromTheOutermost) {
   Scene scene{};

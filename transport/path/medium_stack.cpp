@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,15 +30,24 @@ bool displaces(const Scene& scene, std::uint32_t a, std::uint32_t b) {
   return of_a > 0 && of_b > 0 && std::tuple(of_b, a) > std::tuple(of_a, b);
 }
 
-// How often more a ray leaves a shape than it enters it, and where it does so last.
+// What a ray leaves and enters as one: a shape that encloses a volume, or else, by material, all those that
+// do not, such as the faces of a body.
+using Body = std::pair<bool, std::uint32_t>;
+Body body_of(const Scene& scene, std::uint32_t shape) {
+  const bool closed = scene.shapes[shape].volume > 0;
+  return {closed, closed ? shape : scene.shapes[shape].material};
+}
+
+// How often more a ray leaves a body than it enters it, and where and by which shape it does so last.
 struct Crossings {
   int exits = 0;
   float last_exit = 0;
+  std::uint32_t by = 0;
 };
 
-std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3f& from,
-                                             const Imath::V3f& direction, float time) {
-  std::map<std::uint32_t, Crossings> found;
+std::map<Body, Crossings> crossings(const Scene& scene, const Imath::V3f& from, const Imath::V3f& direction,
+                                    float time) {
+  std::map<Body, Crossings> found;
   Ray ray = ray_at(from, direction, time);
   while (const std::optional<SurfaceHit> hit = scene.intersect(ray)) {
     SurfaceHit last = *hit;
@@ -45,10 +55,12 @@ std::map<std::uint32_t, Crossings> crossings(const Scene& scene, const Imath::V3
     for (const SurfaceHit& met : together.all()) {
       last.spread = std::max(last.spread, std::abs((met.point - last.point).dot(last.normal)));
       if (!filled(scene, met.shape)) continue;
-      Crossings& of = found[met.shape];
+      Crossings& of = found[body_of(scene, met.shape)];
       const bool leaves = met.normal.dot(direction) > 0;
       of.exits += leaves ? 1 : -1;
-      if (leaves) of.last_exit = (met.point - from).length();
+      if (!leaves) continue;
+      of.last_exit = (met.point - from).length();
+      of.by = met.shape;
     }
     ray = spawn(last, direction, ray.time);
   }
@@ -93,10 +105,10 @@ MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time) {
   const auto ahead = crossings(scene, point, askew_direction<float>(), time);
   const auto behind = crossings(scene, point, -askew_direction<float>(), time);
   std::vector<std::pair<float, std::uint32_t>> around;
-  for (const auto& [shape, of] : ahead) {
-    const auto other = behind.find(shape);
+  for (const auto& [body, of] : ahead) {
+    const auto other = behind.find(body);
     if (of.exits > 0 && other != behind.end() && other->second.exits > 0)
-      around.emplace_back(of.last_exit, shape);
+      around.emplace_back(of.last_exit, of.by);
   }
   std::sort(around.rbegin(), around.rend());  // from the outermost
   for (const auto& [exit, shape] : around) inside.cross(scene, shape, true);

@@ -45,7 +45,8 @@ class MediumStack {
 };
 
 /// Finds the shapes around a point in the scene at some time, along a ray from there and its opposite: a
-/// shape encloses the point if both leave it more often than they enter.
+/// shape encloses the point if both leave it more often than they enter, and so do all shapes of a material
+/// together that enclose no volume by themselves, of which the one that the ray leaves last stands for all.
 [[nodiscard]] MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time = 0);
 /// Finds the shapes around a scene's camera, its lens or the middle of its meter, and around a light, at time
 /// 0. A light that is far, or at infinity, stands outside of them all; nothing is told of a lamp whose
