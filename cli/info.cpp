@@ -192,6 +192,7 @@ int info(const InfoOptions& options) {
   if (const auto refused = refusal(scene)) say(fmt::format("warning: {}", refused->what()));
   warn_of_unpolarised_measurement(scene, false);
   warn_of_dark_camera(scene, false);
+  warn_of_hidden_sheet(scene, false);
   note_polarisation(scene);
   return 0;
 }

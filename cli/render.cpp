@@ -337,6 +337,7 @@ int render(const RenderOptions& options) {
   if (!options.quiet) note_polarisation(scene);
   warn_of_unpolarised_measurement(scene, options.strict);
   warn_of_dark_camera(scene, options.strict);
+  warn_of_hidden_sheet(scene, options.strict);
   warn_of_lost_light(scene, options.strict && !leaves_integrator);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options, scene)));

@@ -27,6 +27,10 @@ void warn_of_dark_camera(const Scene& scene, bool strict) {
   if (const auto dark = dark_camera(scene)) warn(*dark, strict);
 }
 
+void warn_of_hidden_sheet(const Scene& scene, bool strict) {
+  if (const auto hidden = hidden_sheet(scene)) warn(*hidden, strict);
+}
+
 void note_polarisation(const Scene& scene) {
   if (!scene.needs.polarisation_matters || scene.render.polarisation) return;
   say(fmt::format(

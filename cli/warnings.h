@@ -11,6 +11,9 @@ void warn_of_lost_light(const Scene& scene, bool strict);
 /// Warns of a camera that stands within opaque matter where no light is: Error{scene} when `strict`.
 void warn_of_dark_camera(const Scene& scene, bool strict);
 
+/// Warns of a thin sheet that is lost where it lies on something: Error{scene} when `strict`.
+void warn_of_hidden_sheet(const Scene& scene, bool strict);
+
 /// Says in a line, when the scene leaves polarisation out and has paths where that costs something, what it
 /// costs.
 void note_polarisation(const Scene& scene);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/contact.h"
 #include "scene/dark_enclosure.h"
 #include "transport/path/roulette.h"
 #include "transport/plan/techniques.h"
@@ -23,6 +24,13 @@ std::optional<std::string> dark_camera(const Scene& scene) {
   if (!shape) return std::nullopt;
   return fmt::format("the camera stands within \"{}\", which is opaque and has no light inside",
                      scene.shapes[*shape].name);
+}
+
+std::optional<std::string> hidden_sheet(const Scene& scene) {
+  const auto sheet = lost_sheet(scene);
+  if (!sheet) return std::nullopt;
+  return fmt::format("the thin sheet \"{}\" lies on \"{}\", which is met instead: keep them apart",
+                     scene.shapes[sheet->shape].name, scene.shapes[sheet->on].name);
 }
 
 std::vector<std::string> left_out(const Scene& scene, const RenderStats& stats) {

@@ -16,6 +16,9 @@ namespace abbe {
 /// That the camera stands within opaque matter where no light is, as a sentence; nothing when it does not.
 [[nodiscard]] std::optional<std::string> dark_camera(const Scene& scene);
 
+/// That a sheet lies on something that is met instead, as a sentence; nothing when none does.
+[[nodiscard]] std::optional<std::string> hidden_sheet(const Scene& scene);
+
 /// What a render left out of the scene's film, a sentence each: samples that were not finite, and paths that
 /// were cut although the scene does not say so.
 [[nodiscard]] std::vector<std::string> left_out(const Scene& scene, const RenderStats& stats);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "scene/extent.h"
 #include "scene/scene.h"
 #include "scene/shapes/basis.h"
 
@@ -12,6 +15,7 @@ namespace abbe {
 namespace {
 
 using Imath::Box3d;
+using Imath::M44d;
 using Imath::V3d;
 
 // A triangle or a parallelogram; of a disc the square around it.
@@ -21,9 +25,42 @@ struct Face {
   V3d normal;  // unit
 };
 
+// A sphere placed by a matrix.
+struct Ellipsoid {
+  V3d center;
+  double radius;  // in its own coordinates
+  M44d to_world;
+
+  // From the middle to where the outward normal is that.
+  [[nodiscard]] V3d to_side(const V3d& normal) const {
+    V3d own;
+    to_world.transposed().multDirMatrix(normal, own);
+    V3d side;
+    to_world.multDirMatrix(own.normalized() * radius, side);
+    return side;
+  }
+  // Its radius where it is a ball but for so much.
+  [[nodiscard]] std::optional<double> radius_of_ball(double reach) const {
+    const double across = to_side(V3d(1, 0, 0)).length();
+    for (const V3d& axis : {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)})
+      if (!to_side(axis).equalWithAbsError(axis * across, reach)) return std::nullopt;
+    return across;
+  }
+};
+
+std::optional<Ellipsoid> ellipsoid_of(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
+    return Ellipsoid{sphere->center, sphere->radius, M44d()};
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  const auto* sphere = placed == nullptr ? nullptr : std::get_if<Sphere>(&placed->of->shape);
+  if (sphere == nullptr) return std::nullopt;
+  const M44d& to_world = placed->at->to_world;
+  return Ellipsoid{sphere->center * to_world, sphere->radius, to_world};
+}
+
 // Adds those of a shape, placed by a matrix, that are flat and meet the box.
 struct FaceCollector {
-  const Imath::M44d& to_world;
+  const M44d& to_world;
   const Box3d& within;
   std::vector<Face>& faces;
 
@@ -57,14 +94,10 @@ struct FaceCollector {
   }
 };
 
-Box3d grown(const Box3d& box, double by) {
-  return {box.min - V3d(by), box.max + V3d(by)};
-}
-
 // From low x to high.
 std::vector<Face> faces_near(const Shape& shape, const Box3d& box) {
   std::vector<Face> faces;
-  std::visit(FaceCollector{Imath::M44d(), box, faces}, shape);
+  std::visit(FaceCollector{M44d(), box, faces}, shape);
   std::sort(faces.begin(), faces.end(),
             [](const Face& a, const Face& b) { return a.box.min.x < b.box.min.x; });
   return faces;
@@ -76,39 +109,91 @@ bool has_corner_in_plane(const Face& of, const Face& plane, double reach) {
   });
 }
 
-bool coincide(const Face& a, const Face& b, double reach) {
+// Whether two faces that are parallel reach over each other by more than that, as which no line between them
+// parts them.
+bool overlap(const Face& a, const Face& b, double by) {
+  const auto extent = [](const Face& face, const V3d& along) {
+    std::pair<double, double> range(face.corners[0].dot(along), face.corners[0].dot(along));
+    for (const V3d& corner : face.corners) {
+      range.first = std::min(range.first, corner.dot(along));
+      range.second = std::max(range.second, corner.dot(along));
+    }
+    return range;
+  };
+  for (const Face* face : {&a, &b})
+    for (const auto& [from, to] : {std::pair(0U, 1U), std::pair(0U, 2U), std::pair(1U, 2U)}) {
+      const V3d across = a.normal.cross(face->corners.at(to) - face->corners.at(from)).normalized();
+      const auto [least_a, most_a] = extent(a, across);
+      const auto [least_b, most_b] = extent(b, across);
+      if (!(std::min(most_a, most_b) - std::max(least_a, least_b) > by)) return false;
+    }
+  return true;
+}
+
+bool coincide(const Face& a, const Face& b, double reach, double by) {
   return grown(a.box, reach).intersects(b.box) &&
          std::abs(a.normal.dot(b.normal)) > TouchingSurfaces::kParallel &&
-         (has_corner_in_plane(a, b, reach) || has_corner_in_plane(b, a, reach));
+         (has_corner_in_plane(a, b, reach) || has_corner_in_plane(b, a, reach)) && overlap(a, b, by);
 }
 
-bool same_sphere(const Shape& a, const Shape& b, double reach) {
-  if (plain<Sphere>(a) == nullptr || plain<Sphere>(b) == nullptr) return false;
-  const Box3d of_a = bounds(a);
-  const Box3d of_b = bounds(b);
-  return of_a.min.equalWithAbsError(of_b.min, reach) && of_a.max.equalWithAbsError(of_b.max, reach);
+bool touch(const Ellipsoid& a, const Ellipsoid& b, double reach) {
+  const std::optional<double> radius_a = a.radius_of_ball(reach);
+  const std::optional<double> radius_b = b.radius_of_ball(reach);
+  if (!radius_a || !radius_b) return true;
+  const double apart = (a.center - b.center).length();
+  return std::abs(apart - (*radius_a + *radius_b)) <= reach ||
+         std::abs(apart - std::abs(*radius_a - *radius_b)) <= reach;
 }
 
-}  // namespace
+// Where a ball and a plane that touch are `reach` apart, at most the root of 2 radius reach from there.
+bool touch(const Ellipsoid& ball, const Face& face, double reach) {
+  const V3d side = ball.to_side(face.normal);
+  const Box3d near = grown(face.box, std::sqrt(2 * side.length() * reach));
+  return std::ranges::any_of(std::array{ball.center + side, ball.center - side}, [&](const V3d& point) {
+    return std::abs((point - face.corners[0]).dot(face.normal)) <= reach && near.intersects(point);
+  });
+}
 
-bool may_coincide(const Shape& a, const Shape& b, double reach) {
+// Of a shape that is one, with what the other is made of.
+bool ellipsoid_touches(const Shape& shape, const Shape& other, double reach) {
+  const std::optional<Ellipsoid> ball = ellipsoid_of(shape);
+  if (!ball) return false;
+  if (const std::optional<Ellipsoid> another = ellipsoid_of(other)) return touch(*ball, *another, reach);
+  return std::ranges::any_of(faces_near(other, grown(bounds(shape), reach)),
+                             [&](const Face& face) { return touch(*ball, face, reach); });
+}
+
+// Nothing where too many faces meet to be compared.
+std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach, double by) {
   constexpr std::size_t kMostPairs = 50'000'000;
-  const Box3d near_a = grown(bounds(a), reach);
-  const Box3d near_b = grown(bounds(b), reach);
-  if (!near_a.intersects(near_b)) return false;
-  if (motion_of(a) != nullptr || motion_of(b) != nullptr || same_sphere(a, b, reach)) return true;
-  const std::vector<Face> of_a = faces_near(a, near_b);
-  const std::vector<Face> of_b = faces_near(b, near_a);
+  const std::vector<Face> of_a = faces_near(a, grown(bounds(b), reach));
+  const std::vector<Face> of_b = faces_near(b, grown(bounds(a), reach));
   std::size_t pairs = 0;
   auto first = of_b.begin();
   double widest = 0;  // of the faces of b along x
   for (const Face& face : of_b) widest = std::max(widest, face.box.size().x);
   for (const Face& face : of_a) {
     while (first != of_b.end() && first->box.min.x + widest < face.box.min.x - reach) ++first;
-    for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + reach; ++other)
-      if (++pairs > kMostPairs || coincide(face, *other, reach)) return true;
+    for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + reach; ++other) {
+      if (++pairs > kMostPairs) return std::nullopt;
+      if (coincide(face, *other, reach, by)) return true;
+    }
   }
   return false;
+}
+
+}  // namespace
+
+bool may_coincide(const Shape& a, const Shape& b, double reach) {
+  if (!grown(bounds(a), reach).intersects(bounds(b))) return false;
+  if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
+  if (ellipsoid_touches(a, b, reach) || ellipsoid_touches(b, a, reach)) return true;
+  return faces_coincide(a, b, reach, -reach).value_or(true);
+}
+
+bool lies_on(const Shape& a, const Shape& b, double reach) {
+  if (motion_of(a) != nullptr || motion_of(b) != nullptr) return false;
+  return faces_coincide(a, b, reach, reach).value_or(false);
 }
 
 }  // namespace abbe

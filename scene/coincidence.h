@@ -5,9 +5,13 @@
 namespace abbe {
 
 /// Whether a face of one shape may lie in a face of the other: parallel, no further from its plane than
-/// `reach` [m], and their boxes meet; or both shapes are the same sphere. Other curved surfaces touch in
-/// points at most. It may, too, where either shape moves, or where so many faces meet that comparing them
-/// would take seconds.
+/// `reach` [m], and their boxes meet; or whether a ball touches a face or another ball, around which they are
+/// no further apart. It may, too, where either shape moves, where ellipsoids come near each other, or where
+/// so many faces meet that comparing them would take seconds.
 [[nodiscard]] bool may_coincide(const Shape& a, const Shape& b, double reach);
+
+/// Whether beyond doubt a face of one shape lies in a face of the other, over more than `reach` [m] each way,
+/// and neither moves. Faces that are side by side in a plane do not.
+[[nodiscard]] bool lies_on(const Shape& a, const Shape& b, double reach);
 
 }  // namespace abbe

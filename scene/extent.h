@@ -50,6 +50,11 @@ struct Extent {
   return box.isEmpty() ? 0 : std::max(largest_coordinate(box.min), largest_coordinate(box.max));
 }
 
+/// A box that reaches so much further to all sides.
+[[nodiscard]] inline Imath::Box3d grown(const Imath::Box3d& box, double by) {
+  return {box.min - Imath::V3d(by), box.max + Imath::V3d(by)};
+}
+
 /// How far apart floats of this size are at most.
 [[nodiscard]] inline double float_step(double size) {
   return static_cast<double>(std::numeric_limits<float>::epsilon()) * size;

@@ -9,7 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/coincidence.h"
+#include "scene/contact.h"
+#include "scene/extent.h"
 #include "scene/polarisation_need.h"
 #include "scene/scene.h"
 #include "scene/shapes/placed.h"
@@ -31,7 +32,7 @@ constexpr std::array<NeedName, 15> kNeeds{{
     {"media", &Needs::media, "matter absorbs along the path"},
     {"scattering", &Needs::scattering, "matter scatters light within"},
     {"boundaries", &Needs::boundaries, "matter begins and ends without an interface"},
-    {"nesting", &Needs::nesting, "matter may be within other matter, or touch it or a wall"},
+    {"nesting", &Needs::nesting, "matter may be within other matter, or touch it, a sheet or a wall"},
     {"caustics", &Needs::caustics, "a specular surface can focus a light onto one that is not"},
     {"light_tracing", &Needs::light_tracing,
      "caustics of a light too small to be hit by chance, seen by a camera, or its light through specular "
@@ -74,32 +75,12 @@ const ShapeInstance* nested_shape(const Scene& scene) {
       all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr});
   }
   std::sort(all.begin(), all.end(), [](const Boxed& a, const Boxed& b) { return a.box.min.x < b.box.min.x; });
-  const auto reach = Imath::V3d(scene.touch_distance());
+  const double reach = scene.touch_distance();
   std::size_t pairs = 0;
   for (auto a = all.begin(); a != all.end(); ++a) {
-    const Imath::Box3d grown(a->box.min - reach, a->box.max + reach);
-    for (auto b = a + 1; b != all.end() && b->box.min.x <= grown.max.x; ++b)
-      if (++pairs > kMostPairs || ((a->filled || b->filled) && grown.intersects(b->box))) return b->shape;
-  }
-  return nullptr;
-}
-
-// A shape that lets light on, and that has a face in one of a shape which does not.
-const ShapeInstance* shape_on_wall(const Scene& scene) {
-  constexpr std::size_t kMostPairs = 50'000'000;
-  const double reach = scene.touch_distance();
-  std::vector<std::pair<Imath::Box3d, const ShapeInstance*>> walls;
-  for (const ShapeInstance& instance : scene.shapes)
-    if (opaque(material_of(scene, instance))) walls.emplace_back(bounds(instance.shape), &instance);
-  std::size_t pairs = 0;
-  for (const ShapeInstance& instance : scene.shapes) {
-    if (opaque(material_of(scene, instance))) continue;
-    const Imath::Box3d box = bounds(instance.shape);
-    const Imath::Box3d grown(box.min - Imath::V3d(reach), box.max + Imath::V3d(reach));
-    for (const auto& [wall_box, wall] : walls)
-      if (++pairs > kMostPairs ||
-          (grown.intersects(wall_box) && may_coincide(instance.shape, wall->shape, reach)))
-        return &instance;
+    const Imath::Box3d near = grown(a->box, reach);
+    for (auto b = a + 1; b != all.end() && b->box.min.x <= near.max.x; ++b)
+      if (++pairs > kMostPairs || ((a->filled || b->filled) && near.intersects(b->box))) return b->shape;
   }
   return nullptr;
 }
@@ -133,7 +114,8 @@ void analyse_matter(const Scene& scene, Needs& needs) {
                                [](const Light& light) { return !light.is_environment() && emits(light); });
   if (specular != nullptr) require(needs, &Needs::caustics, scattering && lit, "shape", specular->name);
   const ShapeInstance* nested = nested_shape(scene);
-  if (nested == nullptr) nested = shape_on_wall(scene);
+  if (nested == nullptr)
+    if (const auto contact = crossed_at_once(scene)) nested = &scene.shapes[contact->shape];
   if (nested != nullptr) require(needs, &Needs::nesting, true, "shape", nested->name);
   if (const auto polarising = polarisation_need(scene))
     require(needs, &Needs::polarisation_matters, true, polarising->kind, polarising->name);

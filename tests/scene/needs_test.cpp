@@ -4,6 +4,7 @@
 
 #include "floor_scenes.h"
 #include "meshes.h"
+#include "scene/contact.h"
 #include "scene/extent.h"
 #include "scene/shapes/placed.h"
 #include "spectral/sources.h"
@@ -101,6 +102,29 @@ TEST(Needs, NestingOfWhatAnIndexTells) {
 
 // Of matter with a face in one of what ends light's way, whichever kind of shape either is, and however it is
 // placed.
+TEST(Contact, TellsSheetsThatAreLost) {
+  const auto lost = [](const std::vector<std::pair<Shape, std::uint32_t>>& others) {
+    Scene scene = floor_scene();
+    const auto pane = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({"pane", ThinGlassMaterial{"pane", RefractiveIndex(1.5)}});
+    scene.shapes = {{"sheet", Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, pane}};
+    for (const auto& [shape, material] : others) scene.shapes.push_back({"other", shape, material});
+    scene.commit();
+    return lost_sheet(scene).has_value();
+  };
+  const Quad wall{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}};
+  const Quad beside{{1, -3, 0}, {6, 0, 0}, {0, 6, 0}};
+  EXPECT_TRUE(lost({{wall, kDiffuse}}));
+  EXPECT_TRUE(lost({{testing::box({0.5, 0.5, 0}, {2, 2, 1}), kGlass}}));
+  EXPECT_FALSE(lost(
+      {{testing::box({0.5, 0.5, -1}, {2, 2, 0}), kGlass}, {testing::box({0.5, 0.5, 0}, {2, 2, 1}), kGlass}}))
+      << "in glass";
+  EXPECT_TRUE(lost({{testing::box({0.5, 0.5, -1}, {2, 2, 0}), kGlass}, {wall, kDiffuse}}));
+  EXPECT_FALSE(lost({{beside, kDiffuse}})) << "in an opening of the wall";
+  EXPECT_FALSE(lost({{testing::box({1, 0, 0}, {2, 1, 1}), kGlass}})) << "edge to edge";
+  EXPECT_FALSE(lost({{testing::box({0.5, 0.5, 0.001}, {2, 2, 1}), kGlass}}));
+}
+
 TEST(Needs, NestingOfWhatStandsOnAWall) {
   const Imath::M44d turned = Imath::M44d().setAxisAngle(Imath::V3d(1, 2, 3).normalized(), 0.6);
   const auto placed = [](PlainShape shape, const Imath::M44d& at) {
@@ -124,12 +148,23 @@ TEST(Needs, NestingOfWhatStandsOnAWall) {
   EXPECT_TRUE(nests(block, testing::box({-3, -3, -1}, {3, 3, 0})));
   EXPECT_TRUE(nests(block, testing::box({-1, -1, 0}, {1, 1, 1})));
   EXPECT_TRUE(nests(placed(block, turned), placed(table, turned)));
-  EXPECT_TRUE(nests(Sphere{{0, 0, 1}, 1}, Sphere{{0, 0, 1}, 1}));
+  const Sphere ball{{0, 0, 1}, 1};
+  EXPECT_TRUE(nests(ball, ball));
+  EXPECT_TRUE(nests(ball, table));
+  EXPECT_TRUE(nests(ball, block)) << "from within";
+  EXPECT_TRUE(nests(placed(ball, turned), placed(table, turned)));
+  EXPECT_TRUE(nests(placed(ball, Imath::M44d().setScale(Imath::V3d(3, 1, 1))), table));
+  EXPECT_TRUE(nests(ball, Sphere{{0, 0, -2}, 2}));
+  EXPECT_TRUE(nests(ball, Sphere{{0, 0, 2}, 2})) << "from within";
+  EXPECT_FALSE(nests(ball, lower));
+  EXPECT_FALSE(nests(Sphere{{3.1, 0, 1}, 1}, table)) << "over its edge";
+  EXPECT_FALSE(nests(placed(ball, turned), table));
+  EXPECT_FALSE(nests(ball, Sphere{{0, 0, -2.001}, 2}));
+  EXPECT_FALSE(nests(ball, Sphere{{0, 0, 1}, 2})) << "within it";
   EXPECT_FALSE(nests(block, lower));
   EXPECT_FALSE(nests(block, Quad{{1.5, -3, 0}, {6, 0, 0}, {0, 6, 0}})) << "beside it";
   EXPECT_FALSE(nests(block, Quad{{-3, -3, 0.5}, {6, 0, 0}, {0, 6, 0}})) << "through it";
   EXPECT_FALSE(nests(placed(block, turned), placed(lower, turned)));
-  EXPECT_FALSE(nests(Sphere{{0, 0, 1}, 1}, table)) << "in a point";
 }
 
 TEST(Needs, PolarisationMattersBetweenInterfaces) {

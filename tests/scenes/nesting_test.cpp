@@ -31,6 +31,7 @@ constexpr const char* kMatter = R"("materials": {
   "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
   "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
   "pane": {"thin_glass": {"ior": 1.5}}, "fog": {"medium": {"scattering_per_m": 1}},
+  "clear": {"medium": {"absorption_per_m": 0}}, "clear first": {"medium": {"absorption_per_m": 0}, "priority": 3},
   "white": {"diffuse": {"reflectance": 0.7}}, "black": {"diffuse": {"reflectance": 0}}})";
 
 // Shapes in light of radiance 1 from everywhere, unless there are `lights`.
@@ -150,6 +151,35 @@ std::string block(const std::string& material, const V3d& from, const V3d& to, d
       material, turned_deg, testing::inline_mesh(testing::box(from, to)));
 }
 
+// Matter without an interface lies in glass and out of it, has a face in one of glass, or all around, and is
+// there instead of the glass or not: light is refracted at the faces of the glass alone.
+TEST(Nesting, AMediumHasTheIndexOfWhatItLiesIn) {
+  for (const char* medium : {"clear", "clear first"})
+    for (const std::string& shapes :
+         {ball("flint", 1) + "," + ball(medium, 0.9, "0.5, 0.3, -0.4"),
+          ball(medium, 1.1) + "," + ball("flint", 0.8, "0.5, 0.3, -0.4"),
+          box("flint", -0.5, 0.2) + "," + box(medium, 0.2, 0.9),
+          box(medium, -0.5, 0.5) + "," + box("flint", -0.2, 0.5), ball(medium, 2) + "," + ball("flint", 1)}) {
+      const RenderResult result = render(scene_of(shapes), {});
+      EXPECT_LT(furthest(result.film), 2e-5) << shapes;
+      EXPECT_EQ(result.stats.cut.paths, 0U) << shapes;
+    }
+}
+
+// A sheet on a face of glass is lost, one on a face of fog or in glass is not: with neither does light of the
+// same radiance from everywhere change.
+TEST(Nesting, ASheetOnMatterLeavesItsFaceThere) {
+  const std::string sheet =
+      R"({"material": "pane", "quad": {"corner": [0.2, -0.7, -0.5], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]}})";
+  for (const std::string& matter : {box("flint", -0.5, 0.2), box("clear", -0.5, 0.2),
+                                    box("flint", -0.5, 0.2) + "," + box("flint", 0.2, 0.9)})
+    for (const std::string& shapes : {matter + "," + sheet, sheet + "," + matter}) {
+      const RenderResult result = render(scene_of(shapes), {});
+      EXPECT_LT(furthest(result.film), 2e-5) << shapes;
+      EXPECT_EQ(result.stats.cut.paths, 0U) << shapes;
+    }
+}
+
 // A block of glass on a black table is as bright from above as what its face reflects: nothing comes through
 // the table, in whatever order both stand in the scene.
 TEST(Nesting, GlassOnBlackIsBlackBehindItsReflection) {
@@ -188,6 +218,26 @@ TEST(Nesting, MatterFlushWithWallsLetsNoLightIn) {
         ASSERT_EQ(test::region(film, 0, 0, 0, 24, 24).mean, 0) << shapes;
       }
   }
+}
+
+// Seen from within, where floats do not tell a ball from the table that it touches, nor from another ball.
+TEST(Nesting, ABallOfGlassShowsNothingBelowItsTable) {
+  const std::string lamp =
+      R"({"sphere": {"center": [0, 0, -40], "radius": 30}, "emission": {"spectrum": 1e6}})";
+  const auto seen = [&](const std::string& below) {
+    Scene scene =
+        scene_of(ball("flint", 1, "0, 0, 1") + "," + below, R"("max_depth": 3)", lamp, "0.001, 0.002, 1");
+    scene.render.samples = 512;
+    return test::region(render(scene, {}).film, 0, 10, 10, 14, 14).mean;
+  };
+  EXPECT_EQ(
+      seen(
+          R"({"material": "black", "quad": {"corner": [-50, -50, 0], "edge_u": [100, 0, 0], "edge_v": [0, 100, 0]}})"),
+      0);
+  EXPECT_EQ(
+      seen(R"({"material": "black", "disc": {"center": [0, 0, 0], "normal": [0, 0, -1], "radius": 50}})"), 0);
+  EXPECT_EQ(seen(ball("black", 30, "0, 0, -30")), 0);
+  EXPECT_GT(seen(ball("black", 0.1, "1, 0, -0.5")), 0) << "the lamp is there";
 }
 
 // What is far, or large, leaves what is near as it is.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 namespace abbe {
 namespace {
@@ -12,17 +12,31 @@ const Material& material_of(const Scene& scene, std::uint32_t shape) {
   return scene.materials[scene.shapes[shape].material];
 }
 
+// Of the shapes in a stack that by which its matter has an index: the innermost that has an interface.
+std::optional<std::uint32_t> refracting(const Scene& scene, const MediumStack& inside) {
+  const std::span<const std::uint32_t> shapes = inside.shapes();
+  const auto found = std::find_if(shapes.rbegin(), shapes.rend(), [&](std::uint32_t shape) {
+    return !is_boundary(material_of(scene, shape));
+  });
+  return found == shapes.rend() ? std::nullopt : std::optional(*found);
+}
+
 const RefractiveIndex* index_of(const Scene& scene, const MediumStack& inside) {
-  return inside.empty() ? nullptr : interior(material_of(scene, inside.innermost()));
+  const std::optional<std::uint32_t> shape = refracting(scene, inside);
+  return shape ? interior(material_of(scene, *shape)) : nullptr;
 }
 
-// Whether the matter that is around within `inside` is that of `shape`.
+// Whether light is not refracted on its way from one to the other.
+bool same_index(const Scene& scene, const MediumStack& a, const MediumStack& b) {
+  const std::optional<std::uint32_t> of_a = refracting(scene, a);
+  const std::optional<std::uint32_t> of_b = refracting(scene, b);
+  return of_a == of_b || (of_a && of_b && scene.shapes[*of_a].material == scene.shapes[*of_b].material);
+}
+
+// Whether light within `inside` has the index of the matter of `shape`.
 bool around(const Scene& scene, const MediumStack& inside, std::uint32_t shape) {
-  return !inside.empty() && inside.entry_of(scene, shape) == inside.innermost();
-}
-
-bool same_around(const MediumStack& a, const MediumStack& b) {
-  return a.empty() || b.empty() ? a.empty() && b.empty() : a.innermost() == b.innermost();
+  const std::optional<std::uint32_t> found = refracting(scene, inside);
+  return found && inside.entry_of(scene, shape) == found;
 }
 
 }  // namespace
@@ -33,11 +47,11 @@ ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface>
     return std::find_if(surfaces.begin(), surfaces.end(),
                         [&](const CrossedSurface& s) { return kind(material_of(scene, s.shape)); });
   };
-  auto alone = first_of([](const Material& material) { return opaque(material); });
-  if (alone == surfaces.end())
-    alone = first_of([](const Material& material) { return !encloses_medium(material); });
-  if (alone != surfaces.end())
-    return {static_cast<std::size_t>(alone - surfaces.begin()), index_of(scene, inside), inside};
+  const auto alone = [&](const auto& at, const MediumStack& beyond) {
+    return ActingSurface{static_cast<std::size_t>(at - surfaces.begin()), index_of(scene, inside), beyond};
+  };
+  const auto wall = first_of([](const Material& material) { return opaque(material); });
+  if (wall != surfaces.end()) return alone(wall, inside);
 
   MediumStack before = inside;
   for (const CrossedSurface& s : surfaces)
@@ -52,15 +66,17 @@ ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface>
     if (s.entering) *end++ = s.shape;
   std::sort(entered.begin(), end);
   for (auto shape = entered.begin(); shape != end; ++shape) beyond.cross(scene, *shape, true);
-  if (same_around(before, beyond)) return {std::nullopt, nullptr, beyond};
+  if (same_index(scene, before, beyond)) {
+    const auto sheet = first_of([](const Material& material) { return !encloses_medium(material); });
+    if (sheet != surfaces.end()) return alone(sheet, beyond);
+  }
+  if (refracting(scene, before) == refracting(scene, beyond)) return {std::nullopt, nullptr, beyond};
 
   ActingSurface boundary{std::nullopt, nullptr, beyond};
-  std::tuple<bool, int, std::uint32_t> highest;
+  std::pair<int, std::uint32_t> highest;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const auto [shape, entering] = surfaces[i];
-    const Material& material = material_of(scene, shape);
-    const std::tuple rank(!is_boundary(material), material.priority,
-                          shape);  // the interface, if there is one
+    const std::pair rank(material_of(scene, shape).priority, shape);
     if (!around(scene, entering ? beyond : before, shape) || (boundary.acting && rank < highest)) continue;
     highest = rank;
     boundary.acting = i;

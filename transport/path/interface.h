@@ -10,7 +10,8 @@
 namespace abbe {
 
 /// Where matter is nested, surfaces are interfaces only where what is there changes: of all the matter that a
-/// point lies in, that of the highest priority [Schmidt2002], and among equals of the smallest shape.
+/// point lies in, that of the highest priority [Schmidt2002], and among equals of the smallest shape. Matter
+/// without an interface has the index of what it lies in, and changes nothing by which light is refracted.
 /// Surfaces that touch are crossed together, from what was before all of them to what is behind.
 
 /// A surface on a ray's way: into its shape, or out of it.
@@ -27,9 +28,9 @@ struct ActingSurface {
 };
 
 /// Tells which of the surfaces that a ray within `inside` meets together acts on it. The first opaque one
-/// acts, else the first sheet, else that of the higher priority of the two that bound what was before and
-/// what is behind, of equals the later one of the scene. A shape left that was never entered counts as
-/// entered before.
+/// acts. Else, where the index changes, that of the higher priority of the two that bound what was before and
+/// what is behind, of equals the later one of the scene; where it does not, the first sheet. A shape left
+/// that was never entered counts as entered before.
 [[nodiscard]] ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
                                            const MediumStack& inside);
 
