@@ -7,6 +7,7 @@
 
 #include "io/exr.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 #include "transport/render/part.h"
 
 // A render may be cut into ranges of samples, interrupted and put together again in any order: every bit of
@@ -109,7 +110,8 @@ class Partition : public testing::TestWithParam<Seen> {
 TEST_P(Partition, AnyPartsInAnyOrderAndGroupingAreTheWhole) {
   const RenderPart whole{identity_, render(scene_, {})};
   std::mt19937 random(7);
-  for (int trial = 0; trial < 7; ++trial) {
+  const int trials = test::nightly() ? 7 : 2;
+  for (int trial = 0; trial < trials; ++trial) {
     std::vector<RenderPart> parts;
     for (const SampleRange& range : cut(2 + trial, random)) parts.push_back(rendered(range));
     while (parts.size() > 1) {  // any two become one

@@ -10,6 +10,7 @@
 #include "materials/bsdf/warp.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/random_directions.h"
+#include "tests/tier.h"
 #include "validation/goniometer/lobes.h"
 
 namespace abbe {
@@ -186,7 +187,8 @@ TYPED_TEST(BsdfLaws, SamplesFollowTheirDensity) {
     if (!scatters(bsdf)) return;
     constexpr int kHero = 3;
     const auto density = [&](const V3f& wi) { return static_cast<double>(pdf(bsdf, wo, wi)[kHero]); };
-    const DensityCheck check = check_density(sampler_of(bsdf, wo, TransportMode::radiance), density, kHero);
+    const DensityCheck check = check_density(sampler_of(bsdf, wo, TransportMode::radiance), density, kHero,
+                                             test::nightly() ? 200'000 : 50'000);
     EXPECT_GT(check.p, significance);
     EXPECT_LE(check.integral, 1 + 1e-3);
   });

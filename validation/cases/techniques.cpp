@@ -38,7 +38,6 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
   static const Override few_photons{"/render/photons/per_sample", "4096"};
   static const Override few_neighbours{"/render/photons/nearest", "12"};  // no farther than 48 of the usual
   static const Override many_places{"/sensor/resolution", "[128, 128]"};  // which `ppm` never leaves
-  static const Films gathered{"T1-0.2", "T9-outer", "T12-white", "T13-60", "T15-T"};
   static const Films of_long_paths{"T1-0.8", "T1-0.95", "T8",      "T10-upper", "T10-lower",
                                    "T11",    "T11-16",  "layer-1", "layer-0.2", "scattered-blue"};
   static const Films of_long_paths_or_rare = [] {
@@ -60,14 +59,13 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
        {.by = Integrator::bdpt,
         .quick = {"T1-0.2", "T3-corner", "T5-axis", "T6-discs", "T9-outer", "T12-glass", "T13-60", "T17-60",
                   "ball-axis", "ball-inside"},
-        .thorough = {"layer-1", "scattered-blue"},
-        .others = Tier::tests,
+        .tests = {"T1-0.8", "T10-upper", "T11-4", "T15-R", "T16-inside", "ball-meter", "pane-thick"},
         .never = {"T1-0.95", "T8", "layer-0.2"}},
        {.by = Integrator::photon_map,
         .least_samples = kSharedWavelengths,
         .fine_margin = 0.01,
         .settings = {few_photons, few_neighbours},
-        .tests = gathered,
+        .tests = {"T9-outer", "T13-60"},
         .never = of_long_paths_or_rare},
        {.by = Integrator::ppm,
         .least_samples = kSharedWavelengths,
@@ -79,13 +77,13 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
         .least_samples = kSharedWavelengths,
         .fine_margin = 0.01,
         .settings = {few_photons},
-        .tests = gathered,
+        .tests = {"T1-0.2", "T12-white"},
         .never = of_long_paths_or_rare},
        {.by = Integrator::vcm,
         .least_samples = kSharedWavelengths,
         .fine_margin = 0.01,
         .quick = {"T12-white", "T9-outer"},
-        .tests = gathered,
+        .tests = {"T15-T"},
         .never = of_long_paths},
        {.by = Integrator::photon_brute,
         .fine_margin = 0.01,
@@ -95,7 +93,7 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
         .patience = 32,
         .fine_margin = 0.005,
         .quick = {"T5-axis", "T6-discs"},
-        .tests = {"T9-outer", "T12-white", "T12-glass", "T13-60", "T15-T", "ball-axis", "ball-inside"},
+        .tests = {"T9-outer", "T12-glass", "T15-T", "ball-inside"},
         .never = {"ball-disc", "ball-meter", "layer-1", "layer-0.2", "worked-example", "T4", "T5-off"}}}};
   return all;
 }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 // Of CPU time. As a soft limit alone, so that what ends a scene says that it is that.
 constexpr rlim_t kMostSeconds = 600;
 constexpr std::uint64_t kMostFailures =
-    1000;  // scenes that fail may trace no path, and one would soak for ever
+    100;  // scenes that fail may trace no path, and one would soak for ever
 constexpr std::uint64_t kScenesBetweenReports = 100;
 
 void require(bool good, const char* what) {
