@@ -15,28 +15,20 @@ const Material& material_of(const Scene& scene, std::uint32_t shape) {
 // Of the shapes in a stack that by which its matter has an index: the innermost that has an interface.
 std::optional<std::uint32_t> refracting(const Scene& scene, const MediumStack& inside) {
   const std::span<const std::uint32_t> shapes = inside.shapes();
+  if (!scene.needs.boundaries) return shapes.empty() ? std::nullopt : std::optional(shapes.back());
   const auto found = std::find_if(shapes.rbegin(), shapes.rend(), [&](std::uint32_t shape) {
     return !is_boundary(material_of(scene, shape));
   });
   return found == shapes.rend() ? std::nullopt : std::optional(*found);
 }
 
-const RefractiveIndex* index_of(const Scene& scene, const MediumStack& inside) {
-  const std::optional<std::uint32_t> shape = refracting(scene, inside);
+const RefractiveIndex* index_of(const Scene& scene, std::optional<std::uint32_t> shape) {
   return shape ? interior(material_of(scene, *shape)) : nullptr;
 }
 
-// Whether light is not refracted on its way from one to the other.
-bool same_index(const Scene& scene, const MediumStack& a, const MediumStack& b) {
-  const std::optional<std::uint32_t> of_a = refracting(scene, a);
-  const std::optional<std::uint32_t> of_b = refracting(scene, b);
-  return of_a == of_b || (of_a && of_b && scene.shapes[*of_a].material == scene.shapes[*of_b].material);
-}
-
-// Whether light within `inside` has the index of the matter of `shape`.
-bool around(const Scene& scene, const MediumStack& inside, std::uint32_t shape) {
-  const std::optional<std::uint32_t> found = refracting(scene, inside);
-  return found && inside.entry_of(scene, shape) == found;
+// Whether light is not refracted on its way from the matter of one shape to that of another.
+bool same_index(const Scene& scene, std::optional<std::uint32_t> a, std::optional<std::uint32_t> b) {
+  return a == b || (a && b && scene.shapes[*a].material == scene.shapes[*b].material);
 }
 
 }  // namespace
@@ -48,7 +40,8 @@ ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface>
                         [&](const CrossedSurface& s) { return kind(material_of(scene, s.shape)); });
   };
   const auto alone = [&](const auto& at, const MediumStack& beyond) {
-    return ActingSurface{static_cast<std::size_t>(at - surfaces.begin()), index_of(scene, inside), beyond};
+    return ActingSurface{static_cast<std::size_t>(at - surfaces.begin()),
+                         index_of(scene, refracting(scene, inside)), beyond};
   };
   const auto wall = first_of([](const Material& material) { return opaque(material); });
   if (wall != surfaces.end()) return alone(wall, inside);
@@ -66,21 +59,25 @@ ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface>
     if (s.entering) *end++ = s.shape;
   std::sort(entered.begin(), end);
   for (auto shape = entered.begin(); shape != end; ++shape) beyond.cross(scene, *shape, true);
-  if (same_index(scene, before, beyond)) {
+  const std::optional<std::uint32_t> of_before = refracting(scene, before);
+  const std::optional<std::uint32_t> of_beyond = refracting(scene, beyond);
+  if (same_index(scene, of_before, of_beyond)) {
     const auto sheet = first_of([](const Material& material) { return !encloses_medium(material); });
     if (sheet != surfaces.end()) return alone(sheet, beyond);
   }
-  if (refracting(scene, before) == refracting(scene, beyond)) return {std::nullopt, nullptr, beyond};
+  if (of_before == of_beyond) return {std::nullopt, nullptr, beyond};
 
   ActingSurface boundary{std::nullopt, nullptr, beyond};
   std::pair<int, std::uint32_t> highest;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const auto [shape, entering] = surfaces[i];
     const std::pair rank(material_of(scene, shape).priority, shape);
-    if (!around(scene, entering ? beyond : before, shape) || (boundary.acting && rank < highest)) continue;
+    const std::optional<std::uint32_t> own = entering ? of_beyond : of_before;
+    if (!own || (entering ? beyond : before).entry_of(scene, shape) != own) continue;
+    if (boundary.acting && rank < highest) continue;
     highest = rank;
     boundary.acting = i;
-    boundary.outside = index_of(scene, entering ? before : beyond);
+    boundary.outside = index_of(scene, entering ? of_before : of_beyond);
   }
   return boundary;
 }
