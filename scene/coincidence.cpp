@@ -187,7 +187,8 @@ std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach,
 bool may_coincide(const Shape& a, const Shape& b, double reach) {
   if (!grown(bounds(a), reach).intersects(bounds(b))) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
-  if (ellipsoid_touches(a, b, reach) || ellipsoid_touches(b, a, reach)) return true;
+  if (ellipsoid_of(a) || ellipsoid_of(b))
+    return ellipsoid_touches(a, b, reach) || ellipsoid_touches(b, a, reach);
   return faces_coincide(a, b, reach, -reach).value_or(true);
 }
 
