@@ -133,8 +133,8 @@ void add_render(CLI::App& app, Command& command) {
       "--strict", sub->strict,
       "Refuse a scene of which a warning means a wrong image (exit 3): no light, a lamp that emits nothing, "
       "matter in an open mesh or with vertex normals, a camera in opaque matter, a sheet on a surface, light "
-      "that an "
-      "integrator named for the scene loses, not what auto says is missing; exit with 70 if any sample was "
+      "that an integrator named for the scene loses, not what auto says is missing; exit with 70 if any "
+      "sample was "
       "not finite");
   render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }

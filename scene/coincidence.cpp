@@ -165,7 +165,6 @@ bool ellipsoid_touches(const Shape& shape, const Shape& other, double reach) {
 
 // Nothing where too many faces meet to be compared.
 std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach, double by) {
-  constexpr std::size_t kMostPairs = 50'000'000;
   const std::vector<Face> of_a = faces_near(a, grown(bounds(b), reach));
   const std::vector<Face> of_b = faces_near(b, grown(bounds(a), reach));
   std::size_t pairs = 0;

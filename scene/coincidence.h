@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstddef>
+
 #include "scene/shapes/shape.h"
 
 namespace abbe {
+
+/// The most pairs of shapes, or of faces, that are compared: more would take seconds.
+inline constexpr std::size_t kMostPairs = 50'000'000;
 
 /// Whether a face of one shape may lie in a face of the other: parallel, no further from its plane than
 /// `reach` [m], and their boxes meet; or whether a ball touches a face or another ball, around which they are

@@ -10,8 +10,6 @@
 namespace abbe {
 namespace {
 
-constexpr std::size_t kMostPairs = 50'000'000;
-
 const Material& material_of(const Scene& scene, std::uint32_t shape) {
   return scene.materials[scene.shapes[shape].material];
 }
@@ -36,11 +34,13 @@ std::vector<Boxed> shapes_of(const Scene& scene, const Kind& kind) {
 }  // namespace
 
 std::optional<Contact> crossed_at_once(const Scene& scene) {
+  const std::vector<Boxed> on = shapes_of(scene, [](const Material& material) { return !opaque(material); });
+  if (on.empty()) return std::nullopt;
   const double reach = scene.touch_distance();
   const std::vector<Boxed> under = shapes_of(
       scene, [](const Material& material) { return opaque(material) || encloses_medium(material); });
   std::size_t pairs = 0;
-  for (const Boxed& one : shapes_of(scene, [](const Material& material) { return !opaque(material); })) {
+  for (const Boxed& one : on) {
     const bool sheet = is_sheet(material_of(scene, one.shape));
     const Imath::Box3d near = grown(one.box, reach);
     for (const Boxed& other : under) {
@@ -55,12 +55,14 @@ std::optional<Contact> crossed_at_once(const Scene& scene) {
 }
 
 std::optional<Contact> lost_sheet(const Scene& scene) {
+  const std::vector<Boxed> sheets = shapes_of(scene, is_sheet);
+  if (sheets.empty()) return std::nullopt;
   const double reach = scene.touch_distance();
   const std::vector<Boxed> under = shapes_of(scene, [](const Material& material) {
     return opaque(material) || is_sheet(material) || interior(material) != nullptr;
   });
   std::size_t pairs = 0;
-  for (const Boxed& sheet : shapes_of(scene, is_sheet)) {
+  for (const Boxed& sheet : sheets) {
     const Imath::Box3d near = grown(sheet.box, reach);
     std::vector<std::uint32_t> on;
     for (const Boxed& other : under) {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/coincidence.h"
 #include "scene/contact.h"
 #include "scene/extent.h"
 #include "scene/polarisation_need.h"
@@ -66,8 +67,7 @@ const ShapeInstance* nested_shape(const Scene& scene) {
     const ShapeInstance* shape;
     bool filled;  // behind an interface
   };
-  // In a scene so full that this many pairs do not tell, matter is taken to touch somewhere.
-  constexpr std::size_t kMostPairs = 50'000'000;
+  // In a scene so full that the most pairs do not tell, matter is taken to touch somewhere.
   std::vector<Boxed> all;
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = material_of(scene, instance);

@@ -155,7 +155,7 @@ TEST(Far, PhotonsOfEveryLightBringAllOfIt) {
 }
 
 // A ball of glass throws a caustic on the card: by chance, and by photons. The ratio of the means has a
-// standard error of 0.13 % by night, 0.37 % by day.
+// standard error of 0.13 %.
 TEST(Far, CausticsOfASunAgree) {
   const std::string ball = R"(, {"sphere": {"center": [0, 0, 0.6], "radius": 0.4}, "material": "glass"})";
   const auto caustic = [&](const std::string& light, const char* integrator, int samples) {
@@ -172,11 +172,10 @@ TEST(Far, CausticsOfASunAgree) {
            R"({"sun": {"towards": [0.3, 0.2, 1], "angular_diameter_deg": 40}, "emission": {"spectrum": {"band": [500, 600]}, "irradiance": 1}})"),
        std::string(
            R"({"sphere": {"center": [3e7, 2e7, 1e8], "radius": 3e7}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})")}) {
-    const int effort = test::nightly() ? 8 : 1;
     const test::Comparison c =
-        test::compare_regions(caustic(light, "path", 2048 * effort), caustic(light, "auto", 512 * effort), 4);
+        test::compare_regions(caustic(light, "path", 16384), caustic(light, "auto", 4096), 4);
     EXPECT_LT(c.largest_z, 5.6) << light;
-    EXPECT_NEAR(c.ratio, 1, test::nightly() ? 0.003 : 0.01) << light;
+    EXPECT_NEAR(c.ratio, 1, 0.003) << light;
   }
 }
 

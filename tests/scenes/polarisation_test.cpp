@@ -3,7 +3,6 @@
 
 #include "materials/interface/fresnel.h"
 #include "tests/scenes/polarised_scene.h"
-#include "tests/tier.h"
 
 namespace abbe::test {
 namespace {
@@ -93,19 +92,17 @@ Film seen_by(const char* integrator, int samples, const std::string& others) {
 
 // What a row measures of light is the same whichever end it is carried from.
 TEST(Polarisation, IsTheSameFromEitherEnd) {
-  const int effort = nightly() ? 4 : 1;
-  const double tolerance = nightly() ? 0.01 : 0.05;
-  const Film path = seen_by("path", 256 * effort, "");
-  const Comparison light = compare_regions(path, seen_by("light", 256 * effort, ""), 4);
+  const Film path = seen_by("path", 1024, "");
+  const Comparison light = compare_regions(path, seen_by("light", 1024, ""), 4);
   std::printf("light: largest z %.2f, ratio of the means %.5f\n", light.largest_z, light.ratio);
   EXPECT_LT(light.largest_z, 5.5);
-  EXPECT_NEAR(light.ratio, 1, tolerance);
-  const Film with_ball = seen_by("path", 2048 * effort, kBall);
+  EXPECT_NEAR(light.ratio, 1, 0.01);
+  const Film with_ball = seen_by("path", 8192, kBall);
   for (const char* integrator : {"bdpt", "vcm", "sppm"}) {
-    const Comparison c = compare_regions(with_ball, seen_by(integrator, 128 * effort, kBall), 4);
+    const Comparison c = compare_regions(with_ball, seen_by(integrator, 512, kBall), 4);
     std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
     EXPECT_LT(c.largest_z, 5.5) << integrator;
-    EXPECT_NEAR(c.ratio, 1, tolerance) << integrator;
+    EXPECT_NEAR(c.ratio, 1, 0.01) << integrator;
   }
 }
 
@@ -216,11 +213,10 @@ TEST(Polarisation, FilmsOfStokesVectorsAreTheSameByEveryIntegrator) {
                   {})
         .film;
   };
-  const int less = nightly() ? 1 : 2;
   const Film path = seen("path", 2048);
   for (const auto& [integrator, samples] :
        {std::pair("light", 2048), {"bdpt", 256}, {"vcm", 256}, {"sppm", 512}, {"adjoint-brute", 2048}}) {
-    const Comparison c = compare_regions(path, seen(integrator, samples / less), 2);
+    const Comparison c = compare_regions(path, seen(integrator, samples), 2);
     std::printf("%s: largest z %.2f\n", integrator, c.largest_z);
     EXPECT_LT(c.largest_z, 5.5) << integrator;
   }

@@ -43,7 +43,7 @@ TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {
   EXPECT_EQ(lanes[3], 0.5F);
 }
 
-// Rounded to floats, a third of these would lie behind the plane that the ray ends at.
+// Rounded to floats alone, some would lie behind the plane that the ray ends at.
 TEST(FreePath, WhatFloatsDoNotTellFromASurfaceLiesInFrontOfIt) {
   testing::Random random(3);
   const auto draw = [&] {
