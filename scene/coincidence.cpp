@@ -18,13 +18,6 @@ using Imath::Box3d;
 using Imath::M44d;
 using Imath::V3d;
 
-// A triangle or a parallelogram; of a disc the square around it.
-struct Face {
-  std::array<V3d, 4> corners;
-  Box3d box;
-  V3d normal;  // unit
-};
-
 // A sphere placed by a matrix.
 struct Ellipsoid {
   V3d center;
@@ -56,51 +49,6 @@ std::optional<Ellipsoid> ellipsoid_of(const Shape& shape) {
   if (sphere == nullptr) return std::nullopt;
   const M44d& to_world = placed->at->to_world;
   return Ellipsoid{sphere->center * to_world, sphere->radius, to_world};
-}
-
-// Adds those of a shape, placed by a matrix, that are flat and meet the box.
-struct FaceCollector {
-  const M44d& to_world;
-  const Box3d& within;
-  std::vector<Face>& faces;
-
-  void add(std::array<V3d, 4> corners) const {
-    Box3d box;
-    for (V3d& corner : corners) {
-      corner = corner * to_world;
-      box.extendBy(corner);
-    }
-    if (!box.intersects(within)) return;
-    faces.push_back({corners, box, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized()});
-  }
-  void operator()(const Mesh& mesh) const {
-    for (const auto& [a, b, c] : mesh.triangles)
-      add({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[c]});
-  }
-  void operator()(const Quad& quad) const {
-    const V3d& at = quad.corner;
-    add({at, at + quad.edge_u, at + quad.edge_v, at + quad.edge_u + quad.edge_v});
-  }
-  void operator()(const Disc& disc) const {
-    const Basis<double> frame(disc.normal);
-    const V3d across = frame.x * disc.radius;
-    const V3d up = frame.y * disc.radius;
-    const V3d at = disc.center - across - up;
-    add({at, at + across * 2.0, at + up * 2.0, disc.center + across + up});
-  }
-  void operator()(const Sphere&) const {}
-  void operator()(const PlacedShape& placed) const {
-    std::visit(FaceCollector{placed.at->to_world, within, faces}, placed.of->shape);
-  }
-};
-
-// From low x to high.
-std::vector<Face> faces_near(const Shape& shape, const Box3d& box) {
-  std::vector<Face> faces;
-  std::visit(FaceCollector{M44d(), box, faces}, shape);
-  std::sort(faces.begin(), faces.end(),
-            [](const Face& a, const Face& b) { return a.box.min.x < b.box.min.x; });
-  return faces;
 }
 
 bool has_corner_in_plane(const Face& of, const Face& plane, double reach) {
@@ -155,18 +103,19 @@ bool touch(const Ellipsoid& ball, const Face& face, double reach) {
 }
 
 // Of a shape that is one, with what the other is made of.
-bool ellipsoid_touches(const Shape& shape, const Shape& other, double reach) {
+bool ellipsoid_touches(const Shape& shape, const Shape& other, double reach, FaceFinder& faces) {
   const std::optional<Ellipsoid> ball = ellipsoid_of(shape);
   if (!ball) return false;
   if (const std::optional<Ellipsoid> another = ellipsoid_of(other)) return touch(*ball, *another, reach);
-  return std::ranges::any_of(faces_near(other, grown(bounds(shape), reach)),
+  return std::ranges::any_of(faces.near(other, grown(bounds(shape), reach)),
                              [&](const Face& face) { return touch(*ball, face, reach); });
 }
 
 // Nothing where too many faces meet to be compared.
-std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach, double by) {
-  const std::vector<Face> of_a = faces_near(a, grown(bounds(b), reach));
-  const std::vector<Face> of_b = faces_near(b, grown(bounds(a), reach));
+std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach, double by,
+                                   FaceFinder& faces) {
+  const std::vector<Face> of_a = faces.near(a, grown(bounds(b), reach));
+  const std::vector<Face> of_b = faces.near(b, grown(bounds(a), reach));
   std::size_t pairs = 0;
   auto first = of_b.begin();
   double widest = 0;  // of the faces of b along x
@@ -183,17 +132,17 @@ std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach,
 
 }  // namespace
 
-bool may_coincide(const Shape& a, const Shape& b, double reach) {
+bool may_coincide(const Shape& a, const Shape& b, double reach, FaceFinder& faces) {
   if (!grown(bounds(a), reach).intersects(bounds(b))) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
   if (ellipsoid_of(a) || ellipsoid_of(b))
-    return ellipsoid_touches(a, b, reach) || ellipsoid_touches(b, a, reach);
-  return faces_coincide(a, b, reach, -reach).value_or(true);
+    return ellipsoid_touches(a, b, reach, faces) || ellipsoid_touches(b, a, reach, faces);
+  return faces_coincide(a, b, reach, -reach, faces).value_or(true);
 }
 
-bool lies_on(const Shape& a, const Shape& b, double reach) {
+bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces) {
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return false;
-  return faces_coincide(a, b, reach, reach).value_or(false);
+  return faces_coincide(a, b, reach, reach, faces).value_or(false);
 }
 
 }  // namespace abbe

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "scene/faces.h"
 #include "scene/shapes/shape.h"
 
 namespace abbe {
@@ -13,10 +14,10 @@ inline constexpr std::size_t kMostPairs = 50'000'000;
 /// `reach` [m], and their boxes meet; or whether a ball touches a face or another ball, around which they are
 /// no further apart. It may, too, where either shape moves, where ellipsoids come near each other, or where
 /// so many faces meet that comparing them would take seconds.
-[[nodiscard]] bool may_coincide(const Shape& a, const Shape& b, double reach);
+[[nodiscard]] bool may_coincide(const Shape& a, const Shape& b, double reach, FaceFinder& faces);
 
 /// Whether beyond doubt a face of one shape lies in a face of the other, over more than `reach` [m] each way,
 /// and neither moves. Faces that are side by side in a plane do not.
-[[nodiscard]] bool lies_on(const Shape& a, const Shape& b, double reach);
+[[nodiscard]] bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces);
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #include "scene/contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,70 @@ std::vector<Boxed> shapes_of(const Scene& scene, const Kind& kind) {
   return found;
 }
 
+// Finds the walls that are near a shape of that box.
+class WallCollector {
+ public:
+  WallCollector(const Imath::Box3d& box, double reach) : near_(grown(box, reach)), reach_(reach) {}
+
+  [[nodiscard]] const Imath::Box3d& near() const { return near_; }
+
+  void add(const Shape& shape, FaceFinder& faces) {
+    if (motion_of(shape) != nullptr || !has_faces(shape)) {
+      add_unseen(bounds(shape));
+      return;
+    }
+    for (const Face& face : faces.near(shape, grown(near_, reach_)))
+      if (cuts(face)) add_flat(face);
+  }
+  // What may lie anywhere in a box.
+  void add_unseen(const Imath::Box3d& box) {
+    at_.extendBy(common(box));
+    planes_.reset();
+  }
+
+  [[nodiscard]] NearWalls found() const {
+    if (at_.isEmpty()) return {};
+    return {{Imath::V3f(at_.min), Imath::V3f(at_.max)}, planes_.value_or(std::vector<Imath::Plane3d>())};
+  }
+
+ private:
+  static constexpr std::size_t kMostPlanes = 16;  // with which asking each is quicker than asking Embree
+
+  // Whether the plane of a face comes near.
+  [[nodiscard]] bool cuts(const Face& face) const {
+    const Imath::V3d half = near_.size() / 2 + Imath::V3d(reach_);
+    const Imath::V3d& n = face.normal;
+    const double across = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
+    return std::abs((near_.center() - face.corners[0]).dot(n)) <= across;
+  }
+  void add_flat(const Face& face) {
+    at_.extendBy(common(face.box));
+    if (!planes_) return;
+    const Imath::Plane3d plane(face.corners[0], face.normal);
+    const bool known = std::ranges::any_of(*planes_, [&](const Imath::Plane3d& other) {
+      return other.normal == plane.normal && other.distance == plane.distance;
+    });
+    if (!known && planes_->size() == kMostPlanes)
+      planes_.reset();
+    else if (!known)
+      planes_->push_back(plane);
+  }
+  [[nodiscard]] Imath::Box3d common(const Imath::Box3d& box) const {
+    const Imath::Box3d other = grown(box, reach_);
+    Imath::Box3d part = near_;
+    for (int axis = 0; axis < 3; ++axis) {
+      part.min[axis] = std::max(part.min[axis], other.min[axis]);
+      part.max[axis] = std::min(part.max[axis], other.max[axis]);
+    }
+    return part;
+  }
+
+  Imath::Box3d near_;
+  double reach_;
+  Imath::Box3d at_;
+  std::optional<std::vector<Imath::Plane3d>> planes_{std::in_place};  // nothing where they do not tell
+};
+
 }  // namespace
 
 std::optional<Contact> crossed_at_once(const Scene& scene) {
@@ -39,6 +104,7 @@ std::optional<Contact> crossed_at_once(const Scene& scene) {
   const double reach = scene.touch_distance();
   const std::vector<Boxed> under = shapes_of(
       scene, [](const Material& material) { return opaque(material) || encloses_medium(material); });
+  FaceFinder faces;
   std::size_t pairs = 0;
   for (const Boxed& one : on) {
     const bool sheet = is_sheet(material_of(scene, one.shape));
@@ -47,7 +113,7 @@ std::optional<Contact> crossed_at_once(const Scene& scene) {
       if (!sheet && !opaque(material_of(scene, other.shape))) continue;
       if (++pairs > kMostPairs ||
           (near.intersects(other.box) &&
-           may_coincide(scene.shapes[one.shape].shape, scene.shapes[other.shape].shape, reach)))
+           may_coincide(scene.shapes[one.shape].shape, scene.shapes[other.shape].shape, reach, faces)))
         return Contact{one.shape, other.shape};
     }
   }
@@ -61,6 +127,7 @@ std::optional<Contact> lost_sheet(const Scene& scene) {
   const std::vector<Boxed> under = shapes_of(scene, [](const Material& material) {
     return opaque(material) || is_sheet(material) || interior(material) != nullptr;
   });
+  FaceFinder faces;
   std::size_t pairs = 0;
   for (const Boxed& sheet : sheets) {
     const Imath::Box3d near = grown(sheet.box, reach);
@@ -68,7 +135,7 @@ std::optional<Contact> lost_sheet(const Scene& scene) {
     for (const Boxed& other : under) {
       if (other.shape == sheet.shape || !near.intersects(other.box)) continue;
       if (++pairs > kMostPairs) return std::nullopt;
-      if (lies_on(scene.shapes[sheet.shape].shape, scene.shapes[other.shape].shape, reach))
+      if (lies_on(scene.shapes[sheet.shape].shape, scene.shapes[other.shape].shape, reach, faces))
         on.push_back(other.shape);
     }
     const auto hides = [&](std::uint32_t shape) {
@@ -78,6 +145,28 @@ std::optional<Contact> lost_sheet(const Scene& scene) {
     if (on.size() == 1 || std::any_of(on.begin(), on.end(), hides)) return Contact{sheet.shape, on.front()};
   }
   return std::nullopt;
+}
+
+std::vector<NearWalls> walls_near_shapes(const Scene& scene) {
+  std::vector<NearWalls> found(scene.shapes.size());
+  const std::vector<Boxed> crossed =
+      shapes_of(scene, [](const Material& material) { return !opaque(material); });
+  if (crossed.empty()) return found;
+  const std::vector<Boxed> walls =
+      shapes_of(scene, [](const Material& material) { return opaque(material); });
+  FaceFinder faces;
+  std::size_t pairs = 0;
+  for (const auto& [shape, box] : crossed) {
+    WallCollector near(box, 4 * scene.touch_distance(Imath::V3d(largest_coordinate(box)), shape));
+    for (const Boxed& wall : walls) {
+      if (++pairs > kMostPairs)
+        near.add_unseen(box);
+      else if (near.near().intersects(wall.box))
+        near.add(scene.shapes[wall.shape].shape, faces);
+    }
+    found[shape] = near.found();
+  }
+  return found;
 }
 
 }  // namespace abbe

@@ -2,6 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
+
+#include <ImathBox.h>
+#include <ImathPlane.h>
 
 #include "scene/scene.h"
 
@@ -22,5 +26,16 @@ struct Contact {
 /// between matter of two indices, the interface of which is met instead. One between two bodies of one
 /// material is not.
 [[nodiscard]] std::optional<Contact> lost_sheet(const Scene& scene);
+
+/// Where anything opaque comes as near to a shape that lets light on as floats tell, or crosses it.
+struct NearWalls {
+  Imath::Box3f box;  ///< Around all such places, and perhaps some of the shape beside them; empty for none.
+  /// Those in which all of what is opaque there lies, if it is flat and they are so few that asking each is
+  /// quick; else none.
+  std::vector<Imath::Plane3d> planes;
+};
+/// That of each shape; of an opaque one there is none. The box is around all of a shape where so many are
+/// near each other that comparing them would take seconds.
+[[nodiscard]] std::vector<NearWalls> walls_near_shapes(const Scene& scene);
 
 }  // namespace abbe

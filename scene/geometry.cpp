@@ -3,14 +3,17 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "io/error.h"
 #include "scene/embree_query.h"
 #include "scene/exact_query.h"
+#include "scene/shapes/basis.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/placed.h"
@@ -124,8 +127,9 @@ struct alignas(32) Packet {
 
 }  // namespace
 
-Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials)
-    : device_(nullptr, rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
+Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials,
+                   std::vector<NearWalls> walls)
+    : walls_(std::move(walls)), device_(nullptr, rtcReleaseDevice), scene_(nullptr, rtcReleaseScene) {
   open_device();
   attached_.reserve(shapes.size());
   for (const ShapeInstance& instance : shapes) {
@@ -245,6 +249,19 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Surf
   }
 }
 
+// In no order.
+std::vector<SurfaceHit> Geometry::all_met(const BasicRay<double>& ray, unsigned mask) const {
+  std::vector<SurfaceHit> all;
+  ExactContext context(attached_);
+  context.rays[0] = ray;
+  context.all = &all;
+  context.filter = collect;
+  RTCRayHit query = embree_query(ray);
+  query.ray.mask = mask;
+  rtcIntersect1(scene_.get(), &context, &query);
+  return all;
+}
+
 // Embree is asked for all it meets on a stretch of the ray around the hit, on which it need not be exact.
 TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const {
   TouchingSurfaces found;
@@ -255,13 +272,8 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
   const double reach = 2 * scene.touch_distance(point, hit.shape) / std::abs(normal.dot(direction));
   const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
-  std::vector<SurfaceHit> all;
-  ExactContext context(attached_);
-  context.rays[0] = {origin, direction, static_cast<double>(hit.t) + reach - start, ray.time};
-  context.all = &all;
-  context.filter = collect;
-  RTCRayHit query = embree_query(context.rays[0]);
-  rtcIntersect1(scene_.get(), &context, &query);
+  std::vector<SurfaceHit> all =
+      all_met({origin, direction, static_cast<double>(hit.t) + reach - start, ray.time}, ~0U);
   const auto sooner = [](const SurfaceHit& a, const SurfaceHit& b) {
     return std::tie(a.t, a.shape) < std::tie(b.t, b.shape);
   };
@@ -279,6 +291,37 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
       found.at[found.count++] = other;
   }
   return found;
+}
+
+// Asked on the way to the hit, as Embree may have taken the wall for what lies behind it, and through the hit
+// along three axes, one of which meets any wall that is near.
+bool Geometry::wall_within_rounding(const Scene& scene, const SurfaceHit& hit, const Imath::V3f& direction,
+                                    float time) const {
+  const Imath::V3d along(direction);
+  const Imath::V3d normal(hit.normal);
+  const Imath::V3d point(hit.point);
+  const double near = static_cast<double>(hit.spread + 2 * offset_length(hit.point));
+  const double reach = 32 * near;
+  const auto wall = [&](const SurfaceHit& met) {
+    return opaque(scene.materials[scene.shapes[met.shape].material]);
+  };
+  const auto near_wall = [&](const SurfaceHit& met) {
+    return wall(met) && std::abs((Imath::V3d(met.point) - point).dot(Imath::V3d(met.normal))) <= near;
+  };
+  const double back = std::min(reach / std::abs(normal.dot(along)), static_cast<double>(hit.t) / 2);
+  const double vague = near + scene.touch_distance(point, hit.shape);  // as corners are kept in float
+  const auto plane_comes_near = [&](const Imath::Plane3d& plane) {
+    const double at_hit = plane.distanceTo(point);
+    const double before = plane.distanceTo(point - along * back);
+    return std::abs(at_hit) <= vague || at_hit * before <= 0;
+  };
+  const std::vector<Imath::Plane3d>& planes = walls_[hit.shape].planes;
+  if (!planes.empty() && std::ranges::none_of(planes, plane_comes_near)) return false;
+  if (std::ranges::any_of(all_met({point - along * back, along, back, time}, kOpaque), wall)) return true;
+  const Basis<double> frame(normal);
+  return std::ranges::any_of(std::array{frame.x, frame.y, normal}, [&](const Imath::V3d& axis) {
+    return std::ranges::any_of(all_met({point - axis * reach, axis, 2 * reach, time}, kOpaque), near_wall);
+  });
 }
 
 bool Geometry::occluded(const BasicRay<double>& ray) const {

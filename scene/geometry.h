@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/contact.h"
 #include "scene/scene.h"
 #include "scene/shapes/triangles.h"
 
@@ -42,8 +43,10 @@ using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 /// again at once. What moves is asked where it stands at the ray's time, in double.
 class Geometry {
  public:
-  /// Throws Error{resource} when there is no memory, Error{internal} when Embree refuses.
-  Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials);
+  /// Takes the walls near each shape. Throws Error{resource} when there is no memory, Error{internal} when
+  /// Embree refuses.
+  Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials,
+           std::vector<NearWalls> walls);
   ~Geometry();
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
@@ -53,6 +56,9 @@ class Geometry {
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
   /// What `Scene::touching` tells, of the scene whose shapes these are.
   [[nodiscard]] TouchingSurfaces touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
+  /// What `Scene::hides_beyond` tells, of the scene whose shapes these are.
+  [[nodiscard]] bool wall_within_rounding(const Scene& scene, const SurfaceHit& hit,
+                                          const Imath::V3f& direction, float time) const;
   /// Whether anything but a boundary of matter is met at t in (0, ray.t_max).
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
   /// Tells of each of the rays, as many as `blocked`, whether something is met: 1 or 0.
@@ -73,6 +79,8 @@ class Geometry {
 
   using ScenePointer = std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)>;
 
+  /// All that is met at t in (0, ray.t_max) of those geometries.
+  [[nodiscard]] std::vector<SurfaceHit> all_met(const BasicRay<double>& ray, unsigned mask) const;
   void open_device();
   [[nodiscard]] ScenePointer new_scene();
   void commit(RTCSceneTy* scene);
@@ -81,6 +89,7 @@ class Geometry {
   void check() const;
 
   std::vector<AttachedGeometry> attached_;  // by index of the shape
+  std::vector<NearWalls> walls_;            // likewise
   std::atomic<std::ptrdiff_t> embree_bytes_{0};
   Failure failure_;
   std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "scene/contact.h"
 #include "scene/extent.h"
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
@@ -54,6 +55,10 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
 
 TouchingSurfaces Scene::touching(const Ray& ray, const SurfaceHit& hit) const {
   return geometry_->touching(*this, ray, hit);
+}
+
+bool Scene::wall_within_rounding(const SurfaceHit& hit, const Imath::V3f& direction, float time) const {
+  return geometry_->wall_within_rounding(*this, hit, direction, time);
 }
 
 double Scene::touch_distance(const Imath::V3d& point, std::uint32_t shape, std::uint32_t other) const {
@@ -134,7 +139,9 @@ void Scene::commit() {
     instance.light = static_cast<std::int32_t>(i);
     emitter->measure(instance.shape);
   }
-  geometry_ = std::make_shared<const Geometry>(shapes, materials);
+  std::vector<NearWalls> walls = walls_near_shapes(*this);
+  for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i].at_walls = walls[i].box;
+  geometry_ = std::make_shared<const Geometry>(shapes, materials, std::move(walls));
   needs = analyse(*this);
   if (!needs.motion) shutter = shutter.where_nothing_moves();
 }

@@ -195,6 +195,12 @@ class Scene {
   /// The surfaces that touch, at the ray's time, where `ray` meets the scene at `hit`, which is the first of
   /// them: parallel to it and within `touch_distance`. Of a shape, each side once.
   [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit) const;
+  /// Whether a ray of that direction that meets the scene at `hit` may start behind something opaque if it is
+  /// let through there: floats do not tell the surface from a wall that crosses it or ends at it. Surfaces
+  /// that `hit` spreads over are its own.
+  [[nodiscard]] bool hides_beyond(const SurfaceHit& hit, const Imath::V3f& direction, float time) const {
+    return shapes[hit.shape].at_walls.intersects(hit.point) && wall_within_rounding(hit, direction, time);
+  }
   /// Around `point`, surfaces of the two shapes that are closer than this [m] count as one: floats of the
   /// size of the point, and of the vertices, hardly tell them apart.
   [[nodiscard]] double touch_distance(const Imath::V3d& point, std::uint32_t shape,
@@ -233,6 +239,8 @@ class Scene {
  private:
   void measure_extent();
   void measure_matter();
+  [[nodiscard]] bool wall_within_rounding(const SurfaceHit& hit, const Imath::V3f& direction,
+                                          float time) const;
 
   std::shared_ptr<const Geometry> geometry_;
   std::vector<std::uint32_t> background_;

@@ -17,6 +17,7 @@ struct ShapeInstance {
   bool far = false;     ///< Wholly beyond `Scene::far_from_m`.
   double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
   double volume = 0;    ///< Of matter [m^3], see `enclosed_volume`; 0 where no other shape holds any.
+  Imath::Box3f at_walls = {};  ///< Where it lets light on and anything opaque may be as near as floats tell.
 };
 
 }  // namespace abbe

@@ -26,7 +26,7 @@ std::string ball(const std::string& material, double radius, const std::string& 
 
 constexpr const char* kMatter = R"("materials": {
   "water": {"dielectric": {"ior": 1.333}}, "glass": {"dielectric": {"ior": 1.5}, "priority": 1},
-  "flint": {"dielectric": {"ior": 1.7}}, "air": {"dielectric": {"ior": 1}},
+  "flint": {"dielectric": {"ior": 1.7}}, "frosted": {"dielectric": {"ior": 1.5, "roughness": 0.3}}, "air": {"dielectric": {"ior": 1}},
   "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
   "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
   "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
@@ -218,6 +218,67 @@ TEST(Nesting, MatterFlushWithWallsLetsNoLightIn) {
         ASSERT_EQ(test::region(film, 0, 0, 0, 24, 24).mean, 0) << shapes;
       }
   }
+}
+
+// A wall before a lamp, crossed by the face of some matter, and a view of the line where they cross, so
+// narrow that floats tell hardly any of its paths from that line.
+class CrossedWall {
+ public:
+  CrossedWall(double turned_deg, double slope) : slope_(slope) {
+    turned_.setAxisAngle(V3d(1, 2, 3).normalized(), turned_deg * std::numbers::pi / 180);
+  }
+
+  [[nodiscard]] std::string matter(const std::string& material) const {
+    Mesh mesh = testing::box({-0.7, 0.1, -0.5}, {0.6, 0.6, 0.5});
+    for (V3d& vertex : mesh.vertices)
+      vertex = V3d(vertex.x, vertex.y + slope_ * vertex.z, vertex.z) * turned_;
+    return fmt::format(R"({{"material": "{}", "mesh": {}}})", material, testing::inline_mesh(mesh));
+  }
+  [[nodiscard]] std::string sheet() const {
+    return fmt::format(R"({{"material": "pane", "quad": {}}})",
+                       quad({-0.7, 0.1 - slope_ / 2, -0.5}, {1.3, 0, 0}, {0, slope_, 1}));
+  }
+  [[nodiscard]] std::string wall() const {
+    return fmt::format(R"({{"material": "black", "quad": {}}})", quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}));
+  }
+  [[nodiscard]] double seen(const std::string& shapes, const char* integrator) const {
+    const std::string lamp = quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0});
+    const Scene scene = test::load_text(fmt::format(
+        R"({{"abbe": 1,
+          "camera": {{"pinhole": {{"fov_deg": 3e-5}}, "from": [{}], "to": [{}], "up": [{}]}},
+          "sensor": {{"resolution": [1, 1], "response": "energy", "channels": {{"all": {{"band": [450, 650]}}}}}},
+          {}, "lights": [{{"quad": {}, "two_sided": true, "emission": {{"spectrum": 1}}}}],
+          "shapes": [{}], "render": {{"samples": 2048, "integrator": "{}"}}}})",
+        at({0.13, -0.6, 1.3}), at({0.07, 0.1, 0}), at({0, 1, 0}), kMatter, lamp, shapes, integrator));
+    return render(scene, {}).film.mean(0, 0);
+  }
+
+ private:
+  [[nodiscard]] std::string at(const V3d& point) const {
+    const V3d there = point * turned_;
+    return fmt::format("{}, {}, {}", there.x, there.y, there.z);
+  }
+  [[nodiscard]] std::string quad(const V3d& corner, const V3d& u, const V3d& v) const {
+    return fmt::format(R"({{"corner": [{}], "edge_u": [{}], "edge_v": [{}]}})", at(corner), at(u), at(v));
+  }
+
+  Imath::M44d turned_;
+  double slope_;
+};
+
+// Of paths that meet a surface within floats of where a wall crosses it, none goes on behind the wall.
+TEST(Nesting, NothingComesThroughAWallWhereMatterCrossesIt) {
+  for (const double turned_deg : {0.0, 37.0})
+    for (const double slope : {-0.5, 0.0, 0.5}) {
+      const CrossedWall scene(turned_deg, slope);
+      for (const std::string& matter : {scene.sheet(), scene.matter("flint"), scene.matter("frosted"),
+                                        scene.matter("clear"), scene.matter("fog")})
+        for (const char* integrator : {"path", "bdpt"}) {
+          const std::string what = fmt::format("{}, {}, turned {}", matter, integrator, turned_deg);
+          EXPECT_EQ(scene.seen(matter + "," + scene.wall(), integrator), 0) << what;
+          EXPECT_GT(scene.seen(matter, integrator), 0) << what;
+        }
+    }
 }
 
 // Seen from within, where floats do not tell a ball from the table that it touches, nor from another ball.

@@ -40,9 +40,10 @@ Passed pass(const MediumAt& medium, float distance) {
           std::exp(depth(least))};
 }
 
-// Through the boundaries that touch where one is met on the way of `ray`: the rest of the way.
+// Through the boundaries that touch where one is met on the way of `ray`, and over which it then spreads: the
+// rest of the way.
 Ray pass_boundaries(const Scene& scene, Surroundings& around, const SampledSpectrum& wavelengths_nm,
-                    const Ray& ray, SurfaceHit hit) {
+                    const Ray& ray, SurfaceHit& hit) {
   const TouchingSurfaces met = scene.touching(ray, hit);
   MediumStack beyond = around.inside;
   for (const bool entering : {false, true})
@@ -116,22 +117,23 @@ Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V
   return rounded_back(point, direction);
 }
 
-bool propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
-               std::optional<SurfaceHit>& hit, const StretchVisitor& visitor) {
+Arrival propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
+                  std::optional<SurfaceHit>& hit, const StretchVisitor& visitor) {
   constexpr float kDigits = 0x1p-24F;  // of a random number
   float depth = -std::log1p(-std::min(u.x + (u.y + 0.5F * kDigits) * kDigits, 1 - kDigits));
   Ray ray = walk.ray;
   float gone = 0;  // to its origin
   while (true) {
-    if (scatters_on(walk, ray, hit, depth, visitor)) return true;
-    if (!hit) return false;
+    if (scatters_on(walk, ray, hit, depth, visitor)) return Arrival::matter;
+    if (!hit) return Arrival::outside;
     if (const std::optional<SurfaceHit> surface = surface_at(scene, ray, *hit)) {
       hit = surface;
       hit->t += gone;
-      return false;
+      return Arrival::surface;
     }
     gone += hit->t;
     ray = pass_boundaries(scene, walk.around, walk.packet.wavelengths.lambda_nm, ray, *hit);
+    if (scene.hides_beyond(*hit, ray.direction, ray.time)) return Arrival::hidden;
     hit = caster.intersect(ray);
   }
 }

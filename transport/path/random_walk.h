@@ -177,24 +177,29 @@ class RandomWalks {
     technique.resolve_connections();
   }
 
-  // From its last vertex, its ray's nearest hit being `hit`, to its next one and on. Whether it goes on.
-  bool advance_path(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
+  // Along its ray, the nearest hit of which is `hit`.
+  Arrival arrive(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
     if (has_free_paths_) {
       const std::array<float, 4> u = path.sampler.group(free_path_group(path.events));
-      if (propagate(scene_, caster_, {u[0], u[1]}, path, hit, visitor(technique, path, {u[2], u[3]})))
-        return scatter_within(technique, path);
-    } else if (hit) {
-      path.around.medium.attenuate(path.packet.throughput, hit->t);
+      return propagate(scene_, caster_, {u[0], u[1]}, path, hit, visitor(technique, path, {u[2], u[3]}));
     }
-    if (!hit) {
-      technique.escape(path);
-      return false;
-    }
+    if (!hit) return Arrival::outside;
+    path.around.medium.attenuate(path.packet.throughput, hit->t);
+    return Arrival::surface;
+  }
+
+  // From its last vertex, its ray's nearest hit being `hit`, to its next one and on. Whether it goes on.
+  bool advance_path(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
+    const Arrival arrival = arrive(technique, path, hit);
+    if (arrival == Arrival::matter) return scatter_within(technique, path);
+    if (arrival == Arrival::outside) technique.escape(path);
+    if (arrival != Arrival::surface) return false;
     std::optional<Interface> met;
     if (scene_.needs.nesting) {
       met = interface_at(scene_, path.ray, *hit, path.around.inside);
       hit = met->hit;
     }
+    if (scene_.hides_beyond(*hit, path.ray.direction, path.ray.time)) return false;
     technique.meet(path, *hit);
     const SurfaceVertex vertex(scene_, *hit, met, path);
     return !is_black(vertex.bsdf) && !is_cut(technique, path) && leave(technique, path, vertex);

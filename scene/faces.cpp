@@ -1,0 +1,92 @@
+#include "scene/faces.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+
+#include <ImathBoxAlgo.h>
+
+#include "scene/shapes/basis.h"
+
+namespace abbe {
+namespace {
+
+using Imath::Box3d;
+using Imath::M44d;
+using Imath::V3d;
+
+constexpr std::size_t kRun = 64;  // triangles
+
+using Runs = std::map<const Mesh*, std::vector<Box3d>>;
+
+const std::vector<Box3d>& runs_of(const Mesh& mesh, Runs& known) {
+  const auto [at, added] = known.try_emplace(&mesh);
+  if (!added) return at->second;
+  at->second.resize((mesh.triangles.size() + kRun - 1) / kRun);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const std::uint32_t vertex : mesh.triangles[i]) at->second[i / kRun].extendBy(mesh.vertices[vertex]);
+  return at->second;
+}
+
+// Adds those of a shape, placed by a matrix, that are flat and meet the box.
+struct FaceCollector {
+  const M44d& to_world;
+  const Box3d& within;
+  Runs& runs;
+  std::vector<Face>& faces;
+
+  void add(std::array<V3d, 4> corners) const {
+    Box3d box;
+    for (V3d& corner : corners) {
+      corner = corner * to_world;
+      box.extendBy(corner);
+    }
+    if (!box.intersects(within)) return;
+    faces.push_back({corners, box, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized()});
+  }
+  void operator()(const Mesh& mesh) const {
+    const std::vector<Box3d>& boxes = runs_of(mesh, runs);
+    for (std::size_t run = 0; run < boxes.size(); ++run) {
+      if (!Imath::transform(boxes[run], to_world).intersects(within)) continue;
+      const std::size_t end = std::min((run + 1) * kRun, mesh.triangles.size());
+      for (std::size_t i = run * kRun; i < end; ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        add({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[c]});
+      }
+    }
+  }
+  void operator()(const Quad& quad) const {
+    const V3d& at = quad.corner;
+    add({at, at + quad.edge_u, at + quad.edge_v, at + quad.edge_u + quad.edge_v});
+  }
+  void operator()(const Disc& disc) const {
+    const Basis<double> frame(disc.normal);
+    const V3d across = frame.x * disc.radius;
+    const V3d up = frame.y * disc.radius;
+    const V3d at = disc.center - across - up;
+    add({at, at + across * 2.0, at + up * 2.0, disc.center + across + up});
+  }
+  void operator()(const Sphere&) const {}
+  void operator()(const PlacedShape& placed) const {
+    std::visit(FaceCollector{placed.at->to_world, within, runs, faces}, placed.of->shape);
+  }
+};
+
+}  // namespace
+
+bool has_faces(const Shape& shape) {
+  if (const auto* placed = std::get_if<PlacedShape>(&shape))
+    return !std::holds_alternative<Sphere>(placed->of->shape);
+  return !std::holds_alternative<Sphere>(shape);
+}
+
+std::vector<Face> FaceFinder::near(const Shape& shape, const Box3d& box) {
+  std::vector<Face> faces;
+  const M44d unmoved;
+  std::visit(FaceCollector{unmoved, box, runs_, faces}, shape);
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return a.box.min.x < b.box.min.x; });
+  return faces;
+}
+
+}  // namespace abbe

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include <ImathBox.h>
+#include <ImathVec.h>
+
+#include "scene/shapes/shape.h"
+
+namespace abbe {
+
+/// A triangle or a parallelogram; of a disc the square around it.
+struct Face {
+  std::array<Imath::V3d, 4> corners;  ///< Of a triangle the last one twice.
+  Imath::Box3d box;
+  Imath::V3d normal;  ///< Unit.
+};
+
+/// Whether a shape is made of flat faces.
+[[nodiscard]] bool has_faces(const Shape& shape);
+
+/// Finds the flat faces of shapes by where they are. Of each mesh it keeps the boxes around runs of
+/// triangles, so that not all of them are looked at each time; meshes must live as long as it does.
+class FaceFinder {
+ public:
+  /// The faces of a shape the boxes of which meet a box, from low x to high. Of what moves, those when the
+  /// shutter opens.
+  [[nodiscard]] std::vector<Face> near(const Shape& shape, const Imath::Box3d& box);
+
+ private:
+  std::map<const Mesh*, std::vector<Imath::Box3d>> runs_;
+};
+
+}  // namespace abbe
