@@ -11,6 +11,7 @@
 #include "scene/shapes/placed.h"
 #include "scene/shapes/quad.h"
 #include "scene/shapes/sphere.h"
+#include "scene/shapes/triangle.h"
 
 namespace abbe {
 namespace {
@@ -54,13 +55,11 @@ void user_bounds(const RTCBoundsFunctionArguments* args) {
   set_bounds(args, bounds(*static_cast<const S*>(args->geometryUserPtr)));
 }
 
-// What one ray of a packet meets becomes its hit, or goes to `all`.
-void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_t id,
-              const ShapeHit<double>& found) {
+// What one ray of a packet meets at t becomes its hit, or goes to `all`.
+void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_t id, double t) {
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
   auto& context = *static_cast<ExactContext*>(args->context);
-  context.nearest[id] = found;
   RTCHit met{};
   met.geomID = args->geomID;
   met.primID = args->primID;
@@ -69,15 +68,13 @@ void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_
     if (const auto one = decide(met, context, id)) context.all->push_back(*one);
     return;
   }
-  RTCRayN_tfar(ray, args->N, i) = static_cast<float>(found.t);
-  RTCHitN_geomID(hit, args->N, i) = met.geomID;
-  RTCHitN_primID(hit, args->N, i) = met.primID;
-  RTCHitN_instID(hit, args->N, i, 0) = met.instID[0];
+  RTCRayN_tfar(ray, args->N, i) = static_cast<float>(t);
+  rtcCopyHitToHitN(hit, &met, args->N, i);
 }
 
 template <typename S>
 void user_intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& context = *static_cast<const ExactContext*>(args->context);
+  auto& context = *static_cast<ExactContext*>(args->context);
   const auto& shape = *static_cast<const S*>(args->geometryUserPtr);
   const Placement* at = placement_of(args->context);
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
@@ -85,7 +82,9 @@ void user_intersect(const RTCIntersectFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const std::size_t id = RTCRayN_id(ray, args->N, i);
     const auto found = intersection(shape, at, context.rays[id]);
-    if (found && found->t < static_cast<double>(RTCRayN_tfar(ray, args->N, i))) take_hit(args, i, id, *found);
+    if (!found || !(found->t < static_cast<double>(RTCRayN_tfar(ray, args->N, i)))) continue;
+    context.nearest[id] = *found;
+    take_hit(args, i, id, found->t);
   }
 }
 
@@ -178,6 +177,56 @@ void moving_occluded(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
+[[gnu::noinline]] BasicRay<double> moving_ray_inside(const Placement& at, const BasicRay<double>& ray) {
+  return to_prototype(placement_now(at, ray), ray);
+}
+
+// The ray in the coordinates of a prototype.
+BasicRay<double> ray_inside(const Placement& at, const BasicRay<double>& ray) {
+  return at.motion ? moving_ray_inside(at, ray) : to_prototype(at, ray);
+}
+
+// Where a ray meets a triangle at t in (0, ray.t_max), in the world's lengths.
+std::optional<double> triangle_crossing(const TriangleSet& set, std::uint32_t triangle, const Placement* at,
+                                        const BasicRay<double>& ray) {
+  const auto& [a, b, c] = set.triangles[triangle];
+  const std::optional<double> t =
+      intersect_triangle(Imath::V3d(set.vertices[a]), Imath::V3d(set.vertices[b]),
+                         Imath::V3d(set.vertices[c]), at == nullptr ? ray : ray_inside(*at, ray));
+  return t && *t > 0 && *t < ray.t_max ? t : std::nullopt;
+}
+
+void triangle_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
+  Imath::Box3d box;
+  for (const std::uint32_t vertex : set.triangles[args->primID])
+    box.extendBy(Imath::V3d(set.vertices[vertex]));
+  set_bounds(args, box);
+}
+
+void triangle_intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
+  const Placement* at = placement_of(args->context);
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const std::size_t id = RTCRayN_id(ray, args->N, i);
+    const auto t = triangle_crossing(set, args->primID, at, context.rays[id]);
+    if (t && *t < static_cast<double>(RTCRayN_tfar(ray, args->N, i))) take_hit(args, i, id, *t);
+  }
+}
+
+void triangle_occluded(const RTCOccludedFunctionNArguments* args) {
+  const auto& context = *static_cast<const ExactContext*>(args->context);
+  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
+  const Placement* at = placement_of(args->context);
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] != 0 &&
+        triangle_crossing(set, args->primID, at, context.rays[RTCRayN_id(args->ray, args->N, i)]))
+      RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+}
+
 SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray, std::uint32_t shape,
                        std::uint32_t primitive) {
   return {rounded_back(hit.point, ray.direction), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape,
@@ -223,15 +272,6 @@ std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit
   return triangle_hit(set, hit, &instance, &now, ray);
 }
 
-[[gnu::noinline]] BasicRay<double> moving_ray_inside(const Placement& at, const BasicRay<double>& ray) {
-  return to_prototype(placement_now(at, ray), ray);
-}
-
-// The ray in the coordinates of a prototype.
-BasicRay<double> ray_inside(const Placement& at, const BasicRay<double>& ray) {
-  return at.motion ? moving_ray_inside(at, ray) : to_prototype(at, ray);
-}
-
 }  // namespace
 
 void reject_behind(const RTCFilterFunctionNArguments* args) {
@@ -263,6 +303,12 @@ void set_callbacks(RTCGeometryTy* geometry, const Sphere& /*sphere*/) {
 }
 void set_callbacks(RTCGeometryTy* geometry, const Disc& /*disc*/) {
   set_user_callbacks<Disc>(geometry);
+}
+void set_callbacks(RTCGeometryTy* geometry, const TriangleSet& /*set*/) {
+  rtcSetGeometryBoundsFunction(
+      geometry, [](const RTCBoundsFunctionArguments* args) { triangle_bounds(args); }, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, triangle_intersect);
+  rtcSetGeometryOccludedFunction(geometry, triangle_occluded);
 }
 void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
   rtcSetGeometryBoundsFunction(

@@ -46,6 +46,8 @@ void collect(const RTCFilterFunctionNArguments* args);
 /// Tells Embree how rays meet a sphere or disc, which `user_pointer` of the geometry is.
 void set_callbacks(RTCGeometryTy* geometry, const Sphere& sphere);
 void set_callbacks(RTCGeometryTy* geometry, const Disc& disc);
+/// Tells Embree how rays meet the triangles of a set in double, likewise.
+void set_callbacks(RTCGeometryTy* geometry, const TriangleSet& set);
 /// Tells Embree how rays meet an instance that moves, likewise.
 void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& moving);
 

@@ -13,6 +13,8 @@
 #include "io/error.h"
 #include "scene/embree_query.h"
 #include "scene/exact_query.h"
+#include "scene/extent.h"
+#include "scene/faces.h"
 #include "scene/shapes/basis.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
@@ -47,10 +49,51 @@ RTCGeometry triangle_geometry(RTCDevice device, TriangleSet& set) {
   return geometry;
 }
 
+// Where Embree may miss a triangle that a ray starts just in front of: its floats tell where the ray starts
+// by some share of the triangle's size, exactly if it lies along two axes, but rays start off surfaces by as
+// small a share of their own coordinates.
+Imath::Box3d vague_part(const std::array<Imath::V3d, 3>& corners) {
+  constexpr double kTimesLarger = 16;
+  Imath::Box3d box;
+  for (const Imath::V3d& corner : corners) box.extendBy(corner);
+  const Imath::V3d size = box.size();
+  const double reach = size.length() / kTimesLarger;
+  const Imath::V3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  Imath::Box3d part;
+  if (std::min({size.x, size.y, size.z}) == 0 || std::abs(corners[0].dot(normal)) > reach) return part;
+  for (int axis = 0; axis < 3; ++axis) {
+    part.min[axis] = std::max(box.min[axis], -reach);
+    part.max[axis] = std::min(box.max[axis], reach);
+  }
+  return part;
+}
+
+bool comes_near(const Shape& shape, const Imath::Box3d& part, FaceFinder& faces) {
+  if (!part.intersects(bounds(shape))) return false;
+  return motion_of(shape) != nullptr || !has_faces(shape) || !faces.near(shape, part).empty();
+}
+
+// Whether another shape comes near where triangles of a shape are vague. Of many triangles each is so small
+// that it is vague on a spot around the origin alone.
+bool outgrows_floats(const TriangleSet& set, std::size_t shape, const std::vector<ShapeInstance>& shapes,
+                     FaceFinder& faces) {
+  constexpr std::size_t kMost = 64;
+  if (set.triangles.size() > kMost) return false;
+  return std::ranges::any_of(set.triangles, [&](const auto& triangle) {
+    const auto& [a, b, c] = triangle;
+    const Imath::Box3d vague =
+        vague_part({Imath::V3d(set.vertices[a]), Imath::V3d(set.vertices[b]), Imath::V3d(set.vertices[c])});
+    if (vague.isEmpty()) return false;
+    for (std::size_t other = 0; other < shapes.size(); ++other)
+      if (other != shape && comes_near(shapes[other].shape, vague, faces)) return true;
+    return false;
+  });
+}
+
 template <typename S>
-RTCGeometry user_geometry(RTCDevice device, S& shape) {
+RTCGeometry user_geometry(RTCDevice device, S& shape, std::size_t primitives = 1) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives));
   rtcSetGeometryUserData(geometry, &shape);
   set_callbacks(geometry, shape);
   return geometry;
@@ -140,10 +183,15 @@ Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<M
     if (const auto* placed = std::get_if<PlacedShape>(&instance.shape))
       attached_.emplace_back(SceneInstance{build_prototype(placed->of), placed->at});
   }
+  FaceFinder faces;
   scene_ = new_scene();
   for (std::size_t i = 0; i < attached_.size(); ++i) {
+    auto* set = std::get_if<TriangleSet>(&attached_[i]);
     RTCGeometryTy* geometry =
-        std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); }, attached_[i]);
+        set != nullptr && outgrows_floats(*set, i, shapes, faces)
+            ? user_geometry(device_.get(), *set, set->triangles.size())
+            : std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); },
+                         attached_[i]);
     rtcSetGeometryMask(geometry, is_boundary(materials[shapes[i].material]) ? kBoundary : kOpaque);
     attach(scene_.get(), static_cast<std::uint32_t>(i), geometry);
   }

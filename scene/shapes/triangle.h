@@ -1,0 +1,30 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "scene/shapes/ray.h"
+
+namespace abbe {
+
+/// Where a ray meets a triangle, edges included, in lengths of its direction, and perhaps before its origin;
+/// nothing where it does not. Solves o + t d = a + u (b - a) + v (c - a) by Cramer's rule. [Moller1997]
+template <typename T>
+[[nodiscard]] std::optional<T> intersect_triangle(const Imath::Vec3<T>& a, const Imath::Vec3<T>& b,
+                                                  const Imath::Vec3<T>& c, const BasicRay<T>& ray) {
+  const Imath::Vec3<T> e1 = b - a;
+  const Imath::Vec3<T> e2 = c - a;
+  const Imath::Vec3<T> s = ray.origin - a;
+  const T determinant = ray.direction.cross(e2).dot(e1);
+  const T u = ray.direction.cross(e2).dot(s) / determinant;
+  const T v = s.cross(e1).dot(ray.direction) / determinant;
+  // Neighbours overlap by the width of rounding, so that a ray through their common edge meets one of them.
+  const T magnitude = s.length() * ray.direction.length() * std::max(e1.length(), e2.length());
+  const T slack = 8 * std::numeric_limits<T>::epsilon() * magnitude / std::abs(determinant);
+  if (!(u >= -slack && v >= -slack && u + v <= 1 + slack)) return std::nullopt;
+  return s.cross(e1).dot(e2) / determinant;
+}
+
+}  // namespace abbe
