@@ -39,8 +39,9 @@ using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 
 /// The shapes in Embree's hands. Embree finds the primitive in float; where it is met, and whether it is met
 /// at all rather than left, is then decided in double by the shape's own formula, for instances in the
-/// coordinates of their prototype. A ray that starts on the right side of a surface never meets that surface
-/// again at once. What moves is asked where it stands at the ray's time, in double.
+/// coordinates of their prototype. Curved shapes, and triangles so large that floats do not tell from which
+/// side a ray starts, are found in double as well. A ray that starts on the right side of a surface never
+/// meets that surface again at once. What moves is asked where it stands at the ray's time, in double.
 class Geometry {
  public:
   /// Takes the walls near each shape. Throws Error{resource} when there is no memory, Error{internal} when

@@ -1,4 +1,5 @@
 // Matter in matter: shapes of different indices within each other, overlapping, and touching.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -248,12 +249,12 @@ class CrossedWall {
     const std::string lamp = quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0});
     const Scene scene = test::load_text(fmt::format(
         R"({{"abbe": 1,
-          "camera": {{"pinhole": {{"fov_deg": 3e-5}}, "from": [{}], "to": [{}], "up": [{}]}},
+          "camera": {{"pinhole": {{"fov_deg": {}}}, "from": [{}], "to": [{}], "up": [{}]}},
           "sensor": {{"resolution": [1, 1], "response": "energy", "channels": {{"all": {{"band": [450, 650]}}}}}},
           {}, "lights": [{{"quad": {}, "two_sided": true, "emission": {{"spectrum": 1}}}}],
           "shapes": [{}], "render": {{"samples": 2048, "integrator": "{}"}}}})",
-        at(V3d(0.13, -0.6, 1.3) + aside_), at(V3d(0.07, 0.1, 0) + aside_), at({0, 1, 0}), kMatter, lamp,
-        shapes, integrator));
+        3e-5 * std::max(1.0, slope_ / 10), at(V3d(0.13, -0.6, 1.3) + aside_), at(V3d(0.07, 0.1, 0) + aside_),
+        at({0, 1, 0}), kMatter, lamp, shapes, integrator));
     return render(scene, {}).film.mean(0, 0);
   }
 
