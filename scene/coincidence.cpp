@@ -9,7 +9,6 @@
 
 #include "scene/extent.h"
 #include "scene/scene.h"
-#include "scene/shapes/basis.h"
 
 namespace abbe {
 namespace {
