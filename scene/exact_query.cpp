@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "scene/embree_query.h"
 #include "scene/shapes/disc.h"
@@ -35,11 +36,31 @@ template <typename S>
   return intersect_placed(shape, placement_now(at, ray), ray, 0.0);
 }
 
+// Where a ray meets a primitive at t in (0, ray.t_max): a shape, or a triangle of a set, which has t alone.
 template <typename S>
-std::optional<ShapeHit<double>> intersection(const S& shape, const Placement* at,
+std::optional<ShapeHit<double>> intersection(const S& shape, std::uint32_t /*the one*/, const Placement* at,
                                              const BasicRay<double>& ray) {
   if (at == nullptr) return intersect(shape, ray, 0.0);
   return at->motion ? moving_intersection(shape, *at, ray) : intersect_placed(shape, *at, ray, 0.0);
+}
+
+std::optional<ShapeHit<double>> intersection(const TriangleSet& set, std::uint32_t triangle,
+                                             const Placement* /*none*/, const BasicRay<double>& ray) {
+  const auto& [a, b, c] = set.triangles[triangle];
+  const auto t = intersect_triangle(Imath::V3d(set.vertices[a]), Imath::V3d(set.vertices[b]),
+                                    Imath::V3d(set.vertices[c]), ray);
+  if (!t || !(*t > 0 && *t < ray.t_max)) return std::nullopt;
+  return ShapeHit<double>{*t, {}, {}};
+}
+
+template <typename S>
+Imath::Box3d primitive_bounds(const S& shape, std::uint32_t /*the one*/) {
+  return bounds(shape);
+}
+Imath::Box3d primitive_bounds(const TriangleSet& set, std::uint32_t triangle) {
+  Imath::Box3d box;
+  for (const std::uint32_t vertex : set.triangles[triangle]) box.extendBy(Imath::V3d(set.vertices[vertex]));
+  return box;
 }
 
 void set_bounds(const RTCBoundsFunctionArguments* args, const Imath::Box3d& box) {
@@ -52,39 +73,43 @@ void set_bounds(const RTCBoundsFunctionArguments* args, const Imath::Box3d& box)
 
 template <typename S>
 void user_bounds(const RTCBoundsFunctionArguments* args) {
-  set_bounds(args, bounds(*static_cast<const S*>(args->geometryUserPtr)));
+  set_bounds(args, primitive_bounds(*static_cast<const S*>(args->geometryUserPtr), args->primID));
 }
 
-// What one ray of a packet meets at t becomes its hit, or goes to `all`.
-void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_t id, double t) {
+// What one ray of a packet meets becomes its hit, or goes to `all`. Of a triangle `decide` has the last word,
+// which rounds otherwise: what it would not have must not be found, as it would be again.
+template <typename S>
+void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_t id,
+              const ShapeHit<double>& found) {
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
   auto& context = *static_cast<ExactContext*>(args->context);
+  context.nearest[id] = found;
   RTCHit met{};
   met.geomID = args->geomID;
   met.primID = args->primID;
   met.instID[0] = args->context->instID[0];
-  if (context.all != nullptr) {
-    if (const auto one = decide(met, context, id)) context.all->push_back(*one);
-    return;
+  if (context.all != nullptr || std::is_same_v<S, TriangleSet>) {
+    const auto decided = decide(met, context, id);
+    if (decided && context.all != nullptr) context.all->push_back(*decided);
+    if (!decided || context.all != nullptr) return;
   }
-  RTCRayN_tfar(ray, args->N, i) = static_cast<float>(t);
+  RTCRayN_tfar(ray, args->N, i) = static_cast<float>(found.t);
   rtcCopyHitToHitN(hit, &met, args->N, i);
 }
 
 template <typename S>
 void user_intersect(const RTCIntersectFunctionNArguments* args) {
-  auto& context = *static_cast<ExactContext*>(args->context);
+  const auto& context = *static_cast<const ExactContext*>(args->context);
   const auto& shape = *static_cast<const S*>(args->geometryUserPtr);
   const Placement* at = placement_of(args->context);
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const std::size_t id = RTCRayN_id(ray, args->N, i);
-    const auto found = intersection(shape, at, context.rays[id]);
-    if (!found || !(found->t < static_cast<double>(RTCRayN_tfar(ray, args->N, i)))) continue;
-    context.nearest[id] = *found;
-    take_hit(args, i, id, found->t);
+    const auto found = intersection(shape, args->primID, at, context.rays[id]);
+    if (found && found->t < static_cast<double>(RTCRayN_tfar(ray, args->N, i)))
+      take_hit<S>(args, i, id, *found);
   }
 }
 
@@ -94,7 +119,8 @@ void user_occluded(const RTCOccludedFunctionNArguments* args) {
   const auto& shape = *static_cast<const S*>(args->geometryUserPtr);
   const Placement* at = placement_of(args->context);
   for (unsigned i = 0; i < args->N; ++i)
-    if (args->valid[i] != 0 && intersection(shape, at, context.rays[RTCRayN_id(args->ray, args->N, i)]))
+    if (args->valid[i] != 0 &&
+        intersection(shape, args->primID, at, context.rays[RTCRayN_id(args->ray, args->N, i)]))
       RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
 }
 
@@ -177,56 +203,6 @@ void moving_occluded(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
-[[gnu::noinline]] BasicRay<double> moving_ray_inside(const Placement& at, const BasicRay<double>& ray) {
-  return to_prototype(placement_now(at, ray), ray);
-}
-
-// The ray in the coordinates of a prototype.
-BasicRay<double> ray_inside(const Placement& at, const BasicRay<double>& ray) {
-  return at.motion ? moving_ray_inside(at, ray) : to_prototype(at, ray);
-}
-
-// Where a ray meets a triangle at t in (0, ray.t_max), in the world's lengths.
-std::optional<double> triangle_crossing(const TriangleSet& set, std::uint32_t triangle, const Placement* at,
-                                        const BasicRay<double>& ray) {
-  const auto& [a, b, c] = set.triangles[triangle];
-  const std::optional<double> t =
-      intersect_triangle(Imath::V3d(set.vertices[a]), Imath::V3d(set.vertices[b]),
-                         Imath::V3d(set.vertices[c]), at == nullptr ? ray : ray_inside(*at, ray));
-  return t && *t > 0 && *t < ray.t_max ? t : std::nullopt;
-}
-
-void triangle_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
-  Imath::Box3d box;
-  for (const std::uint32_t vertex : set.triangles[args->primID])
-    box.extendBy(Imath::V3d(set.vertices[vertex]));
-  set_bounds(args, box);
-}
-
-void triangle_intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& context = *static_cast<const ExactContext*>(args->context);
-  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
-  const Placement* at = placement_of(args->context);
-  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0) continue;
-    const std::size_t id = RTCRayN_id(ray, args->N, i);
-    const auto t = triangle_crossing(set, args->primID, at, context.rays[id]);
-    if (t && *t < static_cast<double>(RTCRayN_tfar(ray, args->N, i))) take_hit(args, i, id, *t);
-  }
-}
-
-void triangle_occluded(const RTCOccludedFunctionNArguments* args) {
-  const auto& context = *static_cast<const ExactContext*>(args->context);
-  const auto& set = *static_cast<const TriangleSet*>(args->geometryUserPtr);
-  const Placement* at = placement_of(args->context);
-  for (unsigned i = 0; i < args->N; ++i)
-    if (args->valid[i] != 0 &&
-        triangle_crossing(set, args->primID, at, context.rays[RTCRayN_id(args->ray, args->N, i)]))
-      RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
-}
-
 SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray, std::uint32_t shape,
                        std::uint32_t primitive) {
   return {rounded_back(hit.point, ray.direction), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape,
@@ -272,6 +248,15 @@ std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit
   return triangle_hit(set, hit, &instance, &now, ray);
 }
 
+[[gnu::noinline]] BasicRay<double> moving_ray_inside(const Placement& at, const BasicRay<double>& ray) {
+  return to_prototype(placement_now(at, ray), ray);
+}
+
+// The ray in the coordinates of a prototype.
+BasicRay<double> ray_inside(const Placement& at, const BasicRay<double>& ray) {
+  return at.motion ? moving_ray_inside(at, ray) : to_prototype(at, ray);
+}
+
 }  // namespace
 
 void reject_behind(const RTCFilterFunctionNArguments* args) {
@@ -305,10 +290,7 @@ void set_callbacks(RTCGeometryTy* geometry, const Disc& /*disc*/) {
   set_user_callbacks<Disc>(geometry);
 }
 void set_callbacks(RTCGeometryTy* geometry, const TriangleSet& /*set*/) {
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* args) { triangle_bounds(args); }, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, triangle_intersect);
-  rtcSetGeometryOccludedFunction(geometry, triangle_occluded);
+  set_user_callbacks<TriangleSet>(geometry);
 }
 void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
   rtcSetGeometryBoundsFunction(

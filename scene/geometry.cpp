@@ -13,8 +13,7 @@
 #include "io/error.h"
 #include "scene/embree_query.h"
 #include "scene/exact_query.h"
-#include "scene/extent.h"
-#include "scene/faces.h"
+#include "scene/large_triangles.h"
 #include "scene/shapes/basis.h"
 #include "scene/shapes/disc.h"
 #include "scene/shapes/mesh.h"
@@ -47,47 +46,6 @@ RTCGeometry triangle_geometry(RTCDevice device, TriangleSet& set) {
   rtcSetGeometryOccludedFilterFunction(geometry, reject_behind);
   rtcSetGeometryUserData(geometry, &set);
   return geometry;
-}
-
-// Where Embree may miss a triangle that a ray starts just in front of: its floats tell where the ray starts
-// by some share of the triangle's size, exactly if it lies along two axes, but rays start off surfaces by as
-// small a share of their own coordinates.
-Imath::Box3d vague_part(const std::array<Imath::V3d, 3>& corners) {
-  constexpr double kTimesLarger = 16;
-  Imath::Box3d box;
-  for (const Imath::V3d& corner : corners) box.extendBy(corner);
-  const Imath::V3d size = box.size();
-  const double reach = size.length() / kTimesLarger;
-  const Imath::V3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-  Imath::Box3d part;
-  if (std::min({size.x, size.y, size.z}) == 0 || std::abs(corners[0].dot(normal)) > reach) return part;
-  for (int axis = 0; axis < 3; ++axis) {
-    part.min[axis] = std::max(box.min[axis], -reach);
-    part.max[axis] = std::min(box.max[axis], reach);
-  }
-  return part;
-}
-
-bool comes_near(const Shape& shape, const Imath::Box3d& part, FaceFinder& faces) {
-  if (!part.intersects(bounds(shape))) return false;
-  return motion_of(shape) != nullptr || !has_faces(shape) || !faces.near(shape, part).empty();
-}
-
-// Whether another shape comes near where triangles of a shape are vague. Of many triangles each is so small
-// that it is vague on a spot around the origin alone.
-bool outgrows_floats(const TriangleSet& set, std::size_t shape, const std::vector<ShapeInstance>& shapes,
-                     FaceFinder& faces) {
-  constexpr std::size_t kMost = 64;
-  if (set.triangles.size() > kMost) return false;
-  return std::ranges::any_of(set.triangles, [&](const auto& triangle) {
-    const auto& [a, b, c] = triangle;
-    const Imath::Box3d vague =
-        vague_part({Imath::V3d(set.vertices[a]), Imath::V3d(set.vertices[b]), Imath::V3d(set.vertices[c])});
-    if (vague.isEmpty()) return false;
-    for (std::size_t other = 0; other < shapes.size(); ++other)
-      if (other != shape && comes_near(shapes[other].shape, vague, faces)) return true;
-    return false;
-  });
 }
 
 template <typename S>
