@@ -86,6 +86,14 @@ RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
   return geometry;
 }
 
+// What Embree found for the ray of that number, at `t`.
+std::optional<SurfaceHit> decide(const RTCHit& found, float t, const ExactContext& context,
+                                 std::size_t number) {
+  std::optional<SurfaceHit> hit = abbe::decide(found, context, number);
+  if (hit) hit->late = std::max(0.0F, hit->t - t);
+  return hit;
+}
+
 BasicRay<double> exact(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
@@ -115,6 +123,7 @@ struct alignas(32) Packet {
       query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
   }
+  [[nodiscard]] float t(std::size_t i) const { return query.ray.tfar[i]; }
   [[nodiscard]] RTCHit hit(std::size_t i) const {
     RTCHit one{};
     one.u = query.hit.u[i];
@@ -231,7 +240,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
     RTCRayHit query = embree_query(context.rays[0]);
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (auto hit = decide(query.hit, context, 0)) return hit;
+    if (auto hit = decide(query.hit, query.ray.tfar, context, 0)) return hit;
     // The plane the ray has just left, mistaken by rounding: rare enough to ask again with every candidate
     // looked at in double.
     context.filter = reject_behind;
@@ -249,7 +258,7 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Surf
       std::optional<SurfaceHit>& hit = hits[first + i];
       hit.reset();
       if (packet.query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      hit = decide(packet.hit(i), context, i);
+      hit = decide(packet.hit(i), packet.t(i), context, i);
       if (!hit) hit = intersect(rays[first + i]);
     }
   }
