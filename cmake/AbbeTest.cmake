@@ -18,7 +18,6 @@ function(abbe_test name)
     set(TEST_TIMEOUT 120)
   endif()
   add_executable(test_${name} ${TEST_SOURCES})
-  set_target_properties(test_${name} PROPERTIES UNITY_BUILD OFF)  # tests' own helpers share names
   target_link_libraries(test_${name} PRIVATE ${TEST_LINKS} GTest::gtest_main)
   abbe_common_options(test_${name})  # as of any build, so that those of a release serve its sanitizers too
   if(TEST_LABEL STREQUAL "unit")

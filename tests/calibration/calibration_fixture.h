@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,15 +10,9 @@
 #include "calibration/fit/correction.h"
 #include "io/error.h"
 #include "spectral/library.h"
+#include "tests/spectral/illuminant.h"
 
 namespace abbe::test {
-
-inline Curve illuminant(const std::string& name) {
-  Diagnostics diagnostics;
-  const auto curve = load_illuminant(name, {}, diagnostics);
-  EXPECT_TRUE(curve.has_value()) << diagnostics.text();
-  return curve ? curve->curve : Curve();
-}
 
 inline Chart chart(const std::string& name = "colorchecker24_babelcolor_average") {
   Diagnostics diagnostics;
@@ -33,6 +28,11 @@ inline std::vector<Channel> camera(const std::string& name = "Nikon_D5100") {
   return loaded.value_or(std::vector<Channel>{});
 }
 
+/// The chart's patches in that light, as the Nikon D5100 sees them.
+inline PatchColors nikon(const std::string& light) {
+  return integrate(chart(), camera(), illuminant(light));
+}
+
 /// A correction with all six terms, planted and made configurations of.
 inline const ColorCorrection kRootPolynomial{CorrectionModel::root_polynomial_2,
                                              {{0.5, 0.2, 0.05},
@@ -41,6 +41,11 @@ inline const ColorCorrection kRootPolynomial{CorrectionModel::root_polynomial_2,
                                               {0.15, 0.25, -0.05},
                                               {0.05, 0.1, 0.05},
                                               {0.05, -0.05, 0.25}}};
+
+inline void expect_near(const std::array<double, 3>& a, const std::array<double, 3>& b, double margin) {
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(a[k], b[k], margin) << testing::PrintToString(a) << " and " << testing::PrintToString(b);
+}
 
 /// The Error that `f` throws must have this code and contain this text.
 template <typename F>

@@ -11,9 +11,7 @@
 namespace abbe {
 namespace {
 
-PatchColors nikon(const std::string& light) {
-  return integrate(test::chart(), test::camera(), test::illuminant(light));
-}
+using test::nikon;
 
 void expect_white_kept(const PatchColors& colors, const ColorCorrection& correction) {
   const XYZ white = correction({1, 1, 1});

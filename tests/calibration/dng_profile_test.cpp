@@ -14,15 +14,13 @@
 namespace abbe {
 namespace {
 
+using test::expect_near;
+
 CameraCalibration calibration(const std::string& light, const std::string& response = "") {
   CharacterisationOptions options;
   options.bootstrap.replicates = 2;
   return calibrate_camera(
       {"Nikon_D5100", light, response, 0, test::camera(), test::illuminant(light), test::chart()}, options);
-}
-
-void expect_near(const std::array<double, 3>& a, const std::array<double, 3>& b, double margin) {
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], margin);
 }
 
 TEST(DngProfile, TakesWhiteToWhiteBothWays) {

@@ -20,6 +20,7 @@ namespace {
 
 namespace OCIO = OCIO_NAMESPACE;
 using Rgb = std::array<double, 3>;
+using test::expect_near;
 
 const ColorCorrection kMatrix = linear_correction(Matrix3(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2));
 CameraProfile profile(const std::string& light = "D65", const ColorCorrection& correction = kMatrix) {
@@ -43,11 +44,6 @@ Rgb run(const OCIO::ConstProcessorRcPtr& processor, const Rgb& in) {
   for (std::size_t k = 0; k < 3; ++k) rgb[k] = static_cast<float>(in[k]);
   processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)->applyRGB(rgb);
   return {rgb[0], rgb[1], rgb[2]};
-}
-
-void expect_near(const Rgb& a, const Rgb& b, double margin) {
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(a[k], b[k], margin) << testing::PrintToString(a) << " and " << testing::PrintToString(b);
 }
 
 std::vector<Rgb> codes() {

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
+constexpr int kFrameWidth = 64;
+constexpr int kFrameHeight = 48;
 
 class RawFiles : public testing::Test {
  protected:
@@ -28,8 +28,8 @@ class RawFiles : public testing::Test {
   // A grey wedge under a mosaic, exposed for so long; what the film tells fills several cards of FITS.
   static RawPicture wedge(double exposure_s, bool with_metadata = true) {
     RawPicture raw;
-    raw.width = kWidth;
-    raw.height = kHeight;
+    raw.width = kFrameWidth;
+    raw.height = kFrameHeight;
     raw.planes = {"raw"};
     raw.channels = {"R", "G", "B"};
     raw.mosaic_width = 2;
@@ -37,8 +37,8 @@ class RawFiles : public testing::Test {
     raw.black_level_dn = 50;
     raw.white_level_dn = 4000;
     raw.exposure_s = exposure_s;
-    for (int i = 0; i < kWidth * kHeight; ++i)
-      raw.codes.push_back(static_cast<std::uint16_t>(50 + exposure_s * (1 + i % kWidth) * 40));
+    for (int i = 0; i < kFrameWidth * kFrameHeight; ++i)
+      raw.codes.push_back(static_cast<std::uint16_t>(50 + exposure_s * (1 + i % kFrameWidth) * 40));
     if (with_metadata)
       raw.metadata = {
           {"exposure_s", fmt::format("{}", exposure_s)},
@@ -55,7 +55,7 @@ class RawFiles : public testing::Test {
     if (path.extension() == ".dng") write_dng(path, raw);
     if (path.extension() == ".fits") write_fits(path, raw);
     if (path.extension() == ".tif") {
-      Image image{kWidth, kHeight, {{"raw", {raw.codes.begin(), raw.codes.end()}}}, raw.metadata};
+      Image image{kFrameWidth, kFrameHeight, {{"raw", {raw.codes.begin(), raw.codes.end()}}}, raw.metadata};
       write_raw_picture(path, image);
     }
     return path;

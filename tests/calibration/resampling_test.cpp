@@ -10,18 +10,16 @@
 namespace abbe {
 namespace {
 
-PatchColors nikon() {
-  return integrate(test::chart(), test::camera(), test::illuminant("D65"));
-}
+using test::nikon;
 
 TEST(CrossValidation, ShowsEachPatchByAFitWithoutIt) {
-  PatchColors colors = nikon();
+  PatchColors colors = nikon("D65");
   const PatchErrors before = cross_validate(colors, {}, 24);
   const double seen = fit_correction(colors).errors.delta_e[17];
   EXPECT_GT(before.delta_e[17], seen);
   // The colour of a patch changes what it is judged by, but not the fit that judges it.
   colors.xyz[17] = fit_correction(colors).correction(colors.raw[17]);
-  PatchColors without = nikon();
+  PatchColors without = nikon("D65");
   without.names.erase(without.names.begin() + 17);
   without.raw.erase(without.raw.begin() + 17);
   without.xyz.erase(without.xyz.begin() + 17);
@@ -31,7 +29,7 @@ TEST(CrossValidation, ShowsEachPatchByAFitWithoutIt) {
 }
 
 TEST(CrossValidation, DealsPatchesToFolds) {
-  const PatchColors colors = nikon();
+  const PatchColors colors = nikon("D65");
   const PatchErrors errors = cross_validate(colors, {}, 5);
   double mean = 0;
   double largest = 0;
@@ -62,7 +60,7 @@ TEST(Bootstrap, IntervalOfAMeanIsTwoStandardErrorsWide) {
 }
 
 TEST(Bootstrap, ColumnsOfAnExactCorrectionHaveNoSpread) {
-  PatchColors colors = nikon();
+  PatchColors colors = nikon("D65");
   const Matrix3 planted(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2);
   colors.white = multiply(planted, {1, 1, 1});
   for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.xyz[i] = multiply(planted, colors.raw[i]);
@@ -74,7 +72,7 @@ TEST(Bootstrap, ColumnsOfAnExactCorrectionHaveNoSpread) {
       EXPECT_NEAR(interval.low, planted[i][t], 1e-5);
       EXPECT_NEAR(interval.high, planted[i][t], 1e-5);
     }
-  const auto real = bootstrap_columns(nikon(), {}, {20, 1});
+  const auto real = bootstrap_columns(nikon("D65"), {}, {20, 1});
   EXPECT_GT(real[0][0].high, real[0][0].low + 0.01);
 }
 

@@ -5,19 +5,19 @@
 
 #include "io/exr.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 
 // Channels of what each pixel sees first, from the command line to the files.
 
 namespace abbe::test {
 namespace {
 
-Outcome rendered(const std::string& name, const std::string& options) {
-  return abbe(fmt::format("render {} --quiet -o {} {}", ball(), file(name), options));
+Outcome rendered_ball(const std::string& name, const std::string& options) {
+  return run_render(ball(), file(name), options);
 }
 
 TEST(Aov, ChannelsHaveTheNamesThatDenoisersRead) {
-  ASSERT_EQ(rendered("aov.exr", "--aov id,normal,albedo,depth").code, 0);
+  ASSERT_EQ(rendered_ball("aov.exr", "--aov id,normal,albedo,depth").code, 0);
   const Image film = read_exr(file("aov.exr"));
   for (const char* name :
        {"X", "Z", "Variance.X", "Coverage", "depth.Z", "N.X", "N.Y", "N.Z", "Albedo.X", "Albedo.Z", "Id"})
@@ -33,9 +33,9 @@ TEST(Aov, ChannelsHaveTheNamesThatDenoisersRead) {
 
 // A film with them is developed, shown and compared as one without.
 TEST(Aov, TheFilmItselfIsNoOther) {
-  ASSERT_EQ(rendered("plain.exr", "").code, 0);
-  ASSERT_EQ(rendered("with.exr", fmt::format("--aov position,albedo --display {}", file("with.png"))).code,
-            0);
+  ASSERT_EQ(rendered_ball("plain.exr", "").code, 0);
+  ASSERT_EQ(
+      rendered_ball("with.exr", fmt::format("--aov position,albedo --display {}", file("with.png"))).code, 0);
   const Outcome compared = abbe(fmt::format("compare {} {} --json", file("plain.exr"), file("with.exr")));
   ASSERT_EQ(compared.code, 0) << compared.err;
   EXPECT_EQ(compared.json()["rmse"], 0);
@@ -53,16 +53,16 @@ TEST(Aov, PartsOfAnyCropsAndRangesMakeTheFileOfTheWhole) {
   for (const char* cut :
        {"--crop 0,0,7,16", "--crop 7,0,24,16 --sample-range 3:8", "--crop 7,0,24,16 --sample-range 0:3"}) {
     const std::string part = fmt::format("part{}.abbepart", parts.size());
-    ASSERT_EQ(rendered(part, aov + cut).code, 0);
+    ASSERT_EQ(rendered_ball(part, aov + cut).code, 0);
     parts += file(part) + " ";
   }
-  ASSERT_EQ(rendered("whole.exr", aov).code, 0);
+  ASSERT_EQ(rendered_ball("whole.exr", aov).code, 0);
   ASSERT_EQ(abbe(fmt::format("merge {} -o {}", parts, file("sum.exr"))).code, 0);
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
 TEST(Aov, AChannelOfTheSensorKeepsItsName) {
-  const Outcome run = rendered(
+  const Outcome run = rendered_ball(
       "id.exr",
       R"(--aov id --set '/sensor={"resolution": [24, 16], "channels": {"Id": {"band": [500, 600]}}}')");
   EXPECT_EQ(run.code, 3);
@@ -71,7 +71,7 @@ TEST(Aov, AChannelOfTheSensorKeepsItsName) {
 }
 
 TEST(Aov, WhatIsNoFeatureOrAnotherIsRefused) {
-  const Outcome unknown = rendered("no.exr", "--aov depth,colour");
+  const Outcome unknown = rendered_ball("no.exr", "--aov depth,colour");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(
       unknown.err.find(
@@ -79,8 +79,8 @@ TEST(Aov, WhatIsNoFeatureOrAnotherIsRefused) {
       std::string::npos)
       << unknown.err;
   const std::string checkpoint = fmt::format("--checkpoint {} ", file("begun.abbepart"));
-  ASSERT_EQ(rendered("begun.exr", checkpoint + "--aov depth --sample-range 0:4").code, 0);
-  const Outcome other = rendered("begun.exr", checkpoint + "--resume --aov id --sample-range 0:8");
+  ASSERT_EQ(rendered_ball("begun.exr", checkpoint + "--aov depth --sample-range 0:4").code, 0);
+  const Outcome other = rendered_ball("begun.exr", checkpoint + "--resume --aov id --sample-range 0:8");
   EXPECT_EQ(other.code, 4);
   EXPECT_NE(other.err.find("another aov (got depth, allowed id)"), std::string::npos) << other.err;
 }

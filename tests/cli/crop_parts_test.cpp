@@ -2,14 +2,13 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/part_file.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 #include "tests/source_tree.h"
 
 // Films that are cut into crops, each of them into ranges of samples.
@@ -23,33 +22,22 @@ bool names(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;
 }
 
-/// A part of a scene's render, given by options; its file.
-std::string part(const std::string& scene, const std::string& name, const std::string& options) {
-  const std::string path = file(name + ".abbepart");
-  const Outcome run = abbe(fmt::format("render {} --quiet -o {} {}", scene, path, options));
-  EXPECT_EQ(run.code, 0) << run.err;
-  return path;
-}
-Outcome merged(const std::string& parts, const std::string& output) {
-  return abbe(fmt::format("merge {} -o {}", parts, output));
-}
-
 // Unequal ones, not along tiles, some of them cut into ranges, in no order.
 std::string crops_of(const std::string& scene) {
-  return part(scene, "right", "--crop 7,0,24,5") + " " +
-         part(scene, "low", "--crop 0,5,24,16 --sample-range 5:8") + " " +
-         part(scene, "left", "--crop 0,0,7,5 --sample-range 0:3 --threads 1") + " " +
-         part(scene, "lower", "--crop 0,5,24,16 --sample-range 0:5") + " " +
-         part(scene, "later", "--crop 0,0,7,5 --sample-range 3:8");
+  return part_of(scene, "right", "--crop 7,0,24,5") + " " +
+         part_of(scene, "low", "--crop 0,5,24,16 --sample-range 5:8") + " " +
+         part_of(scene, "left", "--crop 0,0,7,5 --sample-range 0:3 --threads 1") + " " +
+         part_of(scene, "lower", "--crop 0,5,24,16 --sample-range 0:5") + " " +
+         part_of(scene, "later", "--crop 0,0,7,5 --sample-range 3:8");
 }
 
 TEST(CropParts, AddUpToTheFileOfTheWholeRender) {
   const std::string crops = crops_of(ball());
   ASSERT_EQ(merged(crops, file("sum.abbepart") + " -o " + file("sum.exr")).code, 0);
-  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(part(ball(), "whole", "")));
+  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(part_of(ball(), "whole", "")));
   ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
-  EXPECT_EQ(read_file(part(ball(), "all", "--crop 0,0,24,16")), read_file(file("whole.abbepart")));
+  EXPECT_EQ(read_file(part_of(ball(), "all", "--crop 0,0,24,16")), read_file(file("whole.abbepart")));
 }
 
 // Every crop traces all photons and keeps those that meet it.
@@ -86,12 +74,12 @@ TEST(CropParts, TheDocumentedExampleWorks) {
 
 TEST(CropParts, HoldNoOtherPixels) {
   const auto bytes = [](const std::string& path) { return read_part_file(path).bytes.size(); };
-  EXPECT_EQ(bytes(part(ball(), "a", "--crop 3,2,9,6")) * 24 * 16, bytes(part(ball(), "b", "")) * 6 * 4);
+  EXPECT_EQ(bytes(part_of(ball(), "a", "--crop 3,2,9,6")) * 24 * 16, bytes(part_of(ball(), "b", "")) * 6 * 4);
 }
 
 TEST(CropParts, SayWhichSamplesOfWhichPixelsAreMissing) {
-  const std::string parts =
-      part(ball(), "a", "--crop 0,0,10,16 --sample-range 0:6") + " " + part(ball(), "b", "--crop 10,4,24,16");
+  const std::string parts = part_of(ball(), "a", "--crop 0,0,10,16 --sample-range 0:6") + " " +
+                            part_of(ball(), "b", "--crop 10,4,24,16");
   fs::remove(file("gaps.exr"));
   const Outcome refused = merged(parts, file("gaps.exr"));
   EXPECT_EQ(refused.code, 4);
@@ -100,18 +88,18 @@ TEST(CropParts, SayWhichSamplesOfWhichPixelsAreMissing) {
                     "samples 6:8 of pixels 0,4,10,16 are missing"))
       << refused.err;
   EXPECT_FALSE(fs::exists(file("gaps.exr")));
-  const Outcome one = merged(part(ball(), "b", "--crop 10,4,24,16"), file("gaps.exr"));
+  const Outcome one = merged(part_of(ball(), "b", "--crop 10,4,24,16"), file("gaps.exr"));
   EXPECT_EQ(one.code, 4) << "the pixels of one crop are not all";
 }
 
 TEST(CropParts, NoPixelTakesASampleTwice) {
-  const std::string a = part(ball(), "a", "--crop 0,0,10,16 --sample-range 0:6");
+  const std::string a = part_of(ball(), "a", "--crop 0,0,10,16 --sample-range 0:6");
   const Outcome both =
-      merged(a + " " + part(ball(), "b", "--crop 9,8,24,16 --sample-range 5:8"), file("no.exr"));
+      merged(a + " " + part_of(ball(), "b", "--crop 9,8,24,16 --sample-range 5:8"), file("no.exr"));
   EXPECT_EQ(both.code, 4);
   EXPECT_TRUE(names(both.err, "b.abbepart: has samples that are there already (got 5:8 of pixels 9,8,10,16)"))
       << both.err;
-  EXPECT_EQ(merged(a + " " + part(ball(), "c", "--crop 9,8,24,16 --sample-range 6:8"),
+  EXPECT_EQ(merged(a + " " + part_of(ball(), "c", "--crop 9,8,24,16 --sample-range 6:8"),
                    file("sum.abbepart") + " --partial")
                 .code,
             0);
@@ -119,8 +107,8 @@ TEST(CropParts, NoPixelTakesASampleTwice) {
 
 // What there is of a film is right at each pixel, and a part of it goes on being added to.
 TEST(CropParts, APartialFilmIsRightWherePixelsHaveDifferentSamples) {
-  const std::string left = part(ball(), "left", "--crop 0,0,10,16 --sample-range 0:6");
-  const std::string right = part(ball(), "right", "--crop 10,4,24,16");
+  const std::string left = part_of(ball(), "left", "--crop 0,0,10,16 --sample-range 0:6");
+  const std::string right = part_of(ball(), "right", "--crop 10,4,24,16");
   const std::string sum = file("sum.abbepart");
   const Outcome partial = merged(left + " " + right, file("some.exr") + " -o " + sum + " --partial");
   ASSERT_EQ(partial.code, 0) << partial.err;
@@ -137,17 +125,17 @@ TEST(CropParts, APartialFilmIsRightWherePixelsHaveDifferentSamples) {
       abbe("render " + ball() + " --quiet --resume --checkpoint " + sum + " -o " + file("no.exr"));
   EXPECT_EQ(resumed.code, 4);
   EXPECT_TRUE(names(resumed.err, "sum.abbepart: has pixels with different samples")) << resumed.err;
-  const std::string rest = part(ball(), "rest", "--crop 0,0,10,16 --sample-range 6:8") + " " +
-                           part(ball(), "top", "--crop 10,0,24,4");
+  const std::string rest = part_of(ball(), "rest", "--crop 0,0,10,16 --sample-range 6:8") + " " +
+                           part_of(ball(), "top", "--crop 10,0,24,4");
   ASSERT_EQ(merged(rest + " " + sum, file("sum.exr")).code, 0);
   ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
 TEST(CropParts, OfOneCropMakeItsFilm) {
-  const std::string parts = part(ball(), "a", "--crop 3,2,20,5") + " " +
-                            part(ball(), "b", "--crop 3,5,20,9 --sample-range 0:3") + " " +
-                            part(ball(), "c", "--crop 3,5,20,9 --sample-range 3:8");
+  const std::string parts = part_of(ball(), "a", "--crop 3,2,20,5") + " " +
+                            part_of(ball(), "b", "--crop 3,5,20,9 --sample-range 0:3") + " " +
+                            part_of(ball(), "c", "--crop 3,5,20,9 --sample-range 3:8");
   ASSERT_EQ(abbe("merge --crop 3,2,20,9 " + parts + " -o " + file("sum.exr")).code, 0);
   ASSERT_EQ(abbe("render " + ball() + " --quiet --crop 3,2,20,9 -o " + file("whole.exr")).code, 0);
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A film as a render of a scene with a read-out writes it.
-Image film() {
+Image film_of_four_pixels() {
   Image image{2, 2, {}, {}};
   image.channels = {{"V", {1e12F, 2e12F, 3e12F, 4e12F}}, {"Variance.V", {1e20F, 1e20F, 1e20F, 1e20F}}};
   image.metadata = {{"sensor_channels", "V"},
@@ -37,7 +37,8 @@ Outcome develop(const Image& image, const std::string& options) {
 }
 
 TEST(DevelopFaults, TheFilmItselfIsFine) {
-  EXPECT_EQ(develop(film(), "-o " + file("fine.tif") + " --display " + file("fine.png")).code, 0);
+  EXPECT_EQ(develop(film_of_four_pixels(), "-o " + file("fine.tif") + " --display " + file("fine.png")).code,
+            0);
 }
 
 TEST(DevelopFaults, FilmsThatLackSomethingAreNamed) {
@@ -98,7 +99,7 @@ TEST(DevelopFaults, FilmsThatLackSomethingAreNamed) {
             "fault.exr: sensor:1:13: /readout: error: missing key \"gain_e_per_dn\"", 3},
            {[](Image& image) { image.metadata["channel.V"] = "energy"; },
             "channel \"V\" counts no electrons"}}) {
-    Image image = film();
+    Image image = film_of_four_pixels();
     fault.make(image);
     fs::remove(file("none.tif"));
     const Outcome run = develop(image, "-o " + file("none.tif"));
@@ -109,12 +110,13 @@ TEST(DevelopFaults, FilmsThatLackSomethingAreNamed) {
 }
 
 TEST(DevelopFaults, FilesThatAreNoFilmsAreInputErrors) {
-  write_exr(file("whole.exr"), film());
+  write_exr(file("whole.exr"), film_of_four_pixels());
   const std::string bytes = read_file(file("whole.exr"));
   (void)scratch().write("cut.exr", bytes.substr(0, bytes.size() - 10));
   (void)scratch().write("text.exr", "no film");
   (void)scratch().write("empty.exr", "");
-  write_exr(file("others.exr"), std::vector<ExrPart>{{"left", film()}, {"right", film()}});
+  write_exr(file("others.exr"),
+            std::vector<ExrPart>{{"left", film_of_four_pixels()}, {"right", film_of_four_pixels()}});
   fs::create_directories(file("folder.exr"));
   for (const char* name : {"cut.exr", "text.exr", "empty.exr", "others.exr", "folder.exr", "absent.exr"}) {
     const Outcome run = abbe("develop " + file(name) + " --display " + file("none.png"));
@@ -147,14 +149,14 @@ TEST(DevelopFaults, OutputsAreCheckedFirst) {
                                                 {"--scene " + file("fault.exr"), 2},
                                                 {"--seed -1", 2}}) {
     fs::create_directories(file("folder.exr"));
-    const Outcome run = develop(film(), options);
+    const Outcome run = develop(film_of_four_pixels(), options);
     EXPECT_EQ(run.code, code) << options << '\n' << run.err;
     EXPECT_FALSE(fs::exists(file("a.tif"))) << options;
   }
 }
 
 TEST(DevelopFaults, APngTakesOnePlaneOrThree) {
-  Image image = film();
+  Image image = film_of_four_pixels();
   image.metadata["sensor_channels"] = "V,W";
   image.metadata["channel.W"] = image.metadata["channel.V"];
   image.metadata.erase("to_xyz_d65");
@@ -173,7 +175,7 @@ TEST(DevelopFaults, APngTakesOnePlaneOrThree) {
 TEST(DevelopFaults, AFullDiskKeepsTheOldFiles) {
   (void)scratch().write("old.tif", "old");
   (void)scratch().write("old.exr", "old");
-  write_exr(file("fault.exr"), film());
+  write_exr(file("fault.exr"), film_of_four_pixels());
   const Outcome run = shell("(trap '' XFSZ; ulimit -f 0; " ABBE_BINARY " develop " + file("fault.exr") +
                             " -o " + file("old.tif") + " -o " + file("old.exr") + "; echo $?) 2>&1 | cat");
   EXPECT_TRUE(run.out.ends_with("\n5\n")) << run.out;

@@ -10,7 +10,7 @@
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 
 // Raw files as other programs read them, and films exposed anew.
 
@@ -25,7 +25,7 @@ constexpr const char* kTwo =
        "readout": {"gain_e_per_dn": 50, "bits": 12, "offset_dn": 50, "read_noise_e": 90})";
 
 // A film of 48 x 32 pixels of a ball before an even sky.
-std::string film(const std::string& name, const std::string& sensor, const std::string& options = "") {
+std::string ball_film(const std::string& name, const std::string& sensor, const std::string& options = "") {
   const std::string scene =
       scratch()
           .write(
@@ -40,16 +40,7 @@ std::string film(const std::string& name, const std::string& sensor, const std::
       "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 0.1}, "material": "white"}],
       "render": {"samples": 8}})")
           .string();
-  const std::string path = file(name + ".exr");
-  const Outcome run = abbe("render " + scene + " --quiet -o " + path + " " + options);
-  EXPECT_EQ(run.code, 0) << run.err;
-  return path;
-}
-
-nlohmann::json developed(const std::string& arguments, int code = 0) {
-  const Outcome run = abbe("develop " + arguments + " --json");
-  EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
-  return run.code == 0 ? run.json() : nlohmann::json();
+  return film_of(scene, name, options);
 }
 
 std::vector<int> codes_of(const std::string& path, std::size_t plane = 0) {
@@ -70,7 +61,7 @@ std::string python_list(const std::vector<int>& numbers) {
 
 TEST(DevelopRaw, LibRawReadsTheCodesOfADng) {
   if (!has("unprocessed_raw")) GTEST_SKIP() << "libraw-bin is not installed";
-  const std::string path = film("libraw", kMosaic);
+  const std::string path = ball_film("libraw", kMosaic);
   developed(path + " -o " + file("raw.dng") + " -o " + file("raw.tif"));
   const Outcome run = shell("unprocessed_raw -T " + file("raw.dng"));
   ASSERT_EQ(run.code, 0) << run.err;
@@ -87,7 +78,7 @@ TEST(DevelopRaw, LibRawReadsTheCodesOfADng) {
 // Converted by LibRaw with the file's own white balance and matrix, a picture has the colours of ours.
 TEST(DevelopRaw, LibRawFindsTheColoursOfADng) {
   if (!has("dcraw_emu")) GTEST_SKIP() << "libraw-bin is not installed";
-  const std::string path = film("colours", kMosaic, "--spp 64");
+  const std::string path = ball_film("colours", kMosaic, "--spp 64");
   developed(path + " -o " + file("colour.dng"));
   const Outcome run = shell("dcraw_emu -w -o 1 -4 -q 0 -W -T " + file("colour.dng"));
   ASSERT_EQ(run.code, 0) << run.err;
@@ -105,7 +96,7 @@ TEST(DevelopRaw, LibRawFindsTheColoursOfADng) {
 
 TEST(DevelopRaw, RawspeedReadsADng) {
   if (!has("darktable-rs-identify")) GTEST_SKIP() << "darktable is not installed";
-  const std::string path = film("rawspeed", kMosaic);
+  const std::string path = ball_film("rawspeed", kMosaic);
   developed(path + " -o " + file("rs.dng") + " -o " + file("rs.tif"));
   const Outcome run = shell("darktable-rs-identify " + file("rs.dng"));
   ASSERT_EQ(run.code, 0) << run.out << run.err;
@@ -125,7 +116,7 @@ TEST(DevelopRaw, RawspeedReadsADng) {
 TEST(DevelopRaw, AstropyReadsTheCodesOfAFitsFile) {
   if (shell("/usr/bin/python3 -c 'import astropy'").code != 0)
     GTEST_SKIP() << "python3-astropy is not installed";
-  const std::string path = film("fits", kTwo);
+  const std::string path = ball_film("fits", kTwo);
   developed(path + " -o " + file("raw.fits") + " -o " + file("two.tif"));
   const std::string script = scratch()
                                  .write("fits.py", R"(
@@ -144,7 +135,7 @@ print([int(x) for x in image.data[1].ravel()])
 }
 
 TEST(DevelopRaw, FilesTellWhatTheirNumbersAre) {
-  const std::string path = film("scale", kMosaic);
+  const std::string path = ball_film("scale", kMosaic);
   developed(path + " -o " + file("scale.png"));
   const auto told = read_picture(file("scale.png")).metadata;
   EXPECT_EQ(told.at("codes"), "digital numbers 0 to 16300, linear, not scaled to 16 bits");
@@ -154,7 +145,7 @@ TEST(DevelopRaw, FilesTellWhatTheirNumbersAre) {
 }
 
 TEST(DevelopAnew, TwiceTheTimeIsTwiceTheLight) {
-  const std::string path = film("time", kTwo);
+  const std::string path = ball_film("time", kTwo);
   developed(path + " --exposure-s 2 -o " + file("twice.exr"));
   const Image before = read_exr(path);
   const std::vector<ExrPart> parts = read_exr_parts(file("twice.exr"));
@@ -171,7 +162,7 @@ TEST(DevelopAnew, TwiceTheTimeIsTwiceTheLight) {
 }
 
 TEST(DevelopAnew, FramesHaveNoiseOfTheirOwn) {
-  const std::string path = film("frames", kTwo);
+  const std::string path = ball_film("frames", kTwo);
   developed(path + " --frames 3 -o " + file("f.tif"));
   developed(path + " -o " + file("one.tif"));
   EXPECT_EQ(codes_of(file("f_0001.tif")), codes_of(file("one.tif")));
@@ -182,7 +173,7 @@ TEST(DevelopAnew, FramesHaveNoiseOfTheirOwn) {
 }
 
 TEST(DevelopAnew, BiasDarkAndFlatFramesNeedNoScene) {
-  const std::string path = film("calibration", kTwo);
+  const std::string path = ball_film("calibration", kTwo);
   const std::string dark_current = " --set /readout/dark_e_per_s=5000 --set /readout/read_noise_e=0";
   developed(path + dark_current + " --frame bias -o " + file("bias.tif"));
   developed(path + dark_current + " --frame dark -o " + file("dark.tif"));
@@ -213,9 +204,9 @@ double temporal_variance(const std::vector<double>& a, const std::vector<double>
 
 // A million pixels tell the gain to 0.14 % and the read noise to 0.1 %, one standard deviation.
 TEST(DevelopAnew, PairsOfFramesTellGainAndReadNoiseAtEverySpeed) {
-  const std::string path =
-      film("transfer", R"("model": "dslr_apsc_bayer_14bit", "resolution": [1000, 1000], "exposure_s": 0.01)",
-           "--spp 1");
+  const std::string path = ball_film(
+      "transfer", R"("model": "dslr_apsc_bayer_14bit", "resolution": [1000, 1000], "exposure_s": 0.01)",
+      "--spp 1");
   for (const int iso : {100, 6400}) {
     const std::string speed = fmt::format(" --iso {} --frames 2 --seed 3", iso);
     developed(path + speed + " --frame flat:0.5 -o " + file("flat.fits"));
@@ -232,7 +223,7 @@ TEST(DevelopAnew, PairsOfFramesTellGainAndReadNoiseAtEverySpeed) {
 }
 
 TEST(DevelopAnew, AFileThatFailsLosesNoOther) {
-  const std::string path = film("failing", kTwo);
+  const std::string path = ball_film("failing", kTwo);
   const Outcome run = abbe("develop " + path + " -o " + file("no.png") + " -o " + file("no.dng") + " -o " +
                            file("yes.tif") + " -o " + file("yes.fits"));
   EXPECT_EQ(run.code, 5) << run.err;
@@ -245,8 +236,8 @@ TEST(DevelopAnew, AFileThatFailsLosesNoOther) {
 }
 
 TEST(DevelopAnew, FiguresAreOfThePixelsThatWereRendered) {
-  const std::string path = film("whole", kTwo);
-  const std::string part = film("part", kTwo, "--crop 10,4,20,12");
+  const std::string path = ball_film("whole", kTwo);
+  const std::string part = ball_film("part", kTwo, "--crop 10,4,20,12");
   const double mean = developed(part)["mean_e"][0];
   double sum = 0;
   const Image whole = read_exr(path);
@@ -256,7 +247,7 @@ TEST(DevelopAnew, FiguresAreOfThePixelsThatWereRendered) {
 }
 
 TEST(DevelopAnew, FilesTellTheSensorThatMadeTheirCodes) {
-  const std::string path = film("anew", R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.001)");
+  const std::string path = ball_film("anew", R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.001)");
   std::string outputs;
   for (const char* end : {"png", "tif", "dng", "parts.exr"})
     outputs += " -o " + file(std::string("anew.") + end);
@@ -281,7 +272,7 @@ TEST(DevelopAnew, FilesTellTheSensorThatMadeTheirCodes) {
 }
 
 TEST(DevelopAnew, AnOutputThatCannotBeWrittenKeepsNoOtherFromIt) {
-  const std::string path = film("places", kTwo);
+  const std::string path = ball_film("places", kTwo);
   std::filesystem::create_directories(scratch() / "folder.tif");
   std::filesystem::create_symlink("/dev/full", scratch() / "device.tif");
   for (const std::string& bad : {std::string("/nonexistent/x.tif"), file("folder.tif"), file("device.tif")})
@@ -296,8 +287,8 @@ TEST(DevelopAnew, AnOutputThatCannotBeWrittenKeepsNoOtherFromIt) {
 }
 
 TEST(DevelopAnew, FaultsAreNamed) {
-  const std::string path = film("faults", kTwo);
-  const std::string bare = film("bare", R"("observer": "1931")");
+  const std::string path = ball_film("faults", kTwo);
+  const std::string bare = ball_film("bare", R"("observer": "1931")");
   for (const auto& [arguments, message] :
        {std::pair{path + " --frame grey", "--frame: got \"grey\", allowed bias, dark or flat"},
         std::pair{path + " --frame flat:x", "--frame: "},

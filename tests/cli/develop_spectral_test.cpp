@@ -8,7 +8,7 @@
 #include "io/picture.h"
 #include "io/spectral_exr.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 
 // Spectral films, and sensors that look at them.
 
@@ -16,12 +16,12 @@ namespace abbe::test {
 namespace {
 
 constexpr const char* kBins = R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 5})";
-const std::string kCamera =
+const std::string kBroadBands =
     R"("response": "quantum", "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}})";
 
 // A dome of 0.5 W/(m^2 sr nm) from 400 to 700 nm through a fast wide-angle lens.
-std::string scene(const std::string& name, const std::string& sensor,
-                  const std::string& focal_length = "0.02") {
+std::string dome_scene(const std::string& name, const std::string& sensor,
+                       const std::string& focal_length = "0.02") {
   return scratch()
       .write(name, fmt::format(R"({{"abbe": 1,
         "camera": {{"thin_lens": {{"focal_length": {}, "f_number": 2, "focus_distance": "infinity"}},
@@ -32,15 +32,12 @@ std::string scene(const std::string& name, const std::string& sensor,
                                focal_length, sensor))
       .string();
 }
-std::string film(const std::string& name, const std::string& sensor, const std::string& options = "") {
-  const std::string path = file(name + ".exr");
-  const Outcome run = abbe("render " + scene(name + ".json", sensor) + " --quiet -o " + path + " " + options);
-  EXPECT_EQ(run.code, 0) << run.err;
-  return path;
+std::string dome_film(const std::string& name, const std::string& sensor, const std::string& options = "") {
+  return film_of(dome_scene(name + ".json", sensor), name, options);
 }
 
 TEST(DevelopSpectral, BinsHoldTheRadianceThatIsSeenFromCornerToCorner) {
-  const std::string path = film("bins", kBins, "--spp 1024");
+  const std::string path = dome_film("bins", kBins, "--spp 1024");
   const SpectralImage image = spectral_image(read_exr(path), path);
   ASSERT_EQ(image.bands.size(), 60U);
   EXPECT_EQ(image.metadata.at("expTime"), "0.02");
@@ -60,7 +57,7 @@ TEST(DevelopSpectral, BinsHoldTheRadianceThatIsSeenFromCornerToCorner) {
 
 // A dome of 0.5 W/(m^2 sr nm) over all the visible is 683 lm/W x 0.5 x 106.8 nm.
 TEST(DevelopSpectral, ThePreviewIsInCandelas) {
-  const std::string path = film("dome", kBins);
+  const std::string path = dome_film("dome", kBins);
   const Image image = read_exr(path);
   const double luminance = 0.2126 * image.find("R")->values[200] + 0.7152 * image.find("G")->values[200] +
                            0.0722 * image.find("B")->values[200];
@@ -70,7 +67,7 @@ TEST(DevelopSpectral, ThePreviewIsInCandelas) {
 }
 
 TEST(DevelopSpectral, RenderAndDevelopShowTheSame) {
-  const std::string text = scene("shown.json", kBins);
+  const std::string text = dome_scene("shown.json", kBins);
   ASSERT_EQ(
       abbe("render " + text + " --quiet -o " + file("shown.exr") + " --display " + file("render.png")).code,
       0);
@@ -81,10 +78,10 @@ TEST(DevelopSpectral, RenderAndDevelopShowTheSame) {
 }
 
 TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {
-  const std::string spectral = film("later", kBins);
-  const std::string direct = film("direct", kCamera);
-  const Outcome run = abbe("develop " + spectral + " --scene " + scene("sensor.json", kCamera) + " -o " +
-                           file("seen.exr") + " --json");
+  const std::string spectral = dome_film("later", kBins);
+  const std::string direct = dome_film("direct", kBroadBands);
+  const Outcome run = abbe("develop " + spectral + " --scene " + dome_scene("sensor.json", kBroadBands) +
+                           " -o " + file("seen.exr") + " --json");
   ASSERT_EQ(run.code, 0) << run.err;
   const Image seen = read_exr_parts(file("seen.exr")).front().image;
   const Image rendered = read_exr(direct);
@@ -95,21 +92,21 @@ TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {
   EXPECT_EQ(seen.metadata.at("scene_sha256"), read_exr(spectral).metadata.at("scene_sha256"));
   EXPECT_EQ(seen.metadata.count("spectralLayoutVersion"), 0U);
   EXPECT_EQ(seen.metadata.at("channel.R"), "quantum, electrons per m^2");
-  const Outcome raw = abbe("develop " + spectral + " --scene " + scene("sensor.json", kCamera) +
+  const Outcome raw = abbe("develop " + spectral + " --scene " + dome_scene("sensor.json", kBroadBands) +
                            R"( --set '/readout={"gain_e_per_dn": 1e6, "bits": 16}' -o )" + file("seen.tif"));
   EXPECT_EQ(raw.code, 0) << raw.err;
 }
 
 TEST(DevelopSpectral, AMosaicLooksThroughEachPixelsOwnFilter) {
-  const std::string spectral = film("for_mosaic", kBins);
+  const std::string spectral = dome_film("for_mosaic", kBins);
   const auto seen = [&](const std::string& name, const std::string& sensor) {
-    const Outcome run = abbe("develop " + spectral + " --scene " + scene(name + ".json", sensor) + " -o " +
-                             file(name + ".exr"));
+    const Outcome run = abbe("develop " + spectral + " --scene " + dome_scene(name + ".json", sensor) +
+                             " -o " + file(name + ".exr"));
     EXPECT_EQ(run.code, 0) << run.err;
     return read_exr_parts(file(name + ".exr"));
   };
-  const std::vector<ExrPart> all = seen("all_channels", kCamera);
-  const std::vector<ExrPart> own = seen("bayer", kCamera + R"(, "mosaic": [["R", "G"], ["G", "B"]])");
+  const std::vector<ExrPart> all = seen("all_channels", kBroadBands);
+  const std::vector<ExrPart> own = seen("bayer", kBroadBands + R"(, "mosaic": [["R", "G"], ["G", "B"]])");
   ASSERT_GE(own.size(), 2U);
   for (const int part : {0, 1}) {
     const auto plane = [&](const std::vector<ExrPart>& parts, const std::string& name) {
@@ -126,10 +123,12 @@ TEST(DevelopSpectral, AMosaicLooksThroughEachPixelsOwnFilter) {
 }
 
 TEST(DevelopSpectral, ResponsesBeyondTheBandsAreTold) {
-  const std::string spectral = film("narrow", R"("spectral": {"from_nm": 500, "to_nm": 600, "step_nm": 10})");
+  const std::string spectral =
+      dome_film("narrow", R"("spectral": {"from_nm": 500, "to_nm": 600, "step_nm": 10})");
   const auto seen = [&](const std::string& band) {
-    return abbe("develop " + spectral + " --scene " +
-                scene("band.json", R"("response": "quantum", "channels": {"W": {"band": )" + band + "}}"));
+    return abbe(
+        "develop " + spectral + " --scene " +
+        dome_scene("band.json", R"("response": "quantum", "channels": {"W": {"band": )" + band + "}}"));
   };
   EXPECT_EQ(seen("[510, 590]").err, "");
   const Outcome half = seen("[550, 650]");
@@ -143,7 +142,7 @@ TEST(DevelopSpectral, ResponsesBeyondTheBandsAreTold) {
 }
 
 TEST(DevelopSpectral, PartsOfASpectralFilmMerge) {
-  const std::string text = scene("merged.json", kBins);
+  const std::string text = dome_scene("merged.json", kBins);
   for (const char* range : {"0:32", "32:64"})
     ASSERT_EQ(abbe("render " + text + " --quiet --sample-range " + range + " -o " +
                    file(std::string(range) + ".abbepart"))
@@ -158,7 +157,7 @@ TEST(DevelopSpectral, PartsOfASpectralFilmMerge) {
 }
 
 TEST(DevelopSpectral, WhatDoesNotFitIsRefused) {
-  const std::string spectral = film("fits", kBins);
+  const std::string spectral = dome_film("fits", kBins);
   const auto says = [](const std::string& arguments, int code, const std::string& words) {
     const Outcome run = abbe("develop " + arguments);
     EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
@@ -169,23 +168,25 @@ TEST(DevelopSpectral, WhatDoesNotFitIsRefused) {
        "--iso: a spectral film needs a sensor that looks at it: --scene");
   says(spectral + picture + " --set /readout/bits=8", 2, "--set: a spectral film needs a sensor");
   says(spectral + " -o " + file("no.tif"), 2, "a spectral film needs a sensor that looks at it: --scene");
-  says(spectral + " --scene " + scene("same.json", kBins), 2, "its sensor is spectral itself");
-  says(spectral + " --scene " + scene("far.json", kCamera, "0.03"), 4, "was seen in another field of view");
-  std::string meter = read_file(scene("meter.json", kCamera));
+  says(spectral + " --scene " + dome_scene("same.json", kBins), 2, "its sensor is spectral itself");
+  says(spectral + " --scene " + dome_scene("far.json", kBroadBands, "0.03"), 4,
+       "was seen in another field of view");
+  std::string meter = read_file(dome_scene("meter.json", kBroadBands));
   const std::size_t camera = meter.find("{\"thin_lens\"");
   meter.replace(camera, meter.find("\"sensor\"") - camera,
                 R"({"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}}, )");
   says(spectral + " --scene " + scratch().write("meter.json", meter).string(), 4,
        "was seen by another camera");
-  std::string small = read_file(scene("small.json", kCamera));
+  std::string small = read_file(dome_scene("small.json", kBroadBands));
   small.replace(small.find("[24, 16]"), 8, "[12, 8]");
   says(spectral + " --scene " + scratch().write("small.json", small).string(), 4,
        "has other pixels than the sensor (got 24 x 16, allowed 12 x 8)");
   says(spectral + " --scene " + file("absent.json"), 4, "absent.json");
-  says(film("counted", kCamera) + " --scene " + scene("sensor.json", kCamera), 2, "only a spectral film");
+  says(dome_film("counted", kBroadBands) + " --scene " + dome_scene("sensor.json", kBroadBands), 2,
+       "only a spectral film");
   const std::string tilting =
       R"("response": "quantum", "channels": {"t": {"filters": [{"transmittance": {"band": [500, 510]}, "effective_index": 2}]}})";
-  says(spectral + " --scene " + scene("tilting.json", tilting) + " -o " + file("no.exr"), 2,
+  says(spectral + " --scene " + dome_scene("tilting.json", tilting) + " -o " + file("no.exr"), 2,
        "by the angle of the light");
   Image image = read_exr(spectral);
   image.metadata.erase("emissiveUnits");

@@ -12,7 +12,7 @@
 #include "io/picture.h"
 #include "sensor/readout/readout.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 #include "tests/source_tree.h"
 
 // From films to digital numbers, files and pictures.
@@ -27,7 +27,7 @@ constexpr const char* kReadout =
         "dark_e_per_s": 4000, "prnu_percent": 2, "dsnu_e": 4, "serial": 5})";
 
 // A film of 24 x 16 pixels before a dome, unevenly lit by a big ball.
-std::string scene(const std::string& name, const std::string& sensor) {
+std::string uneven_scene(const std::string& name, const std::string& sensor) {
   return scratch()
       .write(name, R"({"abbe": 1, "camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4},
           "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
@@ -44,14 +44,11 @@ const std::string kRgb =
         "G": {"filters": [{"band": [500, 600]}], "exposure_s": 0.04}, "B": {"band": [400, 500]}})";
 
 // The film of that scene.
-std::string film(const std::string& name, const std::string& sensor, const std::string& options = "") {
-  const std::string path = file(name + ".exr");
-  const Outcome run = abbe("render " + scene(name + ".json", sensor) + " --quiet -o " + path + " " + options);
-  EXPECT_EQ(run.code, 0) << run.err;
-  return path;
+std::string uneven_film(const std::string& name, const std::string& sensor, const std::string& options = "") {
+  return film_of(uneven_scene(name + ".json", sensor), name, options);
 }
 std::string rgb_film() {
-  return film("rgb", kRgb + ", \"readout\": " + kReadout);
+  return uneven_film("rgb", kRgb + ", \"readout\": " + kReadout);
 }
 
 Readout readout() {
@@ -80,12 +77,6 @@ std::vector<float> whole_numbers(const ImageChannel& channel) {
   std::vector<float> numbers;
   for (const float value : channel.values) numbers.push_back(std::round(value * 65535));
   return numbers;
-}
-
-nlohmann::json developed(const std::string& arguments) {
-  const Outcome run = abbe("develop " + arguments + " --json");
-  EXPECT_EQ(run.code, 0) << arguments << '\n' << run.err;
-  return run.code == 0 ? run.json() : nlohmann::json();
 }
 
 TEST(Develop, TheRawFileIsTheReadOutOfTheFilm) {
@@ -129,7 +120,7 @@ TEST(Develop, PartsHoldEveryStepAndDevelopAgain) {
 
 TEST(Develop, NoiseBelongsToTheSeedWhichIsTheRendersUnlessGiven) {
   const std::string sensor = kRgb + ", \"readout\": " + kReadout;
-  const std::string first = film("seeded", sensor, "--seed 3");
+  const std::string first = uneven_film("seeded", sensor, "--seed 3");
   developed(first + " -o " + file("default.png"));
   developed(first + " --seed 3 -o " + file("three.png"));
   developed(first + " --seed 4 -o " + file("four.png"));
@@ -174,11 +165,11 @@ TEST(Develop, TheFilmTellsWhatItIs) {
   const nlohmann::json sensor = nlohmann::json::parse(rendered.metadata.at("sensor"));
   EXPECT_EQ(sensor["channels"]["G"]["filters"][0]["band"][0], 500);
   EXPECT_EQ(sensor["readout"]["gain_e_per_dn"], 3);
-  EXPECT_EQ(read_exr(film("plain", kRgb)).metadata.count("isoSpeed"), 0U);
+  EXPECT_EQ(read_exr(uneven_film("plain", kRgb)).metadata.count("isoSpeed"), 0U);
 }
 
 TEST(Develop, TheElectronicsMayBeVariedAndNothingElse) {
-  const std::string bare = film("bare", kRgb);
+  const std::string bare = uneven_film("bare", kRgb);
   const Outcome none = abbe("develop " + bare + " -o " + file("no.png"));
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("has no read-out"), std::string::npos) << none.err;
@@ -195,7 +186,7 @@ TEST(Develop, TheElectronicsMayBeVariedAndNothingElse) {
   EXPECT_NE(wrong.err.find("/readout/bits: error: expected an integer (got 99, allowed [1, 16])"),
             std::string::npos)
       << wrong.err;
-  const std::string energy = film("energy", R"("channels": {"all": 1})");
+  const std::string energy = uneven_film("energy", R"("channels": {"all": 1})");
   const Outcome uncounted = abbe("develop " + energy + " --set '/readout=" + kReadout + "'");
   EXPECT_EQ(uncounted.code, 4);
   EXPECT_NE(uncounted.err.find("channel \"all\" counts no electrons"), std::string::npos) << uncounted.err;
@@ -206,7 +197,7 @@ TEST(Develop, WithoutAReadOutThePictureIsTheRenders) {
        {std::pair{"shown", kRgb}, std::pair{"observer", std::string(R"("observer": "1931")")},
         std::pair{"mosaic", kRgb + R"(, "mosaic": [["R", "G"], ["G", "B"]])"}}) {
     for (const char* exposure : {"", " --set /output/exposure=1e12"}) {
-      const std::string path = film(name, sensor, "--display " + file("rendered.png") + exposure);
+      const std::string path = uneven_film(name, sensor, "--display " + file("rendered.png") + exposure);
       const nlohmann::json report = developed(path + " --display " + file("developed.png"));
       EXPECT_EQ(report["mean"].size(), report["planes"].size());
       EXPECT_EQ(report["render_error"].size(), report["planes"].size());
@@ -222,7 +213,7 @@ TEST(Develop, WithoutAReadOutThePictureIsTheRenders) {
 // The picture of a raw file without noise to speak of is that of its film, within the steps of its codes.
 TEST(Develop, TheRawFileMakesThePictureOfTheFilm) {
   for (const char* mosaic : {"", R"(, "mosaic": [["R", "G"], ["G", "B"]])"}) {
-    const std::string path = film("fine", kRgb + mosaic, "--display " + file("film.png"));
+    const std::string path = uneven_film("fine", kRgb + mosaic, "--display " + file("film.png"));
     developed(
         path +
         R"( --set '/readout={"gain_e_per_dn": 1, "bits": 16, "offset_dn": 300, "dark_e_per_s": 100000}' --display )" +
@@ -237,7 +228,7 @@ TEST(Develop, TheRawFileMakesThePictureOfTheFilm) {
 
 TEST(Develop, AMosaicIsOnePlane) {
   const std::string path =
-      film("bayer", kRgb + R"(, "mosaic": [["R", "G"], ["G", "B"]], "readout": )" + kReadout);
+      uneven_film("bayer", kRgb + R"(, "mosaic": [["R", "G"], ["G", "B"]], "readout": )" + kReadout);
   developed(path + " -o " + file("bayer.tif") + " -o " + file("bayer_parts.exr"));
   const Image raw = read_picture(file("bayer.tif"));
   ASSERT_EQ(raw.channels.size(), 1U);
@@ -249,7 +240,7 @@ TEST(Develop, AMosaicIsOnePlane) {
 
 // The preview is the picture before the display's curve, where nothing had to be brought into its gamut.
 TEST(Develop, ThePreviewIsLinear) {
-  const std::string path = film("linear", R"("observer": "1931")");
+  const std::string path = uneven_film("linear", R"("observer": "1931")");
   developed(path + " -o " + file("linear_parts.exr") + " --display " + file("linear.png"));
   const std::vector<ExrPart> parts = read_exr_parts(file("linear_parts.exr"));
   ASSERT_EQ(parts.back().name, "preview");
@@ -270,7 +261,7 @@ TEST(Develop, ThePreviewIsLinear) {
 }
 
 TEST(Develop, MergedPartsDevelopLikeTheirWhole) {
-  const std::string text = scene("halves.json", kRgb + ", \"readout\": " + kReadout);
+  const std::string text = uneven_scene("halves.json", kRgb + ", \"readout\": " + kReadout);
   for (const char* range : {"0:4", "4:8"})
     EXPECT_EQ(abbe("render " + text + " --quiet --sample-range " + range + " -o " +
                    file(std::string(range).substr(0, 1) + ".abbepart"))

@@ -9,6 +9,7 @@
 #include "cli/trace.h"
 #include "description/load.h"
 #include "io/data_directory.h"
+#include "tests/angles.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
@@ -20,8 +21,7 @@
 namespace abbe::test {
 namespace {
 
-using V3d = Imath::V3d;
-constexpr double kDegree = std::numbers::pi / 180;
+using Imath::V3d;
 constexpr DrawingPlane kElevation{{1, 0, 0}, {0, 0, 1}};
 
 Scene loaded(const std::string& text) {

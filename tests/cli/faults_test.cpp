@@ -28,11 +28,11 @@ std::vector<std::string> names_in(const fs::path& folder) {
 }
 
 /// Files that a render writes, one of which may be on another disk: by option.
-using Outputs = std::vector<std::pair<std::string, std::string>>;
-const Outputs kOutputs{{"-o", "film.exr"}, {"--display", "picture.png"}, {"--stats", "stats.json"}};
+using OutputFiles = std::vector<std::pair<std::string, std::string>>;
+const OutputFiles kOutputs{{"-o", "film.exr"}, {"--display", "picture.png"}, {"--stats", "stats.json"}};
 constexpr const char* kCheckpoint = "state.abbepart";
 
-std::string render(const Outputs& outputs) {
+std::string render_command(const OutputFiles& outputs) {
   std::string command = ABBE_BINARY " render " + ball() + " --quiet";
   for (const auto& [option, name] : outputs) command += " " + option + " " + name;
   return command;
@@ -47,13 +47,13 @@ TEST(FullDisk, NoOldOutputIsLost) {
   put_old(there);
   for (const char* film : {"film.exr", "film.abbepart"}) {
     std::ofstream(there / film) << "old";
-    Outputs outputs = kOutputs;
+    OutputFiles outputs = kOutputs;
     outputs.front().second = film;
     // Beside a part no picture is written.
     if (fs::path(film).extension() == ".abbepart") outputs.erase(outputs.begin() + 1);
     outputs.emplace_back("--checkpoint", kCheckpoint);
-    const Outcome run = shell("cd " + there.string() + "; (trap '' XFSZ; ulimit -f 0; " + render(outputs) +
-                              "; echo $?) 2>&1 | cat");
+    const Outcome run = shell("cd " + there.string() + "; (trap '' XFSZ; ulimit -f 0; " +
+                              render_command(outputs) + "; echo $?) 2>&1 | cat");
     EXPECT_TRUE(run.out.ends_with("\n5\n")) << run.out;
     EXPECT_NE(run.out.find(std::string(film) + ": "), std::string::npos) << run.out;
     for (const auto& [option, name] : outputs)
@@ -69,9 +69,10 @@ TEST(FullDisk, NoOldOutputIsLost) {
 TEST(FullDisk, AnOutputThatFailsTakesNoOtherWithIt) {
   const fs::path there = folder("nearly_full");
   put_old(there);
-  Outputs outputs = kOutputs;
+  OutputFiles outputs = kOutputs;
   outputs.emplace_back("--checkpoint", kCheckpoint);
-  const Outcome run = shell("cd " + there.string() + "; trap '' XFSZ; ulimit -f 8; " + render(outputs));
+  const Outcome run =
+      shell("cd " + there.string() + "; trap '' XFSZ; ulimit -f 8; " + render_command(outputs));
   EXPECT_EQ(run.code, 5) << run.err;
   EXPECT_EQ(read_file(there / "film.exr"), "old");
   EXPECT_EQ(read_picture(there / "picture.png").width, 24);
@@ -84,19 +85,19 @@ TEST(FullDisk, AnOutputThatFailsTakesNoOtherWithIt) {
 // limits above stand for it elsewhere.
 TEST(FullDisk, OfASmallFileSystem) {
   if (shell("unshare -Urm true").code != 0) return;
-  Outputs all = kOutputs;
+  OutputFiles all = kOutputs;
   all.emplace_back("--checkpoint", kCheckpoint);
   for (std::size_t full = 0; full < all.size(); ++full) {
     const fs::path there = folder("small_disk");
     fs::create_directory(there / "disk");
-    Outputs outputs = all;
+    OutputFiles outputs = all;
     const std::string name = all[full].second;
     outputs[full].second = "disk/" + name;
     const Outcome run =
         shell("cd " + there.string() +
               "; unshare -Urm sh -c 'mount -t tmpfs -o size=1M none disk; printf old > disk/" + name +
               "; dd if=/dev/zero of=disk/rest bs=4k 2>/dev/null; " +
-              (name == kCheckpoint ? "rm disk/state.abbepart; " : "") + render(outputs) +
+              (name == kCheckpoint ? "rm disk/state.abbepart; " : "") + render_command(outputs) +
               "; echo $?; ls -A disk; head -c 9 disk/" + name + "'");
     const std::string left = name == kCheckpoint ? "rest\n"
                              : name < "rest"     ? name + "\nrest\nold"

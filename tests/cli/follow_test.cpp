@@ -5,6 +5,7 @@
 
 #include "cli/trace.h"
 #include "materials/interface/fresnel.h"
+#include "tests/angles.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
@@ -13,8 +14,7 @@
 namespace abbe::test {
 namespace {
 
-using V3d = Imath::V3d;
-constexpr double kDegree = std::numbers::pi / 180;
+using Imath::V3d;
 constexpr double kNm = 550;
 
 // A ray that meets a slab of 10 mm across x at 45 degrees, and all that becomes of it.

@@ -6,7 +6,7 @@
 
 #include "io/exr.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 
 // Films told apart by lights and by events, from the command line to films that are lit anew.
 
@@ -33,10 +33,6 @@ std::string spectral() {
   return lit_ball("spectral.json", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 100})");
 }
 
-Outcome rendered(const std::string& scene, const std::string& name, const std::string& options) {
-  return abbe(fmt::format("render {} --quiet -o {} {}", scene, file(name), options));
-}
-
 float value(const Image& image, const std::string& channel, std::size_t pixel) {
   const ImageChannel* found = image.find(channel);
   EXPECT_NE(found, nullptr) << channel;
@@ -53,12 +49,12 @@ void expect_sum(const Image& film, const std::vector<std::string>& layers, const
 }
 
 TEST(Layers, AddUpInTheFile) {
-  ASSERT_EQ(rendered(coloured(), "lights.exr", "--layers lights").code, 0);
+  ASSERT_EQ(run_render(coloured(), file("lights.exr"), "--layers lights").code, 0);
   const Image lights = read_exr(file("lights.exr"));
   EXPECT_EQ(lights.metadata.at("layers"), "light.lamp_1,light.sky");
   for (const char* plane : {"X", "Y", "Z"}) expect_sum(lights, {"light.lamp_1", "light.sky"}, plane);
   EXPECT_GT(value(lights, "Variance.light.lamp_1.Y", 8 * 24 + 12), 0);
-  ASSERT_EQ(rendered(coloured(), "bounces.exr", "--layers bounces:2 --aov depth").code, 0);
+  ASSERT_EQ(run_render(coloured(), file("bounces.exr"), "--layers bounces:2 --aov depth").code, 0);
   const Image bounces = read_exr(file("bounces.exr"));
   expect_sum(bounces, {"bounce0", "bounce1", "bounce2plus"}, "Y");
   EXPECT_NE(bounces.find("depth.Z"), nullptr);
@@ -67,13 +63,13 @@ TEST(Layers, AddUpInTheFile) {
 }
 
 TEST(Layers, ALightIsAskedForByTheNameThatTheSceneGivesIt) {
-  ASSERT_EQ(rendered(coloured(), "asked.exr", "--layers 'lights:lamp 1'").code, 0);
+  ASSERT_EQ(run_render(coloured(), file("asked.exr"), "--layers 'lights:lamp 1'").code, 0);
   const Image film = read_exr(file("asked.exr"));
   expect_sum(film, {"light.lamp_1", "light.rest"}, "Y");
 }
 
 TEST(Layers, OfSpectralFilmsAreRadiances) {
-  ASSERT_EQ(rendered(spectral(), "bands.exr", "--layers lights").code, 0);
+  ASSERT_EQ(run_render(spectral(), file("bands.exr"), "--layers lights").code, 0);
   const Image film = read_exr(file("bands.exr"));
   for (const char* plane : {"S0.450,000000nm", "S0.650,000000nm", "R"})
     expect_sum(film, {"light.lamp_1", "light.sky"}, plane);
@@ -85,17 +81,17 @@ TEST(Layers, PartsMakeTheFileOfTheWhole) {
   for (const char* cut :
        {"--crop 0,0,7,16", "--crop 7,0,24,16 --sample-range 3:8", "--crop 7,0,24,16 --sample-range 0:3"}) {
     const std::string part = fmt::format("layers{}.abbepart", parts.size());
-    ASSERT_EQ(rendered(coloured(), part, layers + cut).code, 0);
+    ASSERT_EQ(run_render(coloured(), file(part), layers + cut).code, 0);
     parts += file(part) + " ";
   }
-  ASSERT_EQ(rendered(coloured(), "whole.exr", layers).code, 0);
+  ASSERT_EQ(run_render(coloured(), file("whole.exr"), layers).code, 0);
   ASSERT_EQ(abbe(fmt::format("merge {} -o {}", parts, file("sum.exr"))).code, 0);
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
 // As bright as a render whose lamp is turned down, to the noise of neither: the same paths.
 TEST(Layers, LightsAreTurnedDownWithoutRendering) {
-  ASSERT_EQ(rendered(coloured(), "lit.exr", "--layers lights").code, 0);
+  ASSERT_EQ(run_render(coloured(), file("lit.exr"), "--layers lights").code, 0);
   const Image lit = read_exr(file("lit.exr"));
   const Outcome run = abbe(fmt::format("develop {} --light lamp_1=0.25,0.5,1 --light sky=2 -o {}",
                                        file("lit.exr"), file("anew.exr")));
@@ -109,7 +105,7 @@ TEST(Layers, LightsAreTurnedDownWithoutRendering) {
         factor * value(lit, "light.lamp_1" + of, pixel) + 2 * value(lit, "light.sky" + of, pixel);
     EXPECT_NEAR(value(anew, plane, pixel), expected, 1e-5 * expected) << plane;
   }
-  ASSERT_EQ(rendered(spectral(), "dim.exr", "--layers lights").code, 0);
+  ASSERT_EQ(run_render(spectral(), file("dim.exr"), "--layers lights").code, 0);
   const Outcome seen =
       abbe(fmt::format("develop {} --light lamp_1=0 --display {}", file("dim.exr"), file("dim.png")));
   EXPECT_EQ(seen.code, 0) << seen.err;
@@ -120,13 +116,13 @@ TEST(Layers, WhatCannotBeToldIsRefused) {
     EXPECT_EQ(run.code, code) << run.err;
     EXPECT_NE(run.err.find(text), std::string::npos) << run.err;
   };
-  fails(rendered(coloured(), "no.exr", "--layers colours"), 2,
+  fails(run_render(coloured(), file("no.exr"), "--layers colours"), 2,
         "--layers: got \"colours\", allowed lights, lights:NAME,..., bounces or bounces:N");
-  fails(rendered(coloured(), "no.exr", "--layers bounces:0"), 2,
+  fails(run_render(coloured(), file("no.exr"), "--layers bounces:0"), 2,
         "--layers: got \"0\", allowed whole numbers in [1, 64]");
-  fails(rendered(coloured(), "no.exr", "--layers lights:moon"), 2,
+  fails(run_render(coloured(), file("no.exr"), "--layers lights:moon"), 2,
         "--layers: no light has such a name (got \"moon\", allowed lamp_1, sky)");
-  ASSERT_EQ(rendered(coloured(), "plain.exr", "").code, 0);
+  ASSERT_EQ(run_render(coloured(), file("plain.exr"), "").code, 0);
   fails(abbe(fmt::format("develop {} --light sky=2 -o {}", file("plain.exr"), file("no.exr"))), 2,
         "--light: the film has no layers of lights: render --layers lights makes them");
   fails(abbe(fmt::format("develop {} --light sky -o {}", file("plain.exr"), file("no.exr"))), 2,

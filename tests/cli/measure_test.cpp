@@ -10,7 +10,7 @@
 #include "io/exr.h"
 #include "io/table.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 
 // Charts in films, raw files and pictures.
 
@@ -30,7 +30,7 @@ std::string chart_scene(const std::string& name, const std::string& sensor, doub
                                          sensor, illuminant, corner))
       .string();
 }
-const std::string kCamera = R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.4)";
+const std::string kBayer = R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.4)";
 
 // The film of a chart before a mosaic, with its scene.
 struct Shot {
@@ -38,10 +38,8 @@ struct Shot {
   std::string film;
 };
 Shot shot(const std::string& name, const std::string& sensor, const std::string& illuminant = "D65") {
-  Shot made{chart_scene(name, sensor, -3, illuminant), file(name + ".exr")};
-  const Outcome run = abbe("render " + made.scene + " --quiet -o " + made.film);
-  EXPECT_EQ(run.code, 0) << run.err;
-  return made;
+  const std::string scene = chart_scene(name, sensor, -3, illuminant);
+  return {scene, film_of(scene, name)};
 }
 
 nlohmann::json measured(const std::string& arguments) {
@@ -51,7 +49,7 @@ nlohmann::json measured(const std::string& arguments) {
 }
 
 TEST(Measure, EveryRawFileHasTheSamePatches) {
-  const auto [scene, film] = shot("raw", kCamera);
+  const auto [scene, film] = shot("raw", kBayer);
   std::string outputs;
   std::string files;
   for (const char* end : {"dng", "fits", "tif", "png"}) {
@@ -98,7 +96,7 @@ TEST(Measure, CornersByHandFindWhatTheSceneSays) {
 
 // Each channel of its own pixels, all of them together the patch's.
 TEST(Measure, CompareReadsAMosaicByTheSameCode) {
-  const auto [scene, film] = shot("mosaic", kCamera);
+  const auto [scene, film] = shot("mosaic", kBayer);
   const nlohmann::json patches = measured(film + " --chart " + scene)["patches"];
   const Outcome run = abbe("compare " + film + " --chart " + scene + " --json");
   ASSERT_EQ(run.code, 0) << run.err;
@@ -114,7 +112,7 @@ TEST(Measure, CompareReadsAMosaicByTheSameCode) {
 }
 
 TEST(Measure, TheTableIsWhatCalibrateTakes) {
-  const auto [scene, film] = shot("loop", kCamera);
+  const auto [scene, film] = shot("loop", kBayer);
   ASSERT_EQ(abbe("develop " + film + " -o " + file("loop.dng")).code, 0);
   const Outcome run =
       abbe("measure " + file("loop.dng") + " --chart " + scene + " -o " + file("patches.csv"));
@@ -127,7 +125,7 @@ TEST(Measure, TheTableIsWhatCalibrateTakes) {
 // A raw converter shows the patches in the colours that we do: as far as demosaicking and its 1/10000 go.
 TEST(Measure, LibRawMakesTheSameColoursOfADng) {
   if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
-  const auto [scene, film] = shot("colours", kCamera);
+  const auto [scene, film] = shot("colours", kBayer);
   ASSERT_EQ(abbe("develop " + film + " -o " + file("colours.dng") + " -o " + file("parts.exr")).code, 0);
   const Outcome run = shell("dcraw_emu -w -o 1 -4 -g 1 1 -W -q 0 -T " + file("colours.dng"));
   ASSERT_EQ(run.code, 0) << run.err;
@@ -207,7 +205,7 @@ std::string mixing_profile(const std::string& name, double share, int warm = 17)
 // LibRaw takes the matrix of D65: what it then shows is the mixture, in each patch.
 TEST(Measure, LibRawTakesTheMatricesOfACalibration) {
   if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
-  const auto [scene, film] = shot("profile", kCamera);
+  const auto [scene, film] = shot("profile", kBayer);
   const auto patches = [&, &scene = scene, &film = film](const std::string& name, double share) {
     const std::string dng = file(name + ".dng");
     const Outcome made =
@@ -234,7 +232,7 @@ TEST(Measure, LibRawTakesTheMatricesOfACalibration) {
 }
 
 TEST(Measure, ProfilesThatNoConverterKnowsAreNamed) {
-  const auto [scene, film] = shot("unknown", kCamera);
+  const auto [scene, film] = shot("unknown", kBayer);
   const std::string out = " -o " + file("unknown.dng") + " --profile ";
   const std::string lone = scratch().write("lone.json", R"({"lights": [{}]})").string();
   const std::string bare = scratch().write("bare.json", R"({"lights": [{}, {}]})").string();
@@ -280,7 +278,7 @@ TEST(Measure, SaturatedPatchesAreNamed) {
 
 // Black is what a crop holds beside its pixels, and what no patch is.
 TEST(Measure, PixelsThatWereNotRenderedAreNoPatches) {
-  const std::string scene = chart_scene("cropped", kCamera);
+  const std::string scene = chart_scene("cropped", kBayer);
   const std::string film = file("cropped.exr");
   ASSERT_EQ(abbe("render " + scene + " --quiet --crop 0,0,96,30 -o " + film).code, 0);
   std::string outputs;
@@ -304,8 +302,8 @@ TEST(Measure, PixelsThatWereNotRenderedAreNoPatches) {
 }
 
 TEST(Measure, FaultsAreNamed) {
-  const auto [scene, film] = shot("faulty", kCamera);
-  const std::string aside = chart_scene("aside", kCamera, 0);
+  const auto [scene, film] = shot("faulty", kBayer);
+  const std::string aside = chart_scene("aside", kBayer, 0);
   ASSERT_EQ(abbe("develop " + film + " -o " + file("faulty.dng")).code, 0);
   const std::string table = " --chart colorchecker24_babelcolor_average";
   (void)scratch().write("cut.dng", read_file(file("faulty.dng")).substr(0, 3000));

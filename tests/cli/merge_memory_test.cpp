@@ -28,7 +28,7 @@ std::string parts_of(const FilmShape& shape, int count) {
 }
 
 /// The parts of a render of two samples: so many crops, a part for each sample of each.
-std::string crops_of(FilmShape shape, int count) {
+std::string crop_parts_of(FilmShape shape, int count) {
   std::string names;
   for (int i = 0; i < 2 * count; ++i) {
     const int row = i / 2;
@@ -74,7 +74,7 @@ TEST(MergeMemory, IsThreeFilmsWhateverTheNumberOfParts) {
   }
   // Of which two are a crop and its bytes.
   for (const int count : {2, 16, 64}) {
-    const double held = films(crops_of(large, count));
+    const double held = films(crop_parts_of(large, count));
     RecordProperty(fmt::format("films_of_{}_crops", count), fmt::format("{:.2f}", held));
     EXPECT_LE(held, 1.25 + 2.0 / count) << count;
   }

@@ -6,7 +6,7 @@
 #include "io/exr.h"
 #include "io/part_file.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 #include "tests/source_tree.h"
 
 // Parts, checkpoints and interruptions, as a user of the program meets them.
@@ -14,20 +14,15 @@
 namespace abbe::test {
 namespace {
 
-std::string part(const std::string& name, const std::string& options) {
-  const std::string path = file(name + ".abbepart");
-  const Outcome run = abbe("render " + ball() + " --quiet -o " + path + " " + options);
-  EXPECT_EQ(run.code, 0) << run.err;
-  return path;
-}
-Outcome merged(const std::string& parts, const std::string& output) {
-  return abbe("merge " + parts + " -o " + output);
+std::string part_of_ball(const std::string& name, const std::string& options) {
+  return part_of(ball(), name, options);
 }
 
 TEST(Merge, PartsAreTheFileOfTheWholeRender) {
-  const std::string whole = part("whole", "");
-  const std::string parts = part("b", "--sample-range 5:8 --threads 1") + " " +
-                            part("a", "--sample-range 0:2") + " " + part("c", "--sample-range 2:5");
+  const std::string whole = part_of_ball("whole", "");
+  const std::string parts = part_of_ball("b", "--sample-range 5:8 --threads 1") + " " +
+                            part_of_ball("a", "--sample-range 0:2") + " " +
+                            part_of_ball("c", "--sample-range 2:5");
   ASSERT_EQ(merged(parts, file("sum.abbepart")).code, 0);
   EXPECT_EQ(read_file(file("sum.abbepart")), read_file(whole));
   ASSERT_EQ(merged(parts, file("sum.exr")).code, 0);
@@ -37,7 +32,7 @@ TEST(Merge, PartsAreTheFileOfTheWholeRender) {
 }
 
 TEST(Merge, RefusesPartsOfOtherRenders) {
-  const std::string a = part("a", "--sample-range 0:2");
+  const std::string a = part_of_ball("a", "--sample-range 0:2");
   const auto refusal = [&a](const std::string& other) {
     const Outcome run = merged(a + " " + other, file("no.exr"));
     EXPECT_EQ(run.code, 4) << run.err;
@@ -47,13 +42,16 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
   const auto names = [](const std::string& text, const std::string& what) {
     return text.find(what) != std::string::npos;
   };
-  EXPECT_TRUE(names(refusal(part("seed", "--seed 3 --sample-range 2:4")), "another seed (got 3, allowed 0)"));
-  EXPECT_TRUE(names(refusal(part("set", "--set /render/max_depth=3 --sample-range 2:4")), "scene_sha256"));
   EXPECT_TRUE(
-      names(refusal(part("spp", "--spp 64 --sample-range 2:4")), "another replicates (got 4, allowed 2)"));
-  EXPECT_TRUE(names(refusal(part("path", "--integrator light --sample-range 2:4")), "another integrator"));
+      names(refusal(part_of_ball("seed", "--seed 3 --sample-range 2:4")), "another seed (got 3, allowed 0)"));
+  EXPECT_TRUE(
+      names(refusal(part_of_ball("set", "--set /render/max_depth=3 --sample-range 2:4")), "scene_sha256"));
+  EXPECT_TRUE(names(refusal(part_of_ball("spp", "--spp 64 --sample-range 2:4")),
+                    "another replicates (got 4, allowed 2)"));
+  EXPECT_TRUE(
+      names(refusal(part_of_ball("path", "--integrator light --sample-range 2:4")), "another integrator"));
   EXPECT_TRUE(names(refusal(a), "has samples that are there already (got 0:2)"));
-  PartFile older = read_part_file(part("old", "--sample-range 2:4"));
+  PartFile older = read_part_file(part_of_ball("old", "--sample-range 2:4"));
   for (const char* key : {"version", "data_sha256", "exposure_s", "scene_sha256", "seed", "integrator",
                           "replicates", "channel.Y", "build", "instruction_set"}) {
     PartFile other = older;
@@ -77,7 +75,8 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
 }
 
 TEST(Merge, SaysWhichOfTheStatedSamplesAreMissing) {
-  const std::string parts = part("a", "--sample-range 1:3") + " " + part("b", "--sample-range 5:7");
+  const std::string parts =
+      part_of_ball("a", "--sample-range 1:3") + " " + part_of_ball("b", "--sample-range 5:7");
   std::filesystem::remove(file("gaps.exr"));
   const Outcome refused = merged(parts, file("gaps.exr"));
   EXPECT_EQ(refused.code, 4);
@@ -99,12 +98,14 @@ TEST(Merge, AddsUpInATree) {
     return file(name);
   };
   const std::string left =
-      sum_of(part("c", "--sample-range 4:6") + " " + part("a", "--sample-range 0:2"), "left.abbepart");
+      sum_of(part_of_ball("c", "--sample-range 4:6") + " " + part_of_ball("a", "--sample-range 0:2"),
+             "left.abbepart");
   const std::string right =
-      sum_of(part("b", "--sample-range 2:4") + " " + part("d", "--sample-range 6:8"), "right.abbepart");
+      sum_of(part_of_ball("b", "--sample-range 2:4") + " " + part_of_ball("d", "--sample-range 6:8"),
+             "right.abbepart");
   EXPECT_EQ(merged(left, file("tree.abbepart")).code, 4);
   ASSERT_EQ(merged(right + " " + left, file("tree.abbepart") + " -o " + file("tree.exr")).code, 0);
-  EXPECT_EQ(read_file(file("tree.abbepart")), read_file(part("whole", "")));
+  EXPECT_EQ(read_file(file("tree.abbepart")), read_file(part_of_ball("whole", "")));
   ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
   EXPECT_EQ(read_file(file("tree.exr")), read_file(file("whole.exr")));
 }
@@ -112,41 +113,41 @@ TEST(Merge, AddsUpInATree) {
 // A finished render of which more samples were asked for later is as complete as the last of its parts
 // states.
 TEST(Merge, TheLargestStatedNumberHolds) {
-  const std::string first = part("first", "--spp 128");
-  const std::string more = part("more", "--spp 192 --sample-range 128:160");
-  const std::string rest = part("rest", "--spp 192 --sample-range 160:192");
+  const std::string first = part_of_ball("first", "--spp 128");
+  const std::string more = part_of_ball("more", "--spp 192 --sample-range 128:160");
+  const std::string rest = part_of_ball("rest", "--spp 192 --sample-range 160:192");
   EXPECT_EQ(merged(first, file("sum.abbepart")).code, 0);
   for (const std::string& parts : {first + " " + more, more + " " + first}) {
     const Outcome run = merged(parts, file("no.abbepart"));
     EXPECT_NE(run.err.find("samples 160:192 are missing"), std::string::npos) << run.err;
   }
   EXPECT_EQ(merged(first + " " + rest + " " + more, file("sum.abbepart")).code, 0);
-  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(part("all", "--spp 192")));
+  EXPECT_EQ(read_file(file("sum.abbepart")), read_file(part_of_ball("all", "--spp 192")));
 }
 
 // Where time decides, no number of samples is stated.
 TEST(Merge, WhatTimeEndedIsComplete) {
-  const std::string timed = part("timed", "--time 0.01s");
+  const std::string timed = part_of_ball("timed", "--time 0.01s");
   EXPECT_FALSE(read_part_file(timed).header.contains("samples_stated"));
   EXPECT_EQ(merged(timed, file("timed.exr")).code, 0);
 }
 
 // Those of one and those of the other do not add up to what either render would have given.
 TEST(Merge, SamplesSpreadByNoiseAreOfAnotherFilm) {
-  const std::string timed = part("timed", "--time 0.01s");
+  const std::string timed = part_of_ball("timed", "--time 0.01s");
   EXPECT_EQ(read_part_file(timed).header.at("camera_paths"), "by noise");
-  const std::string either = part("either", "--time 0.01s --error 50%");
+  const std::string either = part_of_ball("either", "--time 0.01s --error 50%");
   EXPECT_FALSE(read_part_file(either).header.contains("camera_paths"));
   const Outcome run =
-      merged(timed + " " + part("rest", "--spp 100000 --sample-range 99998:99999"), file("no.exr"));
+      merged(timed + " " + part_of_ball("rest", "--spp 100000 --sample-range 99998:99999"), file("no.exr"));
   EXPECT_EQ(run.code, 4);
   EXPECT_NE(run.err.find("camera_paths"), std::string::npos) << run.err;
 }
 
 // What another process is still writing has another name until it is whole.
 TEST(Merge, ReadsPartsWhileOthersAreWritten) {
-  const std::string a = part("part-0", "--sample-range 0:4");
-  const std::string b = part("part-4", "--sample-range 4:8");
+  const std::string a = part_of_ball("part-0", "--sample-range 0:4");
+  const std::string b = part_of_ball("part-4", "--sample-range 4:8");
   const std::string torn = file(".part-4.abbe-1-0.abbepart");
   std::filesystem::rename(b, torn);
   std::filesystem::resize_file(torn, 1000);
@@ -167,8 +168,8 @@ TEST(Merge, UsageErrors) {
         "--sample-range 0:4 --error 3%", "--sample-range 0:4 --time 3s", "--resume", "--checkpoint-every 3s"})
     EXPECT_EQ(abbe(render + options).code, 2) << options;
   EXPECT_EQ(abbe("merge -o " + file("no.exr")).code, 2);
-  EXPECT_EQ(merged(part("a", "--sample-range 0:2"), file("no.png")).code, 2);
-  EXPECT_EQ(merged(part("a", "--sample-range 0:2"), "/nowhere/no.exr").code, 5);
+  EXPECT_EQ(merged(part_of_ball("a", "--sample-range 0:2"), file("no.png")).code, 2);
+  EXPECT_EQ(merged(part_of_ball("a", "--sample-range 0:2"), "/nowhere/no.exr").code, 5);
 }
 
 // The first example of the documentation, on a smaller film.
@@ -308,7 +309,7 @@ TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
   const std::string stats = file("two.json");
   const std::string second = "; " ABBE_BINARY " render " + scene_ + " --spp 1 --quiet -o ";
   std::string writers =
-      "; " ABBE_BINARY " merge " + part("two", "--sample-range 0:2") + " -o " + film_ + "; echo $?";
+      "; " ABBE_BINARY " merge " + part_of_ball("two", "--sample-range 0:2") + " -o " + film_ + "; echo $?";
   for (const std::string& output :
        {film_, file("own.exr") + " --display " + picture, file("own.exr") + " --stats " + stats,
         file("own.exr") + " --resume --checkpoint " + checkpoint_})

@@ -18,12 +18,12 @@
 namespace abbe::test {
 namespace {
 
-using V3d = Imath::V3d;
-constexpr double kNm = 587.5618;
+using Imath::V3d;
+constexpr double kDLineNm = 587.5618;
 
 json traced(const std::string& scene, const V3d& origin, const V3d& direction,
             const StokesVector& stokes = {1, 0, 0, 0}, Follow follow = Follow::refraction) {
-  cli::TraceOptions options{scratch().write("polarised.json", scene), kNm, origin, direction};
+  cli::TraceOptions options{scratch().write("polarised.json", scene), kDLineNm, origin, direction};
   options.stokes = stokes;
   options.follow = follow;
   return json_output(cli::trace, options);
@@ -89,7 +89,7 @@ TEST(TracePolarisation, OfFresnelsRhombIsAQuarterWave) {
   scene.shapes.push_back({"below", Quad{{-50, -5, 0}, {0, 10, 0}, {100, 0, 0}}, 0});
   scene.shapes.push_back({"above", Quad{{-50, -5, 1}, {100, 0, 0}, {0, 10, 0}}, 0});
   scene.commit();
-  const RayTrace trace = trace_ray(scene, {V3d(0, 0, 0.5), along}, kNm, 2);
+  const RayTrace trace = trace_ray(scene, {V3d(0, 0, 0.5), along}, kDLineNm, 2);
   ASSERT_EQ(trace.events.size(), 2U);
   for (const TraceEvent& event : trace.events) EXPECT_EQ(event.kind, TraceEvent::Kind::total_reflection);
   const auto& m = trace.way.mueller.rows;

@@ -1,11 +1,11 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "cli/query.h"
 #include "cli/trace.h"
+#include "tests/angles.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
@@ -13,7 +13,6 @@
 namespace abbe::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kC = 656.2725;
 constexpr double kD = 587.5618;
 constexpr double kF = 486.1327;

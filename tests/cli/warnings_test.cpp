@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes.h"
+#include "tests/cli/runs.h"
 
 namespace abbe::test {
 namespace {
@@ -24,40 +24,40 @@ const std::string kLamp =
     R"({"name": "lamp", "sphere": {"center": [0, -1, 2], "radius": 0.2}, "emission": {"illuminant": "A", "luminance": 100}})";
 const std::string kBulb =
     R"({"name": "bulb", "point": {"at": [0, -1, 2]}, "emission": {"illuminant": "A", "luminous_flux_lm": 100}})";
-std::string ball(const char* material, const char* radius = "0.5") {
+std::string ball_of(const char* material, const char* radius = "0.5") {
   return fmt::format(
       R"({{"name": "ball", "sphere": {{"center": [0, 0, 0], "radius": {}}}, "material": "{}"}})", radius,
       material);
 }
-Outcome rendered(const std::string& scene, const std::string& options = "") {
-  return abbe("render " + scene + " --quiet -o " + (scratch() / "warned.exr").string() + options);
+Outcome warned(const std::string& scene, const std::string& options = "") {
+  return run_render(scene, file("warned.exr"), options);
 }
 
 TEST(Warnings, LightThatAChosenTechniqueLosesIsNamed) {
-  const std::string scene = room(ball("white"), kLamp);
-  EXPECT_EQ(rendered(scene).err, "");
-  const Outcome light = rendered(scene, " --integrator light");
+  const std::string scene = room(ball_of("white"), kLamp);
+  EXPECT_EQ(warned(scene).err, "");
+  const Outcome light = warned(scene, " --integrator light");
   EXPECT_EQ(light.code, 0);
   EXPECT_EQ(
       light.err,
       "abbe: warning: light that integrator \"light\" does not reach is missing: E L: lights seen directly "
       "(\"lamp\")\n");
-  const Outcome strict = rendered(scene, " --integrator light --strict");
+  const Outcome strict = warned(scene, " --integrator light --strict");
   EXPECT_EQ(strict.code, 3);
   EXPECT_NE(strict.err.find("integrator \"light\" does not reach"), std::string::npos) << strict.err;
 }
 
 // Else one would believe that what is allowed is done.
 TEST(Warnings, WhatChoosesNothingIsRefused) {
-  const std::string scene = room(ball("white"), kLamp);
-  EXPECT_EQ(rendered(scene, " --integrator auto --consistent").code, 0);
+  const std::string scene = room(ball_of("white"), kLamp);
+  EXPECT_EQ(warned(scene, " --integrator auto --consistent").code, 0);
   for (const char* chosen : {" --integrator path", " --set /render/integrator=path"}) {
-    const Outcome run = rendered(scene, std::string(" --consistent") + chosen);
+    const Outcome run = warned(scene, std::string(" --consistent") + chosen);
     EXPECT_EQ(run.code, 2) << chosen;
     EXPECT_NE(run.err.find("--consistent: lets auto choose"), std::string::npos) << run.err;
   }
   const Outcome run =
-      rendered(scene, " --set /render/integrator=path --set /render/lights=light --integrator bdpt");
+      warned(scene, " --set /render/integrator=path --set /render/lights=light --integrator bdpt");
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(
       run.err.find("--integrator: the scene says how \"path\" draws its paths (got bdpt, allowed path)"),
@@ -66,8 +66,8 @@ TEST(Warnings, WhatChoosesNothingIsRefused) {
 }
 
 TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
-  const std::string scene = room(ball("glass") + ", " + ball("white", "0.1"), kBulb);
-  const Outcome run = rendered(scene, " --strict");
+  const std::string scene = room(ball_of("glass") + ", " + ball_of("white", "0.1"), kBulb);
+  const Outcome run = warned(scene, " --strict");
   EXPECT_EQ(run.code, 0);
   EXPECT_NE(run.err.find("warning: light that no technique reaches"), std::string::npos) << run.err;
   EXPECT_NE(
@@ -77,9 +77,9 @@ TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
 }
 
 TEST(Warnings, StrictRefusesASceneThatIsDark) {
-  const std::string unlit = room(ball("white"), "");
-  EXPECT_EQ(rendered(unlit).code, 0);
-  const Outcome strict = rendered(unlit, " --strict");
+  const std::string unlit = room(ball_of("white"), "");
+  EXPECT_EQ(warned(unlit).code, 0);
+  const Outcome strict = warned(unlit, " --strict");
   EXPECT_EQ(strict.code, 3);
   EXPECT_NE(strict.err.find("error: no light: the image will be black"), std::string::npos) << strict.err;
   for (const char* power : {"0", "100"}) {
@@ -87,7 +87,7 @@ TEST(Warnings, StrictRefusesASceneThatIsDark) {
         fmt::format(R"({{"name": "bulb", "point": {{"at": [0, -1, 2]}}, "emission": {{"illuminant": "A", )"
                     R"("luminous_flux_lm": {}}}}})",
                     power);
-    const Outcome run = rendered(room(ball("white"), kLamp + ", " + lamp), " --strict");
+    const Outcome run = warned(room(ball_of("white"), kLamp + ", " + lamp), " --strict");
     EXPECT_EQ(run.code, *power == '0' ? 3 : 0) << run.err;
     EXPECT_EQ(run.err.find("error: \"bulb\" emits nothing") != std::string::npos, *power == '0') << run.err;
   }
@@ -97,12 +97,12 @@ TEST(Warnings, StrictRefusesASceneThatIsDark) {
 TEST(Warnings, InfoAnswersWherePhotonsCannotBeTraced) {
   std::string text = read_file(
       room(R"({"name": "ground", "sphere": {"center": [0, 0, -7e6], "radius": 6e6}, "material": "glass"}, )" +
-               ball("white"),
+               ball_of("white"),
            R"({"name": "sun", "sun": {"towards": [0, 0, 1], "irradiance": 1}}, )" + kLamp));
   const std::string samples = R"("samples": 1)";
   text.replace(text.find(samples), samples.size(), R"("integrator": "light")");
   const std::string scene = scratch().write("afar.json", text).string();
-  EXPECT_EQ(rendered(scene).code, 3);
+  EXPECT_EQ(warned(scene).code, 3);
   for (const char* as : {"", " --json"}) {
     const Outcome run = abbe("info " + scene + as);
     EXPECT_EQ(run.code, 0) << run.err;
@@ -114,32 +114,32 @@ TEST(Warnings, InfoAnswersWherePhotonsCannotBeTraced) {
 }
 
 TEST(Warnings, PolarisationLeftOutTakesALineUnlessQuiet) {
-  const std::string scene = room(ball("glass"), kLamp);
+  const std::string scene = room(ball_of("glass"), kLamp);
   const std::string left_out = scene + " --set /render/polarisation=off";
   EXPECT_EQ(abbe("info " + scene).err.find("polarisation"), std::string::npos);
-  EXPECT_EQ(rendered(left_out).err.find("polarisation"), std::string::npos);
+  EXPECT_EQ(warned(left_out).err.find("polarisation"), std::string::npos);
   const Outcome loud = abbe("render " + left_out + " -o " + (scratch() / "warned.exr").string());
   const std::size_t at =
       loud.err.find("abbe: render/polarisation is \"off\", which matters after shape \"ball\"");
   ASSERT_NE(at, std::string::npos) << loud.err;
   EXPECT_LT(loud.err.find('\n', at) - at, 220U);
-  const Outcome measuring = rendered(left_out + " --set /sensor/stokes=true");
+  const Outcome measuring = warned(left_out + " --set /sensor/stokes=true");
   EXPECT_NE(measuring.err.find("warning: the sensor measures how light is polarised"), std::string::npos)
       << measuring.err;
-  EXPECT_EQ(rendered(left_out + " --set /sensor/stokes=true", " --strict").code, 3);
-  const std::string mirrors = room(ball("mirror") + ", " + ball("mirror", "0.1"), kLamp);
-  EXPECT_EQ(rendered(mirrors + " --set /render/polarisation=off").err, "");
+  EXPECT_EQ(warned(left_out + " --set /sensor/stokes=true", " --strict").code, 3);
+  const std::string mirrors = room(ball_of("mirror") + ", " + ball_of("mirror", "0.1"), kLamp);
+  EXPECT_EQ(warned(mirrors + " --set /render/polarisation=off").err, "");
 }
 
 TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {
   const std::string inside =
-      room(ball("white", "5"), R"({"name": "sky", "environment": {}, "emission": {"spectrum": 1}})");
+      room(ball_of("white", "5"), R"({"name": "sky", "environment": {}, "emission": {"spectrum": 1}})");
   const std::string said =
       "abbe: warning: the camera stands within \"ball\", which is opaque and has no light inside\n";
-  EXPECT_EQ(rendered(inside).err, said);
+  EXPECT_EQ(warned(inside).err, said);
   EXPECT_EQ(abbe("info " + inside).err, said);
-  EXPECT_EQ(rendered(inside, " --strict").code, 3);
-  EXPECT_EQ(rendered(room(ball("white", "5"), kLamp)).err, "");
+  EXPECT_EQ(warned(inside, " --strict").code, 3);
+  EXPECT_EQ(warned(room(ball_of("white", "5"), kLamp)).err, "");
 }
 
 }  // namespace

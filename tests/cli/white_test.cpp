@@ -7,7 +7,7 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 #include "transport/render/part.h"
 
 // What pictures show as white.
@@ -20,8 +20,8 @@ constexpr const char* kNikon = R"("camera": "Nikon_D5100")";
 constexpr const char* kSpectral = R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 5})";
 
 // A white dome behind, and before it in the list, a lamp that hardly shines.
-std::string scene(const std::string& name, const std::string& sensor, const std::string& white = "",
-                  const std::string& dome = "A") {
+std::string lit_dome(const std::string& name, const std::string& sensor, const std::string& white = "",
+                     const std::string& dome = "A") {
   return scratch()
       .write(name, fmt::format(R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 40, "f_number": 8}},
         "from": [0, 0, 0], "to": [0, 0, 1], "up": [0, 1, 0]}},
@@ -34,9 +34,6 @@ std::string scene(const std::string& name, const std::string& sensor, const std:
         "render": {{"samples": 64}}, "output": {{{}}}}})",
                                sensor, dome, white.empty() ? "" : "\"white\": " + white))
       .string();
-}
-Outcome render(const std::string& file_name, const std::string& film, const std::string& options = "") {
-  return abbe("render " + file_name + " --quiet -o " + film + " " + options);
 }
 
 // Means of a picture's code values, or of channels.
@@ -60,7 +57,7 @@ class AnySensor : public testing::TestWithParam<const char*> {};
 TEST_P(AnySensor, ShowsTheMainLightAsWhiteOrWhatIsAskedFor) {
   const std::string film = file("film.exr");
   const std::string picture = file("film.png");
-  ASSERT_EQ(render(scene("w.json", GetParam()), film, "--display " + picture).code, 0);
+  ASSERT_EQ(run_render(lit_dome("w.json", GetParam()), film, "--display " + picture).code, 0);
   EXPECT_LT(std::abs(warmth(picture)), 0.02) << "the dome of A";
   const Image rendered = read_exr(film);
   EXPECT_EQ(rendered.metadata.at("white"), "dome");
@@ -76,7 +73,9 @@ TEST_P(AnySensor, ShowsTheMainLightAsWhiteOrWhatIsAskedFor) {
     EXPECT_GT(develop(white), 0.3) << white;
     const bool list = *white == '[';
     const std::string text = list ? std::string(white) : fmt::format("\"{}\"", white);
-    ASSERT_EQ(render(scene("d.json", GetParam(), text), file("d.exr"), "--display " + file("d.png")).code, 0);
+    ASSERT_EQ(
+        run_render(lit_dome("d.json", GetParam(), text), file("d.exr"), "--display " + file("d.png")).code,
+        0);
     EXPECT_NEAR(warmth(file("d.png")), develop(white), 0.06) << white;
     EXPECT_EQ(read_exr(file("d.exr")).metadata.at("white"), list ? "0.31272,0.32903" : white);
     const Outcome same = abbe("compare " + file("d.exr") + " " + film + " --json");
@@ -90,35 +89,37 @@ INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kNikon, kS
 
 TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
   const std::string film = file("spectral.exr");
-  ASSERT_EQ(render(scene("s.json", kSpectral), film).code, 0);
+  ASSERT_EQ(run_render(lit_dome("s.json", kSpectral), film).code, 0);
   const auto seen = [&](const std::string& sensor, const std::string& options) {
     const Outcome run =
         abbe("develop " + film + " --scene " + sensor + " --display " + file("seen.png") + options);
     EXPECT_EQ(run.code, 0) << run.err;
     return warmth(file("seen.png"));
   };
-  EXPECT_LT(std::abs(seen(scene("n.json", kNikon), "")), 0.02);
-  EXPECT_LT(std::abs(seen(scene("n.json", kNikon, "", "D65"), "")), 0.1) << "not what the sensor's scene has";
-  EXPECT_GT(seen(scene("n.json", kNikon, "\"D65\""), ""), 0.3);
-  EXPECT_GT(seen(scene("n.json", kNikon), " --set /output/white=D65"), 0.3);
+  EXPECT_LT(std::abs(seen(lit_dome("n.json", kNikon), "")), 0.02);
+  EXPECT_LT(std::abs(seen(lit_dome("n.json", kNikon, "", "D65"), "")), 0.1)
+      << "not what the sensor's scene has";
+  EXPECT_GT(seen(lit_dome("n.json", kNikon, "\"D65\""), ""), 0.3);
+  EXPECT_GT(seen(lit_dome("n.json", kNikon), " --set /output/white=D65"), 0.3);
 }
 
 TEST(White, InfoSaysWhichAndWhy) {
   const auto white = [](const std::string& path) { return abbe("info --json " + path).json()["white"]; };
-  const auto chosen = white(scene("i.json", kNikon));
+  const auto chosen = white(lit_dome("i.json", kNikon));
   EXPECT_EQ(chosen["name"], "dome");
   EXPECT_EQ(chosen["because"], "gives the film 100 % of its light");
   EXPECT_NEAR(chosen["xy"][0].get<double>(), 0.4476, 1e-3);
-  EXPECT_EQ(white(scene("i.json", kNikon, "\"FL11\""))["because"], "asked for");
-  EXPECT_TRUE(white(scene("i.json", R"("channels": {"L": {"band": [400, 700]}})")).is_null());
-  EXPECT_NE(abbe("info " + scene("i.json", kNikon)).out.find("white        dome (x 0.44"), std::string::npos);
+  EXPECT_EQ(white(lit_dome("i.json", kNikon, "\"FL11\""))["because"], "asked for");
+  EXPECT_TRUE(white(lit_dome("i.json", R"("channels": {"L": {"band": [400, 700]}})")).is_null());
+  EXPECT_NE(abbe("info " + lit_dome("i.json", kNikon)).out.find("white        dome (x 0.44"),
+            std::string::npos);
 }
 
 TEST(White, PartsOfOtherWhitesMerge) {
-  const std::string path = scene("p.json", kObserver);
-  ASSERT_EQ(render(path, file("a.abbepart"), "--sample-range 0:32").code, 0);
-  ASSERT_EQ(render(path, file("b.abbepart"), "--sample-range 32:64").code, 0);
-  ASSERT_EQ(render(path, file("whole.exr")).code, 0);
+  const std::string path = lit_dome("p.json", kObserver);
+  ASSERT_EQ(run_render(path, file("a.abbepart"), "--sample-range 0:32").code, 0);
+  ASSERT_EQ(run_render(path, file("b.abbepart"), "--sample-range 32:64").code, 0);
+  ASSERT_EQ(run_render(path, file("whole.exr")).code, 0);
   // As another machine's pilot may have it.
   RenderPart b = read_part(file("b.abbepart"));
   b.identity["white"] = "faint";
@@ -135,24 +136,24 @@ TEST(White, PartsOfOtherWhitesMerge) {
 
 // What cannot be written, or is locked, is refused before a pilot looks for the white.
 TEST(White, IsSettledAfterTheOutputs) {
-  const std::string path = scene("first.json", kObserver, "[0.7, 0.29]");  // itself an error
-  EXPECT_EQ(render(path, "/nonexistent/a.exr").code, 5);
-  EXPECT_EQ(render(path, file("a.exr")).code, 3);
+  const std::string path = lit_dome("first.json", kObserver, "[0.7, 0.29]");  // itself an error
+  EXPECT_EQ(run_render(path, "/nonexistent/a.exr").code, 5);
+  EXPECT_EQ(run_render(path, file("a.exr")).code, 3);
   const Outcome piped = shell("cat " + path + " | " ABBE_BINARY " render - --quiet -o " + file("a.exr"));
   EXPECT_NE(piped.err.find("<stdin>: /output/white: is no white"), std::string::npos) << piped.err;
 }
 
 TEST(White, ALightOfAnAmbiguousNameIsNone) {
-  std::string text = read_file(scene("twins.json", kObserver));
+  std::string text = read_file(lit_dome("twins.json", kObserver));
   for (const char* name : {"faint", "dome"})
     text.replace(text.find(fmt::format("\"name\": \"{}\"", name)), 8 + std::string(name).size() + 2,
                  R"("name": "lamp")");
   const std::string path = scratch().write("twins.json", text).string();
   const std::string words = "several lights are called \"lamp\"";
-  const Outcome rendered = render(path, file("twins.exr"), R"(--set '/output/white="lamp"')");
+  const Outcome rendered = run_render(path, file("twins.exr"), R"(--set '/output/white="lamp"')");
   EXPECT_EQ(rendered.code, 3);
   EXPECT_NE(rendered.err.find(words), std::string::npos) << rendered.err;
-  ASSERT_EQ(render(path, file("twins.exr")).code, 0);
+  ASSERT_EQ(run_render(path, file("twins.exr")).code, 0);
   const Outcome developed =
       abbe("develop " + file("twins.exr") + " --set /output/white=lamp --display " + file("x.png"));
   EXPECT_EQ(developed.code, 2);
@@ -160,17 +161,17 @@ TEST(White, ALightOfAnAmbiguousNameIsNone) {
 }
 
 TEST(White, OfASensorWithoutColoursIsWarnedOf) {
-  const std::string path = scene("one.json", R"("channels": {"L": {"band": [400, 700]}})", "\"A\"");
+  const std::string path = lit_dome("one.json", R"("channels": {"L": {"band": [400, 700]}})", "\"A\"");
   const Outcome info = abbe("info --json " + path);
   EXPECT_EQ(info.code, 0);
   EXPECT_TRUE(info.json()["white"].is_null());
   EXPECT_NE(info.err.find("/output/white: warning: a white without effect"), std::string::npos) << info.err;
-  EXPECT_EQ(render(path, file("one.exr"), "--strict").code, 0);
+  EXPECT_EQ(run_render(path, file("one.exr"), "--strict").code, 0);
 }
 
 TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {
   const auto refused = [](const std::string& white, const std::string& words, const std::string& sensor) {
-    const Outcome run = render(scene("bad.json", sensor, white), file("bad.exr"));
+    const Outcome run = run_render(lit_dome("bad.json", sensor, white), file("bad.exr"));
     EXPECT_EQ(run.code, 3) << white;
     EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
   };
@@ -179,7 +180,7 @@ TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {
   refused("[0.5, 0.6]", "x + y is above 1", kObserver);
   refused("[0.5, 1]", "allowed (0, 1)", kObserver);
   refused("[0.7, 0.29]", "no white that an eye adapts to", kNikon);
-  ASSERT_EQ(render(scene("ok.json", kObserver), file("ok.exr")).code, 0);
+  ASSERT_EQ(run_render(lit_dome("ok.json", kObserver), file("ok.exr")).code, 0);
   const Outcome run =
       abbe("develop " + file("ok.exr") + " --set /output/white=dom --display " + file("x.png"));
   EXPECT_NE(run.code, 0);
@@ -192,7 +193,7 @@ TEST(White, WhatSaturatesIsNotCyan) {
   const std::string sensor =
       R"("response": "quantum", "pixel_pitch_um": 10, "exposure_s": 1, "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}},
          "readout": {"gain_e_per_dn": 1, "bits": 10, "full_well_e": 900})";
-  ASSERT_EQ(render(scene("hot.json", sensor), film).code, 0);
+  ASSERT_EQ(run_render(lit_dome("hot.json", sensor), film).code, 0);
   ASSERT_EQ(abbe("develop " + film + " --display " + file("hot.png")).code, 0);
   const auto [r, g, b] = means(read_picture(file("hot.png")));
   EXPECT_NEAR(r, 1, 0.02);
@@ -202,7 +203,7 @@ TEST(White, WhatSaturatesIsNotCyan) {
 
 TEST(White, SpectralFilmsSayTheUnitOfTheirBins) {
   const std::string film = file("units.exr");
-  ASSERT_EQ(render(scene("u.json", kSpectral), film).code, 0);
+  ASSERT_EQ(run_render(lit_dome("u.json", kSpectral), film).code, 0);
   const auto& metadata = read_exr(film).metadata;
   EXPECT_EQ(metadata.at("emissiveUnits"), "W.m^-2.sr^-1");
   EXPECT_EQ(metadata.at("channel.S0.552,500000nm"), "radiance, W per m^2 and sr of the band");

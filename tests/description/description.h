@@ -17,7 +17,7 @@
 #include "io/json.h"
 #include "tests/description/examples.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 inline void write(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
@@ -143,4 +143,4 @@ inline std::string lit(const std::string& emission) {
   return fmt::format(R"({{"lights": [{{"point": {{"at": [0, 0, 1]}}, "emission": {}}}]}})", emission);
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -12,13 +12,13 @@
 namespace abbe {
 namespace {
 
-using DescriptionFaultsTest = testing::DescriptionTest;
-using testing::Fault;
-using testing::lit;
-using testing::Loaded;
-using testing::painted;
-using testing::sensed;
-using testing::shaped;
+using DescriptionFaultsTest = test::DescriptionTest;
+using test::Fault;
+using test::lit;
+using test::Loaded;
+using test::painted;
+using test::sensed;
+using test::shaped;
 
 TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
   const std::string unit = R"("sphere": {"center": [0, 0, 0], "radius": 1})";

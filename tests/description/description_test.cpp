@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
 
@@ -13,19 +12,18 @@
 #include "scene/camera/lens_optics.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
+#include "tests/angles.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3d;
-using testing::DescriptionTest;
-using testing::kSquare;
-using testing::Loaded;
-using testing::ply;
-using testing::shaped;
-using testing::write;
-
-constexpr double kPi = std::numbers::pi;
+using test::DescriptionTest;
+using test::kSquare;
+using test::Loaded;
+using test::ply;
+using test::shaped;
+using test::write;
 
 void expect_near(const V3d& a, const V3d& b, double tolerance = 1e-12) {
   EXPECT_LE((a - b).length(), tolerance) << a << " and " << b;

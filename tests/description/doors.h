@@ -16,7 +16,7 @@
 #include "description/scene.h"
 #include "io/schema/read.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// Converts scenes of other renderers in a folder of their own.
 class DoorsTest : public ::testing::Test {
@@ -89,4 +89,4 @@ struct DoorFault {
   std::string message;  ///< With its place.
 };
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -10,11 +10,11 @@
 namespace abbe {
 namespace {
 
-using testing::Asset;
+using test::Asset;
 
 const std::string kPrimitive = R"("attributes": {"POSITION": 0}, "indices": 1)";
 
-class GltfDoorTest : public testing::DoorsTest {
+class GltfDoorTest : public test::DoorsTest {
  protected:
   // Two triangles of the materials 0 and 1, or as said, with a camera.
   static Asset two(
@@ -95,7 +95,7 @@ TEST_F(GltfDoorTest, WhatIsDroppedIsTold) {
 }
 
 TEST_F(GltfDoorTest, BinaryFilesAreOfVersion2) {
-  std::string old = testing::whole_glb();
+  std::string old = test::whole_glb();
   old[4] = 1;
   EXPECT_FALSE(convert("a.glb", old));
   EXPECT_TRUE(tells("not of version 2")) << told_;
@@ -108,7 +108,7 @@ TEST_F(GltfDoorTest, RotationsHaveADirection) {
   EXPECT_TRUE(tells("/nodes/0/rotation: error: a rotation of length 0")) << told_;
 }
 
-using GltfMeshTest = testing::MeshFileTest;
+using GltfMeshTest = test::MeshFileTest;
 
 TEST_F(GltfMeshTest, RotationsHaveADirection) {
   Asset asset;

@@ -7,9 +7,9 @@
 namespace abbe {
 namespace {
 
-using testing::kBegin;
-using testing::PbrtTest;
-using testing::SphereBody;
+using test::kBegin;
+using test::PbrtTest;
+using test::SphereBody;
 
 TEST_F(PbrtTest, GlassesAreThoseOfItsNames) {
   const auto index = [&](const std::string& name) {

@@ -16,7 +16,7 @@
 #include "io/data_directory.h"
 #include "io/json.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 namespace fs = std::filesystem;
 
@@ -65,4 +65,4 @@ inline std::string completed(const std::string& fragment) {
   return text + fragment.substr(fragment.find('{') + 1);
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

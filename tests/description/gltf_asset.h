@@ -5,7 +5,7 @@
 
 #include "mesh_files.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 inline std::string base64(const std::string& bytes) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -60,4 +60,4 @@ inline std::string whole_glb(Asset asset = {}) {
   return glb(asset.text(), triangle_bytes());
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -6,8 +6,8 @@
 namespace abbe {
 namespace {
 
-using testing::Asset;
-using testing::DoorFault;
+using test::Asset;
+using test::DoorFault;
 
 // A triangle of the material 0 with a camera that sees it, and more.
 std::string gltf(const std::string& material, const std::string& nodes = "", const std::string& roots = "",
@@ -23,7 +23,7 @@ std::string gltf(const std::string& material, const std::string& nodes = "", con
   return asset.text();
 }
 
-class GltfSceneTest : public testing::DoorsTest {
+class GltfSceneTest : public test::DoorsTest {
  protected:
   // The parts that all scenes of `gltf` share, with what a test adds.
   static std::string twin(const std::string& material, const std::string& lights = "",
@@ -155,8 +155,8 @@ TEST_F(GltfSceneTest, WithoutACameraAllIsSeen) {
 }
 
 TEST_F(GltfSceneTest, ReadsBinaryFiles) {
-  EXPECT_TRUE(convert("a.glb", testing::whole_glb())) << told_;
-  EXPECT_FALSE(convert("a.glb", testing::whole_glb().substr(0, 60)));
+  EXPECT_TRUE(convert("a.glb", test::whole_glb())) << told_;
+  EXPECT_FALSE(convert("a.glb", test::whole_glb().substr(0, 60)));
   EXPECT_TRUE(tells("a.glb: error: malformed or truncated GLB")) << told_;
 }
 

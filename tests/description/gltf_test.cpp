@@ -8,17 +8,17 @@
 namespace abbe {
 namespace {
 
-using testing::Asset;
-using testing::base64;
-using testing::Fault;
-using testing::glb;
-using testing::Loaded;
-using testing::raw;
-using testing::shaped;
-using testing::triangle_bytes;
-using testing::write;
+using test::Asset;
+using test::base64;
+using test::Fault;
+using test::glb;
+using test::Loaded;
+using test::raw;
+using test::shaped;
+using test::triangle_bytes;
+using test::write;
 
-class GltfTest : public testing::MeshFileTest {
+class GltfTest : public test::MeshFileTest {
  protected:
   // What is said of a scene with the asset.
   std::string load_with(const Asset& asset) {

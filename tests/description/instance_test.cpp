@@ -12,11 +12,11 @@ namespace {
 using Imath::M44d;
 using Imath::V3d;
 using Imath::V3f;
-using testing::Fault;
-using testing::Loaded;
-using testing::Random;
-using testing::scene_of;
-using InstanceFileTest = testing::DescriptionTest;
+using test::Fault;
+using test::Loaded;
+using test::Random;
+using test::scene_of;
+using InstanceFileTest = test::DescriptionTest;
 
 // Turned, stretched up to thirtyfold along axes of its own, perhaps a mirror, and moved.
 M44d random_map(Random& random, bool uniform) {
@@ -299,7 +299,7 @@ TEST_F(InstanceFileTest, RefusesWhatCannotBePlaced) {
            R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}, "material": "card", "emission": {"spectrum": 1})"),
        ErrorCode::scene, "/objects/o/shapes/0/emission: error: a shape of an object cannot emit"},
       {"a stretched plain shape",
-       testing::shaped(R"("sphere": {"center": [0, 0, 0], "radius": 1}, "transform": {"scale": [1, 2, 3]})"),
+       test::shaped(R"("sphere": {"center": [0, 0, 0], "radius": 1}, "transform": {"scale": [1, 2, 3]})"),
        ErrorCode::scene, "expected a number (got an array"},
       {"no objects", std::string(kMaterials) + R"("objects": []})", ErrorCode::scene,
        "expected an object of objects"},

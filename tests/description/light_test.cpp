@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,16 +8,15 @@
 #include "description.h"
 #include "spectral/colorimetry.h"
 #include "spectral/sources.h"
+#include "tests/angles.h"
 
 // Lamps and what they send out, as scene files say it.
 
 namespace abbe {
 namespace {
 
-using testing::DescriptionTest;
-using testing::Loaded;
-
-constexpr double kPi = std::numbers::pi;
+using test::DescriptionTest;
+using test::Loaded;
 
 TEST_F(DescriptionTest, NormalisesEmission) {
   const std::string quad = R"("quad": {"corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 3, 0]})";

@@ -10,10 +10,10 @@
 namespace abbe {
 namespace {
 
-using testing::DescriptionTest;
-using testing::Loaded;
-using testing::shaped;
-using testing::write;
+using test::DescriptionTest;
+using test::Loaded;
+using test::shaped;
+using test::write;
 
 TEST_F(DescriptionTest, ReadsMaterials) {
   const Loaded loaded = load(R"({"materials": {
@@ -188,8 +188,7 @@ TEST_F(DescriptionTest, FindsIndicesBesideTheScene) {
   write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.6\n1100,1.6\n");
   write(folder_ / "own.yml",
         "DATA:\n  - type: formula 5\n    wavelength_range: 0.3 1.1\n    coefficients: 1.7 0 1\n");
-  write(folder_ / "scene.json",
-        testing::completed(R"({"materials": {"table": {"dielectric": {"ior": "own.csv"}},
+  write(folder_ / "scene.json", test::completed(R"({"materials": {"table": {"dielectric": {"ior": "own.csv"}},
     "entry": {"dielectric": {"ior": "own.yml"}}}})"));
   Diagnostics diagnostics;
   const auto scene = load_scene(std::filesystem::relative(folder_ / "scene.json"), {}, diagnostics);

@@ -1,6 +1,6 @@
 #include "tests/description/description.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 namespace {
 
 class MediumDescription : public DescriptionTest {
@@ -117,4 +117,4 @@ TEST_F(MediumDescription, RefusesDamagedGrids) {
 }
 
 }  // namespace
-}  // namespace abbe::testing
+}  // namespace abbe::test

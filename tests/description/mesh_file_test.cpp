@@ -8,26 +8,26 @@
 namespace abbe {
 namespace {
 
-using MeshFileTest = testing::MeshFileTest;
+using MeshFileTest = test::MeshFileTest;
 
 /// A sound file of every format, by name.
 std::map<std::string, std::string> sound_files() {
-  return {{"a.glb", testing::whole_glb()},
-          {"a.gltf", testing::Asset().text()},
+  return {{"a.glb", test::whole_glb()},
+          {"a.gltf", test::Asset().text()},
           {"a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nusemtl red\nf 1//1 2//1 -1//1\n"},
-          {"text.ply", testing::ply(4, 1, testing::kSquare + "4 0 1 2 3\n")},
-          {"binary.ply", testing::binary_ply()}};
+          {"text.ply", test::ply(4, 1, test::kSquare + "4 0 1 2 3\n")},
+          {"binary.ply", test::binary_ply()}};
 }
 
 // Any prefix of a file, and any byte of it changed, is read or refused: never more.
 TEST_F(MeshFileTest, SurvivesDamage) {
-  testing::write(folder_ / "a.mtl", "newmtl red\nKd 0.8 0.1 0.05\n");
+  test::write(folder_ / "a.mtl", "newmtl red\nKd 0.8 0.1 0.05\n");
   for (const auto& [name, sound] : sound_files()) {
     SCOPED_TRACE(name);
     EXPECT_EQ(read(name, sound, FileMaterials::wanted).submeshes.size(), 1U);
     std::size_t refused = 0;
     const auto attempt = [&](const std::string& bytes) {
-      testing::write(folder_ / name, bytes);
+      test::write(folder_ / name, bytes);
       Diagnostics diagnostics;
       const auto file = load_mesh_file(folder_ / name, FileMaterials::wanted, {}, diagnostics);
       EXPECT_NE(file.has_value(), diagnostics.has_errors());

@@ -10,7 +10,7 @@
 #include "description.h"
 #include "description/meshes/mesh_file.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 template <typename T>
 std::string raw(const std::vector<T>& values) {
@@ -54,4 +54,4 @@ class MeshFileTest : public DescriptionTest {
   }
 };
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -8,9 +8,9 @@
 namespace abbe {
 namespace {
 
-using MeterFaultsTest = testing::DescriptionTest;
-using testing::Fault;
-using testing::metered;
+using MeterFaultsTest = test::DescriptionTest;
+using test::Fault;
+using test::metered;
 
 TEST_F(MeterFaultsTest, AreExplained) {
   const std::vector<Fault> faults{

@@ -8,7 +8,7 @@
 namespace abbe {
 namespace {
 
-using testing::DoorFault;
+using test::DoorFault;
 
 std::string whole(const std::string& elements) {
   return "<scene version=\"3.0.0\">\n"
@@ -16,7 +16,7 @@ std::string whole(const std::string& elements) {
          elements + "\n</scene>\n";
 }
 
-class MitsubaTest : public testing::DoorsTest {
+class MitsubaTest : public test::DoorsTest {
  protected:
   spec::Scene scene(const std::string& elements) {
     auto made = convert("a.xml", whole(elements));

@@ -7,12 +7,12 @@
 namespace abbe {
 namespace {
 
-using testing::Fault;
-using testing::Loaded;
-using testing::shaped;
-using testing::write;
+using test::Fault;
+using test::Loaded;
+using test::shaped;
+using test::write;
 
-class ObjTest : public testing::MeshFileTest {};
+class ObjTest : public test::MeshFileTest {};
 
 constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
@@ -85,10 +85,10 @@ TEST_F(ObjTest, BringsItsMaterials) {
 }
 
 TEST_F(ObjTest, PartsHaveMaterialsOfTheScene) {
-  testing::write(folder_ / "two.obj",
-                 "mtllib chair.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl wood\nf 1 2 3\nf 1 2 4\n"
-                 "usemtl wool\nf 1 3 4\n");
-  testing::write(folder_ / "chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\nnewmtl wool\nKd 1 1 1\n");
+  test::write(folder_ / "two.obj",
+              "mtllib chair.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl wood\nf 1 2 3\nf 1 2 4\n"
+              "usemtl wool\nf 1 3 4\n");
+  test::write(folder_ / "chair.mtl", "newmtl wood\nKd 0.4 0.2 0.1\nnewmtl wool\nKd 1 1 1\n");
   const auto part = [](const char* of) {
     return shaped(fmt::format(R"("mesh": {{"file": "two.obj", "of_material": "{}"}})", of));
   };

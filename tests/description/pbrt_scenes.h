@@ -5,7 +5,7 @@
 
 #include "doors.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 // A camera that needs no mirror, and what begins a world.
 inline const std::string kBegin =
@@ -44,4 +44,4 @@ using SphereBody = spec::PlainBody<spec::Sphere>;
 using QuadBody = spec::PlainBody<spec::Quad>;
 using DiscBody = spec::PlainBody<spec::Disc>;
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -8,11 +8,11 @@
 namespace abbe {
 namespace {
 
-using testing::DiscBody;
-using testing::kBegin;
-using testing::PbrtTest;
-using testing::QuadBody;
-using testing::SphereBody;
+using test::DiscBody;
+using test::kBegin;
+using test::PbrtTest;
+using test::QuadBody;
+using test::SphereBody;
 
 TEST_F(PbrtTest, TransformsApplyTheLastFirst) {
   const auto sphere =

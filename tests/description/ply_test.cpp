@@ -18,13 +18,13 @@
 namespace abbe {
 namespace {
 
-using PlyTest = testing::DescriptionTest;
-using testing::Fault;
-using testing::kSquare;
-using testing::Loaded;
-using testing::ply;
-using testing::shaped;
-using testing::write;
+using PlyTest = test::DescriptionTest;
+using test::Fault;
+using test::kSquare;
+using test::Loaded;
+using test::ply;
+using test::shaped;
+using test::write;
 
 TEST_F(PlyTest, ReadsPly) {
   const auto square = std::get<Mesh>(shape(R"("mesh": "bench.ply")"));
@@ -33,7 +33,7 @@ TEST_F(PlyTest, ReadsPly) {
   EXPECT_EQ(square.triangles, fan) << "a polygon is cut into triangles";
   EXPECT_DOUBLE_EQ(area(square), 1);
 
-  const std::string binary = testing::binary_ply();
+  const std::string binary = test::binary_ply();
   write(folder_ / "binary.ply", binary);
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "binary.ply")")), 2);
   std::string infinite = binary;
@@ -64,7 +64,7 @@ TEST_F(PlyTest, ReadsWhatIsPacked) {
     std::ifstream file(folder_ / "packed.ply.gz", std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
-  const std::string good = packed(testing::binary_ply());
+  const std::string good = packed(test::binary_ply());
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "packed.ply.gz")")), 2);
   write(folder_ / "packed.PLY.GZ", good);
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "packed.PLY.GZ")")), 2);
@@ -75,7 +75,7 @@ TEST_F(PlyTest, ReadsWhatIsPacked) {
       {good.substr(0, good.size() - 1), "torn"},
       {other, "damaged ("},
       {"", "is not packed by gzip"},
-      {testing::binary_ply(), "is not packed by gzip"},
+      {test::binary_ply(), "is not packed by gzip"},
       {packed("solid\n"), "malformed PLY header"}};
   for (const auto& [bytes, message] : faults) {
     write(folder_ / "packed.ply.gz", bytes);
@@ -84,7 +84,7 @@ TEST_F(PlyTest, ReadsWhatIsPacked) {
     EXPECT_NE(loaded.text().find(message), std::string::npos) << message << ": " << loaded.text();
   }
   write(folder_ / "packed.ply.gz", good);
-  const std::size_t size = testing::binary_ply().size();
+  const std::size_t size = test::binary_ply().size();
   for (const std::size_t limit : {size, size - 1}) {
     HeldMemory held(nullptr, 0);
     std::string bytes;

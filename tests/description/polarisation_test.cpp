@@ -8,11 +8,11 @@
 namespace abbe {
 namespace {
 
-using testing::Fault;
-using testing::lit;
-using testing::Loaded;
-using testing::sensed;
-using PolarisationTest = testing::DescriptionTest;
+using test::Fault;
+using test::lit;
+using test::Loaded;
+using test::sensed;
+using PolarisationTest = test::DescriptionTest;
 
 constexpr const char* kPixel = R"("resolution": [1, 1], )";
 

@@ -7,17 +7,17 @@
 namespace abbe {
 namespace {
 
-using ReadoutDescription = testing::DescriptionTest;
-using testing::Loaded;
+using ReadoutDescription = test::DescriptionTest;
+using test::Loaded;
 
-std::string sensor(const std::string& readout, const std::string& response = "quantum") {
+std::string read_out_sensor(const std::string& readout, const std::string& response = "quantum") {
   return fmt::format(
       R"({{"sensor": {{"resolution": [4, 3], "channels": {{"all": 1}}, "response": "{}", "readout": {}}}}})",
       response, readout);
 }
 
 TEST_F(ReadoutDescription, EveryKeyArrives) {
-  const Loaded loaded = load(sensor(
+  const Loaded loaded = load(read_out_sensor(
       R"({"gain_e_per_dn": 1.5, "bits": 14, "offset_dn": 200.5, "full_well_e": 20000, "read_noise_e": 9,
           "dark_e_per_s": 2, "prnu_percent": 1.25, "dsnu_e": 3, "serial": 41,
           "response_curve": [[0, 0], [0.5, 0.75], [1, 1]]})"));
@@ -39,7 +39,7 @@ TEST_F(ReadoutDescription, EveryKeyArrives) {
 }
 
 TEST_F(ReadoutDescription, WhatIsNotSaidIsIdeal) {
-  const Loaded loaded = load(sensor(R"({"gain_e_per_dn": 2, "bits": 12})"));
+  const Loaded loaded = load(read_out_sensor(R"({"gain_e_per_dn": 2, "bits": 12})"));
   ASSERT_TRUE(loaded.scene) << loaded.text();
   const Readout& readout = *loaded->readout;
   EXPECT_GT(readout.full_well_e, 1e300);
@@ -51,7 +51,7 @@ TEST_F(ReadoutDescription, WhatIsNotSaidIsIdeal) {
 }
 
 TEST_F(ReadoutDescription, ItNeedsChannelsThatCountElectrons) {
-  const Loaded loaded = load(sensor(R"({"gain_e_per_dn": 2, "bits": 12})", "energy"));
+  const Loaded loaded = load(read_out_sensor(R"({"gain_e_per_dn": 2, "bits": 12})", "energy"));
   EXPECT_FALSE(loaded.scene);
   EXPECT_NE(loaded.text().find(
                 "/sensor/readout: error: a read-out needs channels that count electrons (got "
@@ -92,7 +92,7 @@ TEST_F(ReadoutDescription, FaultsAreNamed) {
         std::pair{R"({"iso": 1, "bits": 8, "full_well_e": 10})",
                   "iso: error: the well of 10 electrons is full"},
         std::pair{R"(3)", "/sensor/readout: error: expected an object"}}) {
-    const Loaded loaded = load(sensor(readout));
+    const Loaded loaded = load(read_out_sensor(readout));
     EXPECT_FALSE(loaded.scene) << readout;
     EXPECT_NE(loaded.text().find(message), std::string::npos) << readout << '\n' << loaded.text();
   }
@@ -100,7 +100,8 @@ TEST_F(ReadoutDescription, FaultsAreNamed) {
 
 TEST_F(ReadoutDescription, ASpeedStandsForTheGainThatHasIt) {
   for (const double iso : {100.0, 400.0, 6400.0}) {
-    const Loaded loaded = load(sensor(fmt::format(R"({{"iso": {}, "bits": 14, "offset_dn": 600}})", iso)));
+    const Loaded loaded =
+        load(read_out_sensor(fmt::format(R"({{"iso": {}, "bits": 14, "offset_dn": 600}})", iso)));
     ASSERT_TRUE(loaded.scene) << loaded.text();
     const auto sensitivity = daylight_sensitivity(
         loaded->channels, gathering_area(loaded->camera.pixel_pitch, loaded->fill_factor));

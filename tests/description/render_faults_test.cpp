@@ -8,8 +8,8 @@
 namespace abbe {
 namespace {
 
-using RenderFaultsTest = testing::DescriptionTest;
-using testing::Fault;
+using RenderFaultsTest = test::DescriptionTest;
+using test::Fault;
 
 TEST_F(RenderFaultsTest, OfSamplingAreExplained) {
   const std::vector<Fault> faults{

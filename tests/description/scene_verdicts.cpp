@@ -46,8 +46,8 @@ int main(int count, char**) {
   using namespace abbe;
   if (count > 1) {
     for (const char* folder : {"scenes", "bench"})
-      for (const auto& path : testing::scene_files(folder)) write_example(testing::file_text(path));
-    for (const std::string& example : testing::guide_examples()) write_example(testing::completed(example));
+      for (const auto& path : test::scene_files(folder)) write_example(test::file_text(path));
+    for (const std::string& example : test::guide_examples()) write_example(test::completed(example));
     return 0;
   }
   for (std::string line; std::getline(std::cin, line);) std::cout << verdict(line) << '\n';

@@ -24,13 +24,13 @@ namespace abbe {
 namespace {
 
 namespace fs = std::filesystem;
-using SchemaTest = testing::DescriptionTest;
-using testing::completed;
-using testing::file_text;
-using testing::guide_examples;
-using testing::Loaded;
-using testing::scene_files;
-using testing::scene_guide_text;
+using SchemaTest = test::DescriptionTest;
+using test::completed;
+using test::file_text;
+using test::guide_examples;
+using test::Loaded;
+using test::scene_files;
+using test::scene_guide_text;
 
 TEST_F(SchemaTest, ShippedScenesLoad) {
   ASSERT_GE(scene_files("scenes").size(), 5U);

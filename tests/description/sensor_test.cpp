@@ -11,13 +11,13 @@
 namespace abbe {
 namespace {
 
-using testing::Fault;
-using testing::Loaded;
+using test::Fault;
+using test::Loaded;
 namespace fs = std::filesystem;
-using testing::painted;
-using testing::sensed;
-using testing::write;
-using SensorTest = testing::DescriptionTest;
+using test::painted;
+using test::sensed;
+using test::write;
+using SensorTest = test::DescriptionTest;
 
 Channel only_channel(const Loaded& loaded) {
   EXPECT_TRUE(loaded.scene) << loaded.text();

@@ -6,16 +6,16 @@
 namespace abbe {
 namespace {
 
-using SpectralDescription = testing::DescriptionTest;
-using testing::Loaded;
+using SpectralDescription = test::DescriptionTest;
+using test::Loaded;
 
-std::string sensor(const std::string& members) {
+std::string spectral_sensor(const std::string& members) {
   return fmt::format(R"({{"sensor": {{"resolution": [4, 3], {}}}}})", members);
 }
 
 TEST_F(SpectralDescription, BinsAreChannels) {
   const Loaded loaded =
-      load(sensor(R"("spectral": {"from_nm": 380, "to_nm": 381, "step_nm": 0.1}, "exposure_s": 2)"));
+      load(spectral_sensor(R"("spectral": {"from_nm": 380, "to_nm": 381, "step_nm": 0.1}, "exposure_s": 2)"));
   ASSERT_TRUE(loaded.scene) << loaded.text();
   ASSERT_TRUE(loaded->spectral);
   EXPECT_EQ(loaded->spectral->from_nm, 380);
@@ -46,7 +46,7 @@ TEST_F(SpectralDescription, FaultsAreNamed) {
            {bins + R"(, "lens_transmission": 0.5)", "lens_transmission goes with channels"},
            {bins + R"(, "mosaic": [["405nm"]])", "mosaic goes with channels"},
            {bins + R"(, "readout": {"gain_e_per_dn": 1, "bits": 8})", "channels that count electrons"}}) {
-    const Loaded loaded = load(sensor(members));
+    const Loaded loaded = load(spectral_sensor(members));
     EXPECT_FALSE(loaded.scene) << members;
     EXPECT_NE(loaded.text().find(message), std::string::npos) << members << '\n' << loaded.text();
   }

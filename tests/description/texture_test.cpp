@@ -13,14 +13,14 @@ namespace abbe {
 namespace {
 
 using Imath::V2f;
-using testing::Fault;
-using testing::Loaded;
-using testing::painted;
-using testing::write;
+using test::Fault;
+using test::Loaded;
+using test::painted;
+using test::write;
 
 const SampledSpectrum kWavelengths({400, 450, 500, 550, 600, 650, 700, 750});
 
-class TextureTest : public testing::MeshFileTest {
+class TextureTest : public test::MeshFileTest {
  protected:
   // The reflectance at (u, v) and each of those wavelengths of a material described so.
   SampledSpectrum reflectance(const std::string& json, const V2f& uv) {
@@ -129,7 +129,7 @@ TEST_F(TextureTest, ExcessIsToldTexelByTexel) {
 
 TEST_F(TextureTest, FaultsAreRefused) {
   write(folder_ / "text.exr", "no image");
-  write(folder_ / "cut.exr", testing::file_text(folder_ / "paint.exr").substr(0, 300));
+  write(folder_ / "cut.exr", test::file_text(folder_ / "paint.exr").substr(0, 300));
   write_picture(folder_ / "whole.png", {64, 64, {{"Y", std::vector<float>(4096, 0.5F)}}, {}});
   write_exr(folder_ / "bad.exr", {2, 1, {{"a", {0.5F, NAN}}}, {}});
   write_exr(folder_ / "over.exr", {1, 3, {{"a", {0.5F, 1.5F, 0}}}, {}});
@@ -156,7 +156,7 @@ TEST_F(TextureTest, FaultsAreRefused) {
         ErrorCode::scene, "filter"},
        {"URL", painted(R"({"image": "http://host/a.png", "weights": {"a": 1}})"), ErrorCode::input,
         "expected a file (got the URL"}});
-  const std::string png = testing::file_text(folder_ / "whole.png");
+  const std::string png = test::file_text(folder_ / "whole.png");
   write(folder_ / "cut.png", png.substr(0, png.size() / 2));
   for (const char* file : {"none.png", "none.exr", "text.exr", "cut.exr", "cut.png", ".", "/dev/zero"})
     DescriptionTest::expect_refused(
@@ -175,7 +175,7 @@ TEST_F(TextureTest, MeshFilesBringCoordinates) {
   EXPECT_EQ(fan[0], (Corners{V2f(0, 0), V2f(1, 0), V2f(1, 0.5F)}));
   EXPECT_EQ(fan[1], (Corners{V2f(0, 0), V2f(1, 0.5F), V2f(1, 0.5F)}));
 
-  testing::Asset asset;
+  test::Asset asset;
   asset.primitive = R"("attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1)";
   asset.accessors.pop_back();
   asset.accessors +=
@@ -183,9 +183,9 @@ TEST_F(TextureTest, MeshFilesBringCoordinates) {
   asset.views.pop_back();
   asset.views += R"(, {"buffer": 0, "byteOffset": 44, "byteStride": 4, "byteLength": 12}])";
   const std::string bytes =
-      testing::triangle_bytes() + testing::raw<std::uint8_t>({0, 255, 0, 0, 255, 255, 0, 0, 0, 0, 0, 0});
+      test::triangle_bytes() + test::raw<std::uint8_t>({0, 255, 0, 0, 255, 255, 0, 0, 0, 0, 0, 0});
   asset.buffer = fmt::format(R"({{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}})",
-                             bytes.size(), testing::base64(bytes));
+                             bytes.size(), test::base64(bytes));
   const Loaded gltf = load_mesh("a.gltf", asset.text());
   ASSERT_TRUE(gltf.scene) << gltf.text();
   const auto& triangle = std::get<Mesh>(gltf->shapes.at(0).shape).coordinates;

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-using testing::counting_film;
+using test::counting_film;
 
 ExposedFilm exposed(const std::vector<Override>& overrides = {}) {
   Diagnostics diagnostics;

@@ -8,7 +8,7 @@
 namespace abbe {
 namespace {
 
-using testing::counting_film;
+using test::counting_film;
 
 std::optional<FilmSensor> sensor_of(const Image& film, const std::vector<Override>& overrides,
                                     Diagnostics& diagnostics) {

@@ -2,7 +2,7 @@
 
 #include "io/image.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// A film of two electron-counting pixels, 400 and 900 electrons of area 1e-10 m^2, as a render writes it.
 inline Image counting_film() {
@@ -19,4 +19,4 @@ inline Image counting_film() {
   return film;
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

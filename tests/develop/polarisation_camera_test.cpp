@@ -12,7 +12,7 @@ namespace abbe {
 namespace {
 
 // What four polarisers, of which one leaks and counts twice as much, see of one light.
-Image film(int width, int height) {
+Image film_of_polarisers(int width, int height) {
   const double i = 4;
   const double q = -1;
   const double u = 2;
@@ -43,13 +43,13 @@ void expect_the_light(const Image& stokes) {
 }
 
 TEST(PolarisationCamera, SolvesForTheStokesVector) {
-  expect_the_light(stokes_of_polarisers(film(2, 1)));
+  expect_the_light(stokes_of_polarisers(film_of_polarisers(2, 1)));
 }
 
 TEST(PolarisationCamera, InterpolatesItsMosaic) {
   const Mosaic mosaic{2, 2, {2, 1, 3, 0}};
   const std::vector<std::string> names{"I0", "I45", "I90", "I135"};
-  Image planes = film(6, 4);
+  Image planes = film_of_polarisers(6, 4);
   for (const std::string& name : names)
     planes.channels.push_back({"Variance." + name, std::vector<float>(planes.pixels(), 0)});
   Image raw = mosaicked(planes, mosaic, names);
@@ -60,7 +60,7 @@ TEST(PolarisationCamera, InterpolatesItsMosaic) {
 }
 
 TEST(PolarisationCamera, NeedsThreeAngles) {
-  Image two = film(1, 1);
+  Image two = film_of_polarisers(1, 1);
   two.metadata.erase("analyser.I45");
   two.metadata.erase("analyser.I135");
   EXPECT_TRUE(stokes_of_polarisers(two).channels.empty());

@@ -13,7 +13,7 @@ namespace abbe {
 namespace {
 
 // Two pixels of two planes, lit by two lights.
-Image film() {
+Image film_of_two_lights() {
   return {2,
           1,
           {{"R", {5, 8}},
@@ -33,7 +33,7 @@ Image film() {
 }
 
 Image relit(const std::vector<LightFactor>& factors) {
-  Image image = film();
+  Image image = film_of_two_lights();
   relight(image, factors);
   return image;
 }
@@ -106,7 +106,7 @@ TEST(Relight, OfSpectralFilmsBandsAreWeighed) {
   EXPECT_EQ(colored.channels.size(), 2U);
 }
 
-std::string refusal(Image image, const std::vector<LightFactor>& factors) {
+std::string relight_refusal(Image image, const std::vector<LightFactor>& factors) {
   try {
     relight(image, factors);
   } catch (const Error& error) {
@@ -117,19 +117,20 @@ std::string refusal(Image image, const std::vector<LightFactor>& factors) {
 }
 
 TEST(Relight, RefusesWhatTheFilmDoesNotHave) {
-  EXPECT_EQ(refusal(film(), {{"moon", {1}}}),
+  EXPECT_EQ(relight_refusal(film_of_two_lights(), {{"moon", {1}}}),
             "--light: the film has no layer of it (got \"moon\", allowed key, sun)");
-  EXPECT_EQ(refusal(film(), {{"sun", {1, 2, 3}}}),
+  EXPECT_EQ(relight_refusal(film_of_two_lights(), {{"sun", {1, 2, 3}}}),
             "--light: got 3 factors of \"sun\", allowed 1, or 2 for the planes of the film");
-  EXPECT_EQ(refusal(film(), {{"sun", {1}}, {"sun", {2}}}), "--light: sun is named twice");
-  Image lost = film();
+  EXPECT_EQ(relight_refusal(film_of_two_lights(), {{"sun", {1}}, {"sun", {2}}}),
+            "--light: sun is named twice");
+  Image lost = film_of_two_lights();
   std::erase_if(lost.channels,
                 [](const ImageChannel& channel) { return channel.name.starts_with("light."); });
-  EXPECT_EQ(refusal(lost, {{"sun", {1}}}),
+  EXPECT_EQ(relight_refusal(lost, {{"sun", {1}}}),
             "--light: the film has lost its layers of lights: take the one that render made");
-  Image bounces = film();
+  Image bounces = film_of_two_lights();
   bounces.metadata[kLayersKey] = "bounce0,bounce1plus";
-  EXPECT_EQ(refusal(bounces, {{"sun", {1}}}),
+  EXPECT_EQ(relight_refusal(bounces, {{"sun", {1}}}),
             "--light: the film has no layers of lights: render --layers lights makes them");
 }
 

@@ -12,7 +12,7 @@
 #include "io/schema/write.h"
 #include "test_files.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 namespace {
 
 using schema::at_most_one;
@@ -271,4 +271,4 @@ TEST(Schema, RowsStandForTheFirstKeys) {
 }
 
 }  // namespace
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -13,8 +13,8 @@
 namespace abbe::lens {
 namespace {
 
-using V2d = Imath::V2d;
-using V3d = Imath::V3d;
+using Imath::V2d;
+using Imath::V3d;
 
 // Third-order transverse aberrations of the double Gauss as listed, surface by surface and their sum:
 // spherical aberration, tangential coma, tangential and sagittal astigmatism, Petzval, distortion, axial and
@@ -36,8 +36,8 @@ constexpr std::array<std::array<double, 8>, 12> kListed{{
 
 // A surface's sums are large and cancel: the 1e-8 that indices are known to here are 1e-6 of them.
 TEST(LensSeidel, DoubleGaussHasItsListedThirdOrder) {
-  const System system = testing::lens_named("double_gauss");
-  const System resolved = testing::double_gauss_of(testing::kResolvedIndices);
+  const System system = test::lens_named("double_gauss");
+  const System resolved = test::double_gauss_of(test::kResolvedIndices);
   const SeidelSums sums =
       seidel_sums(SystemAt(resolved, 587.6), SystemAt(system, 486.1), SystemAt(system, 656.3), 25, 14);
   for (std::size_t i = 0; i < kListed.size(); ++i) {
@@ -58,7 +58,7 @@ TEST(LensSeidel, DoubleGaussHasItsListedThirdOrder) {
 
 // A real ray close to the axis misses the paraxial focus by S_I/(2 n'u') of its beam, aspheres counted.
 TEST(LensSeidel, AspheresCountAsRealRaysSee) {
-  const System system = testing::sound_lens_of(R"({"entrance_pupil": 2, "focus": "paraxial", "surfaces": [
+  const System system = test::sound_lens_of(R"({"entrance_pupil": 2, "focus": "paraxial", "surfaces": [
     {"radius": 30, "thickness": 4, "glass": 1.6, "conic": -0.8, "r2": 0.002, "asphere": [2e-5], "stop": true},
     {"radius": -60, "thickness": 10, "conic": 2, "asphere": [-1e-5]}]})");
   const SystemAt at(system, 587.5618);
@@ -72,7 +72,7 @@ TEST(LensSeidel, AspheresCountAsRealRaysSee) {
 TEST(LensSeidel, AspheresOffTheStopGiveDistortion) {
   const std::string text = R"({"entrance_pupil": 0.01, "fields_deg": [3], "focus": "paraxial", "surfaces": [
     {"stop": true, "thickness": 5}, {"thickness": 1, "glass": 1.5, "asphere": [1e-4]}, [-50, 10]]})";
-  const System system = testing::sound_lens_of(text);
+  const System system = test::sound_lens_of(text);
   const SystemAt at(system, 587.5618);
   const SeidelSums sums = seidel_sums(at, at, at, 0.005, 3);
   const auto chief = chief_ray(at, 3, stop_radius(system));
@@ -82,7 +82,7 @@ TEST(LensSeidel, AspheresOffTheStopGiveDistortion) {
 }
 
 TEST(LensField, DistortionOfTheDoubleGaussIsTheListed) {
-  const System system = testing::lens_named("double_gauss");
+  const System system = test::lens_named("double_gauss");
   const SystemAt at(system, 587.6);
   const double radius = stop_radius(system);
   EXPECT_NEAR(100 * *chief_ray(at, 10, radius)->distortion, -0.4976, 5e-5);
@@ -138,7 +138,7 @@ TEST(LensFocus, BestFocusFindsThePoint) {
 
 TEST(LensFocus, FileMayAskForTheLeastSpots) {
   const auto with_focus = [](const std::string& focus) {
-    return testing::sound_lens_of(R"({"f_number": 4, "focus": ")" + focus + R"(", "surfaces": [
+    return test::sound_lens_of(R"({"f_number": 4, "focus": ")" + focus + R"(", "surfaces": [
       {"radius": 50, "thickness": 4, "glass": "N-BK7", "stop": true}, [-50, 40]]})");
   };
   const System paraxial = with_focus("paraxial");
@@ -190,7 +190,7 @@ TEST(LensField, HoleBeforeANearObjectDarkensAlike) {
 }
 
 TEST(LensField, SpeedCountsTheLossesOfSurfaces) {
-  const System system = testing::double_gauss_of(testing::kStatedIndices);
+  const System system = test::double_gauss_of(test::kStatedIndices);
   const SystemAt at(system, 587.6);
   const auto found = speed(at, stop_radius(system), 60);
   ASSERT_TRUE(found);
@@ -210,7 +210,7 @@ TEST(LensField, SpeedCountsTheLossesOfSurfaces) {
 }
 
 TEST(LensField, FansAgreeWithTheListedRays) {
-  const System system = testing::double_gauss_of(testing::kResolvedIndices);
+  const System system = test::double_gauss_of(test::kResolvedIndices);
   const SystemAt at(system, 587.6);
   const auto beam = Beam::of(at, 0, stop_radius(system));
   ASSERT_TRUE(beam);

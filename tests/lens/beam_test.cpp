@@ -9,15 +9,15 @@
 namespace abbe::lens {
 namespace {
 
-using V2d = Imath::V2d;
+using Imath::V2d;
 
 TEST(LensBeam, StopIsWhereTheListedMarginalRayPasses) {
-  EXPECT_NEAR(stop_radius(testing::double_gauss_of(testing::kResolvedIndices)), 15.702464, 1e-6);
+  EXPECT_NEAR(stop_radius(test::double_gauss_of(test::kResolvedIndices)), 15.702464, 1e-6);
 }
 
 TEST(LensBeam, RaysPassTheStopWhereTheyAreAimed) {
   for (const char* name : {"double_gauss", "cooke_triplet", "achromat", "landscape", "tessar", "fisheye"}) {
-    const System system = testing::lens_named(name);
+    const System system = test::lens_named(name);
     const double radius = stop_radius(system);
     for (const double nm : system.wavelengths_nm)
       for (const double field : system.fields) {
@@ -36,7 +36,7 @@ TEST(LensBeam, RaysPassTheStopWhereTheyAreAimed) {
 }
 
 TEST(LensBeam, BoundsHoldTheStop) {
-  const System system = testing::lens_named("double_gauss");
+  const System system = test::lens_named("double_gauss");
   const SystemAt at(system, 587.6);
   const auto beam = Beam::of(at, 10, stop_radius(system));
   ASSERT_TRUE(beam);
@@ -50,7 +50,7 @@ TEST(LensBeam, BoundsHoldTheStop) {
 }
 
 TEST(LensBeam, FieldsBeyondTheLensHaveNone) {
-  const System system = testing::lens_named("cooke_triplet");
+  const System system = test::lens_named("cooke_triplet");
   const SystemAt at(system, 550);
   EXPECT_FALSE(Beam::of(at, 100, stop_radius(system)));
 }

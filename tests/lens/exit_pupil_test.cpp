@@ -22,7 +22,7 @@ using Imath::V3d;
 
 class ShippedLens : public ::testing::TestWithParam<std::string> {
  protected:
-  System lens = abbe::testing::lens_named(GetParam());
+  System lens = abbe::test::lens_named(GetParam());
   SpectralSystem system{lens, stop_radius(lens)};
   // As high as the image of the widest field but one, or of 12 degrees.
   double image_height = std::abs(first_order(SystemAt(lens, lens.primary_nm())).focal_length_mm) * 0.21;
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedLens,
 
 // A wedge before the lens and one element aside: nothing is round then.
 TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
-  System lens = abbe::testing::lens_named("cooke_triplet");
+  System lens = abbe::test::lens_named("cooke_triplet");
   lens.surfaces[0].tilt_deg = {1.5, -0.7};
   lens.surfaces[3].decenter_mm = {0.3, 0.4};
   const SpectralSystem system(lens, stop_radius(lens));

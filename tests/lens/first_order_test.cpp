@@ -30,9 +30,9 @@ void expect_double_gauss(const System& system, double within) {
 
 // With the catalogue's glasses the focal length is 100.00375, which the listing rounds up.
 TEST(LensFirstOrder, DoubleGaussHasItsListedFocus) {
-  expect_double_gauss(testing::double_gauss_of(testing::kResolvedIndices), kFour + 3e-6);
-  expect_double_gauss(testing::lens_named("double_gauss"), kFour + 3e-6);
-  expect_double_gauss(testing::double_gauss_of(testing::kStatedIndices), 1.5e-4);
+  expect_double_gauss(test::double_gauss_of(test::kResolvedIndices), kFour + 3e-6);
+  expect_double_gauss(test::lens_named("double_gauss"), kFour + 3e-6);
+  expect_double_gauss(test::double_gauss_of(test::kStatedIndices), 1.5e-4);
 }
 
 TEST(LensFirstOrder, ParaxialRaysOfTheDoubleGaussHaveTheListedHeights) {
@@ -40,7 +40,7 @@ TEST(LensFirstOrder, ParaxialRaysOfTheDoubleGaussHaveTheListedHeights) {
                                              14.256448, 14.699756, 15.969559, 15.932466, 15.371307};
   constexpr std::array<double, 11> kChiefSlope{0.252237, 0.359218, 0.344338, 0.345189, 0.393199, 0.393199,
                                                0.316914, 0.313591, 0.343587, 0.189957, 0.217488};
-  const System system = testing::double_gauss_of(testing::kResolvedIndices);
+  const System system = test::double_gauss_of(test::kResolvedIndices);
   const SystemAt at(system, 587.6);
   const auto marginal = paraxial_trace(at, 25, 0);
   const double u = 0.249328002843181;  // tan 14
@@ -52,7 +52,7 @@ TEST(LensFirstOrder, ParaxialRaysOfTheDoubleGaussHaveTheListedHeights) {
 }
 
 TEST(LensFirstOrder, PlanoConvexSingletHasItsFocusByWavelength) {
-  const System system = testing::sound_lens_of(R"({"entrance_pupil": 5, "surfaces": [
+  const System system = test::sound_lens_of(R"({"entrance_pupil": 5, "surfaces": [
     {"radius": 19.93, "thickness": 7, "glass": "N-SF11", "stop": true}, [0, 21.48]]})");
   const std::array<std::array<double, 3>, 3> listed{
       {{656.2725, 25.684475, 21.742934}, {587.5618, 25.397596, 21.475412}, {486.1327, 24.711327, 20.836458}}};
@@ -63,14 +63,14 @@ TEST(LensFirstOrder, PlanoConvexSingletHasItsFocusByWavelength) {
 }
 
 TEST(LensFirstOrder, CookeTripletHasItsFocalLengthsByWavelength) {
-  const System system = testing::lens_named("cooke_triplet");
+  const System system = test::lens_named("cooke_triplet");
   EXPECT_NEAR(of(system, 650).focal_length_mm, 50.066081, kSix);
   EXPECT_NEAR(of(system, 550).focal_length_mm, 49.999982, kSix);
   EXPECT_NEAR(of(system, 480).focal_length_mm, 49.988037, kSix);
 }
 
 TEST(LensFirstOrder, AchromatHasItsFocusByWavelength) {
-  const System system = testing::lens_named("achromat");
+  const System system = test::lens_named("achromat");
   const std::array<std::array<double, 3>, 3> listed{
       {{656.2725, 100.1563, 97.2462}, {587.5618, 100.0698, 97.1636}, {486.1327, 100.0249, 97.1270}}};
   for (const auto& [nm, focal, back] : listed) {
@@ -81,7 +81,7 @@ TEST(LensFirstOrder, AchromatHasItsFocusByWavelength) {
 
 // Of a ball of index n the focal length is n D/(4 (n - 1)) from its middle.
 TEST(LensFirstOrder, BallHasItsPrincipalPlanesInItsMiddle) {
-  const System ball = testing::sound_lens_of(
+  const System ball = test::sound_lens_of(
       R"({"surfaces": [{"radius": 5, "thickness": 10, "glass": "N-BK7", "stop": true, "aperture": 1}, [-5, 3]]})");
   const FirstOrder first = of(ball, 587.5618);
   EXPECT_NEAR(first.focal_length_mm, 7.337461, kSix);
@@ -91,7 +91,7 @@ TEST(LensFirstOrder, BallHasItsPrincipalPlanesInItsMiddle) {
 
 // Newton's equation: the distances of object and image from their focal points multiply to -f^2.
 TEST(LensFirstOrder, NearObjectHasItsImageByNewtonsEquation) {
-  System system = testing::lens_named("double_gauss");
+  System system = test::lens_named("double_gauss");
   system.object_distance_mm = 400;
   const FirstOrder first = of(system, 587.6);
   const double from_front = -400 - first.front_focus_mm;
@@ -102,8 +102,8 @@ TEST(LensFirstOrder, NearObjectHasItsImageByNewtonsEquation) {
 
 TEST(LensFirstOrder, CoefficientOfTheSquareBendsTheVertex) {
   const std::string rest = R"("thickness": 2, "glass": 1.5, "stop": true, "aperture": 1}, [0, 3]]})";
-  const System bent = testing::sound_lens_of(R"({"surfaces": [{"radius": 40, "r2": 0.0125, )" + rest);
-  const System sphere = testing::sound_lens_of(R"({"surfaces": [{"radius": 20, )" + rest);
+  const System bent = test::sound_lens_of(R"({"surfaces": [{"radius": 40, "r2": 0.0125, )" + rest);
+  const System sphere = test::sound_lens_of(R"({"surfaces": [{"radius": 20, )" + rest);
   EXPECT_NEAR(of(bent, 550).focal_length_mm, of(sphere, 550).focal_length_mm, 1e-12);
   EXPECT_NEAR(of(bent, 550).focal_length_mm, 40, 1e-12);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,13 +10,12 @@
 #include "lens/beam.h"
 #include "lens/field.h"
 #include "lenses.h"
+#include "tests/angles.h"
 
 namespace abbe::lens {
 namespace {
 
-using V2d = Imath::V2d;
-
-constexpr double kPi = std::numbers::pi;
+using Imath::V2d;
 
 // Corners by their definition: one is up, or that far from it clockwise, the others evenly around.
 std::vector<V2d> corners_of(int blades, double rotation_deg) {
@@ -29,7 +27,7 @@ std::vector<V2d> corners_of(int blades, double rotation_deg) {
   return corners;
 }
 
-double cross(const V2d& a, const V2d& b) {
+double cross_product(const V2d& a, const V2d& b) {
   return a.x * b.y - a.y * b.x;
 }
 
@@ -38,7 +36,7 @@ double depth(const std::vector<V2d>& corners, const V2d& point) {
   double least = 1;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const V2d edge = corners[(k + 1) % corners.size()] - corners[k];
-    least = std::min(least, cross(point - corners[k], edge.normalized()));
+    least = std::min(least, cross_product(point - corners[k], edge.normalized()));
   }
   return least;
 }
@@ -69,7 +67,7 @@ TEST(Iris, HasTheShareOfAPolygonInACircle) {
     const auto corners = corners_of(count, rotation);
     double area = 0;
     for (std::size_t k = 0; k < corners.size(); ++k)
-      area += cross(corners[(k + 1) % corners.size()], corners[k]) / 2;
+      area += cross_product(corners[(k + 1) % corners.size()], corners[k]) / 2;
     EXPECT_NEAR(Iris(count, rotation).share(), area / kPi, 1e-14);
     EXPECT_NEAR(area / kPi, count / (2 * kPi) * std::sin(2 * kPi / count), 1e-14);
   }
@@ -91,14 +89,14 @@ TEST(Iris, SpreadsTheDiscEvenlyOverThePolygon) {
       EXPECT_NEAR(inwards, (1 - radius) * std::cos(kPi / count), 1e-12);
       const V2d x = (iris.point(disc + V2d(kStep, 0)) - iris.point(disc - V2d(kStep, 0))) / (2 * kStep);
       const V2d y = (iris.point(disc + V2d(0, kStep)) - iris.point(disc - V2d(0, kStep))) / (2 * kStep);
-      EXPECT_NEAR(cross(x, y), iris.share(), 1e-4) << count << " at " << disc;
+      EXPECT_NEAR(cross_product(x, y), iris.share(), 1e-4) << count << " at " << disc;
     }
   }
 }
 
 // A beam's rays that pass are those of the polygon; what they carry to the image is told by its T-stop.
 TEST(Iris, StopsRaysOfALensAtItsCorners) {
-  System system = testing::lens_named("double_gauss");
+  System system = test::lens_named("double_gauss");
   const double radius = stop_radius(system);
   constexpr int kSide = 400;
   const auto seen = [&] {

@@ -23,14 +23,14 @@ struct Case {
 };
 
 System with_tilt() {
-  System lens = abbe::testing::lens_named("cooke_triplet");
+  System lens = abbe::test::lens_named("cooke_triplet");
   lens.surfaces[0].tilt_deg = {1.5, -0.7};
   lens.surfaces[3].decenter_mm = {0.3, 0.4};
   return lens;
 }
 
 System with_asphere() {
-  System lens = abbe::testing::lens_named("achromat");
+  System lens = abbe::test::lens_named("achromat");
   lens.surfaces[0].profile.conic = -0.8;
   lens.surfaces[0].profile.even = {0, 2e-7, -1e-10};
   lens.surfaces[2].profile.even = {1e-4, 0, 3e-11};
@@ -38,14 +38,14 @@ System with_asphere() {
 }
 
 System with_coating() {
-  System lens = abbe::testing::lens_named("double_gauss");
+  System lens = abbe::test::lens_named("double_gauss");
   lens.surfaces[0].coating = {{{"film", RefractiveIndex(1.38)}}, {{0, 99.6}}};
   lens.surfaces[1].coating = lens.surfaces[0].coating;
   return lens;
 }
 
 std::vector<Case> cases() {
-  return {{"fisheye", abbe::testing::lens_named("fisheye")},
+  return {{"fisheye", abbe::test::lens_named("fisheye")},
           {"tilted", with_tilt()},
           {"aspheric", with_asphere()},
           {"coated", with_coating()}};

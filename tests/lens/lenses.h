@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <array>
@@ -12,7 +13,7 @@
 #include "description/load_lens.h"
 #include "io/error.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// A lens of `data/lens` or of a file, with what was said of it.
 struct LoadedLens {
@@ -52,6 +53,16 @@ inline lens::System sound_lens_of(const std::string& text, const std::string& ex
   return *std::move(loaded.system);
 }
 
+/// What is said of a text that is no lens, of which this must be said at that place.
+inline LoadedLens unsound_lens_of(const std::string& text, const std::string& extension,
+                                  const std::string& place, const std::string& message) {
+  LoadedLens loaded = lens_of(text, extension);
+  EXPECT_FALSE(loaded.system) << text;
+  EXPECT_NE(loaded.text().find("lens" + extension + ":" + place), std::string::npos) << loaded.text();
+  EXPECT_NE(loaded.text().find(message), std::string::npos) << loaded.text();
+  return loaded;
+}
+
 /// Indices of the double Gauss at 587.6 nm: of N-SSK2, N-SK2, F5 and N-SK16.
 using GaussIndices = std::array<double, 4>;
 /// As its listing states them.
@@ -69,4 +80,4 @@ inline lens::System double_gauss_of(const GaussIndices& n) {
   return system;
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

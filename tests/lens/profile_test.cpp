@@ -9,7 +9,7 @@
 namespace abbe::lens {
 namespace {
 
-using V3d = Imath::V3d;
+using Imath::V3d;
 
 // A ray at a height, parallel to the axis.
 Ray parallel(double y, double from = -100) {

@@ -21,7 +21,7 @@
 namespace abbe::lens {
 namespace {
 
-using abbe::testing::lens_named;
+using abbe::test::lens_named;
 using Imath::V2d;
 using Imath::V3d;
 
@@ -40,7 +40,7 @@ TEST(Ghosts, AreAllPairsOfSurfacesThatReflect) {
     EXPECT_LT(ghost.second, ghost.first);
     EXPECT_NEAR(ghost.reflectance / (along_normal(ghost.first) * along_normal(ghost.second)), 1, 1e-9);
   }
-  EXPECT_TRUE(ghosts(testing::double_gauss_of({1, 1, 1, 1}), kNm, kNm).empty()) << "what is like air";
+  EXPECT_TRUE(ghosts(test::double_gauss_of({1, 1, 1, 1}), kNm, kNm).empty()) << "what is like air";
 }
 
 TEST(Ghosts, OfACoatedSurfaceHaveTheReflectanceOfItsCoating) {
@@ -87,7 +87,7 @@ TEST(Ghosts, GoThroughTheLensTheSameWayBackwards) {
 }
 
 // A stop with a plate behind it.
-System plate(double n, double thickness_mm) {
+System stop_and_plate(double n, double thickness_mm) {
   System lens;
   lens.surfaces.resize(3);
   lens.surfaces[0].thickness_mm = 5;
@@ -102,7 +102,7 @@ System plate(double n, double thickness_mm) {
 TEST(Ghosts, OfAPlateHavePowerAndPlaceInClosedForm) {
   const double n = 1.9;
   const double thickness = 3;
-  const SpectralSystem system(plate(n, thickness), 10);
+  const SpectralSystem system(stop_and_plate(n, thickness), 10);
   const Route route = route_of({2, 1, 0}, 3);
   for (const double angle : {0.0, 0.3, 0.9, 1.3}) {
     const V3d direction(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle));
@@ -137,7 +137,7 @@ double film_reflectance(const std::array<double, 3>& n, double thickness_nm, dou
 
 TEST(Ghosts, OfACoatedPlateHavePowerInClosedForm) {
   const double n = 1.9;
-  System lens = plate(n, 3);
+  System lens = stop_and_plate(n, 3);
   lens.surfaces[1].coating = {{{"film", RefractiveIndex(1.38)}}, {{0, 80}}};
   lens.surfaces[2].coating = lens.surfaces[1].coating;
   const SpectralSystem system(lens, 10);
@@ -160,7 +160,7 @@ TEST(Ghosts, OfACoatedPlateHavePowerInClosedForm) {
 TEST(Ghosts, AreAbsorbedOnTheirWholeWay) {
   const double thickness = 3;
   const double extinction = 5e-6;
-  System lens = plate(1.9, thickness);
+  System lens = stop_and_plate(1.9, thickness);
   const SpectralSystem clear(lens, 10);
   lens.surfaces[1].behind->index = RefractiveIndex(1.9, extinction);
   const SpectralSystem grey(lens, 10);
@@ -240,7 +240,7 @@ TEST(Ghosts, EndAtTheStopOnTheirOwnWay) {
 
 // What two surfaces of equal indices reflect is nothing, at wavelengths at which they are.
 TEST(Ghosts, OfEqualIndicesAreNone) {
-  System lens = plate(1.5, 3);
+  System lens = stop_and_plate(1.5, 3);
   lens.surfaces[2].behind = Glass{"like", RefractiveIndex(1.5)};
   const SpectralSystem system(lens, 10);
   const Ray ray{{0, 0, 0}, V3d(0.2, 0.1, 1).normalized()};
@@ -279,7 +279,7 @@ class MuellerChain {
 // amplitudes, on either side of Brewster's angle.
 TEST(Ghosts, ReflectedFieldsHaveFresnelsSigns) {
   const double n = 1.7;
-  const System lens = plate(n, 3);
+  const System lens = stop_and_plate(n, 3);
   const SystemAt at(lens, kNm);
   const SurfaceBetween<double> front{at.surface(1), at.frames[1], 1, n};
   for (const double angle : {1e-4, 0.5, 0.9, 1.2, 1.5}) {  // Brewster's is 1.04

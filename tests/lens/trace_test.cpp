@@ -8,12 +8,12 @@
 
 #include "lens/beam.h"
 #include "lenses.h"
+#include "tests/angles.h"
 
 namespace abbe::lens {
 namespace {
 
-using V3d = Imath::V3d;
-constexpr double kDegree = std::numbers::pi / 180;
+using Imath::V3d;
 constexpr double kPrinted = 1e-6;  // the last digit of the listing, which is rounded by half of it
 
 // The listing of the double Gauss: heights at each surface and slopes behind it.
@@ -43,17 +43,17 @@ void expect_axial(const System& system, double within) {
 }
 
 TEST(LensTrace, AxialRayOfTheDoubleGaussHasTheListedHeights) {
-  expect_axial(testing::double_gauss_of(testing::kResolvedIndices), kPrinted);
+  expect_axial(test::double_gauss_of(test::kResolvedIndices), kPrinted);
 }
 
 // The catalogue's indices are 7e-8 off those, and six digits of them up to 5e-7.
 TEST(LensTrace, CatalogueAndStatedIndicesGiveTheListedHeightsAsFarAsTheyKnowThem) {
-  expect_axial(testing::lens_named("double_gauss"), 5e-6);
-  expect_axial(testing::double_gauss_of(testing::kStatedIndices), 5e-5);
+  expect_axial(test::lens_named("double_gauss"), 5e-6);
+  expect_axial(test::double_gauss_of(test::kStatedIndices), 5e-5);
 }
 
 TEST(LensTrace, ChiefRayOfTheDoubleGaussHasTheListedHeights) {
-  const System system = testing::double_gauss_of(testing::kResolvedIndices);
+  const System system = test::double_gauss_of(test::kResolvedIndices);
   const SystemAt at(system, 587.6);
   const auto beam = Beam::of(at, 10, stop_radius(system));
   ASSERT_TRUE(beam);
@@ -67,7 +67,7 @@ TEST(LensTrace, ChiefRayOfTheDoubleGaussHasTheListedHeights) {
 }
 
 TEST(LensTrace, SkewRayOfTheDoubleGaussHasTheListedHeights) {
-  const System system = testing::double_gauss_of(testing::kResolvedIndices);
+  const System system = test::double_gauss_of(test::kResolvedIndices);
   const SystemAt at(system, 587.6);
   const V3d direction(0, std::sin(10 * kDegree), std::cos(10 * kDegree));
   const RayPath path = trace(at, {V3d(kSkewX[0], kSkewY[0], 6.710684), direction}, Apertures::obeyed);

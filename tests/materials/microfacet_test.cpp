@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/angles.h"
+#include "tests/materials/facet_shapes.h"
+
 namespace abbe {
 namespace {
 
@@ -12,13 +15,10 @@ using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
 
-constexpr double kPi = std::numbers::pi;
-constexpr FacetShape kShapes[] = {FacetShape::ggx, FacetShape::beckmann};
-
 // 20 widths from 1e-3 to 1, every second one stretched along y.
 std::vector<Microfacets<double>> all_facets() {
   std::vector<Microfacets<double>> facets;
-  for (const FacetShape shape : kShapes)
+  for (const FacetShape shape : kFacetShapes)
     for (int i = 0; i < 20; ++i) {
       const double alpha = std::pow(10.0, -3 + 3.0 * i / 19);
       facets.push_back({shape, alpha, i % 2 == 0 ? alpha : std::min(1.0, 4 * alpha)});
@@ -26,7 +26,7 @@ std::vector<Microfacets<double>> all_facets() {
   return facets;
 }
 
-V3d direction(double cos, double phi) {
+V3d unit_vector(double cos, double phi) {
   const double sin = std::sqrt((1 - cos) * (1 + cos));
   return {sin * std::cos(phi), sin * std::sin(phi), cos};
 }
@@ -59,7 +59,7 @@ TEST(Microfacets, CoverTheSurface) {
 TEST(Microfacets, VisibleOnesCoverWhatIsSeen) {
   for (const auto& facets : all_facets())
     for (const double cos : {1.0, 0.9, 0.5, 0.2, 0.03}) {
-      const V3d w = direction(cos, 0.7);
+      const V3d w = unit_vector(cos, 0.7);
       EXPECT_NEAR(over_facets(facets, [&](const V3d& h) { return facets.visible(w, h); }), 1, 1e-3)
           << facets.alpha_x << " " << facets.alpha_y << " cos " << cos;
     }
@@ -73,7 +73,7 @@ TEST(Microfacets, AnisotropicGgxIsTheClosedForm) {
       const double c = std::cos(theta);
       const double t = std::tan(theta);
       const double e = 1 + t * t * (std::pow(std::cos(phi) / 0.2, 2) + std::pow(std::sin(phi) / 0.5, 2));
-      EXPECT_NEAR(facets.D(direction(c, phi)), 1 / (kPi * 0.2 * 0.5 * c * c * c * c * e * e), 1e-12);
+      EXPECT_NEAR(facets.D(unit_vector(c, phi)), 1 / (kPi * 0.2 * 0.5 * c * c * c * c * e * e), 1e-12);
     }
 }
 
@@ -118,7 +118,7 @@ TEST(Microfacets, FloatsKeepTheirDigits) {
                                     static_cast<float>(facets.alpha_y)};
     const Microfacets<double> wide{facets.shape, narrow.alpha_x, narrow.alpha_y};
     for (const double cos : {1e-6, 1e-3, 0.3, 0.9999999}) {
-      const V3f w(direction(cos, 1.1));
+      const V3f w(unit_vector(cos, 1.1));
       EXPECT_NEAR(narrow.G1(w) / wide.G1(V3d(w)), 1, 1e-5);
       const V3f h = V3f(narrow.alpha_x * 2, narrow.alpha_y, 1).normalized();
       EXPECT_NEAR(narrow.D(h) / wide.D(V3d(h)), 1, 1e-5);
@@ -127,7 +127,7 @@ TEST(Microfacets, FloatsKeepTheirDigits) {
 }
 
 TEST(Microfacets, EveryNumberDrawsAFacet) {
-  for (const FacetShape shape : kShapes)
+  for (const FacetShape shape : kFacetShapes)
     for (const float alpha : {1e-3F, 0.1F, 1.0F})
       for (const float z : {1e-7F, 1e-3F, 0.5F, 1.0F})
         for (const float u : {0.0F, 0x1p-24F, 0.5F, 0x1.fffffep-1F})

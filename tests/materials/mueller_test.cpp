@@ -16,6 +16,7 @@
 #include "materials/interface/thin_sheet.h"
 #include "materials/medium/phase.h"
 #include "sampling/angle.h"
+#include "tests/materials/mueller_rounding.h"
 #include "tests/materials/random_directions.h"
 
 namespace abbe {
@@ -24,8 +25,7 @@ namespace {
 using Amplitude = std::complex<double>;
 using Imath::V3f;
 
-constexpr double kExact = 1e-12;
-constexpr double kFloat = 1e-5;
+constexpr double kMuellerDouble = 1e-12;
 
 // By the definition, from amplitudes of the fields across the plane of incidence and in it.
 MuellerElements<double> of_amplitudes(const Amplitude& s, const Amplitude& p) {
@@ -86,10 +86,11 @@ TEST(Mueller, KeepsItsDigitsInFloat) {
   for (const bool absorbing : {false, true})
     for (const auto& [cos_i, eta, k] : incidences(absorbing)) {
       ASSERT_LT(difference(reflection_mueller(cos_i, eta, k), reflection_mueller<double>(cos_i, eta, k)),
-                kFloat)
+                kMuellerFloat)
           << cos_i << " " << eta << " " << k;
       if (!(refracted_cosine(cos_i, eta) > 0)) continue;
-      ASSERT_LT(difference(refraction_mueller(cos_i, eta), refraction_mueller<double>(cos_i, eta)), kFloat)
+      ASSERT_LT(difference(refraction_mueller(cos_i, eta), refraction_mueller<double>(cos_i, eta)),
+                kMuellerFloat)
           << cos_i << " " << eta;
     }
 }
@@ -119,13 +120,13 @@ TEST(Mueller, OfTotalReflectionIsTheTextbooksPhase) {
       // [Born1999, sec. 1.5.4]
       const double phase = 2 * std::atan(cosine * std::sqrt(sine * sine - eta * eta) / (sine * sine));
       const auto m = reflection_mueller(cosine, eta, 0.0);
-      EXPECT_NEAR(m.d, 0, kExact);
+      EXPECT_NEAR(m.d, 0, kMuellerDouble);
       EXPECT_NEAR(m.c, std::cos(phase), 1e-9);
       EXPECT_NEAR(m.s, std::sin(phase), 1e-9);
       const auto in_float = reflection_mueller(static_cast<float>(cosine), static_cast<float>(eta), 0.0F);
       const double mirrored =
           reflection_mueller<double>(static_cast<float>(cosine), static_cast<float>(eta), 0).s;
-      EXPECT_NEAR(in_float.s, mirrored, kFloat);
+      EXPECT_NEAR(in_float.s, mirrored, kMuellerFloat);
     }
 }
 
@@ -142,8 +143,8 @@ TEST(Mueller, OfTwoTotalReflectionsInFresnelsRhombIsAQuarterWave) {
 TEST(Mueller, LeavesOneFieldAtBrewstersAngle) {
   for (const double n : {0.7, 1.33, 1.78}) {
     const auto m = reflection_mueller(1 / std::hypot(1, n), n, 0.0);
-    EXPECT_NEAR(m.d, 1, kExact);
-    EXPECT_NEAR(m.c, 0, kExact);
+    EXPECT_NEAR(m.d, 1, kMuellerDouble);
+    EXPECT_NEAR(m.c, 0, kMuellerDouble);
   }
 }
 
@@ -181,10 +182,10 @@ TEST(Mueller, OfASheetAddsUpItsOrders) {
       }
       const auto power = sheet_power(cos_i, eta, depth);
       const auto m = sheet_mueller(cos_i, eta, depth);
-      EXPECT_NEAR(m.reflected.c * power.R(), reflected, kExact);
-      EXPECT_NEAR(m.through.c * power.transmitted(), passed, kExact);
-      EXPECT_NEAR(m.reflected.d * power.R(), (power.Rs - power.Rp) / 2, kExact);
-      EXPECT_NEAR(m.through.d * power.transmitted(), (power.Ts - power.Tp) / 2, kExact);
+      EXPECT_NEAR(m.reflected.c * power.R(), reflected, kMuellerDouble);
+      EXPECT_NEAR(m.through.c * power.transmitted(), passed, kMuellerDouble);
+      EXPECT_NEAR(m.reflected.d * power.R(), (power.Rs - power.Rp) / 2, kMuellerDouble);
+      EXPECT_NEAR(m.through.d * power.transmitted(), (power.Ts - power.Tp) / 2, kMuellerDouble);
     }
 }
 
@@ -195,8 +196,8 @@ TEST(Mueller, OfNoFilmsIsThatOfTheInterface) {
       EXPECT_LT(difference(m.reflected, reflection_mueller(cos_i, eta, k)), 1e-12);
       const FresnelAmplitudes a = fresnel_amplitudes(cos_i, {eta, k});
       const FilmReflection<double> r = film_reflection<double>(cos_i, {}, eta, k);
-      EXPECT_NEAR(std::abs(Amplitude(r.s.re, r.s.im) - a.rs), 0, kExact);
-      EXPECT_NEAR(std::abs(Amplitude(r.p.re, r.p.im) - a.rp), 0, kExact);
+      EXPECT_NEAR(std::abs(Amplitude(r.s.re, r.s.im) - a.rs), 0, kMuellerDouble);
+      EXPECT_NEAR(std::abs(Amplitude(r.p.re, r.p.im) - a.rp), 0, kMuellerDouble);
       if (k > 0 || !(refracted_cosine(cos_i, eta) > 0)) continue;
       EXPECT_LT(difference(m.through, refraction_mueller(cos_i, eta)), 1e-12);
     }
@@ -221,14 +222,14 @@ TEST(Mueller, OfOneFilmFollowsFromItsInternalReflections) {
     const std::array layer{FilmLayer<double>{n1, 0, waves}};
     const auto m = film_mueller<double>(cos_i, layer, n2, 0);
     EXPECT_LT(difference(m.reflected, of_amplitudes(reflected(in.rs, on.rs), reflected(in.rp, on.rp))),
-              kExact);
+              kMuellerDouble);
     EXPECT_LT(difference(m.through, of_amplitudes(passed(in.rs, on.rs, in.ts * on.ts),
                                                   passed(in.rp, on.rp, in.tp * on.tp))),
-              kExact);
+              kMuellerDouble);
     const Coating coating{{{"film", RefractiveIndex(n1)}}, {{0, waves * 500}}};
     const auto reflection = coated_reflection(coating, 500, n2, 0, cos_i, false);
     const Amplitude r_s(reflection.s.re, reflection.s.im);
-    EXPECT_NEAR(std::abs(r_s - reflected(in.rs, on.rs)), 0, kExact);
+    EXPECT_NEAR(std::abs(r_s - reflected(in.rs, on.rs)), 0, kMuellerDouble);
   }
 }
 
@@ -253,9 +254,9 @@ TEST(Mueller, OfMetalsIsThatOfTheirAmplitudes) {
   ASSERT_TRUE(m);
   const FresnelAmplitudes f = fresnel_amplitudes(0.4, {0.2, 3});
   const auto expected = of_amplitudes(f.rs, f.rp);
-  EXPECT_NEAR(m->d[2], expected.d, kFloat);
-  EXPECT_NEAR(m->c[2], expected.c, kFloat);
-  EXPECT_NEAR(m->s[2], expected.s, kFloat);
+  EXPECT_NEAR(m->d[2], expected.d, kMuellerFloat);
+  EXPECT_NEAR(m->c[2], expected.c, kMuellerFloat);
+  EXPECT_NEAR(m->s[2], expected.s, kMuellerFloat);
   EXPECT_NEAR(m->axis.z, 0, 1e-6) << "across the plane of incidence";
 }
 

@@ -6,15 +6,13 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
+#include "tests/angles.h"
 #include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Example {
   const char* name;
@@ -26,7 +24,7 @@ Example peaked(const char* name, float g) {
   const double h = static_cast<double>(g);
   return {name, HenyeyGreensteinPhase{g}, h, (1 + 2 * h * h) / 3};  // Legendre coefficients g^n
 }
-const std::vector<Example>& examples() {
+const std::vector<Example>& phase_examples() {
   static const std::vector<Example> all{{"isotropic", IsotropicPhase{}, 0, 1.0 / 3},
                                         {"rayleigh", RayleighPhase{}, 0, 2.0 / 5},
                                         peaked("even", 0),
@@ -62,7 +60,7 @@ double over_sphere(const PhaseFunction& phase, const std::function<double(double
 }
 
 TEST(Phase, DensitiesIntegrateToTheirMoments) {
-  for (const Example& e : examples()) {
+  for (const Example& e : phase_examples()) {
     const bool back = e.mean_cosine < 0;
     EXPECT_NEAR(over_sphere(
                     e.phase, [](double) { return 1; }, back),
@@ -97,8 +95,8 @@ double cumulative(const PhaseFunction& phase, const Imath::V3d& w) {
 
 TEST(Phase, SamplesFollowTheDensityUpToTheSharpestPeaks) {
   constexpr int kRows = 50, kColumns = 8, kSamples = 400000;
-  const double level = 1 - std::pow(1 - 0.01, 1.0 / static_cast<double>(examples().size()));  // Sidak
-  for (const Example& e : examples()) {
+  const double level = 1 - std::pow(1 - 0.01, 1.0 / static_cast<double>(phase_examples().size()));  // Sidak
+  for (const Example& e : phase_examples()) {
     Uniform random(29);
     std::vector<double> counted(kRows * kColumns, 0.0);
     for (int i = 0; i < kSamples; ++i) {
@@ -120,7 +118,7 @@ TEST(Phase, SamplesFollowTheDensityUpToTheSharpestPeaks) {
 
 TEST(Phase, SamplesTellTheirDensity) {
   Uniform random(31);
-  for (const Example& e : examples())
+  for (const Example& e : phase_examples())
     for (int i = 0; i < 2000; ++i) {
       const float u = random();
       const PhaseSample s = sample(e.phase, {u, random()});
@@ -130,7 +128,7 @@ TEST(Phase, SamplesTellTheirDensity) {
 }
 
 TEST(Phase, TheEndsOfTheRandomNumbersAreFinite) {
-  for (const Example& e : examples())
+  for (const Example& e : phase_examples())
     for (const float u : {0.0F, 0x1.fffffep-1F}) {
       const PhaseSample s = sample(e.phase, {u, 0.5F});
       EXPECT_TRUE(std::isfinite(s.pdf) && s.pdf > 0) << e.name;

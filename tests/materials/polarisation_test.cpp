@@ -10,14 +10,13 @@
 #include "materials/interface/fresnel_mueller.h"
 #include "materials/interface/thin_sheet.h"
 #include "tests/materials/bsdf_examples.h"
+#include "tests/materials/mueller_rounding.h"
 #include "tests/materials/random_directions.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3f;
-
-constexpr double kFloat = 1e-5;
 
 // Laws of all models. What is done to polarisation is passive where no Stokes vector gains power, either way,
 // and physical where Cloude's coherency matrix has no negative eigenvalue: of the form that matrices have
@@ -110,9 +109,9 @@ void expect_facets(const Rough& rough, const V3f& wo, const V3f& wi, const Muell
   const double share = m->p[0];
   EXPECT_GT(share, 0.5);
   EXPECT_LT(share, 1);
-  EXPECT_NEAR(m->d[0], share * facet.d, 2 * kFloat);
-  EXPECT_NEAR(m->c[0], share * facet.c, 2 * kFloat);
-  EXPECT_NEAR(m->s[0], share * facet.s, 2 * kFloat);
+  EXPECT_NEAR(m->d[0], share * facet.d, 2 * kMuellerFloat);
+  EXPECT_NEAR(m->c[0], share * facet.c, 2 * kMuellerFloat);
+  EXPECT_NEAR(m->s[0], share * facet.s, 2 * kMuellerFloat);
 }
 TEST(Mueller, OfRoughMatterIsThatOfItsFacets) {
   const V3f wo = direction(0.7, 1);
@@ -147,11 +146,11 @@ TEST(Mueller, OfAMixtureIsTheMeanOfWhatItsPartsSend) {
   const auto metal = reflection_mueller(0.4, 0.2, 3.0);
   const double of_pane = 0.5 * sheet_power(0.4, 1.5, 0.0).R();
   const double of_metal = 0.2 * fresnel_conductor(0.4, 0.2, 3.0).R();
-  EXPECT_NEAR(m->d[1], (of_pane * pane.d + of_metal * metal.d) / (of_pane + of_metal), kFloat);
-  EXPECT_NEAR(m->s[1], (of_pane * pane.s + of_metal * metal.s) / (of_pane + of_metal), kFloat);
+  EXPECT_NEAR(m->d[1], (of_pane * pane.d + of_metal * metal.d) / (of_pane + of_metal), kMuellerFloat);
+  EXPECT_NEAR(m->s[1], (of_pane * pane.s + of_metal * metal.s) / (of_pane + of_metal), kMuellerFloat);
   const auto through = mueller(bsdf, wo, -wo, true);
   ASSERT_TRUE(through);
-  EXPECT_NEAR(through->d[1], sheet_mueller(0.4, 1.5, 0.0).through.d, kFloat);
+  EXPECT_NEAR(through->d[1], sheet_mueller(0.4, 1.5, 0.0).through.d, kMuellerFloat);
   EXPECT_FALSE(mueller(bsdf, wo, direction(0.4, 2), false)) << "what is scattered is not polarised";
 }
 
@@ -161,7 +160,7 @@ TEST(Mueller, OfPaintIsThatOfItsCoatInTheMirrorsDirection) {
   const V3f wi(-wo.x, -wo.y, wo.z);
   const auto m = mueller(Bsdf(paint), wo, wi, true);
   ASSERT_TRUE(m);
-  EXPECT_NEAR(m->d[0], reflection_mueller(0.5, 1.5, 0.0).d, kFloat);
+  EXPECT_NEAR(m->d[0], reflection_mueller(0.5, 1.5, 0.0).d, kMuellerFloat);
   EXPECT_FALSE(mueller(Bsdf(paint), wo, wi, false));
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/angles.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/hemisphere.h"
 
@@ -7,7 +8,6 @@ namespace abbe {
 namespace {
 
 using Imath::V3f;
-constexpr double kPi = std::numbers::pi;
 const SampledSpectrum kWhite(1);
 
 // Energy is conserved up to C = 1/pi, of light's direction alone, and to C = (a + 2)/(2 pi), of both: white

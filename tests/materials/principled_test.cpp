@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "materials/interface/fresnel.h"
+#include "tests/angles.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/hemisphere.h"
 
@@ -8,7 +9,6 @@ namespace abbe {
 namespace {
 
 using Imath::V3f;
-constexpr double kPi = std::numbers::pi;
 
 TEST(PrincipledBsdf, HasBurleysDiffuseGround) {
   const Principled matte(PrincipledLook{.roughness = 1, .specular = 0});

@@ -15,7 +15,7 @@ const DispersionFormula kBk7{
     .c = {0, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653},
     .terms = 7};
 
-SampledSpectrum packet(double low_nm, double high_nm) {
+SampledSpectrum spread_packet(double low_nm, double high_nm) {
   SampledSpectrum::Values nm;
   for (std::size_t j = 0; j < kLanes; ++j)
     nm[j] = static_cast<float>(low_nm + (high_nm - low_nm) * static_cast<double>(j) / (kLanes - 1));
@@ -27,7 +27,7 @@ TEST(RefractiveIndex, PacketsAgreeWithDoubles) {
                            "air_15C", "Al_Rakic", "water_segelstein"}) {
     const RefractiveIndex index = index_of(name);
     for (int offset = 0; offset < 30; ++offset) {
-      const SampledSpectrum nm = packet(300.3 + offset, 1070.0 + offset);
+      const SampledSpectrum nm = spread_packet(300.3 + offset, 1070.0 + offset);
       const SampledSpectrum n = index.n(nm);
       for (int j = 0; j < kLanes; ++j) {
         const double exact = index.n(double(nm[j]));
@@ -42,7 +42,7 @@ TEST(RefractiveIndex, PacketsAgreeWithDoubles) {
 
 TEST(RefractiveIndex, SellmeierPacketsAreExactToFloat) {
   const RefractiveIndex index(kBk7, std::nullopt, IndexMedium::air, 300, 2500);
-  const SampledSpectrum nm = packet(390, 1010);
+  const SampledSpectrum nm = spread_packet(390, 1010);
   for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(index.n(nm)[j], index.n(double(nm[j])), 3e-7);
 }
 

@@ -9,6 +9,7 @@
 #include "materials/bsdf/warp.h"
 #include "materials/interface/fresnel.h"
 #include "tests/materials/bsdf_examples.h"
+#include "tests/materials/facet_shapes.h"
 
 namespace abbe {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using Imath::V2f;
 using Imath::V3f;
 
-constexpr FacetShape kShapes[] = {FacetShape::ggx, FacetShape::beckmann};
 constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
 
 // Point i of an evenly spread sequence in three dimensions: multiples of the powers of a generalised golden
@@ -30,8 +30,8 @@ BsdfRandom event(int i) {
 }
 
 // Mean of what leaves `wo` in lane `lane`, weighed by `light`, over events drawn by that lane.
-using Light = std::function<double(const V3f&)>;
-double leaving(const Bsdf& bsdf, const V3f& wo, int lane, const Light& light, int events = 1 << 15) {
+using LightField = std::function<double(const V3f&)>;
+double leaving(const Bsdf& bsdf, const V3f& wo, int lane, const LightField& light, int events = 1 << 15) {
   double sum = 0;
   for (int i = 0; i < events; ++i)
     if (const auto s = sample(bsdf, wo, event(i), lane, TransportMode::power))
@@ -44,7 +44,7 @@ double all(const V3f& /*wi*/) {
 
 std::vector<Microfacets<float>> furnace_facets() {
   std::vector<Microfacets<float>> facets;
-  for (const FacetShape shape : kShapes) {
+  for (const FacetShape shape : kFacetShapes) {
     for (const float alpha : {1e-3F, 3e-3F, 0.01F, 0.03F, 0.1F, 0.2F, 0.4F, 0.7F, 1.0F})
       facets.push_back({shape, alpha, alpha});
     facets.push_back({shape, 0.1F, 0.4F});
@@ -155,7 +155,7 @@ double uneven(const V3f& wi) {
 }
 
 TEST(RoughConductor, OfLeastRoughnessIsSmooth) {
-  for (const FacetShape shape : kShapes) {
+  for (const FacetShape shape : kFacetShapes) {
     const RoughConductorMaterial rough("rough", RefractiveIndex(0.2, 3), {shape, 1e-3F, 1e-3F});
     const ConductorBsdf smooth{SampledSpectrum(0.2F), SampledSpectrum(3)};
     for (const double cos : {1.0, 0.5, 0.1}) {
@@ -166,7 +166,7 @@ TEST(RoughConductor, OfLeastRoughnessIsSmooth) {
 }
 
 TEST(RoughDielectric, OfLeastRoughnessIsSmooth) {
-  for (const FacetShape shape : kShapes) {
+  for (const FacetShape shape : kFacetShapes) {
     const RoughInterface surface({shape, 1e-3F, 1e-3F}, 1.5F, 1.5F);
     const Bsdf rough = RoughDielectricBsdf{SampledSpectrum(1.5F), &surface};
     const Bsdf smooth = DielectricBsdf{SampledSpectrum(1.5F), false};

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "tests/angles.h"
 #include "tests/materials/index_of.h"
 
 namespace abbe {
@@ -13,8 +13,6 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Snell, ReflectsAboutTheNormal) {
   const V3d n = V3d(1, 2, -2) / 3;

@@ -5,30 +5,21 @@
 #include <atomic>
 
 #include "film/rendered_film.h"
-#include "film/sensor_identity.h"
+#include "tests/preview/rendered_cornell.h"
 #include "tests/preview/tev_listener.h"
-#include "tests/scenes/scene_fixture.h"
 
 namespace abbe {
 namespace {
 
 using test::TevListener;
 
-struct Rendered {
-  Scene scene;
-  RenderPart part;
-};
-Rendered rendered(const std::string& resolution) {
-  Scene scene = test::load(
-      "cornell.json",
+test::RenderedScene of_resolution(const std::string& resolution) {
+  return test::rendered_cornell(
       {{"/sensor/resolution", resolution}, {"/sensor/pixel_pitch_um", "30"}, {"/render/samples", "2"}});
-  RenderResult result = render(scene, {.threads = 2});
-  RenderPart part{identity_of(scene, "cornell.json", {}), std::move(result)};
-  return {std::move(scene), std::move(part)};
 }
 
 TEST(TevViewer, IsSentTheFilm) {
-  const Rendered made = rendered("[700, 401]");  // of more rows than one packet takes
+  const test::RenderedScene made = of_resolution("[700, 401]");  // of more rows than one packet takes
   TevListener viewer;
   {
     TevViewer sender(made.scene, made.part.identity, viewer.address(), 2,
@@ -49,7 +40,7 @@ TEST(TevViewer, IsSentTheFilm) {
 }
 
 TEST(TevViewer, OneThatGoesAwayIsToldOnceAndLeftAlone) {
-  const Rendered made = rendered("[700, 401]");
+  const test::RenderedScene made = of_resolution("[700, 401]");
   TevListener viewer(2);
   std::atomic<int> warnings = 0;
   {
@@ -64,7 +55,7 @@ TEST(TevViewer, OneThatGoesAwayIsToldOnceAndLeftAlone) {
 }
 
 TEST(TevViewer, WhereNoneListensThereIsAnError) {
-  const Rendered made = rendered("[4, 4]");
+  const test::RenderedScene made = of_resolution("[4, 4]");
   int port = 0;
   {
     TevListener viewer(0);

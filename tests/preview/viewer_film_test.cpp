@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "film/rendered_film.h"
-#include "film/sensor_identity.h"
-#include "tests/scenes/scene_fixture.h"
+#include "tests/preview/rendered_cornell.h"
 
 namespace abbe {
 namespace {
@@ -17,21 +16,13 @@ constexpr const char* kMosaic =
 constexpr const char* kFour = R"({"resolution": [12, 8], "channels": {"a": {"band": [400, 500]},
     "b": {"band": [500, 600]}, "c": {"band": [600, 700]}, "d": {"band": [400, 700]}}})";
 
-struct Rendered {
-  Scene scene;
-  RenderPart part;
-};
-
-Rendered rendered(const std::string& sensor, std::optional<Crop> crop = {}) {
-  Scene scene = test::load("cornell.json", {{"/sensor", sensor}, {"/render/samples", "8"}});
-  RenderResult result = render(scene, {.threads = 2, .crop = crop});
-  RenderPart part{identity_of(scene, "cornell.json", {}), std::move(result)};
-  return {std::move(scene), std::move(part)};
+test::RenderedScene seen_by(const std::string& sensor, std::optional<Crop> crop = {}) {
+  return test::rendered_cornell({{"/sensor", sensor}, {"/render/samples", "8"}}, crop);
 }
 
 TEST(ViewerFilm, PixelsAreThoseOfTheFilmsFile) {
   for (const char* sensor : {kSpectral, kMosaic, R"({"resolution": [12, 8], "observer": "1931"})"}) {
-    const Rendered made = rendered(sensor);
+    const test::RenderedScene made = seen_by(sensor);
     ViewerFilm film(made.scene, {});
     film.replace(take_snapshot(made.scene, made.part.identity, made.part.result, 3));
     const Image file = film_image(made.part);
@@ -51,7 +42,7 @@ TEST(ViewerFilm, PixelsAreThoseOfTheFilmsFile) {
 }
 
 TEST(ViewerFilm, HasThePixelsOfItsCropAlone) {
-  const Rendered made = rendered(kSpectral, Crop{3, 2, 7, 5});
+  const test::RenderedScene made = seen_by(kSpectral, Crop{3, 2, 7, 5});
   ViewerFilm film(made.scene, {});
   EXPECT_FALSE(film.pixel(0, 0));  // there is no film yet
   film.replace(take_snapshot(made.scene, made.part.identity, made.part.result, 1));
@@ -61,7 +52,7 @@ TEST(ViewerFilm, HasThePixelsOfItsCropAlone) {
 }
 
 TEST(ViewerFilm, MakesAPictureOnceForAllWhoAskForIt) {
-  const Rendered made = rendered(kMosaic);
+  const test::RenderedScene made = seen_by(kMosaic);
   ViewerFilm film(made.scene, {});
   ASSERT_GE(film.views().size(), 2U);
   EXPECT_EQ(film.picture(film.views()[0], 0), nullptr);  // there is no film yet
@@ -79,7 +70,7 @@ TEST(ViewerFilm, MakesAPictureOnceForAllWhoAskForIt) {
 }
 
 TEST(ViewerFilm, ShowsTheChannelsOfASensorThatNoDisplayShows) {
-  const Rendered made = rendered(kFour);
+  const test::RenderedScene made = seen_by(kFour);
   ViewerFilm film(made.scene, {});
   EXPECT_EQ(film.views(), made.scene.channel_names());
   film.replace(take_snapshot(made.scene, made.part.identity, made.part.result, 1));

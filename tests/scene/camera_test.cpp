@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "scenes.h"
+#include "tests/angles.h"
+#include "tests/scene/solid_angle.h"
 
 namespace abbe {
 namespace {
@@ -8,9 +10,8 @@ namespace {
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
-using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
+using test::Random;
+using test::solid_angle;
 
 // Looking along -y from (1, 2, 3), up is z, so right is -x.
 CameraFrame frame() {
@@ -322,11 +323,6 @@ TEST(Camera, DensitiesCountPointsByAreaUnlessThereIsOne) {
   EXPECT_EQ(ray_of(lens(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
   EXPECT_EQ(ray_of(wide_pinhole(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
   EXPECT_EQ(ray_of(meter(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
-}
-
-// Solid angle of a triangle of unit vectors. [VanOosterom1983]
-double solid_angle(const V3d& a, const V3d& b, const V3d& c) {
-  return 2 * std::atan2(std::abs(a.dot(b.cross(c))), 1 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
 // Through one point of the lens, in focus and out, near the axis and in the corner: a part of the pixel sees

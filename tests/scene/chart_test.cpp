@@ -10,8 +10,8 @@ namespace abbe {
 namespace {
 
 using Imath::V3d;
-using ChartFileTest = testing::DescriptionTest;
-using testing::Loaded;
+using ChartFileTest = test::DescriptionTest;
+using test::Loaded;
 
 // A chart of 6 x 4 m seen squarely from 10 m, 20 pixels per metre.
 std::string chart_scene(const std::string& chart, const std::string& more = "") {
@@ -26,7 +26,7 @@ const std::string kTable = R"("reflectances": "colorchecker24_babelcolor_average
 const Quad& quad_of(const Scene& scene, std::uint32_t shape) {
   return std::get<Quad>(scene.shapes.at(shape).shape);
 }
-V3d middle(const Quad& quad) {
+V3d middle_of(const Quad& quad) {
   return quad.corner + (quad.edge_u + quad.edge_v) / 2;
 }
 
@@ -46,7 +46,7 @@ TEST_F(ChartFileTest, PatchesStandRowByRowFromTheTopLeft) {
   EXPECT_EQ(scene->shapes.at(0).name, "c/dark skin");
   EXPECT_EQ(scene->shapes.at(18).name, "c/white 9.5 (.05 D)");
   const auto close = [&](std::uint32_t patch, double x, double y) {
-    EXPECT_LT((middle(quad_of(*scene.scene, patch)) + scene->origin_m - V3d(x, y, 0)).length(), 1e-12)
+    EXPECT_LT((middle_of(quad_of(*scene.scene, patch)) + scene->origin_m - V3d(x, y, 0)).length(), 1e-12)
         << patch;
   };
   close(0, -2.5, 1.5);
@@ -72,12 +72,12 @@ TEST_F(ChartFileTest, PatchesAndSurroundFillTheRectangleOnce) {
 }
 
 TEST_F(ChartFileTest, ATableOfTheUsersMayHaveAnyNumberOfPatches) {
-  testing::write(folder_ / "mine.csv",
-                 "# unit: 1\n# outside: clamp\nwavelength_nm,a,b\n400,0.1,0.2\n700,0.3,0.4\n");
+  test::write(folder_ / "mine.csv",
+              "# unit: 1\n# outside: clamp\nwavelength_nm,a,b\n400,0.1,0.2\n700,0.3,0.4\n");
   const Loaded scene = load(chart_scene(R"("reflectances": "mine.csv", "surround": 0.5, )" + kPlaced));
   ASSERT_TRUE(scene.scene) << scene.text();
   ASSERT_EQ(scene->shapes.size(), 3U);
-  EXPECT_NEAR(middle(quad_of(*scene.scene, 1)).x + scene->origin_m.x, -1.5, 1e-12);
+  EXPECT_NEAR(middle_of(quad_of(*scene.scene, 1)).x + scene->origin_m.x, -1.5, 1e-12);
   EXPECT_EQ(std::get<DiffuseMaterial>(scene->materials.at(scene->shapes[2].material).model)
                 .reflectance.curve()(500),
             0.5);
@@ -88,7 +88,7 @@ TEST_F(ChartFileTest, ATransformMovesAllOfIt) {
   const Loaded scene = load(R"({"shapes": [{"name": "c", "chart": {)" + kTable + kPlaced +
                             R"(}, "transform": {"scale": 2, "translate": [10, 0, 0]}}]})");
   ASSERT_TRUE(scene.scene) << scene.text();
-  EXPECT_LT((middle(quad_of(*scene.scene, 0)) + scene->origin_m - V3d(5, 3, 0)).length(), 1e-9);
+  EXPECT_LT((middle_of(quad_of(*scene.scene, 0)) + scene->origin_m - V3d(5, 3, 0)).length(), 1e-9);
 }
 
 TEST_F(ChartFileTest, FaultsAreTold) {
@@ -100,7 +100,7 @@ TEST_F(ChartFileTest, FaultsAreTold) {
   fault(kPlaced, "reflectances");
   fault(R"("reflectances": "colorchecker25", )" + kPlaced, "unknown reflectance");
   fault(kTable + R"("corner": [0, 0, 0], "edge_u": [6, 0, 0], "edge_v": [2, 0, 0])", "a chart of zero area");
-  testing::write(folder_ / "bright.csv", "# unit: 1\n# outside: clamp\nwavelength_nm,a\n400,0.1\n700,1.3\n");
+  test::write(folder_ / "bright.csv", "# unit: 1\n# outside: clamp\nwavelength_nm,a\n400,0.1\n700,1.3\n");
   fault(R"("reflectances": "bright.csv", )" + kPlaced, "is no reflectance");
 }
 

@@ -7,10 +7,9 @@
 #include "scene/faces.h"
 #include "scene/shapes/placed.h"
 
-namespace abbe {
+namespace abbe::test {
 namespace {
 
-using namespace testing;
 using Imath::V3d;
 
 // Around where matter and walls cross or meet, and nowhere else.
@@ -26,7 +25,7 @@ TEST(Contact, FindsWhereMatterIsAtWalls) {
     EXPECT_TRUE(box.min.equalWithAbsError(Imath::V3f(low), 1e-4F)) << box.min;
     EXPECT_TRUE(box.max.equalWithAbsError(Imath::V3f(high), 1e-4F)) << box.max;
   };
-  const Mesh block = testing::box({-1, -1, 0}, {1, 1, 1});
+  const Mesh block = box({-1, -1, 0}, {1, 1, 1});
   const Quad table{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}};
   const Quad through{{0.5, -3, -3}, {0, 6, 0}, {0, 0, 6}};
   expect_near(at_walls(block, table), {-1, -1, 0}, {1, 1, 0});
@@ -34,7 +33,7 @@ TEST(Contact, FindsWhereMatterIsAtWalls) {
   expect_near(at_walls(Sphere{{0, 0, 0.5}, 1}, table), {-1, -1, 0}, {1, 1, 0});
   expect_near(at_walls(block, Sphere{{0, 0, 1}, 0.5}), {-0.5, -0.5, 0.5}, {0.5, 0.5, 1});
   EXPECT_TRUE(at_walls(Sphere{{0, 0, 1.001}, 1}, table).isEmpty());
-  EXPECT_TRUE(at_walls(block, testing::box({-3, -3, -1}, {3, 3, 2})).isEmpty()) << "in a room";
+  EXPECT_TRUE(at_walls(block, box({-3, -3, -1}, {3, 3, 2})).isEmpty()) << "in a room";
   const Quad slanted{{-3, -3, -3}, {6, 0, 0}, {0, 6, 6}};
   EXPECT_FALSE(at_walls(block, slanted).isEmpty());
   EXPECT_TRUE(at_walls(Sphere{{0, -1, 1.2}, 1}, slanted).isEmpty()) << "above it, in its box";
@@ -68,4 +67,4 @@ TEST(FaceFinder, FindsAllThatMeetABox) {
 }
 
 }  // namespace
-}  // namespace abbe
+}  // namespace abbe::test

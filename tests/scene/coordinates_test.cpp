@@ -7,6 +7,7 @@
 #include "scene/shapes/placed.h"
 #include "scene/surface.h"
 #include "scenes.h"
+#include "tests/scene/expect_near.h"
 
 namespace abbe {
 namespace {
@@ -14,14 +15,10 @@ namespace {
 using Imath::V2d;
 using Imath::V2f;
 using Imath::V3d;
-using testing::Random;
+using test::expect_near;
+using test::Random;
 
 constexpr double kTight = 1e-12;
-
-template <typename V>
-void expect_near(const V& a, const V& b, double tolerance) {
-  EXPECT_LE((a - b).length(), tolerance) << a << " and " << b;
-}
 
 // The tangents are the derivatives of the point that `point_at` puts at (u, v).
 template <typename PointAt>

@@ -6,17 +6,17 @@
 
 #include "light_kinds.h"
 #include "scene/shapes/basis.h"
+#include "tests/angles.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::all_light_kinds;
-using testing::LightKind;
-using testing::Random;
+using test::all_light_kinds;
+using test::LightKind;
+using test::Random;
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kRadius = 3;
 
 TEST(Emission, OfAllKinds) {

@@ -3,6 +3,7 @@
 #include "io/exr.h"
 #include "scene/lights/environment_image.h"
 #include "scenes.h"
+#include "tests/angles.h"
 #include "tests/description/description.h"
 
 namespace abbe {
@@ -10,12 +11,11 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::Loaded;
-using testing::Random;
+using test::Loaded;
+using test::Random;
 using Texels = std::vector<std::array<float, 3>>;
-using EnvironmentFileTest = testing::DescriptionTest;
+using EnvironmentFileTest = test::DescriptionTest;
 
-constexpr double kPi = std::numbers::pi;
 const SampledSpectrum kGreen(550);
 
 EnvironmentImage image_of(int width, int height, Texels texels,
@@ -112,7 +112,7 @@ TEST(EnvironmentImage, TexelsAreSampledByTheirSolidAngle) {
 
 TEST(EnvironmentImage, WhiteIsTheConstantEnvironment) {
   Scene scene{};
-  scene.camera = testing::pinhole();
+  scene.camera = test::pinhole();
   const Curve emission(std::vector<Knot>{{400, 1}, {700, 3}});
   const std::vector<Channel> channels = observer_channels(Observer::cie1931);
   const Light plain{"sky", EnvironmentLight{}, emission};

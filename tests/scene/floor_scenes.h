@@ -7,7 +7,7 @@
 #include "scene/unreached.h"
 #include "scenes.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 inline constexpr std::uint32_t kDiffuse = 0;
 inline constexpr std::uint32_t kMirror = 1;
@@ -45,4 +45,4 @@ inline std::vector<std::string> unreached_expressions(const Scene& scene, bool l
 }
 using Expressions = std::vector<std::string>;
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

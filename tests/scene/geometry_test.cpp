@@ -3,19 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "scenes.h"
+#include "tests/scene/expect_near.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::Random;
-using testing::scene_of;
-
-template <typename T>
-void expect_near(const Imath::Vec3<T>& a, const Imath::Vec3<T>& b, double tolerance) {
-  EXPECT_LE(static_cast<double>((a - b).length()), tolerance) << a << " and " << b;
-}
+using test::expect_near;
+using test::Random;
+using test::scene_of;
 
 // A sphere as triangles, outward, closed.
 Mesh globe(double radius, int rings, int sectors) {
@@ -361,7 +358,7 @@ TEST(Scene, CommitSurvivesBrokenTriangles) {
 }
 
 TEST(Scene, CommitFillsWhatItPromises) {
-  Scene scene = testing::lit_by(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}});
+  Scene scene = test::lit_by(Quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}});
   EXPECT_EQ(scene.background().size(), 0U);
   EXPECT_EQ(scene.shapes[0].light, 0);
   EXPECT_NEAR(std::get<AreaLight>(scene.lights[0].kind).area, 6, 1e-12);

@@ -7,6 +7,7 @@
 #include "lens/spot.h"
 #include "lens_cameras.h"
 #include "scenes.h"
+#include "tests/angles.h"
 
 // A real lens before the film sees what the bench says that it does.
 
@@ -17,14 +18,12 @@ using Imath::V2d;
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
-using testing::across_mm;
-using testing::height_mm;
-using testing::lens_named;
-using testing::looking_through;
-using testing::Random;
-using testing::spread_wavelengths;
-
-constexpr double kPi = std::numbers::pi;
+using test::across_mm;
+using test::height_mm;
+using test::lens_named;
+using test::looking_through;
+using test::Random;
+using test::spread_wavelengths;
 
 TEST(LensCamera, ImageIsUpright) {
   const lens::System lens = lens_named("tessar");
@@ -182,7 +181,7 @@ TEST(LensCamera, IsAnEventForPolarisedLight) {
   const lens::System lens = lens_named("achromat");
   Scene scene{};
   scene.camera = looking_through(lens, lens::stop_radius(lens), 20);
-  scene.materials = {testing::glass()};
+  scene.materials = {test::glass()};
   scene.channels.push_back(energy_channel("Y", Curve(1.0)));
   scene.commit();
   EXPECT_FALSE(scene.needs.polarisation_matters);

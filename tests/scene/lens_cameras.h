@@ -9,7 +9,7 @@
 #include "scene/camera/lens_optics.h"
 #include "tests/lens/lenses.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// Looking along -y from (1, 2, 3), up is z; the film reaches 15 degrees from its middle to its sides.
 inline Camera looking_through(const lens::System& lens, double stop_radius, int side = 400,
@@ -38,4 +38,4 @@ inline double across_mm(const Camera& camera, float film_x) {
   return (static_cast<double>(film_x) - camera.width / 2.0) * camera.pixel_pitch * 1e3;
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

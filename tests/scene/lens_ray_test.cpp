@@ -18,12 +18,12 @@ using Imath::V2d;
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
-using testing::across_mm;
-using testing::height_mm;
-using testing::lens_named;
-using testing::looking_through;
-using testing::Random;
-using testing::spread_wavelengths;
+using test::across_mm;
+using test::height_mm;
+using test::lens_named;
+using test::looking_through;
+using test::Random;
+using test::spread_wavelengths;
 using Ghosts = LensOptics::Ghosts;
 
 // Of lanes that a ghost's way ends for, by an edge or total reflection, too.

@@ -5,7 +5,7 @@
 
 #include "scenes.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// A light of each kind and of each shape that one may have, alone in a committed scene around the origin.
 struct LightKind {
@@ -42,4 +42,4 @@ inline Scene lit_by(decltype(Light::kind) kind) {
   return kinds;
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

@@ -3,16 +3,17 @@
 #include "scene/lights/spherical_rectangle.h"
 #include "scene/shapes/basis.h"
 #include "scenes.h"
+#include "tests/angles.h"
+#include "tests/scene/solid_angle.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::lit_by;
-using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
+using test::lit_by;
+using test::Random;
+using test::solid_angle;
 
 // Irradiance [W/m^2] of a surface element over pi, by light sampling on a grid of strata: its configuration
 // factor, as radiance is 1.
@@ -33,14 +34,6 @@ double configuration_factor(const Scene& scene, const V3f& point, const V3f& nor
   return sum / (side * side) / kPi;
 }
 
-// Solid angle of a triangle. [VanOosterom1983]
-double solid_angle(const V3d& a, const V3d& b, const V3d& c) {
-  const double la = a.length();
-  const double lb = b.length();
-  const double lc = c.length();
-  return 2 * std::atan2(std::abs(a.dot(b.cross(c))),
-                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
 double solid_angle(const Quad& q, const V3d& from) {
   const V3d a = q.corner - from;
   return solid_angle(a, a + q.edge_u, a + q.edge_v) +

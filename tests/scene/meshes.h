@@ -11,7 +11,7 @@
 
 #include "scene/shapes/mesh.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// Twelve triangles that face outward; the sides of z are the last four.
 inline Mesh box(const Imath::V3d& low, const Imath::V3d& high) {
@@ -126,4 +126,4 @@ inline std::string obj_text(const Mesh& mesh) {
   return text;
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

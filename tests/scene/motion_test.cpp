@@ -69,7 +69,7 @@ TEST(Motion, SweepsABoxAroundAllPlaces) {
   Motion motion(
       {{0, {0, 0, 1}, 0, {0, 0, 0}}, {0.4, {0, 0, 1}, 3 * kTurn, {1, 2, 0}}, {1, {1, 0, 0}, 1, {5, 2, 1}}});
   motion.recentre({2, 1, 0});
-  testing::Random random(3);
+  test::Random random(3);
   for (int slice = 0; slice < 16; ++slice) {
     const std::vector<Imath::V3d> corners{random.in_cube(2), random.in_cube(2)};
     const Imath::Box3d box = motion.sweep(corners, slice / 16.0, (slice + 1) / 16.0);
@@ -113,7 +113,7 @@ Scene rotor() {
 TEST(Motion, LosesNoHitOfAFastRotor) {
   const Scene scene = rotor();
   EXPECT_TRUE(scene.needs.motion);
-  testing::Random random(11);
+  test::Random random(11);
   constexpr std::size_t kRays = 40000;
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < kRays; ++i) {

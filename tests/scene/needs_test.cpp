@@ -9,10 +9,9 @@
 #include "scene/shapes/placed.h"
 #include "spectral/sources.h"
 
-namespace abbe {
+namespace abbe::test {
 namespace {
 
-using namespace testing;
 using Imath::V3d;
 
 TEST(Needs, OfAPlainScene) {
@@ -115,14 +114,13 @@ TEST(Contact, TellsSheetsThatAreLost) {
   const Quad wall{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}};
   const Quad beside{{1, -3, 0}, {6, 0, 0}, {0, 6, 0}};
   EXPECT_TRUE(lost({{wall, kDiffuse}}));
-  EXPECT_TRUE(lost({{testing::box({0.5, 0.5, 0}, {2, 2, 1}), kGlass}}));
-  EXPECT_FALSE(lost(
-      {{testing::box({0.5, 0.5, -1}, {2, 2, 0}), kGlass}, {testing::box({0.5, 0.5, 0}, {2, 2, 1}), kGlass}}))
+  EXPECT_TRUE(lost({{box({0.5, 0.5, 0}, {2, 2, 1}), kGlass}}));
+  EXPECT_FALSE(lost({{box({0.5, 0.5, -1}, {2, 2, 0}), kGlass}, {box({0.5, 0.5, 0}, {2, 2, 1}), kGlass}}))
       << "in glass";
-  EXPECT_TRUE(lost({{testing::box({0.5, 0.5, -1}, {2, 2, 0}), kGlass}, {wall, kDiffuse}}));
+  EXPECT_TRUE(lost({{box({0.5, 0.5, -1}, {2, 2, 0}), kGlass}, {wall, kDiffuse}}));
   EXPECT_FALSE(lost({{beside, kDiffuse}})) << "in an opening of the wall";
-  EXPECT_FALSE(lost({{testing::box({1, 0, 0}, {2, 1, 1}), kGlass}})) << "edge to edge";
-  EXPECT_FALSE(lost({{testing::box({0.5, 0.5, 0.001}, {2, 2, 1}), kGlass}}));
+  EXPECT_FALSE(lost({{box({1, 0, 0}, {2, 1, 1}), kGlass}})) << "edge to edge";
+  EXPECT_FALSE(lost({{box({0.5, 0.5, 0.001}, {2, 2, 1}), kGlass}}));
 }
 
 TEST(Needs, NestingOfWhatStandsOnAWall) {
@@ -140,13 +138,13 @@ TEST(Needs, NestingOfWhatStandsOnAWall) {
     EXPECT_EQ(scene.needs.nesting, found) << "in the other order";
     return found;
   };
-  const Mesh block = testing::box({-1, -1, 0}, {1, 1, 1});
+  const Mesh block = box({-1, -1, 0}, {1, 1, 1});
   const Quad table{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}};
   const Quad lower{{-3, -3, -1e-3}, {6, 0, 0}, {0, 6, 0}};
   EXPECT_TRUE(nests(block, table));
   EXPECT_TRUE(nests(block, Disc{{0.2, 0, 0}, {0, 0, 1}, 0.1}));
-  EXPECT_TRUE(nests(block, testing::box({-3, -3, -1}, {3, 3, 0})));
-  EXPECT_TRUE(nests(block, testing::box({-1, -1, 0}, {1, 1, 1})));
+  EXPECT_TRUE(nests(block, box({-3, -3, -1}, {3, 3, 0})));
+  EXPECT_TRUE(nests(block, box({-1, -1, 0}, {1, 1, 1})));
   EXPECT_TRUE(nests(placed(block, turned), placed(table, turned)));
   const Sphere ball{{0, 0, 1}, 1};
   EXPECT_TRUE(nests(ball, ball));
@@ -300,7 +298,7 @@ TEST(Needs, SunsAndBeamsAreTracedUnlessTheyLookLarge) {
 // A lamp as far as the sun, or the ground below, does not move the middle of the scene.
 TEST(Extent, WhatIsNearDecides) {
   const auto near_of = [](std::vector<Shape> shapes) {
-    const Scene scene = testing::scene_of(std::move(shapes));
+    const Scene scene = scene_of(std::move(shapes));
     return std::pair(extent_of(scene.camera, scene.shapes).near, scene.bounds);
   };
   const Sphere ball{{0, 0, 5}, 1};
@@ -312,14 +310,14 @@ TEST(Extent, WhatIsNearDecides) {
   EXPECT_EQ(near_of({ball, Sphere{{0, 0, 900}, 1}}).first.max.z, 901) << "no gap";
   const Sphere distant{{0, 0, 1e5}, 1};
   EXPECT_EQ(near_of({distant}).first, abbe::bounds(Shape(distant))) << "what a lens sees first";
-  Scene meter = testing::scene_of({distant});
+  Scene meter = scene_of({distant});
   meter.camera.kind = Probe{};
   EXPECT_TRUE(extent_of(meter.camera, meter.shapes).near.isEmpty()) << "a meter is lit where it is";
 }
 
 TEST(Needs, EveryLampIsHeldAgainstEverySpecularShape) {
   Scene scene = floor_scene();
-  testing::Random random(31);
+  Random random(31);
   for (int i = 0; i < 400; ++i)
     scene.shapes.push_back({"ball", Sphere{random.in_cube(3), random.between(0.001, 0.02)}, kGlass});
   for (int i = 0; i < 400; ++i) {
@@ -349,4 +347,4 @@ TEST(Needs, EveryLampIsHeldAgainstEverySpecularShape) {
 }
 
 }  // namespace
-}  // namespace abbe
+}  // namespace abbe::test

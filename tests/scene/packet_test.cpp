@@ -14,8 +14,8 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::Random;
-using testing::scene_of;
+using test::Random;
+using test::scene_of;
 
 // A block whose faces lie twice in the same place, with a quad on one of them: every ray to it has ties.
 Mesh doubled_block() {

@@ -17,7 +17,7 @@ Material rough_gold() {
 
 bool matters(const std::vector<Material>& materials, const std::vector<ShapeInstance>& shapes) {
   Scene scene{};
-  scene.camera = testing::pinhole();
+  scene.camera = test::pinhole();
   scene.materials = materials;
   scene.channels.push_back(energy_channel("Y", Curve(1.0)));
   scene.shapes = shapes;
@@ -29,7 +29,7 @@ bool matters(const std::vector<Material>& materials, const std::vector<ShapeInst
 TEST(PolarisationNeed, TakesTwoEventsInARow) {
   const Material white{"white", DiffuseMaterial{Curve(0.5)}};
   const Material mirror{"mirror", MirrorMaterial{Curve(0.9)}};
-  for (const Material& material : {testing::glass(), testing::mirror(), rough_gold()}) {
+  for (const Material& material : {test::glass(), test::mirror(), rough_gold()}) {
     EXPECT_FALSE(matters({material}, {{"pane", kPane, 0}}));
     EXPECT_TRUE(matters({material}, {{"pane", kPane, 0}, {"pane 2", kBehind, 0}}));
     EXPECT_FALSE(matters({material, white}, {{"pane", kPane, 0}, {"card", kBehind, 1}}));
@@ -39,11 +39,11 @@ TEST(PolarisationNeed, TakesTwoEventsInARow) {
 }
 
 TEST(PolarisationNeed, ABallIsMetOnceWhereItIsOpaqueAndSeenFromOutside) {
-  EXPECT_TRUE(matters({testing::glass()}, {{"ball", kBall, 0}})) << "in and out";
-  EXPECT_FALSE(matters({testing::mirror()}, {{"ball", kBall, 0}}));
-  EXPECT_TRUE(matters({testing::mirror()}, {{"room", Sphere{{0, 0, 0}, 10}, 0}})) << "around the camera";
+  EXPECT_TRUE(matters({test::glass()}, {{"ball", kBall, 0}})) << "in and out";
+  EXPECT_FALSE(matters({test::mirror()}, {{"ball", kBall, 0}}));
+  EXPECT_TRUE(matters({test::mirror()}, {{"room", Sphere{{0, 0, 0}, 10}, 0}})) << "around the camera";
   const PlacedShape placed{make_prototype(kBall), std::make_shared<Placement>(placement(Imath::M44d()))};
-  EXPECT_TRUE(matters({testing::mirror()}, {{"instance", placed, 0}})) << "wherever it is";
+  EXPECT_TRUE(matters({test::mirror()}, {{"instance", placed, 0}})) << "wherever it is";
 }
 
 }  // namespace

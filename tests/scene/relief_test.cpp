@@ -1,11 +1,11 @@
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "scene/shapes/placed.h"
 #include "scene/surface.h"
 #include "scenes.h"
+#include "tests/angles.h"
 #include "tests/description/mesh_files.h"
 
 namespace abbe {
@@ -14,14 +14,12 @@ namespace {
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
-using testing::Loaded;
-
-constexpr double kPi = std::numbers::pi;
+using test::Loaded;
 
 Scene in_relief(Shape shape, Relief relief) {
   Scene scene{};
-  scene.camera = testing::pinhole();
-  scene.materials = {testing::mirror()};
+  scene.camera = test::pinhole();
+  scene.materials = {test::mirror()};
   scene.materials[0].relief = std::make_shared<const Relief>(std::move(relief));
   scene.shapes.push_back({"shape", std::move(shape), 0});
   scene.commit();
@@ -63,7 +61,7 @@ TEST(Relief, HeightsTurnNormalsByTheirGradient) {
           static_cast<float>(std::sin(wave * ((column + 0.5) / kSide + 2 * (1 - (row + 0.5) / kSide)))));
   const Scene scene = in_relief(Quad{{0, 0, 0}, {2, 0, 0}, {0.5, 1, 0}},
                                 BumpMap{TextureImage(kSide, kSide, 1, std::move(heights), {}), kHeight});
-  testing::Random random(2);
+  test::Random random(2);
   for (int i = 0; i < 100; ++i) {
     const V2f uv = random.pair();
     const double u = static_cast<double>(uv.x);
@@ -87,7 +85,7 @@ TEST(Relief, FlatMapsChangeNothing) {
     }
 }
 
-class ReliefTest : public testing::MeshFileTest {
+class ReliefTest : public test::MeshFileTest {
  protected:
   static std::string glossy(const std::string& keys) {
     return fmt::format(R"({{"materials": {{"m": {{"conductor": {{"ior": "Ag_Johnson"}}, {}}}}}}})", keys);

@@ -10,7 +10,7 @@
 
 #include "scene/scene.h"
 
-namespace abbe::testing {
+namespace abbe::test {
 
 /// The same random numbers on every platform.
 class Random {
@@ -75,4 +75,4 @@ inline Scene lit_by(Shape shape, bool two_sided = false) {
   return scene;
 }
 
-}  // namespace abbe::testing
+}  // namespace abbe::test

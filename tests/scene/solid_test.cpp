@@ -12,12 +12,12 @@
 namespace abbe {
 namespace {
 
-using testing::box;
-using testing::inside_out;
-using testing::joined;
-using testing::Loaded;
-using testing::torn;
-using testing::volume;
+using test::box;
+using test::inside_out;
+using test::joined;
+using test::Loaded;
+using test::torn;
+using test::volume;
 
 const Mesh kBox = box({0, 0, 0}, {1, 1, 1});
 const Mesh kHole = box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75});
@@ -155,7 +155,7 @@ TEST(Solid, ManyComponentsTakeNoLongerThanTheirNumber) {
   EXPECT_LT(seconds(40000), 8 * seconds(10000));
 }
 
-class SolidTest : public testing::MeshFileTest {
+class SolidTest : public test::MeshFileTest {
  protected:
   Loaded made_of(const std::string& matter, const std::string& mesh) {
     return load(fmt::format(
@@ -172,13 +172,13 @@ class SolidTest : public testing::MeshFileTest {
   }
 };
 
-constexpr const char* kGlass = R"("dielectric": {"ior": 1.5})";
+constexpr const char* kClearGlass = R"("dielectric": {"ior": 1.5})";
 
 TEST_F(SolidTest, OpenMatterIsWarnedOfAndRefusedWhenStrict) {
-  testing::write(folder_ / "open.obj", testing::obj_text(open_box()));
+  test::write(folder_ / "open.obj", test::obj_text(open_box()));
   const std::string fault = R"(mesh "open.obj" around matter "m" is no closed surface: 4 open edges)";
-  for (const char* matter :
-       {kGlass, R"("dielectric": {"ior": 1.5, "roughness": 0.3})", R"("medium": {"scattering_per_m": 2})"}) {
+  for (const char* matter : {kClearGlass, R"("dielectric": {"ior": 1.5, "roughness": 0.3})",
+                             R"("medium": {"scattering_per_m": 2})"}) {
     const Loaded loaded = made_of(matter, "\"open.obj\"");
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_NE(loaded.text().find("/shapes/0/mesh: warning: " + fault), std::string::npos) << loaded.text();
@@ -194,7 +194,7 @@ TEST_F(SolidTest, OpenMatterIsWarnedOfAndRefusedWhenStrict) {
 }
 
 TEST_F(SolidTest, WhatIsPutRightIsNoFault) {
-  const Loaded loaded = made_of(kGlass, testing::inline_mesh(inside_out(kBox)));
+  const Loaded loaded = made_of(kClearGlass, test::inline_mesh(inside_out(kBox)));
   ASSERT_TRUE(loaded.scene);
   EXPECT_NEAR(volume(std::get<Mesh>(loaded->shapes[0].shape)), 1, 1e-12);
   EXPECT_NE(
@@ -202,16 +202,16 @@ TEST_F(SolidTest, WhatIsPutRightIsNoFault) {
       std::string::npos)
       << loaded.text();
   EXPECT_FALSE(strictly().has_errors());
-  const Loaded opaque = made_of(R"("diffuse": {"reflectance": 0.5})", testing::inline_mesh(inside_out(kBox)));
+  const Loaded opaque = made_of(R"("diffuse": {"reflectance": 0.5})", test::inline_mesh(inside_out(kBox)));
   EXPECT_NEAR(volume(std::get<Mesh>(opaque->shapes[0].shape)), -1, 1e-12) << "left alone";
 }
 
 TEST_F(SolidTest, ObjectsAndMaterialsOfFilesToo) {
-  testing::write(folder_ / "box.obj", testing::obj_text(inside_out(kBox)));
+  test::write(folder_ / "box.obj", test::obj_text(inside_out(kBox)));
   const Loaded placed = load(fmt::format(
       R"({{"materials": {{"m": {{{}}}}}, "objects": {{"o": {{"shapes": [{{"mesh": "box.obj", "material": "m"}}]}}}},
           "shapes": [{{"instance": {{"of": "o"}}}}, {{"instance": {{"of": "o", "transform": {{"scale": [1, -1, 2]}}}}}}]}})",
-      kGlass));
+      kClearGlass));
   ASSERT_TRUE(placed.scene) << placed.text();
   EXPECT_NEAR(volume(std::get<Mesh>(std::get<PlacedShape>(placed->shapes[1].shape).of->shape)), 1, 1e-12);
 }
@@ -222,13 +222,13 @@ TEST_F(SolidTest, TrianglesWithoutAreaJoinEdges) {
   split.vertices.emplace_back(0.5, 0, 0);
   split.triangles[9] = {0, 3, 8};
   split.triangles.push_back({8, 3, 1});
-  EXPECT_NE(made_of(kGlass, testing::inline_mesh(split)).text().find("3 open edges"), std::string::npos);
+  EXPECT_NE(made_of(kClearGlass, test::inline_mesh(split)).text().find("3 open edges"), std::string::npos);
   split.triangles.push_back({0, 8, 1});
-  const Loaded joint = made_of(kGlass, testing::inline_mesh(split));
+  const Loaded joint = made_of(kClearGlass, test::inline_mesh(split));
   EXPECT_EQ(joint.text().find("open edges"), std::string::npos) << joint.text();
   EXPECT_EQ(std::get<Mesh>(joint->shapes[0].shape).triangles.size(), 13U);
   EXPECT_NEAR(enclosed_volume(std::get<Mesh>(joint->shapes[0].shape)), 1, 1e-12);
-  const Loaded opaque = made_of(R"("diffuse": {"reflectance": 0.5})", testing::inline_mesh(split));
+  const Loaded opaque = made_of(R"("diffuse": {"reflectance": 0.5})", test::inline_mesh(split));
   EXPECT_TRUE(std::get<Mesh>(opaque->shapes[0].shape).slivers.empty());
 }
 

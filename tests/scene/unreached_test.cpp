@@ -4,10 +4,8 @@
 
 #include "floor_scenes.h"
 
-namespace abbe {
+namespace abbe::test {
 namespace {
-
-using namespace testing;
 
 TEST(Unreached, PhotonsAloneDoNotRunIntoAPoint) {
   Scene scene{};
@@ -114,4 +112,4 @@ TEST(Unreached, NamesTheFirstOfManyLights) {
 }
 
 }  // namespace
-}  // namespace abbe
+}  // namespace abbe::test

@@ -14,9 +14,9 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::Asset;
-using testing::Loaded;
-using testing::raw;
+using test::Asset;
+using test::Loaded;
+using test::raw;
 
 // Leaning by as much as their corner lies from the middle of the square (-1, -1) to (1, 1).
 Mesh pillow() {
@@ -25,10 +25,10 @@ Mesh pillow() {
   for (const auto& [a, b, c] : mesh.triangles) mesh.normals.push_back({normal(a), normal(b), normal(c)});
   return mesh;
 }
-Scene scene_of(Shape shape, std::shared_ptr<const Relief> relief = nullptr) {
+Scene scene_with(Shape shape, std::shared_ptr<const Relief> relief = nullptr) {
   Scene scene{};
-  scene.camera = testing::pinhole();
-  scene.materials = {testing::mirror()};
+  scene.camera = test::pinhole();
+  scene.materials = {test::mirror()};
   scene.materials[0].relief = std::move(relief);
   scene.shapes.push_back({"shape", std::move(shape), 0});
   scene.commit();
@@ -39,40 +39,40 @@ SurfacePlace place_at(const Scene& scene, float x, float y, float from) {
   EXPECT_TRUE(hit);
   return textured_place(scene, hit.value(), 0);
 }
-void expect_near(const V3f& found, const V3d& expected) {
+void expect_normal(const V3f& found, const V3d& expected) {
   EXPECT_LT((V3d(found) - expected).length(), 1e-6) << found << " " << expected;
 }
 
 TEST(VertexNormals, AreInterpolated) {
-  const Scene scene = scene_of(pillow());
+  const Scene scene = scene_with(pillow());
   EXPECT_TRUE(scene.needs.textures);
   EXPECT_EQ(scene.needs.because.at("textures"), "shape \"shape\"");
-  EXPECT_FALSE(scene_of(Mesh{pillow().vertices, pillow().triangles}).needs.textures);
+  EXPECT_FALSE(scene_with(Mesh{pillow().vertices, pillow().triangles}).needs.textures);
   const double third = 1 / std::sqrt(3.0);
   for (const auto& [x, y] : {std::pair(0.5, -0.5), {0.9, 0.1}, {-0.25, 0.75}}) {
     const SurfacePlace place = place_at(scene, static_cast<float>(x), static_cast<float>(y), 5);
-    expect_near(place.frame.z, V3d(x * third, y * third, third).normalized());
+    expect_normal(place.frame.z, V3d(x * third, y * third, third).normalized());
     EXPECT_TRUE(place.relief);
   }
   // Seen from behind they are outward all the same.
-  expect_near(place_at(scene, 0.5F, -0.5F, -5).frame.z, V3d(0.5, -0.5, 1).normalized());
+  expect_normal(place_at(scene, 0.5F, -0.5F, -5).frame.z, V3d(0.5, -0.5, 1).normalized());
 }
 
 // A plane z = 0 stretched by (2, 3, -1): normals go by the inverse transpose, and stay outward in a mirror.
 TEST(VertexNormals, FollowInstances) {
   const auto at = std::make_shared<Placement>(placement(Imath::M44d().setScale(V3d(2, 3, -1))));
-  const Scene scene = scene_of(PlacedShape{make_prototype(pillow()), at});
-  expect_near(place_at(scene, 1, -1.5F, -5).frame.z, V3d(0.5 / 2, -0.5 / 3, -1).normalized());
+  const Scene scene = scene_with(PlacedShape{make_prototype(pillow()), at});
+  expect_normal(place_at(scene, 1, -1.5F, -5).frame.z, V3d(0.5 / 2, -0.5 / 3, -1).normalized());
 }
 
 TEST(VertexNormals, TakeTheSideOfTheTriangle) {
   Mesh reversed = pillow();
   for (auto& corners : reversed.normals)
     for (V3f& normal : corners) normal = -normal;
-  expect_near(place_at(scene_of(reversed), 0.5F, -0.5F, 5).frame.z, V3d(0.5, -0.5, 1).normalized());
+  expect_normal(place_at(scene_with(reversed), 0.5F, -0.5F, 5).frame.z, V3d(0.5, -0.5, 1).normalized());
   Mesh cancelling = pillow();
   cancelling.normals[0] = {V3f(1, 0, 0), V3f(-1, 0, 0), V3f(1, 0, 0)};
-  expect_near(place_at(scene_of(cancelling), 0.5F, -0.5F, 5).frame.z, V3d(0, 0, 1));
+  expect_normal(place_at(scene_with(cancelling), 0.5F, -0.5F, 5).frame.z, V3d(0, 0, 1));
 }
 
 // A flat relief leaves them, a leaning one leans from them.
@@ -83,20 +83,20 @@ TEST(VertexNormals, AreTurnedByReliefs) {
     return std::make_shared<const Relief>(NormalMap{TextureImage(1, 1, 3, {r, g, b}, {})});
   };
   const V3d smooth = V3d(0.5, 0, 1).normalized();
-  expect_near(place_at(scene_of(mapped, relief(0.5F, 0.5F, 1)), 0.5F, 0, 5).frame.z, smooth);
+  expect_normal(place_at(scene_with(mapped, relief(0.5F, 0.5F, 1)), 0.5F, 0, 5).frame.z, smooth);
   const V3d along(smooth.z, 0, -smooth.x);
-  expect_near(place_at(scene_of(mapped, relief(0.8F, 0.5F, 0.9F)), 0.5F, 0, 5).frame.z,
-              along * 0.6 + smooth * 0.8);
+  expect_normal(place_at(scene_with(mapped, relief(0.8F, 0.5F, 0.9F)), 0.5F, 0, 5).frame.z,
+                along * 0.6 + smooth * 0.8);
 }
 
-class VertexNormalFiles : public testing::MeshFileTest {};
+class VertexNormalFiles : public test::MeshFileTest {};
 
 constexpr double kSin = 0.6;
 constexpr double kCos = 0.8;
 
 void expect_leaning(const Mesh& mesh, const V3d& normal = {0, kSin, kCos}) {
   ASSERT_EQ(mesh.normals.size(), 1U);
-  for (const V3f& corner : mesh.normals[0]) expect_near(corner, normal);
+  for (const V3f& corner : mesh.normals[0]) expect_normal(corner, normal);
 }
 
 std::string ply_with_normals(const std::string& body, const std::string& format = "ascii") {
@@ -129,9 +129,9 @@ TEST_F(VertexNormalFiles, OfObj) {
   // Faces without are flat.
   const Mesh both = mesh("a.obj", corners + "f 1 2 3\nf 1//1 2//1 3//1\nf 3 2 1\n");
   ASSERT_EQ(both.normals.size(), 3U);
-  expect_near(both.normals[0][1], {0, 0, 1});
-  expect_near(both.normals[1][1], {0, kSin, kCos});
-  expect_near(both.normals[2][1], {0, 0, -1});
+  expect_normal(both.normals[0][1], {0, 0, 1});
+  expect_normal(both.normals[1][1], {0, kSin, kCos});
+  expect_normal(both.normals[2][1], {0, 0, -1});
 }
 
 Asset with_normals(const std::vector<float>& normals) {
@@ -142,9 +142,8 @@ Asset with_normals(const std::vector<float>& normals) {
       R"({{"bufferView": 2, "componentType": 5126, "count": {}, "type": "VEC3"}}])", normals.size() / 3);
   asset.views.back() = ',';
   asset.views += fmt::format(R"({{"buffer": 0, "byteOffset": 44, "byteLength": {}}}])", 4 * normals.size());
-  asset.buffer =
-      fmt::format(R"({{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}})",
-                  44 + 4 * normals.size(), testing::base64(testing::triangle_bytes() + raw(normals)));
+  asset.buffer = fmt::format(R"({{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}})",
+                             44 + 4 * normals.size(), test::base64(test::triangle_bytes() + raw(normals)));
   return asset;
 }
 
@@ -158,7 +157,7 @@ TEST_F(VertexNormalFiles, OfGltf) {
 }
 
 TEST_F(VertexNormalFiles, MoveWithTheirShape) {
-  testing::write(folder_ / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nf 1//1 2//1 3//1\n");
+  test::write(folder_ / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nf 1//1 2//1 3//1\n");
   const Shape turned =
       shape(R"("mesh": "a.obj", "transform": {"scale": 3, "rotate": {"axis": [1, 0, 0], "deg": 90}})");
   expect_leaning(std::get<Mesh>(turned), {0, -kCos, kSin});
@@ -173,8 +172,8 @@ TEST_F(VertexNormalFiles, FaultsAreNamed) {
        {"beyond", corners + "f 1//1 2//3 3//1\n", in, "no such vn (got 3, allowed [1, 2])"},
        {"no number", corners + "vn 0 nan 1\n", in, "line 6: vn 3 needs three finite numbers (got 0 nan 1)"}});
   const auto refused_ply = [&](const std::string& text, const char* message) {
-    testing::write(folder_ / "a.ply", text);
-    const Loaded loaded = load(testing::shaped(R"("mesh": "a.ply")"));
+    test::write(folder_ / "a.ply", text);
+    const Loaded loaded = load(test::shaped(R"("mesh": "a.ply")"));
     EXPECT_EQ(loaded.diagnostics.code(), in);
     EXPECT_NE(loaded.text().find(message), std::string::npos) << loaded.text();
   };
@@ -196,7 +195,7 @@ TEST_F(VertexNormalFiles, FaultsAreNamed) {
 
 // Facets refract; a smooth ball would be taken for one without a word.
 TEST_F(VertexNormalFiles, AreIgnoredAroundMatterWithAWarning) {
-  testing::write(folder_ / "ball.obj", testing::obj_text(testing::icosphere(1, true)));
+  test::write(folder_ / "ball.obj", test::obj_text(test::icosphere(1, true)));
   const std::string shape = R"("shapes": [{"mesh": "ball.obj", "material": "m"}]})";
   const Loaded glass = load(R"({"materials": {"m": {"dielectric": {"ior": 1.5}}}, )" + shape);
   ASSERT_TRUE(glass.scene) << glass.text();

@@ -4,6 +4,7 @@
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learn_density.h"
 #include "transport/render/learnt_plan.h"
+#include "transport/render/pass.h"
 
 namespace abbe {
 namespace {

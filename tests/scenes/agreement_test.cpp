@@ -13,7 +13,7 @@ namespace abbe {
 namespace {
 
 // Family significance 1e-6 over 3 channels x 16 regions x 10 scenes: z = 6 by Sidak's correction.
-constexpr double kLargestZ = 6;
+constexpr double kLargestZOfTenScenes = 6;
 
 struct Agreement {
   const char* name;
@@ -233,7 +233,7 @@ std::string many_lamps() {
 }
 const std::string kManyLamps = many_lamps();
 
-RenderResult render_with(const Agreement& item, const char* integrator, int samples) {
+RenderResult render_by(const Agreement& item, const char* integrator, int samples) {
   Scene scene = test::load_text(
       item.text, {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}});
   scene.needs.light_tracing = true;
@@ -245,12 +245,12 @@ class Agreements : public testing::TestWithParam<Agreement> {};
 
 TEST_P(Agreements, OfTechniques) {
   const Agreement& item = GetParam();
-  const RenderResult path = render_with(item, "path", item.path_samples);
-  const RenderResult light = render_with(item, item.integrator, item.light_samples);
+  const RenderResult path = render_by(item, "path", item.path_samples);
+  const RenderResult light = render_by(item, item.integrator, item.light_samples);
   EXPECT_EQ(path.stats.nonfinite_samples + light.stats.nonfinite_samples, 0U);
   const test::Comparison c = test::compare_regions(path.film, light.film, 4);
   std::printf("largest z %.2f, ratio of the means %.5f\n", c.largest_z, c.ratio);
-  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_LT(c.largest_z, kLargestZOfTenScenes);
   EXPECT_NEAR(c.ratio, 1, item.margin);
 }
 

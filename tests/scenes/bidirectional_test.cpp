@@ -7,8 +7,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kLargestZ = 5.6;  // see technique_test.cpp
-
 Film film_by(const char* integrator, const std::string& scene, int samples, std::vector<Override> settings) {
   settings.push_back({"/render/integrator", integrator});
   settings.push_back({"/render/samples", std::to_string(samples)});
@@ -38,7 +36,7 @@ TEST(Bidirectional, FindsTheLightOfPathTracing) {
     SCOPED_TRACE(scene);
     const test::Comparison c = test::compare_regions(film_by("path", scene, 2 * samples, settings),
                                                      film_by("bdpt", scene, samples, settings), 4);
-    EXPECT_LT(c.largest_z, kLargestZ);
+    EXPECT_LT(c.largest_z, test::kLargestZ);
     EXPECT_NEAR(c.ratio, 1, within);
   }
 }
@@ -66,7 +64,7 @@ TEST(Bidirectional, FindsLightThatConnectionsOfPathTracingDoNot) {
   const Film path = film("path");
   const Film both = film("bdpt");
   const test::Comparison c = test::compare_regions(path, both, 2);
-  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_LT(c.largest_z, test::kLargestZ);
   const auto variance = [](const Film& f) {
     double sum = 0;
     for (std::size_t pixel = 0; pixel < 256; ++pixel) sum += f.variance(pixel, 1);

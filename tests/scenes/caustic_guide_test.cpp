@@ -1,4 +1,5 @@
 // Caustics that camera paths find by what photons have shown them.
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/plan/emissions.h"
@@ -8,14 +9,12 @@
 namespace abbe {
 namespace {
 
-constexpr double kLargestZ = 5.6;  // see technique_test.cpp
-
 struct Mean {
   double value = 0;
   double variance = 0;
 };
 Mean mean_of(const Film& film) {
-  const test::Region all = test::region(film, 1, 0, 0, film.width(), film.height());
+  const test::Region all = test::whole(film, 1);
   return {all.mean, all.variance};
 }
 
@@ -93,7 +92,7 @@ TEST(CausticGuide, ChangesNoiseOnly) {
     ASSERT_FALSE(guided.guides.caustics_of_paths.empty());
     const Film a = test::film_of(scene, make_plan(scene), 512);
     const Film b = test::film_of(scene, guided, 504);
-    EXPECT_LT(test::compare_regions(a, b, 4).largest_z, kLargestZ) << floor;
+    EXPECT_LT(test::compare_regions(a, b, 4).largest_z, test::kLargestZ) << floor;
     const Mean chance = mean_of(a);
     const Mean found = mean_of(b);
     EXPECT_NEAR(found.value, chance.value, 4.5 * std::sqrt(found.variance + chance.variance)) << floor;
@@ -123,7 +122,7 @@ TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
   const Film guided = test::film_of(both, plan, 512);
   const Film chance = test::film_of(paths, make_plan(paths), 2048);
   const test::Comparison c = test::compare_regions(chance, guided, 4);
-  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_LT(c.largest_z, test::kLargestZ);
   EXPECT_NEAR(c.ratio, 1, 0.01);
 }
 

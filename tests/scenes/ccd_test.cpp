@@ -1,21 +1,15 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "sensor/readout/readout.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 
 // What a sensor counts behind its filters, in physical units.
 
 namespace abbe {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-test::Region whole(const Film& film, int channel = 0) {
-  return test::region(film, channel, 0, 0, film.width(), film.height());
-}
 
 // A film of 16 small pixels on the axis of an f/4 lens, before a dome.
 Scene flat_field(const std::string& sensor, const std::string& emission, int samples) {
@@ -32,7 +26,7 @@ constexpr double kFlatField_sr = kPi / (4 * 4 * 4);
 
 TEST(FlatField, TStopsDimAndFillFactorsDoNot) {
   const auto mean = [](const std::vector<Override>& settings) {
-    return whole(render(test::load("exposure.json", settings), {}).film).mean;
+    return test::whole(render(test::load("exposure.json", settings), {}).film).mean;
   };
   const double plain = mean({});
   EXPECT_NEAR(mean({{"/camera/thin_lens/t_stop", "5"}}) / plain, 0.64, 1e-3);
@@ -52,7 +46,7 @@ TEST(FlatField, LinesInBandsAreExactOrNothing) {
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
   const std::vector<double> expected{1, 0.8, 0.5, 0, 0, 0.5, 1};
   for (int channel = 0; channel < 7; ++channel) {
-    const double mean = whole(result.film, channel).mean / kFlatField_sr;
+    const double mean = test::whole(result.film, channel).mean / kFlatField_sr;
     const double sought = expected[static_cast<std::size_t>(channel)];
     if (sought == 0)
       EXPECT_EQ(mean, 0) << channel;
@@ -67,25 +61,25 @@ TEST(FlatField, AFilterWheelExposesEachFilterForItsTime) {
          "plain": {"band": [500, 600]}})",
       R"({"spectrum": 1})", 256);
   const Film film = render(scene, {}).film;
-  EXPECT_NEAR(whole(film, 0).mean, 100 * 0.02 * kFlatField_sr, 2e-3);
-  EXPECT_NEAR(whole(film, 0).mean / whole(film, 1).mean, 0.2, 1e-6);
+  EXPECT_NEAR(test::whole(film, 0).mean, 100 * 0.02 * kFlatField_sr, 2e-3);
+  EXPECT_NEAR(test::whole(film, 0).mean / test::whole(film, 1).mean, 0.2, 1e-6);
 }
 
 // A lamp that gives 200 lx at 2 m, and the luminance that takes.
 TEST(Meters, ReadLuxAndCandelaPerSquareMetre) {
   const auto read = [](const char* camera) {
-    return whole(
-               render(
-                   test::load_text(fmt::format(
-                       R"({{"abbe": 1, "camera": {{{}}}, "sensor": {{"observer": "1931", "resolution": [16, 16]}},
+    return test::
+        whole(render(
+                  test::load_text(fmt::format(
+                      R"({{"abbe": 1, "camera": {{{}}}, "sensor": {{"observer": "1931", "resolution": [16, 16]}},
                   "lights": [{{"disc": {{"center": [0, 0, 2], "normal": [0, 0, -1], "radius": 0.3}},
                                "emission": {{"illuminant": "D65", "illuminance": 200, "distance": 2}}}}],
                   "render": {{"samples": 256}}}})",
-                       camera)),
-                   {})
-                   .film,
-               1)
-        .mean;
+                      camera)),
+                  {})
+                  .film,
+              1)
+            .mean;
   };
   EXPECT_NEAR(read(R"("irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]})"), 200, 0.2);
   EXPECT_NEAR(
@@ -261,9 +255,6 @@ MosaicComparison compare(const Scene& scene, const Film& raw, const Film& all, i
   return found;
 }
 
-// Family significance 1e-6 over 3 channels x 16 blocks: z = 5.6 by Sidak's correction.
-constexpr double kLargestZ = 5.6;
-
 TEST(MosaicFilm, ExpectsWhatAFilmOfAllChannelsDoesWithLessNoise) {
   const Scene scene = narrow("cornell.json", kBayer, 128);
   const RenderResult raw = render(scene, {});
@@ -271,7 +262,7 @@ TEST(MosaicFilm, ExpectsWhatAFilmOfAllChannelsDoesWithLessNoise) {
   const RenderResult all = render(narrow("cornell.json", "", 128), {});
   EXPECT_EQ(raw.stats.paths, all.stats.paths);
   const MosaicComparison found = compare(scene, raw.film, all.film, 4);
-  EXPECT_LT(found.largest_z, kLargestZ);
+  EXPECT_LT(found.largest_z, test::kLargestZ);
   EXPECT_NEAR(found.ratio, 1, 0.005);
   std::printf("variance of a pixel with a mosaic over that without, at as many paths: %.3f\n",
               found.variance_ratio);
@@ -284,7 +275,7 @@ TEST(MosaicFilm, PhotonsMeetThePixelsFilter) {
   ASSERT_GT(raw.stats.paths, 256U * 48 * 48) << "no photon was traced";
   const RenderResult all = render(narrow("glass_sphere.json", "", 256), {});
   const MosaicComparison found = compare(scene, raw.film, all.film, 4);
-  EXPECT_LT(found.largest_z, kLargestZ);
+  EXPECT_LT(found.largest_z, test::kLargestZ);
   EXPECT_NEAR(found.ratio, 1, 0.01);
   const Scene photons = narrow("cornell.json", kBayer, 256, {{"/render/integrator", "light"}});
   const RenderResult paths = render(narrow("cornell.json", "", 64), {});

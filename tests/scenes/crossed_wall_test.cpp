@@ -28,10 +28,10 @@ class CrossedWall {
   }
 
   [[nodiscard]] std::string matter(const std::string& material) const {
-    Mesh mesh = testing::box({-0.7, 0.1, -0.2}, {0.6, 0.6, 0.2});
+    Mesh mesh = test::box({-0.7, 0.1, -0.2}, {0.6, 0.6, 0.2});
     for (V3d& vertex : mesh.vertices)
       vertex = (V3d(vertex.x, vertex.y + slope_ * vertex.z, vertex.z) + aside_) * turned_;
-    return fmt::format(R"({{"material": "{}", "mesh": {}}})", material, testing::inline_mesh(mesh));
+    return fmt::format(R"({{"material": "{}", "mesh": {}}})", material, test::inline_mesh(mesh));
   }
   [[nodiscard]] std::string sheet() const {
     return fmt::format(

@@ -1,10 +1,8 @@
 #include "io/exr.h"
 #include "scene_fixture.h"
 
-namespace abbe {
+namespace abbe::test {
 namespace {
-
-using namespace test;
 
 class EnvironmentScene : public ::testing::Test {
  protected:
@@ -65,4 +63,4 @@ TEST_F(EnvironmentScene, HotTexelGivesItsIrradiance) {
 }
 
 }  // namespace
-}  // namespace abbe
+}  // namespace abbe::test

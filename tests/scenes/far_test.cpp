@@ -1,11 +1,11 @@
 // Light and things from afar: lamps up to the distance of the sun, parallel beams, and what they leave of
 // what is near.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "materials/material.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/plan/plan.h"
@@ -15,7 +15,6 @@ namespace {
 
 using Imath::V3d;
 
-constexpr double kPi = std::numbers::pi;
 const V3d kTowards(0.48, 0.6, 0.64);
 constexpr const char* kBand = R"("emission": {"spectrum": {"band": [500, 600]}, "irradiance": 1000)";
 
@@ -50,12 +49,11 @@ std::string card(const std::string& light, const std::string& more = "") {
     "lights": [{}], "render": {{"samples": 64}}}})",
                      more, light);
 }
-double mean(const Scene& scene) {
-  const Film film = render(scene, {}).film;
-  return test::region(film, 0, 0, 0, film.width(), film.height()).mean;
+double film_mean(const Scene& scene) {
+  return test::whole(render(scene, {}).film).mean;
 }
-double mean(const std::string& text) {
-  return mean(test::load_text(text));
+double film_mean(const std::string& text) {
+  return film_mean(test::load_text(text));
 }
 
 // What light sampling says of a surface that faces the lamp, on a grid of strata; every sample is seen, and
@@ -93,15 +91,15 @@ TEST(Far, LampsIrradiateFromAnyDistance) {
 }
 
 TEST(Far, ACardUnderAFarLampIsAsBrightAsInAParallelBeam) {
-  const double beam = mean(card(kBeam));
+  const double beam = film_mean(card(kBeam));
   // Through the lens: E rho cos / pi, as what a dome of that radiance would make of the card.
-  const double dome =
-      mean(card(R"({"environment": {}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})"));
+  const double dome = film_mean(
+      card(R"({"environment": {}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})"));
   EXPECT_NEAR(beam / dome / (1000 * kTowards.z / kPi), 1, 2e-3);
-  EXPECT_NEAR(mean(card(kSun)) / beam, 1, 1e-4);
+  EXPECT_NEAR(film_mean(card(kSun)) / beam, 1, 1e-4);
   for (const double distance : {1e6, 1e8, 1.5e11})
     for (const std::string& lamp : lamps(distance, 1e-5 * distance))
-      EXPECT_NEAR(mean(card(lamp)) / beam, 1, 1e-5) << lamp;
+      EXPECT_NEAR(film_mean(card(lamp)) / beam, 1, 1e-5) << lamp;
 }
 
 // Things that lead step by step from near to far, none of them a thousand times further than the last, and
@@ -111,12 +109,12 @@ TEST(Far, AChainOfThingsIntoTheDistanceChangesNothingNear) {
   for (const double distance : {900.0, 8e5, 7e8})
     chain += fmt::format(R"(, {{"sphere": {{"center": {}, "radius": {}}}, "material": "white"}})",
                          numbers(V3d(distance, 0, -0.2 * distance)), 0.1 * distance);
-  EXPECT_NEAR(mean(card(kBeam, chain)) / mean(card(kBeam)), 1, 2e-4);
+  EXPECT_NEAR(film_mean(card(kBeam, chain)) / film_mean(card(kBeam)), 1, 2e-4);
 }
 
 TEST(Far, ASunIsADiscOfItsRadiance) {
   const auto seen = [](const std::string& light, const char* to) {
-    return mean(test::load_text(fmt::format(
+    return film_mean(test::load_text(fmt::format(
         R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 0.1}}, "from": [0, 0, 0], "to": {}, "up": [0, 1, 0]}},
       "sensor": {{"resolution": [2, 2], "channels": {{"all": {{"band": [500, 600]}}}}}}, "lights": [{}], "render": {{"samples": 16}}}})",
         to, light)));
@@ -150,7 +148,7 @@ TEST(Far, PhotonsOfEveryLightBringAllOfIt) {
     const RenderResult traced = render(with, {});
     ASSERT_GT(traced.stats.paths, 1024U * 64) << "photons were traced";
     const test::Region all = test::region(traced.film, 0, 0, 0, 8, 8);
-    EXPECT_NEAR(all.mean / mean(test::load_text(card(light), {from})), 1, 3e-3) << light;
+    EXPECT_NEAR(all.mean / film_mean(test::load_text(card(light), {from})), 1, 3e-3) << light;
   }
 }
 
@@ -207,7 +205,7 @@ TEST(Far, PhotonsAloneBringAllOfALargeLamp) {
                                                {"/render/samples", samples},
                                                {"/camera/pinhole/fov_deg", "36"}});
   };
-  EXPECT_NEAR(mean(lit(3e5, "light", "65536")) / mean(lit(3e5, "path", "256")), 1, 0.05);
+  EXPECT_NEAR(film_mean(lit(3e5, "light", "65536")) / film_mean(lit(3e5, "path", "256")), 1, 0.05);
   EXPECT_NE(refused(lit(2e6, "light", "1")).find("within 84 degrees of one direction"), std::string::npos);
   EXPECT_EQ(refused(lit(2e6, "path", "1")), "");
 }

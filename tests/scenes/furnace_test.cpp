@@ -13,11 +13,11 @@ namespace abbe {
 namespace {
 
 enum class Returns { all, no_more };
-struct White {
+struct WhiteMatter {
   const char* matter;
   Returns returns;
 };
-const std::multimap<std::string, White> kWhites{
+const std::multimap<std::string, WhiteMatter> kWhites{
     {"diffuse", {R"({"reflectance": 1})", Returns::all}},
     {"dielectric", {R"({"ior": "hikari/F2"})", Returns::all}},
     {"dielectric", {R"({"ior": 1.5, "roughness": 0.4})", Returns::all}},
@@ -48,8 +48,8 @@ const std::multimap<std::string, White> kWhites{
      {R"([{"material": "white", "weight": 0.4}, {"material": "silver", "weight": 0.6}])", Returns::all}}};
 
 // Perhaps with another shape of the material "other".
-Film ball(const std::string& matter, const std::string& other = R"("diffuse": {"reflectance": 1})",
-          const std::string& more = "") {
+Film film_of_ball(const std::string& matter, const std::string& other = R"("diffuse": {"reflectance": 1})",
+                  const std::string& more = "") {
   return render(test::load_text(fmt::format(R"({{"abbe": 1,
     "camera": {{"pinhole": {{"fov_deg": 20}}, "from": [0, 0, -4], "to": [0, 0, 0], "up": [0, 1, 0]}},
     "sensor": {{"resolution": [8, 8], "response": "energy", "channels": {{"all": 1}}}},
@@ -85,11 +85,11 @@ TEST(Furnace, HasEveryMaterial) {
 }
 
 TEST(Furnace, NoMaterialIsBrighterThanTheLight) {
-  const Film unit = ball(R"("dielectric": {"ior": 1})");
+  const Film unit = film_of_ball(R"("dielectric": {"ior": 1})");
   const double one = test::region(unit, 0, 0, 0, 8, 8).mean;
   for (const auto& [key, white] : kWhites) {
     const test::Region seen =
-        test::region(ball(fmt::format(R"("{}": {})", key, white.matter)), 0, 0, 0, 8, 8);
+        test::region(film_of_ball(fmt::format(R"("{}": {})", key, white.matter)), 0, 0, 0, 8, 8);
     const double ratio = seen.mean / one;
     const double noise = 4.9 * std::sqrt(seen.variance) / one;
     SCOPED_TRACE(fmt::format("{} {}: {} +- {}", key, white.matter, ratio, noise));
@@ -121,9 +121,9 @@ TEST(Furnace, MatterMayTouchAndLieInMatter) {
       {R"("dielectric": {"ior": 1.5, "roughness": 0.5})", kGlass, kAround, Returns::no_more},
       {R"("dielectric": {"ior": 1.5, "roughness": 1})", R"("dielectric": {"ior": 2.4})", kAround,
        Returns::no_more}};
-  const double one = test::region(ball(R"("dielectric": {"ior": 1})"), 0, 0, 0, 8, 8).mean;
+  const double one = test::region(film_of_ball(R"("dielectric": {"ior": 1})"), 0, 0, 0, 8, 8).mean;
   for (const Pair& pair : pairs) {
-    const test::Region seen = test::region(ball(pair.ball, pair.other, pair.more), 0, 0, 0, 8, 8);
+    const test::Region seen = test::region(film_of_ball(pair.ball, pair.other, pair.more), 0, 0, 0, 8, 8);
     const double ratio = seen.mean / one;
     const double noise = 4.9 * std::sqrt(seen.variance) / one;
     SCOPED_TRACE(fmt::format("{} and {}: {} +- {}", pair.ball, pair.other, ratio, noise));
@@ -141,11 +141,11 @@ TEST(Furnace, LampsLikeTheSkyCannotBeTold) {
     {"disc": {"center": [0, 1.5, 0], "normal": [0, -1, 0], "radius": 4}, "material": "other", "emission": {"spectrum": 1}},
     {"disc": {"center": [2, 0, 0.5], "normal": [-1, 0, 0], "radius": 0.8}, "material": "other", "emission": {"spectrum": 1}},
     {"sphere": {"center": [-2, -2, -1], "radius": 0.7}, "material": "other", "emission": {"spectrum": 1}})";
-  const double one = test::region(ball(R"("dielectric": {"ior": 1})"), 0, 0, 0, 8, 8).mean;
+  const double one = test::region(film_of_ball(R"("dielectric": {"ior": 1})"), 0, 0, 0, 8, 8).mean;
   for (const char* matter :
        {R"("diffuse": {"reflectance": 1})", R"("conductor": {"ior": 0, "roughness": 0.5})",
         R"("dielectric": {"ior": 1.5, "roughness": 0.4})", R"("medium": {"scattering_per_m": 2})"}) {
-    const test::Region seen = test::region(ball(matter, kBlack, kLamps), 0, 0, 0, 8, 8);
+    const test::Region seen = test::region(film_of_ball(matter, kBlack, kLamps), 0, 0, 0, 8, 8);
     const double noise = 4.9 * std::sqrt(seen.variance) / one;
     SCOPED_TRACE(fmt::format("{}: {} +- {}", matter, seen.mean / one, noise));
     EXPECT_NEAR(seen.mean / one, 1, noise + 2e-3);

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "scene/camera/lens_optics.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 
 // Pictures through the blades of a stop, of an ideal and of a real lens.
@@ -17,9 +17,7 @@
 namespace abbe {
 namespace {
 
-using Complex = std::complex<double>;
-
-constexpr double kPi = std::numbers::pi;
+using ComplexDouble = std::complex<double>;
 
 const std::string kThin = R"("thin_lens": {"focal_length": 0.1, "f_number": 8, "focus_distance": 2)";
 const std::string kReal = R"("lens_system": {"prescription": "achromat", "f_number": 8, "focus_distance": 2)";
@@ -74,14 +72,14 @@ std::string speck(const std::string& lens, double distance) {
 
 // What a picture has in every pixel, at its place [m] from the middle: x to the right, y up.
 struct Spread {
-  std::vector<std::pair<Complex, double>> pixels;
+  std::vector<std::pair<ComplexDouble, double>> pixels;
 
   explicit Spread(const Scene& scene) {
     const Film film = render(scene, {}).film;
     double sum = 0;
     for (int j = 0; j < film.height(); ++j)
       for (int i = 0; i < film.width(); ++i) {
-        const Complex at(i + 0.5 - film.width() / 2.0, film.height() / 2.0 - j - 0.5);
+        const ComplexDouble at(i + 0.5 - film.width() / 2.0, film.height() / 2.0 - j - 0.5);
         const double value = film.mean(static_cast<std::size_t>(j * film.width() + i), 0);
         pixels.emplace_back(at * scene.camera.pixel_pitch, value);
         sum += value;
@@ -94,8 +92,8 @@ struct Spread {
     for (const auto& [at, share] : pixels) sum += share * f(at);
     return sum;
   }
-  [[nodiscard]] Complex moment(int order) const {
-    Complex sum = 0;
+  [[nodiscard]] ComplexDouble moment(int order) const {
+    ComplexDouble sum = 0;
     for (const auto& [at, share] : pixels) sum += share * std::pow(at, order);
     return sum;
   }
@@ -106,17 +104,17 @@ struct Spread {
 // with q = p exp(2 pi i/n) all of these but one p^n add up to 0. As z^n is harmonic, the disc that the speck
 // is imaged to changes nothing of it; lower powers have the mean 0, and of a circle all have.
 void expect_polygon(const Spread& seen, int blades, double corner, double radius, double within) {
-  const Complex found = seen.moment(blades) / std::pow(radius, blades);
+  const ComplexDouble found = seen.moment(blades) / std::pow(radius, blades);
   const double size = 2.0 / ((blades + 1) * (blades + 2));
-  const Complex expected = std::polar(size, blades * corner);
+  const ComplexDouble expected = std::polar(size, blades * corner);
   std::printf("%d blades: %.5f at %.2f degrees, expected %.5f at %.2f\n", blades, std::abs(found),
               std::arg(found) * 180 / kPi, size, std::arg(expected) * 180 / kPi);
   EXPECT_LT(std::abs(found - expected), within * size) << found << " for " << expected;
   for (int order = 1; order < blades; ++order)
     EXPECT_LT(std::abs(seen.moment(order)) / std::pow(radius, order), 0.01) << order;
   const lens::Iris polygon(blades, 90 - corner * 180 / kPi);
-  const double outside = seen.mean([&](const Complex& z) {
-    const Complex point = 0.95 * z / radius;
+  const double outside = seen.mean([&](const ComplexDouble& z) {
+    const ComplexDouble point = 0.95 * z / radius;
     return polygon.contains({point.real(), point.imag()}) ? 0 : 1;
   });
   EXPECT_LT(outside, 0.002);
@@ -136,7 +134,7 @@ TEST(Iris, BlursASpeckToItsPolygon) {
 
 TEST(Iris, BlursASpeckToItsPolygonThroughARealLens) {
   const Spread round(test::load_text(speck(with_blades(kReal, 0), 20)));
-  const double radius = std::sqrt(2 * round.mean([](const Complex& z) { return std::norm(z); }));
+  const double radius = std::sqrt(2 * round.mean([](const ComplexDouble& z) { return std::norm(z); }));
   EXPECT_LT(std::abs(round.moment(5)) / std::pow(radius, 5), 0.002);
   for (const auto& [blades, rotation] : {std::pair(5, 0.0), {5, 11.0}, {8, 30.0}}) {
     const Scene scene = test::load_text(speck(with_blades(kReal, blades, rotation), 20));

@@ -7,6 +7,7 @@
 
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/part.h"
+#include "transport/render/pass.h"
 
 namespace abbe {
 namespace {

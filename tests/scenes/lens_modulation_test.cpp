@@ -1,12 +1,12 @@
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "calibration/judge/slanted_edge.h"
 #include "lens/spot.h"
 #include "scene/camera/lens_optics.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 
@@ -18,7 +18,6 @@ namespace {
 
 using Imath::V2d;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSlant = 5;     // degrees
 constexpr double kFinest = 0.2;  // cycles a pixel, of which the lens leaves a seventh
 constexpr int kAlong = 40;       // pixels that are measured along an edge

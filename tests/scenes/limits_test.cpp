@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "spectral/sources.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 
 // What a film holds where something is very small, very large, or nothing at all.
@@ -15,10 +15,8 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double mean(const RenderResult& result, int channel = 0) {
-  return test::region(result.film, channel, 0, 0, result.film.width(), result.film.height()).mean;
+  return test::whole(result.film, channel).mean;
 }
 
 /// The differences between two films over the largest value, when `b` is divided by `factor`, largest first.
@@ -80,15 +78,16 @@ TEST(FilmUnits, ALensDimsWithTheFourthPowerOfTheCosineAndWithMagnification) {
 constexpr const char* kCornell = "cornell.json";
 const std::vector<Override> kSmall{{"/sensor/resolution", "[16, 16]"}, {"/render/samples", "4"}};
 
-RenderResult small(const char* scene, std::vector<Override> settings) {
+RenderResult rendered_small(const char* scene, std::vector<Override> settings) {
   settings.insert(settings.end(), kSmall.begin(), kSmall.end());
   return render(test::load(scene, settings), {});
 }
 
 TEST(Limits, AFilmIsProportionalToRadianceFromTheFaintestToTheBrightest) {
   const auto lit = [](double radiance) {
-    return small("glass_sphere.json", {{"/lights/0/emission", fmt::format(R"({{"spectrum": {}}})", radiance)},
-                                       {"/lights/1/emission", R"({"spectrum": 0})"}});
+    return rendered_small("glass_sphere.json",
+                          {{"/lights/0/emission", fmt::format(R"({{"spectrum": {}}})", radiance)},
+                           {"/lights/1/emission", R"({"spectrum": 0})"}});
   };
   const RenderResult one = lit(1);
   for (const int exponent : {-80, -40, 40, 60}) {
@@ -102,8 +101,8 @@ TEST(Limits, AFilmIsProportionalToRadianceFromTheFaintestToTheBrightest) {
 }
 
 TEST(Limits, ALightWithoutPowerChangesNothing) {
-  const RenderResult plain = small("glass_sphere.json", {});
-  const RenderResult with = small("glass_sphere.json", {{"/lights", R"([
+  const RenderResult plain = rendered_small("glass_sphere.json", {});
+  const RenderResult with = rendered_small("glass_sphere.json", {{"/lights", R"([
       {"sphere": {"center": [-3, 5, -2], "radius": 0.15}, "emission": {"spectrum": 1, "luminance": 136600.4}},
       {"environment": {}, "emission": {"spectrum": 1, "luminance": 34.1501}},
       {"point": {"at": [0, 3, 0]}, "emission": {"spectrum": 0}},
@@ -125,9 +124,9 @@ TEST(Limits, ExposuresThatFloatsCannotHoldAreRefused) {
 }
 
 TEST(Limits, LightTheSensorDoesNotRespondToIsExactlyBlack) {
-  const RenderResult result =
-      small("glass_sphere.json", {{"/lights/0/emission", R"({"spectrum": {"band": [900, 1000]}})"},
-                                  {"/lights/1/emission", R"({"spectrum": {"band": [1000, 1100]}})"}});
+  const RenderResult result = rendered_small(
+      "glass_sphere.json", {{"/lights/0/emission", R"({"spectrum": {"band": [900, 1000]}})"},
+                            {"/lights/1/emission", R"({"spectrum": {"band": [1000, 1100]}})"}});
   EXPECT_EQ(mean(result), 0);
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
 }
@@ -135,14 +134,14 @@ TEST(Limits, LightTheSensorDoesNotRespondToIsExactlyBlack) {
 // By units that leave the walls along the axes, so that directions are drawn in the same frames.
 TEST(Limits, AnImageDoesNotDependOnTheUnitOfLength) {
   const auto in = [](const char* unit) {
-    return small(kCornell, {{"/units", unit}, {"/camera/pinhole", R"({"fov_deg": 39})"}});
+    return rendered_small(kCornell, {{"/units", unit}, {"/camera/pinhole", R"({"fov_deg": 39})"}});
   };
   const RenderResult metres = in("m");
   for (const char* unit : {"cm", "mm"}) EXPECT_LT(difference(metres.film, in(unit).film), 1e-6) << unit;
 }
 
 RenderResult through_glass(const char* unit, const char* integrator) {
-  return small(
+  return rendered_small(
       "glass_sphere.json",
       {{"/units", unit}, {"/render/integrator", integrator}, {"/materials/glass/dielectric/ior", "1.7"}});
 }
@@ -221,7 +220,7 @@ TEST(Limits, ANarrowSpotSendsOutItsFlux) {
 
 TEST(Limits, NegativeResponsesAreKept) {
   const auto with = [](const char* channels) {
-    return small(
+    return rendered_small(
         kCornell,
         {{"/sensor",
           fmt::format(R"({{"resolution": [16, 16], "response": "quantum", "channels": {}}})", channels)}});

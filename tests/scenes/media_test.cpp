@@ -2,11 +2,11 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
 
+#include "tests/angles.h"
 #include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
 #include "validation/cases/radiative_transfer.h"
@@ -16,7 +16,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLargestZ = 4.5;  // of a few dozen figures here, by Sidak's correction at 3e-4
 
 // What stands in a scene, seen by a pinhole that looks along +y from (0, -5, 0) in three narrow bands.
@@ -262,7 +261,7 @@ TEST(Media, TheSkyIsBlue) {
 TEST(Media, WhatOverlapsInPartIsTheSameFromBothEnds) {
   const auto slab = [](const std::string& material, double from, double to) {
     return fmt::format(R"(, {{"material": "{}", "mesh": {}}})", material,
-                       testing::inline_mesh(testing::box({-2, from, -2}, {2, to, 2})));
+                       test::inline_mesh(test::box({-2, from, -2}, {2, to, 2})));
   };
   const std::string thin = slab("thin", -1, 1);
   const std::string dense = slab("dense", 0, 2);

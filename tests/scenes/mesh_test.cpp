@@ -10,11 +10,11 @@
 namespace abbe {
 namespace {
 
+using test::box;
 using test::expect_same_from_either_end;
+using test::icosphere;
+using test::inside_out;
 using test::load_text;
-using testing::box;
-using testing::icosphere;
-using testing::inside_out;
 
 class MeshScene : public ::testing::Test {
  protected:
@@ -23,7 +23,7 @@ class MeshScene : public ::testing::Test {
   ~MeshScene() override { std::filesystem::remove(path_); }
   // The mesh as what a shape is.
   std::string file(const Mesh& mesh) const {
-    std::ofstream(path_) << testing::obj_text(mesh);
+    std::ofstream(path_) << test::obj_text(mesh);
     return fmt::format(R"("mesh": "{}")", path_.string());
   }
   std::filesystem::path path_;
@@ -38,7 +38,7 @@ Film glass_block(const Mesh& mesh, const char* lights, int samples) {
       "materials": {{"glass": {{"dielectric": {{"ior": 1.5}}}}, "black": {{"diffuse": {{"reflectance": 0}}}}}},
       "shapes": [{{"mesh": {}, "material": "glass"}}], "lights": [{}],
       "render": {{"samples": {}, "integrator": "path", "max_depth": 400, "roulette_depth": -1}}}})",
-                 testing::inline_mesh(mesh), lights, samples)),
+                 test::inline_mesh(mesh), lights, samples)),
              {})
       .film;
 }

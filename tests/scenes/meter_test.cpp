@@ -1,10 +1,10 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 #include <string>
 
 #include "film/meter_reading.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 #include "validation/statistics/equivalence.h"
 
@@ -12,8 +12,6 @@
 
 namespace abbe {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The scene's only meter, read.
 MeterReading read(const std::string& scene, const std::vector<Override>& settings = {}) {

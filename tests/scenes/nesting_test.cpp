@@ -7,6 +7,7 @@
 
 #include "materials/interface/fresnel.h"
 #include "tests/scene/meshes.h"
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/path/ray_trace.h"
 
@@ -17,14 +18,14 @@ using Imath::V3d;
 
 std::string box(const std::string& material, double x0, double x1) {
   return fmt::format(R"({{"name": "{0}", "material": "{0}", "mesh": {1}}})", material,
-                     testing::inline_mesh(testing::box({x0, -0.7, -0.5}, {x1, 0.6, 0.8})));
+                     test::inline_mesh(test::box({x0, -0.7, -0.5}, {x1, 0.6, 0.8})));
 }
 std::string ball(const std::string& material, double radius, const std::string& center = "0, 0, 0") {
   return fmt::format(R"({{"name": "{0}", "material": "{0}", "sphere": {{"center": [{2}], "radius": {1}}}}})",
                      material, radius, center);
 }
 
-constexpr const char* kMatter = R"("materials": {
+constexpr const char* kNestedMatter = R"("materials": {
   "water": {"dielectric": {"ior": 1.333}}, "glass": {"dielectric": {"ior": 1.5}, "priority": 1},
   "flint": {"dielectric": {"ior": 1.7}}, "air": {"dielectric": {"ior": 1}},
   "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
@@ -43,7 +44,7 @@ Scene scene_of(const std::string& shapes,
     "camera": {{"pinhole": {{"fov_deg": 30}}, "from": [{}], "to": [0, 0, 0], "up": [0, 1, 0]}},
     "sensor": {{"resolution": [24, 24], "response": "energy", "channels": {{"all": {{"band": [450, 650]}}}}}},
     {}, "lights": [{}], "shapes": [{}], "render": {{"samples": 16, {}}}}})",
-                                     from, kMatter, lights, shapes, settings));
+                                     from, kNestedMatter, lights, shapes, settings));
 }
 
 // The furthest any pixel is from what radiance `expected` exposes, relative.
@@ -148,7 +149,7 @@ TEST(Nesting, NothingIsLostOrGainedInAFurnace) {
 std::string block(const std::string& material, const V3d& from, const V3d& to, double turned_deg = 0) {
   return fmt::format(
       R"({{"material": "{}", "transform": {{"rotate": {{"axis": [1, 2, 3], "deg": {}}}}}, "mesh": {}}})",
-      material, turned_deg, testing::inline_mesh(testing::box(from, to)));
+      material, turned_deg, test::inline_mesh(test::box(from, to)));
 }
 
 // Matter without an interface lies in glass and out of it, has a face in one of glass, or all around, and is

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learnt_plan.h"
 #include "transport/render/technique_shares.h"

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSamples = 24;
 
-Scene small(const char* name, std::vector<Override> settings = {}) {
+Scene small_scene(const char* name, std::vector<Override> settings = {}) {
   settings.push_back({"/sensor/resolution", "[40, 24]"});
   settings.push_back({"/render/samples", std::to_string(kSamples)});
   return test::load(name, settings);
@@ -34,7 +34,7 @@ struct Seen {
     std::vector<Override> settings;
     if (std::strcmp(integrator, "auto") != 0) settings.push_back({"/render/integrator", integrator});
     if (sensor != nullptr) settings.push_back({"/sensor", sensor});
-    return small(scene, settings);
+    return small_scene(scene, settings);
   }
 };
 // Everything a sensor may do to photons and camera paths: a mosaic, one of its filters tilting.
@@ -153,7 +153,7 @@ RenderResult copy(const RenderResult& result) {
 }
 
 TEST(Resume, AStopByErrorFallsOnTheSameSample) {
-  const Scene scene = small("cornell.json");
+  const Scene scene = small_scene("cornell.json");
   RenderOptions to_error;
   to_error.target_error = 0.03;
   const RenderResult whole = render(scene, to_error);
@@ -185,14 +185,14 @@ TEST(Resume, AStopByErrorFallsOnTheSameSample) {
 TEST(Time, EndsASmallFilmAfterASampleThatTakesLonger) {
   RenderOptions soon;
   soon.time_limit_s = 1e-9;
-  EXPECT_EQ(render(small("cornell.json"), soon).stats.samples_per_pixel, 1U);
+  EXPECT_EQ(render(small_scene("cornell.json"), soon).stats.samples_per_pixel, 1U);
 }
 
 // Amid a sample, the photons of which are traced again and not counted twice.
 TEST(Resume, WhatGathersPhotonsGoesOnAsItWouldHave) {
   for (const char* integrator : {"sppm", "vcm"}) {
     SCOPED_TRACE(integrator);
-    const Scene scene = small(
+    const Scene scene = small_scene(
         "cornell.json", {{"/render/integrator", integrator}, {"/render/photons", R"({"per_sample": 500})"}});
     RenderOptions few;
     few.samples = SampleRange{0, 3};
@@ -217,7 +217,7 @@ TEST(Resume, WhatGathersPhotonsGoesOnAsItWouldHave) {
 // However long the pass, what is done can be saved as soon as a stop is asked for; the pass then ends, so
 // that the film is a mean of whole samples.
 TEST(Resume, AStopIsSavedAtOnceAndEndsThePass) {
-  const Scene scene = small("glass_sphere.json");
+  const Scene scene = small_scene("glass_sphere.json");
   RenderOptions options;
   options.threads = 1;
   options.samples = SampleRange{0, 500};
@@ -319,7 +319,7 @@ TEST_F(SavedAmidAPass, AFilmWithoutAWholePassIsThatOfItsTiles) {
 }
 
 TEST(Merge, RefusesWhatDoesNotBelongTogether) {
-  const Scene scene = small("cornell.json");
+  const Scene scene = small_scene("cornell.json");
   RenderOptions options;
   const auto part = [&](const FilmIdentity& identity, const SampleRange& range) {
     options.samples = range;

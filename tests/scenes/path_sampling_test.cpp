@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "film/rendered_film.h"
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learnt_plan.h"
 #include "transport/technique/path.h"

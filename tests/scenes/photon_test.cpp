@@ -34,7 +34,7 @@ std::array<double, 4> quarters(const Film& film, int channel) {
 }
 
 double mean_of(const Film& film) {
-  return test::region(film, 1, 0, 0, film.width(), film.height()).mean;
+  return test::whole(film, 1).mean;
 }
 
 // Both films alike all over within `whole`, and in each quarter within `quarter`.
@@ -225,7 +225,7 @@ TEST(Photons, AFinalGatherMeetsLampsInGlassThroughFog) {
     "render": {"max_depth": 30, "photons": {"per_sample": 512, "nearest": 50, "final_gather": true}}})";
   const auto mean = [&](const Rendered& how) {
     const Film film = film_of(how, scene);
-    return test::region(film, 0, 0, 0, film.width(), film.height()).mean;
+    return test::whole(film).mean;
   };
   EXPECT_NEAR(mean({"photon-map", 4096}) / mean({"path", 8192}), 1, 0.2);
 }

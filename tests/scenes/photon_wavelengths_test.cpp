@@ -1,4 +1,5 @@
 // Where photons draw their wavelengths from, once pilots have shown what leaves noise.
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/learnt_plan.h"
@@ -7,8 +8,6 @@
 
 namespace abbe {
 namespace {
-
-constexpr double kLargestZ = 5.6;  // see technique_test.cpp
 
 Scene prism(const std::vector<Override>& more = {}, const char* name = "prism_spot.json") {
   std::vector<Override> settings{{"/sensor/resolution", "[320, 200]"}};
@@ -55,7 +54,7 @@ TEST(PhotonWavelengths, ChangeNoiseOnly) {
   const test::Comparison c =
       test::compare_regions(test::film_of(scene, unlearnt(plan), 32), test::film_of(scene, plan, 24), 8);
   std::printf("largest z %.2f, ratio of the means %.5f\n", c.largest_z, c.ratio);
-  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_LT(c.largest_z, test::kLargestZ);
   EXPECT_NEAR(c.ratio, 1, 0.003);
 }
 

@@ -7,10 +7,10 @@
 namespace abbe::test {
 namespace {
 
-using V3d = Imath::V3d;
+using Imath::V3d;
 
-double mean_of(const Scene& scene) {
-  return test::mean_of(render(scene, {}).film);
+double rendered_mean(const Scene& scene) {
+  return mean_of(render(scene, {}).film);
 }
 
 // A lamp of 1 W/(sr m^2 nm) seen in two faces of a poor metal, one after the other at that angle, the planes
@@ -39,7 +39,7 @@ std::string two_mirrors(double angle_deg, bool crossed) {
 // Two faces that reflect s and p by their powers: in one plane of incidence each keeps its own, in crossed
 // ones s is p at the other.
 TEST(Polarisation, TwoMirrorsAtAnyAngle) {
-  const double unit = mean_of(load_text(R"({"abbe": 1,
+  const double unit = rendered_mean(load_text(R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 0.2, "f_number": 1}, "from": [0, 0, 0], "to": [0, 0, 1], "up": [0, 1, 0]},
     "sensor": {"observer": "1931", "resolution": [4, 4]},
     "lights": [{"quad": {"corner": [-1, -1, 1], "edge_u": [0, 2, 0], "edge_v": [2, 0, 0]},
@@ -49,7 +49,7 @@ TEST(Polarisation, TwoMirrorsAtAnyAngle) {
     const FresnelPower<double> face =
         fresnel_conductor(std::cos(angle_deg * std::numbers::pi / 180), 1.5, 0.7);
     const auto seen = [&](bool crossed, const std::vector<Override>& settings) {
-      return mean_of(load_text(two_mirrors(angle_deg, crossed), settings)) / unit;
+      return rendered_mean(load_text(two_mirrors(angle_deg, crossed), settings)) / unit;
     };
     const double kept = (face.Rs * face.Rs + face.Rp * face.Rp) / 2;
     EXPECT_NEAR(seen(false, {}) / kept, 1, 1e-4) << angle_deg;
@@ -142,7 +142,7 @@ std::string stack_of(const std::vector<std::string>& materials) {
 }
 
 TEST(Polarisation, MalusLawOfAPolarisedLampBeforeAPolariser) {
-  const double unit = mean_of(load_text(lamp_behind("", "", "")));
+  const double unit = rendered_mean(load_text(lamp_behind("", "", "")));
   constexpr double kLampDeg = 20;  // from x towards y; the picture's right is -x
   const double lamp = kLampDeg * std::numbers::pi / 180;
   const std::string emission =
@@ -151,19 +151,19 @@ TEST(Polarisation, MalusLawOfAPolarisedLampBeforeAPolariser) {
     const double angle_deg = 10.0 * k;
     const std::string sensor = fmt::format(R"(, "polariser": {{"angle_deg": {}}})", angle_deg);
     const double cosine = std::cos((angle_deg - kLampDeg) * std::numbers::pi / 180);
-    EXPECT_NEAR(mean_of(load_text(lamp_behind(emission, sensor, ""))) / unit, cosine * cosine, 1e-4)
+    EXPECT_NEAR(rendered_mean(load_text(lamp_behind(emission, sensor, ""))) / unit, cosine * cosine, 1e-4)
         << angle_deg;
   }
-  EXPECT_NEAR(mean_of(load_text(lamp_behind("", R"(, "polariser": {"angle_deg": 30})", ""))) / unit, 0.5,
-              1e-4);
+  EXPECT_NEAR(rendered_mean(load_text(lamp_behind("", R"(, "polariser": {"angle_deg": 30})", ""))) / unit,
+              0.5, 1e-4);
 }
 
 // Unpolarised light through elements one behind the other: half of it through the first polariser, then what
 // Mueller's matrices of ideal elements leave.
 TEST(Polarisation, PolarisersAndWavePlatesInARow) {
-  const double unit = mean_of(load_text(lamp_behind("", "", "")));
+  const double unit = rendered_mean(load_text(lamp_behind("", "", "")));
   const auto through = [&](const std::vector<std::string>& materials) {
-    return mean_of(load_text(lamp_behind("", "", stack_of(materials)))) / unit;
+    return rendered_mean(load_text(lamp_behind("", "", stack_of(materials)))) / unit;
   };
   EXPECT_NEAR(through({"along"}), 0.5, 1e-4);
   EXPECT_NEAR(through({"along", "across"}), 0, 1e-6);

@@ -14,7 +14,7 @@
 namespace abbe::test {
 namespace {
 
-using V3d = Imath::V3d;
+using Imath::V3d;
 const double kSlack = nightly() ? 0.002 : 0.01;
 const int kMore = nightly() ? 32 : 1;  // as many samples for a fifth of the noise
 

@@ -24,7 +24,7 @@ inline std::string square(const Imath::V3d& center, const Imath::V3d& normal, do
 
 /// The mean of a channel over the whole film.
 inline double mean_of(const Film& film, int channel = 0) {
-  return region(film, channel, 0, 0, film.width(), film.height()).mean;
+  return whole(film, channel).mean;
 }
 
 /// The Stokes vector of a film of X, Y and Z with `stokes`: that of Y.

@@ -7,7 +7,7 @@
 namespace abbe {
 namespace {
 
-using V3d = Imath::V3d;
+using Imath::V3d;
 
 // From the middle of the slit of `prism.json`, or into that of `sunlit_prism.json`, along the axis of the
 // beam.

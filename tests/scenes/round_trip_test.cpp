@@ -46,22 +46,22 @@ std::string written(const std::string& text) {
 }
 
 // Few samples of few pixels, or of the scene's own where these are few: a row of a spectrograph is.
-std::vector<Override> small(const Scene& scene) {
+std::vector<Override> small_settings(const Scene& scene) {
   std::vector<Override> settings{{"/render/samples", "8"}};
   if (scene.camera.width * scene.camera.height > 4096) settings.push_back({"/sensor/resolution", "[32, 18]"});
   return settings;
 }
 
 TEST(RoundTrip, EveryShippedSceneRendersTheSameBits) {
-  const std::vector<fs::path> paths = testing::scene_files("scenes");
+  const std::vector<fs::path> paths = test::scene_files("scenes");
   ASSERT_GE(paths.size(), 40U);
   for (const fs::path& path : paths) {
     SCOPED_TRACE(path);
-    const std::vector<Override> settings = small(test::load_file(path, {}));
+    const std::vector<Override> settings = small_settings(test::load_file(path, {}));
     const Scene scene = test::load_file(path, settings);
     const Film film = render(scene, {}).film;
     const Copy folder(path.parent_path());
-    const fs::path copy = folder.file("written_scene.json", written(testing::file_text(path)));
+    const fs::path copy = folder.file("written_scene.json", written(test::file_text(path)));
     const Film again = render(test::load_file(copy, settings), {}).film;
     EXPECT_TRUE(film.shape() == again.shape());
     EXPECT_TRUE(film.bytes() == again.bytes());

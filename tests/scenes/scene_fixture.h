@@ -15,7 +15,6 @@
 
 #include "description/load.h"
 #include "io/data_directory.h"
-#include "transport/render/pass.h"
 #include "transport/render/render.h"
 
 namespace abbe::test {
@@ -42,19 +41,6 @@ inline Scene load_text(const std::string& text, const std::vector<Override>& set
   return scene;
 }
 
-/// The film of a plan, whatever pilots have taught it: so many samples, with that number as their seed unless
-/// there is another.
-inline Film film_of(const Scene& scene, const Plan& plan, std::uint64_t samples,
-                    std::optional<std::uint64_t> seed = {}) {
-  constexpr int kReplicates = 8;
-  Film film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
-            kReplicates, plan.nominal_value, uses(plan.techniques, Technique::light) ? plan.photons : 0,
-            plan.path_interval);
-  Pass(plan, film, {}, {0, samples}, 0, seed.value_or(samples)).run(2, [] { return false; });
-  film.set_samples(count_per_replicate({{0, samples}}, kReplicates));
-  return film;
-}
-
 /// Mean of a channel over pixels [x0, x1) x [y0, y1), and the variance of that mean.
 struct Region {
   double mean = 0;
@@ -71,6 +57,14 @@ inline Region region(const Film& film, int channel, int x0, int y0, int x1, int 
   const double n = static_cast<double>(x1 - x0) * (y1 - y0);
   return {sum.mean / n, sum.variance / (n * n)};
 }
+
+/// Over the whole film.
+inline Region whole(const Film& film, int channel = 0) {
+  return region(film, channel, 0, 0, film.width(), film.height());
+}
+
+/// Of `Comparison::largest_z`: family significance 1e-6 over 3 channels x 16 regions by Sidak's correction.
+inline constexpr double kLargestZ = 5.6;
 
 /// Statistic of the difference of two independent films over a grid of regions: the largest |z|, and the mean
 /// ratio b/a.

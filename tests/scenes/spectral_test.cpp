@@ -15,10 +15,6 @@ std::string bins(double from, double to, double step) {
       from, to, step);
 }
 
-test::Region whole(const Film& film, int channel) {
-  return test::region(film, channel, 0, 0, film.width(), film.height());
-}
-
 // A lamp of 1 W between 540 and 550 nm behind the slits: what passes the prism lands in that bin, all of it.
 TEST(SpectralFilm, ALineThroughAPrismLandsInOneBinWithItsEnergy) {
   const std::vector<Override> lamp{
@@ -32,10 +28,10 @@ TEST(SpectralFilm, ALineThroughAPrismLandsInOneBinWithItsEnergy) {
        R"({"resolution": [160, 90], "pixel_pitch_um": 54, "exposure_s": 0.02, "channels": {"all": 1}})"});
   plain.push_back({"/render/seed", "1"});
   const Film film = render(test::load("prism.json", spectral), {}).film;
-  const test::Region all = whole(render(test::load("prism.json", plain), {}).film, 0);
+  const test::Region all = test::whole(render(test::load("prism.json", plain), {}).film, 0);
   ASSERT_EQ(film.channels(), 10);
   for (int bin = 0; bin < 10; ++bin) {
-    const test::Region found = whole(film, bin);
+    const test::Region found = test::whole(film, bin);
     if (bin != 4) {
       EXPECT_EQ(found.mean, 0) << bin;
       continue;
@@ -58,7 +54,7 @@ TEST(SpectralFilm, TwoLinesShareNoBin) {
   double column[2] = {0, 0};
   for (int bin = 0; bin < film.channels(); ++bin) {
     const int line = bin == 5 ? 0 : 1;
-    const double found = whole(film, bin).mean;
+    const double found = test::whole(film, bin).mean;
     if (bin != 5 && bin != 15) {
       EXPECT_EQ(found, 0) << bin;
       continue;
@@ -90,7 +86,7 @@ TEST(SpectralFilm, PathsAndPhotonsFillBinsWithOneUnit) {
       const test::Region a = test::region(path, bin, 12 * i, 12, 12 * i + 12, 48);
       const test::Region b = test::region(light, bin, 12 * i, 12, 12 * i + 12, 48);
       EXPECT_LT(std::abs(a.mean - b.mean), 5.6 * std::sqrt(a.variance + b.variance)) << bin << ' ' << i;
-      if (a.mean > 0.05 * whole(path, 5).mean) {
+      if (a.mean > 0.05 * test::whole(path, 5).mean) {
         EXPECT_NEAR(b.mean / a.mean, 1, 0.1) << bin << ' ' << i;
       }
     }

@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-using V3d = Imath::V3d;
+using Imath::V3d;
 
 constexpr std::array kMercury_nm{404.6561, 435.8343, 546.0740, 576.9598, 579.0663};
 

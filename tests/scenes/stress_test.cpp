@@ -1,17 +1,15 @@
 // Renders where numbers are at their worst. docs/validation.md lists all stress tests.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "materials/interface/prism.h"
 #include "scene/shapes/basis.h"
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 
 namespace abbe {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The furthest a pixel of the film is from 1, when `unit` is what radiance 1 exposes.
 double furthest_from_one(const Film& film, const Film& unit) {

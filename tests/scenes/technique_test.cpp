@@ -4,9 +4,6 @@
 namespace abbe {
 namespace {
 
-// Family significance 1e-6 over 3 channels x 16 regions: z = 5.6 by Sidak's correction.
-constexpr double kLargestZ = 5.6;
-
 // A lamp so big over a glass ball that path tracing makes its caustic with little noise too: each technique
 // can be held against the other.
 const std::vector<Override> kBigLamp{{"/sensor/resolution", "[64, 64]"}, {"/lights/0/sphere/radius", "1.2"}};
@@ -28,7 +25,7 @@ TEST(Techniques, SharingPathsLosesAndDoublesNothing) {
   const RenderResult shared = render_with("auto", 256, kBigLamp, true);
   EXPECT_GT(shared.stats.paths, 256U * 64 * 64) << "no photon was traced";
   const test::Comparison c = test::compare_regions(alone.film, shared.film, 4);
-  EXPECT_LT(c.largest_z, kLargestZ);
+  EXPECT_LT(c.largest_z, test::kLargestZ);
   EXPECT_NEAR(c.ratio, 1, 0.003);
 }
 
@@ -54,7 +51,7 @@ TEST(Techniques, TheirSharesChangeNoiseOnly) {
   const Film whole = film_with(48 * 48, 1);
   for (const Film& other : {film_with(48 * 48 / 8, 2), film_with(48 * 48, 8)}) {
     const test::Comparison c = test::compare_regions(whole, other, 4);
-    EXPECT_LT(c.largest_z, kLargestZ);
+    EXPECT_LT(c.largest_z, test::kLargestZ);
     EXPECT_NEAR(c.ratio, 1, 0.01);
   }
 }
@@ -64,7 +61,7 @@ TEST(Techniques, RouletteChangesNoiseOnly) {
   without.push_back({"/render/roulette_depth", "-1"});
   const RenderResult a = render_with("path", 256, kBigLamp);
   const RenderResult b = render_with("path", 256, without);
-  EXPECT_LT(test::compare_regions(a.film, b.film, 4).largest_z, kLargestZ);
+  EXPECT_LT(test::compare_regions(a.film, b.film, 4).largest_z, test::kLargestZ);
 }
 
 TEST(Techniques, LightTracingAloneMakesADiffuseSceneToo) {
@@ -79,7 +76,7 @@ TEST(Techniques, LightTracingAloneMakesADiffuseSceneToo) {
     for (int i = 0; i < 4; ++i) {
       const test::Region ra = test::region(a.film, channel, 12 * i, 12, 12 * i + 12, 48);
       const test::Region rb = test::region(b.film, channel, 12 * i, 12, 12 * i + 12, 48);
-      EXPECT_LT(std::abs(ra.mean - rb.mean), kLargestZ * std::sqrt(ra.variance + rb.variance))
+      EXPECT_LT(std::abs(ra.mean - rb.mean), test::kLargestZ * std::sqrt(ra.variance + rb.variance))
           << channel << ' ' << i;
       EXPECT_NEAR(rb.mean / ra.mean, 1, 0.03);
     }

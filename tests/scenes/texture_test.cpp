@@ -1,15 +1,13 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "io/exr.h"
 #include "scene_fixture.h"
+#include "tests/angles.h"
 
-namespace abbe {
+namespace abbe::test {
 namespace {
-
-using namespace test;
 
 class TextureScene : public ::testing::Test {
  protected:
@@ -51,8 +49,6 @@ TEST_F(TextureScene, EachTexelShowsTheReflectanceItsChannelsWeigh) {
             << x << " " << y << " " << channel;
       }
 }
-
-constexpr double kPi = std::numbers::pi;
 
 // A map of one texel, tilted so far towards +u.
 Image tilt(double degrees) {
@@ -163,4 +159,4 @@ TEST_F(TextureScene, BothTechniquesAgreeOnReliefs) {
 }
 
 }  // namespace
-}  // namespace abbe
+}  // namespace abbe::test

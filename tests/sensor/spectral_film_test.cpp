@@ -30,7 +30,7 @@ TEST(SpectralFilm, BinsFillTheirRange) {
   EXPECT_EQ(spectral_channels({1000, 0.01, 2})[1].name, "1000.015nm");
 }
 
-Image film() {
+Image binned_film() {
   Image image{2, 1, {}, {{"seed", "7"}}};
   for (const char* prefix : {"", "Variance."})
     for (const int nm : {405, 415, 425})
@@ -41,7 +41,7 @@ Image film() {
 
 TEST(SpectralFilm, ValuesBecomeRadiancesAndVariancesTheirs) {
   const std::vector<double> factors{0.5, 0.25};
-  const SpectralImage image = spectral_film(film(), kBins, factors);
+  const SpectralImage image = spectral_film(binned_film(), kBins, factors);
   ASSERT_EQ(image.bands.size(), 3U);
   EXPECT_EQ(image.metadata.at("seed"), "7");
   EXPECT_EQ(image.bands[1].center_nm, 415);
@@ -52,7 +52,7 @@ TEST(SpectralFilm, ValuesBecomeRadiancesAndVariancesTheirs) {
 }
 
 TEST(SpectralFilm, AFilmWithoutABinIsABug) {
-  Image image = film();
+  Image image = binned_film();
   image.channels[1].name = "411nm";
   EXPECT_THROW((void)spectral_film(image, kBins, std::vector<double>{1, 1}), Error);
 }
@@ -82,7 +82,7 @@ TEST(SpectralFilm, ASensorCountsTheEnergyThatItsFiltersPass) {
 }
 
 TEST(SpectralFilm, StokesComponentsBecomeRadiancesToo) {
-  Image polarised = film();
+  Image polarised = binned_film();
   for (int component = 1; component < 4; ++component)
     for (const int nm : {405, 415, 425}) {
       const std::string name = name_of({component, std::to_string(nm) + "nm"});
@@ -100,7 +100,7 @@ TEST(SpectralFilm, StokesComponentsBecomeRadiancesToo) {
   ASSERT_EQ(image.others.size(), 12U);
   EXPECT_EQ(image.others[11].name, "Variance.S3.425,000000nm");
   EXPECT_EQ(image.others[11].values, (std::vector<float>{4, 64}));
-  EXPECT_FALSE(spectral_film(film(), kBins, std::vector<double>{1, 1}).is_polarised());
+  EXPECT_FALSE(spectral_film(binned_film(), kBins, std::vector<double>{1, 1}).is_polarised());
 }
 
 // A polariser before a sensor that looks at a polarised image passes what it would have passed in the scene.

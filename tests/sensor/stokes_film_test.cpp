@@ -10,7 +10,7 @@
 namespace abbe {
 namespace {
 
-Image film() {
+Image polarised_film() {
   return {1,
           2,
           {{"R", {4, 1}},
@@ -26,7 +26,7 @@ Image film() {
 }
 
 TEST(StokesFilm, FindsTheComponentsOfEachChannel) {
-  const Image image = film();
+  const Image image = polarised_film();
   const std::vector<StokesPlanes> planes = stokes_planes(image);
   ASSERT_EQ(planes.size(), 2U);
   EXPECT_EQ(planes[0].channel, "R");
@@ -34,15 +34,15 @@ TEST(StokesFilm, FindsTheComponentsOfEachChannel) {
   EXPECT_EQ(planes[1].at(0), (StokesVector{2, 2, 0, 0}));
   EXPECT_TRUE(stokes_planes({1, 1, {{"R", {1}}, {"G", {1}}}, {}}).empty());
   for (int component = 0; component < 3; ++component) {
-    Image torn = film();
+    Image torn = polarised_film();
     torn.channels.erase(torn.channels.begin() + 2 + 2 * component);
     EXPECT_THROW((void)stokes_planes(torn), Error) << "component " << component + 1;
   }
 }
 
 TEST(StokesFilm, OfLinearPolarisersTellsNothingCircular) {
-  EXPECT_TRUE(stokes_planes(film())[0].tells_circular());
-  Image linear = film();
+  EXPECT_TRUE(stokes_planes(polarised_film())[0].tells_circular());
+  Image linear = polarised_film();
   std::erase_if(linear.channels, [](const ImageChannel& channel) { return channel.name.starts_with("S3."); });
   for (const StokesPlanes& planes : stokes_planes(linear)) {
     EXPECT_FALSE(planes.tells_circular());

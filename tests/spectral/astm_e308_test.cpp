@@ -7,16 +7,12 @@
 
 #include "io/reference_table.h"
 #include "spectral/library.h"
+#include "tests/spectral/illuminant.h"
 
 namespace abbe {
 namespace {
 
-Curve illuminant(const std::string& name) {
-  Diagnostics diagnostics;
-  auto curve = load_illuminant(name, {}, diagnostics);
-  EXPECT_TRUE(curve) << diagnostics.text();
-  return curve->curve;
-}
+using test::illuminant;
 
 Samples patch(const std::string& name) {
   Diagnostics diagnostics;

@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "spectral/library.h"
 #include "spectral/sources.h"
+#include "tests/spectral/illuminant.h"
 
 namespace abbe {
 namespace {
 
-Curve illuminant(const std::string& name) {
-  Diagnostics diagnostics;
-  const auto curve = load_illuminant(name, {}, diagnostics);
-  EXPECT_TRUE(curve) << diagnostics.text();
-  return curve ? curve->curve : Curve();
-}
+using test::illuminant;
 
 TEST(Colorimetry, lab_of_white_black_and_the_dark_branch) {
   const XYZ white = {95.047, 100, 108.883};

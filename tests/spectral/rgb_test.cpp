@@ -8,7 +8,7 @@
 namespace abbe {
 namespace {
 
-void expect_near(const LinearRgb& a, const LinearRgb& b, double tolerance) {
+void expect_rgb_near(const LinearRgb& a, const LinearRgb& b, double tolerance) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << "channel " << c;
 }
 
@@ -17,7 +17,7 @@ TEST(Rgb, SpectraHaveTheColoursTheyAreMadeFrom) {
     for (const double g : {0.0, 0.3, 1.0})
       for (const double b : {0.0, 0.7, 1.0}) {
         const Curve spectrum = rgb_spectrum({r, g, b});
-        expect_near(linear_rgb(spectrum), {r, g, b}, 1e-9);
+        expect_rgb_near(linear_rgb(spectrum), {r, g, b}, 1e-9);
         EXPECT_GE(spectrum.min(), std::min({r, g, b}));
         EXPECT_LE(spectrum.max(), std::max({r, g, b}));
       }
@@ -32,7 +32,7 @@ TEST(Rgb, ColoursAreThoseOfTheTables) {
   const XYZ red = tristimulus(d65->curve, rgb_basis().red, Observer::cie1931);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(chromaticity(red)[i], kRec709Primaries[0][i], 1e-9);
   EXPECT_NEAR(red[1], 21.26, 0.02) << "luminance of the primary [BT709]";
-  expect_near(linear_rgb(Curve(0.25)), {0.25, 0.25, 0.25}, 1e-12);
+  expect_rgb_near(linear_rgb(Curve(0.25)), {0.25, 0.25, 0.25}, 1e-12);
 }
 
 TEST(Rgb, BasisIsSmoothAndAddsUpToOne) {

@@ -9,8 +9,8 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-using testing::Random;
-using testing::scene_of;
+using test::Random;
+using test::scene_of;
 
 // How many times as much the night does.
 const int kEffort = test::nightly() ? 100 : 1;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 
 namespace abbe {

@@ -1,19 +1,17 @@
 // Lamps of extreme sizes, places and spectra, each against its closed form.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 
 namespace abbe {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double mean(const RenderResult& result) {
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
-  return test::region(result.film, 0, 0, 0, result.film.width(), result.film.height()).mean;
+  return test::whole(result.film).mean;
 }
 
 // Stress 24: a meter below a ball of radiance 1/nm on the band, at a distance from its middle.

@@ -15,7 +15,7 @@ namespace abbe {
 namespace {
 
 // A strongly uneven distribution of wavelengths: a line over a weak continuum.
-WavelengthDistribution uneven() {
+WavelengthDistribution uneven_wavelengths() {
   const std::vector<SpectralLine> line{{546, 2, 30}};
   const std::vector<Curve> emission{sum(lines(line), band(400, 700, 1))};
   const std::vector<Curve> response{band(400, 700)};
@@ -60,7 +60,7 @@ Found glass_event(const PathPacket& drawn, float lobe) {
 }
 
 TEST(Lanes, ReflectionAndRefractionTogetherKeepAllLightOfAllWavelengths) {
-  const double total = mean_over(uneven(), [](const PathPacket& w, float lobe) {
+  const double total = mean_over(uneven_wavelengths(), [](const PathPacket& w, float lobe) {
     const Found found = glass_event(w, lobe);
     return found.reflected + found.transmitted;
   });
@@ -70,14 +70,14 @@ TEST(Lanes, ReflectionAndRefractionTogetherKeepAllLightOfAllWavelengths) {
 TEST(Lanes, ReflectedShareIsTheIntegralOfFresnel) {
   double expected = 0;
   for (double l = 400.5; l < 700; ++l) expected += fresnel_dielectric(0.6, 1.4 + (700 - l) / 600).R();
-  const double reflected =
-      mean_over(uneven(), [](const PathPacket& w, float lobe) { return glass_event(w, lobe).reflected; });
+  const double reflected = mean_over(
+      uneven_wavelengths(), [](const PathPacket& w, float lobe) { return glass_event(w, lobe).reflected; });
   EXPECT_NEAR(reflected, expected, expected * 3e-3);
 }
 
 TEST(Lanes, ADenominatorWithWavelengthDensitiesWouldBeBiased) {
   // sum_j f_j / sum_k p(lambda_k) P_k: why the density of wavelengths belongs in the numerator alone.
-  const double biased = mean_over(uneven(), [](const PathPacket& w, float lobe) {
+  const double biased = mean_over(uneven_wavelengths(), [](const PathPacket& w, float lobe) {
     const SampledSpectrum n =
         SampledSpectrum::map(w.wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
     const auto event = sample(Bsdf(DielectricBsdf{n, true}), Imath::V3f(0.8F, 0, 0.6F), {lobe, {0.5F, 0.5F}},

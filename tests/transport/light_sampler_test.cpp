@@ -86,7 +86,7 @@ struct Place {
   bool all_sides;
   [[nodiscard]] const V3f* normal() const { return all_sides ? nullptr : &side; }
 };
-Place place(std::uint32_t i) {
+Place place_among_lamps(std::uint32_t i) {
   const auto u = numbers(i, 2);
   return {{24 * u[0] - 12, 24 * u[1] - 12, 6 * u[2]}, direction(u[3], u[1]), i % 3 == 0};
 }
@@ -96,7 +96,7 @@ TEST(LightSampler, ProbabilitiesSumToOne) {
     Hall hall = mixed_hall(lamps);
     const LightSampler sampler = hall.sampler();
     for (std::uint32_t i = 0; i < 200; ++i) {
-      const Place at = place(i);
+      const Place at = place_among_lamps(i);
       double sum = 0;
       for (std::uint32_t light = 0; light < hall.scene.lights.size(); ++light) {
         const float p = sampler.probability(light, at.point, at.normal());
@@ -115,7 +115,7 @@ TEST(LightSampler, PicksAsOftenAsItSays) {
     Hall hall = mixed_hall(lamps);
     const LightSampler sampler = hall.sampler();
     for (std::uint32_t i = 0; i < 12; ++i) {
-      const Place at = place(i);
+      const Place at = place_among_lamps(i);
       constexpr int kPicks = 1 << 16;
       std::vector<int> counts(hall.scene.lights.size());
       for (int k = 0; k < kPicks; ++k) {

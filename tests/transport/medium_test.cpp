@@ -10,7 +10,7 @@
 namespace abbe {
 namespace {
 
-MediumAt medium() {
+MediumAt absorbing_medium() {
   SampledSpectrum::Values absorption;
   absorption.fill(2);
   absorption[3] = 0;
@@ -19,7 +19,7 @@ MediumAt medium() {
 
 TEST(Medium, AttenuatesByBeersLaw) {
   SampledSpectrum lanes(0.5F);
-  medium().attenuate(lanes, 0.25F);
+  absorbing_medium().attenuate(lanes, 0.25F);
   EXPECT_FLOAT_EQ(lanes[0], 0.5F * std::exp(-0.5F));
   EXPECT_EQ(lanes[3], 0.5F);
 }
@@ -38,14 +38,14 @@ TEST(Medium, AttenuatesPreciselyAtAnyDepth) {
 
 TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {
   SampledSpectrum lanes(0.5F);
-  medium().attenuate(lanes, std::numeric_limits<float>::infinity());
+  absorbing_medium().attenuate(lanes, std::numeric_limits<float>::infinity());
   EXPECT_EQ(lanes[0], 0);
   EXPECT_EQ(lanes[3], 0.5F);
 }
 
 // Rounded to floats alone, some would lie behind the plane that the ray ends at.
 TEST(FreePath, WhatFloatsDoNotTellFromASurfaceLiesInFrontOfIt) {
-  testing::Random random(3);
+  test::Random random(3);
   const auto draw = [&] {
     return Imath::V3f(random.uniform(), random.uniform(), random.uniform()) - Imath::V3f(0.5F);
   };

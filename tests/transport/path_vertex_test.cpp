@@ -12,8 +12,8 @@ namespace {
 
 using Imath::V2f;
 using Imath::V3f;
-using testing::all_light_kinds;
-using testing::Random;
+using test::all_light_kinds;
+using test::Random;
 
 PathPacket packet() {
   PathPacket drawn;
@@ -104,7 +104,7 @@ TEST(Connect, ToALightIsWhatPathTracingAdds) {
 // A path that comes from infinity through a ball of fog to a card: its first vertex has the density of the
 // light's direction per area of the card, and of coming through the fog in each lane.
 TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
-  Scene scene = testing::lit_by(DirectionalLight{{0, 0, -1}});
+  Scene scene = test::lit_by(DirectionalLight{{0, 0, -1}});
   MediumMaterial fog;
   fog.filling.scattering_per_m = Curve({{300, 0.2}, {1100, 0.6}});
   fog.filling.absorption_per_m = Curve(0.1);
@@ -138,7 +138,7 @@ TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
 
 // f of both ends, G and what fog leaves: the same both ways between what is reciprocal.
 TEST(Connect, IsSymmetric) {
-  const Scene scene = testing::lit_by(PointLight{{0, 0, 9}});
+  const Scene scene = test::lit_by(PointLight{{0, 0, 9}});
   RayCaster caster(scene);
   Random random(2);
   for (int i = 0; i < 200; ++i) {
@@ -165,7 +165,7 @@ TEST(Connect, IsSymmetric) {
 // As between a lens of a millionth of a micrometre and a card beside it: neither a product of what is small
 // nor of what is large is a float.
 TEST(Connect, HoldsWhatIsSmallAndLargeByTurns) {
-  const Scene scene = testing::lit_by(PointLight{{0, 0, 9}});
+  const Scene scene = test::lit_by(PointLight{{0, 0, 9}});
   RayCaster caster(scene);
   PathVertex a = surface_vertex({0, 0, 0.2F}, {0, 0, 1}, {0, 0, 1}, DiffuseBsdf{SampledSpectrum(1e25F)});
   PathVertex b =
@@ -182,7 +182,7 @@ TEST(Connect, HoldsWhatIsSmallAndLargeByTurns) {
 // From the wall of a ball of rough glass that absorbs: inwards through it, outwards through air.
 TEST(Connect, RunsThroughWhatLiesOnTheSideItLeavesTo) {
   Scene scene{};
-  scene.camera = testing::pinhole();
+  scene.camera = test::pinhole();
   Medium dark;
   dark.absorption_per_m = Curve(2.0);
   scene.materials = {

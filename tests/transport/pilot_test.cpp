@@ -14,7 +14,7 @@ namespace abbe {
 namespace {
 
 // A white card that fills the left half of the view, lit by a lamp at the camera.
-Scene card(int width, int height) {
+Scene card_on_the_left(int width, int height) {
   Scene scene{};
   scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, width, height, 0.01};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}}};
@@ -26,7 +26,7 @@ Scene card(int width, int height) {
 }
 
 TEST(Pilot, ShowsWhereLightIsWithoutTheSamplesOfAnyRender) {
-  Scene scene = card(8, 4);
+  Scene scene = card_on_the_left(8, 4);
   const Film pilot = *pilot_film(make_plan(scene), 1);
   const bool left = pilot.mean(0, 0) > 0;
   for (std::size_t pixel = 0; pixel < 32; ++pixel)
@@ -39,7 +39,7 @@ TEST(Pilot, ShowsWhereLightIsWithoutTheSamplesOfAnyRender) {
 }
 
 TEST(Pilot, IsEndedByAStop) {
-  Scene scene = card(64, 64);
+  Scene scene = card_on_the_left(64, 64);
   EXPECT_FALSE(pilot_film(make_plan(scene), 1, {}, [] { return true; }));
   scene.render.samples = 16;
   std::atomic<bool> stop = false;
@@ -52,7 +52,7 @@ TEST(Pilot, IsEndedByAStop) {
 }
 
 TEST(Pilot, KeepsToTheCrop) {
-  const Scene scene = card(8, 4);
+  const Scene scene = card_on_the_left(8, 4);
   const Film pilot = *pilot_film(make_plan(scene), 1, Crop{0, 1, 8, 2});
   for (std::size_t pixel = 0; pixel < 32; ++pixel)
     EXPECT_TRUE(pixel / 8 == 1 || pilot.mean(pixel, 0) == 0) << pixel;
@@ -62,7 +62,7 @@ TEST(Pilot, KeepsToTheCrop) {
 // The numbers of the photons of each batch, each of which has found something.
 std::vector<std::vector<float>> pilot_photons(const PilotPhotons& pilots, int threads) {
   return trace_pilot_photons(
-      card(8, 4), pilots, threads, [](RayCaster&) { return 0; },
+      card_on_the_left(8, 4), pilots, threads, [](RayCaster&) { return 0; },
       [](int, std::span<const Sampler> photons) {
         std::vector<float> numbers;
         for (const Sampler& photon : photons) numbers.push_back(photon.group(0)[0]);

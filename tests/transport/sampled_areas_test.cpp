@@ -28,7 +28,7 @@ Pixels pixels_of(const SampledAreas& areas) {
   return pixels;
 }
 
-bool add(Pixels& pixels, const SampledArea& more) {
+bool add_to_pixels(Pixels& pixels, const SampledArea& more) {
   for (int y = more.pixels.y0; y < more.pixels.y1; ++y)
     for (int x = more.pixels.x0; x < more.pixels.x1; ++x)
       for (const SampleRange& range : more.samples)
@@ -57,7 +57,7 @@ TEST(SampledAreas, AgreeWithPixelsOneByOne) {
     for (int i = 0; i < 10; ++i) {
       const SampledArea more = any_area(random);
       Pixels sum = pixels;
-      const bool fits = add(sum, more);
+      const bool fits = add_to_pixels(sum, more);
       const SampledAreas before = areas;
       const auto there = add(areas, more);
       ASSERT_EQ(!there, fits);

@@ -9,13 +9,14 @@
 namespace abbe {
 namespace {
 
-constexpr int kEdge = 4;
+constexpr int kFilmEdge = 4;
 
 // A room's corner of white cards, a lamp in it and a lamp with area, seen by a pinhole; fog fills it if
 // asked.
 Scene corner(bool fog) {
   Scene scene{};
-  scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, kEdge, kEdge, 0.01};
+  scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, kFilmEdge, kFilmEdge,
+                  0.01};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.9)}}};
   scene.channels = {energy_channel("all", Curve(1.0))};
   scene.shapes.push_back({"back", Quad{{-5, -5, 5}, {0, 10, 0}, {10, 0, 0}}, 0});

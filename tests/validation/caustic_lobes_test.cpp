@@ -93,7 +93,7 @@ void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
 
 TEST(CausticLobes, AreTheirShareOfWhatAPathDraws) {
   const CausticGuide guide(photons_from({0.5F, 3, -1}, 0.3F, 500), kRoom);
-  const Scene scene = testing::scene_of({Sphere{{0, 0, 5}, 1}});
+  const Scene scene = test::scene_of({Sphere{{0, 0, 5}, 1}});
   const Plan plan = make_plan(scene);
   RayCaster caster(scene);
   const PathTracer tracer(plan, caster);

@@ -4,17 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "materials/bsdf/warp.h"
+#include "tests/angles.h"
 #include "validation/goniometer/sphere_cells.h"
 
 namespace abbe {
 namespace {
 
 using Imath::V3f;
-
-constexpr double kPi = std::numbers::pi;
 
 std::optional<BsdfSample> event(const V3f& wi) {
   return BsdfSample{.wi = wi, .weight = {}, .pdf = 1};
