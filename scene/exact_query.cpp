@@ -84,7 +84,7 @@ void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
   auto& context = *static_cast<ExactContext*>(args->context);
-  context.nearest[id] = found;
+  if constexpr (!std::is_same_v<S, TriangleSet>) context.nearest[id] = found;
   RTCHit met{};
   met.geomID = args->geomID;
   met.primID = args->primID;
@@ -311,6 +311,14 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
   const Placement* at = instance == nullptr ? nullptr : instance->at.get();
   return at != nullptr && at->motion ? moving_triangle_hit(*set, hit, *instance, ray)
                                      : triangle_hit(*set, hit, instance, at, ray);
+}
+
+std::optional<SurfaceHit> nearest(const RTCHit& hit, float t, const ExactContext& context, std::size_t ray) {
+  std::optional<SurfaceHit> met = decide(hit, context, ray);
+  if (!met) return met;
+  const float sooner = std::min(t, met->t);
+  met->back = met->t - sooner + std::min(2 * kOffsetSteps * largest_coordinate(met->point), 0.5F * sooner);
+  return met;
 }
 
 }  // namespace abbe

@@ -38,6 +38,12 @@ struct ExactContext : RTCIntersectContext {
 [[nodiscard]] std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
                                                std::size_t ray);
 
+/// The same of the nearest hit, which Embree found at `t`. Rays that leave to the side it came from start
+/// before where that is, by more the more the face is grazed, and some floats more, but on this stretch of
+/// the path: it may have begun at a boundary that is close.
+[[nodiscard]] std::optional<SurfaceHit> nearest(const RTCHit& hit, float t, const ExactContext& context,
+                                                std::size_t ray);
+
 /// A filter that drops the triangles whose plane the ray does not cross in double.
 void reject_behind(const RTCFilterFunctionNArguments* args);
 /// A filter that passes every hit to `ExactContext::all`.

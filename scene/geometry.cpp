@@ -86,14 +86,6 @@ RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
   return geometry;
 }
 
-// What Embree found for the ray of that number, at `t`.
-std::optional<SurfaceHit> decide(const RTCHit& found, float t, const ExactContext& context,
-                                 std::size_t number) {
-  std::optional<SurfaceHit> hit = abbe::decide(found, context, number);
-  if (hit) hit->late = std::max(0.0F, hit->t - t);
-  return hit;
-}
-
 BasicRay<double> exact(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
@@ -240,7 +232,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
     RTCRayHit query = embree_query(context.rays[0]);
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (auto hit = decide(query.hit, query.ray.tfar, context, 0)) return hit;
+    if (auto hit = nearest(query.hit, query.ray.tfar, context, 0)) return hit;
     // The plane the ray has just left, mistaken by rounding: rare enough to ask again with every candidate
     // looked at in double.
     context.filter = reject_behind;
@@ -258,7 +250,7 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Surf
       std::optional<SurfaceHit>& hit = hits[first + i];
       hit.reset();
       if (packet.query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      hit = decide(packet.hit(i), packet.t(i), context, i);
+      hit = nearest(packet.hit(i), packet.t(i), context, i);
       if (!hit) hit = intersect(rays[first + i]);
     }
   }
@@ -295,6 +287,7 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
   std::sort(all.begin(), all.end(), sooner);
   for (SurfaceHit& other : all) {
     other.t += static_cast<float>(start);
+    other.back = hit.back;
     const auto same = [&](const SurfaceHit& met) {
       return met.shape == other.shape && (met.normal.dot(other.normal) > 0);
     };
@@ -309,19 +302,22 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
 }
 
 // Asked on the way to the hit, as Embree may have taken the wall for what lies behind it, and through the hit
-// along three axes, one of which meets any wall that is near.
+// along three axes, one of which meets any wall that is near. Parallel ones touch, or rays start before them.
 bool Geometry::wall_within_rounding(const Scene& scene, const SurfaceHit& hit, const Imath::V3f& direction,
                                     float time) const {
   const Imath::V3d along(direction);
   const Imath::V3d normal(hit.normal);
   const Imath::V3d point(hit.point);
-  const double near = static_cast<double>(hit.spread + 2 * offset_length(hit.point));
+  const auto start = static_cast<double>(hit.spread + 1.25F * offset_length(hit.point));
+  const auto near = static_cast<double>(hit.spread + 2 * offset_length(hit.point));
   const double reach = 32 * near;
   const auto wall = [&](const SurfaceHit& met) {
     return opaque(scene.materials[scene.shapes[met.shape].material]);
   };
   const auto near_wall = [&](const SurfaceHit& met) {
-    return wall(met) && std::abs((Imath::V3d(met.point) - point).dot(Imath::V3d(met.normal))) <= near;
+    const Imath::V3d facing(met.normal);
+    const bool parallel = std::abs(facing.dot(normal)) > TouchingSurfaces::kParallel;
+    return wall(met) && std::abs((Imath::V3d(met.point) - point).dot(facing)) <= (parallel ? start : near);
   };
   const double back = std::min(reach / std::abs(normal.dot(along)), static_cast<double>(hit.t) / 2);
   const double vague = near + scene.touch_distance(point, hit.shape);  // as corners are kept in float

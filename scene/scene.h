@@ -125,7 +125,7 @@ struct SurfaceHit {
   std::uint32_t shape;
   std::uint32_t primitive = 0;  ///< Which triangle of a mesh, in its own order.
   float spread = 0;             ///< How far to both sides [m] are surfaces that count as one with this.
-  float late = 0;               ///< By how much of `t` the point lies beyond where it was found in float.
+  float back = 0;  ///< How far back on its way [m] a ray that leaves to the side it came from starts.
 };
 
 /// A ray that leaves the surface into `direction`, clear of those that count as one with it.
@@ -135,16 +135,14 @@ struct SurfaceHit {
 }
 
 /// The same of a ray that came there from the unit direction `from`. One that leaves to the side it came from
-/// starts a few floats back on its way as well, twice as many, and not beyond where it was found: where
-/// surfaces meet, rounding may have taken the further one for the nearer, by more the more it is grazed.
+/// starts `back` on its way as well: where surfaces meet, rounding may have taken the further one for the
+/// nearer, and the ray beyond that.
 [[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& from, const Imath::V3f& direction,
                                float time) {
   Ray ray = spawn(hit, direction, time);
   if (!(hit.normal.dot(from) * hit.normal.dot(direction) > 0)) return ray;
-  const float found = hit.t - hit.late;
-  const float back = hit.late + std::min(2 * kOffsetSteps * largest_coordinate(hit.point), 0.5F * found);
-  ray.origin =
-      rounded_back(Imath::V3d(ray.origin) + Imath::V3d(from) * static_cast<double>(back), -Imath::V3d(from));
+  ray.origin = rounded_back(Imath::V3d(ray.origin) + Imath::V3d(from) * static_cast<double>(hit.back),
+                            -Imath::V3d(from));
   return ray;
 }
 
