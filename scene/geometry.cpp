@@ -308,7 +308,7 @@ bool Geometry::wall_within_rounding(const Scene& scene, const SurfaceHit& hit, c
   const Imath::V3d along(direction);
   const Imath::V3d normal(hit.normal);
   const Imath::V3d point(hit.point);
-  const auto start = static_cast<double>(hit.spread + 1.25F * offset_length(hit.point));
+  const auto start = static_cast<double>(hit.spread + 1.25F * offset_length(hit.point));  // rounding too
   const auto near = static_cast<double>(hit.spread + 2 * offset_length(hit.point));
   const double reach = 32 * near;
   const auto wall = [&](const SurfaceHit& met) {

@@ -1,9 +1,9 @@
 // Walls that matter crosses, seen where floats hardly tell the two apart.
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "tests/angles.h"
 #include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
 
@@ -24,7 +24,7 @@ class CrossedWall {
  public:
   CrossedWall(double half, double aside, double turned_deg, double slope)
       : half_(half), slope_(slope), aside_(aside, aside, 0) {
-    turned_.setAxisAngle(V3d(1, 2, 3).normalized(), turned_deg * std::numbers::pi / 180);
+    turned_.setAxisAngle(V3d(1, 2, 3).normalized(), turned_deg * kDegree);
   }
 
   [[nodiscard]] std::string matter(const std::string& material) const {
