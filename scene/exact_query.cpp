@@ -25,7 +25,7 @@ const Placement* placement_of(const RTCIntersectContext* context) {
 }
 
 // Where it stands at the ray's time.
-Placement placement_now(const Placement& at, const BasicRay<double>& ray) {
+[[gnu::noinline]] Placement placement_now(const Placement& at, const BasicRay<double>& ray) {
   return placement_at(at, static_cast<double>(ray.time));
 }
 
@@ -209,6 +209,14 @@ SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray,
           primitive};
 }
 
+// Where the ray crosses the plane of a triangle, of an instance that stands `at`, in its lengths. Out of
+// line, as is where an instance stands, so that it is rounded alike for the filter of hits and for what is
+// decided of them: a hit that the one passes and the other drops would be asked for without end.
+[[gnu::noinline]] double crossing(const TriangleSet& set, std::uint32_t triangle, const Placement* at,
+                                  const BasicRay<double>& ray) {
+  return plane_crossing(set, triangle, at == nullptr ? ray : to_prototype(*at, ray));
+}
+
 // Of barycentric coordinates: well beyond what points keep off edges, in all but the smallest triangles.
 constexpr float kNearEdge = 0.01F;
 
@@ -228,12 +236,11 @@ Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const Place
 std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit,
                                        const SceneInstance* instance, const Placement* at,
                                        const BasicRay<double>& ray) {
-  const BasicRay<double> local = at == nullptr ? ray : to_prototype(*at, ray);
-  const double t = plane_crossing(set, hit.primID, local);
+  const double t = crossing(set, hit.primID, at, ray);
   if (!(t > 0 && t < ray.t_max)) return std::nullopt;
   Imath::V3d point = ray.origin + ray.direction * t;
   if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
-    point += shift_in_world(set, hit, at, local, t, Imath::V3f(point));
+    point += shift_in_world(set, hit, at, at == nullptr ? ray : to_prototype(*at, ray), t, Imath::V3f(point));
   if (instance == nullptr)
     return SurfaceHit{rounded_back(point, ray.direction), set.normals[hit.primID], static_cast<float>(t),
                       hit.geomID, hit.primID};
@@ -248,13 +255,10 @@ std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit
   return triangle_hit(set, hit, &instance, &now, ray);
 }
 
-[[gnu::noinline]] BasicRay<double> moving_ray_inside(const Placement& at, const BasicRay<double>& ray) {
-  return to_prototype(placement_now(at, ray), ray);
-}
-
-// The ray in the coordinates of a prototype.
-BasicRay<double> ray_inside(const Placement& at, const BasicRay<double>& ray) {
-  return at.motion ? moving_ray_inside(at, ray) : to_prototype(at, ray);
+[[gnu::noinline]] double moving_crossing(const TriangleSet& set, std::uint32_t triangle, const Placement& at,
+                                         const BasicRay<double>& ray) {
+  const Placement now = placement_now(at, ray);
+  return crossing(set, triangle, &now, ray);
 }
 
 }  // namespace
@@ -267,7 +271,8 @@ void reject_behind(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const BasicRay<double>& ray = context.rays[RTCRayN_id(args->ray, args->N, i)];
     const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, i);
-    const double t = plane_crossing(set, triangle, at == nullptr ? ray : ray_inside(*at, ray));
+    const double t = at != nullptr && at->motion ? moving_crossing(set, triangle, *at, ray)
+                                                 : crossing(set, triangle, at, ray);
     if (!(t > 0 && t < ray.t_max)) args->valid[i] = 0;
   }
 }
