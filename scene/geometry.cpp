@@ -269,14 +269,16 @@ std::vector<SurfaceHit> Geometry::all_met(const BasicRay<double>& ray, unsigned 
   return all;
 }
 
-// Embree is asked for all it meets on a stretch of the ray around the hit, on which it need not be exact.
+// Embree is asked for all it meets on a stretch of the ray around the hit, on which it need not be exact. As
+// it begins there, its lengths tell how far apart surfaces are, where their points are rounded by as much.
 TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const {
   TouchingSurfaces found;
   found.at[found.count++] = hit;
   const Imath::V3d normal(hit.normal);
   const Imath::V3d point(hit.point);
   const Imath::V3d direction(ray.direction);
-  const double reach = 2 * scene.touch_distance(point, hit.shape) / std::abs(normal.dot(direction));
+  const double cosine = std::abs(normal.dot(direction));
+  const double reach = 2 * scene.touch_distance(point, hit.shape) / cosine;
   const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
   std::vector<SurfaceHit> all =
@@ -285,17 +287,21 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
     return std::tie(a.t, a.shape) < std::tie(b.t, b.shape);
   };
   std::sort(all.begin(), all.end(), sooner);
+  const auto one_side = [](const SurfaceHit& a, const SurfaceHit& b) {
+    return a.shape == b.shape && a.normal.dot(b.normal) > 0;
+  };
+  const auto itself = std::ranges::find_if(all, [&](const SurfaceHit& met) { return one_side(met, hit); });
+  const double at_hit =
+      itself != all.end() ? static_cast<double>(itself->t) : static_cast<double>(hit.t) - start;
   for (SurfaceHit& other : all) {
+    const double apart = std::abs(static_cast<double>(other.t) - at_hit) * cosine;
     other.t += static_cast<float>(start);
     other.back = hit.back;
-    const auto same = [&](const SurfaceHit& met) {
-      return met.shape == other.shape && (met.normal.dot(other.normal) > 0);
-    };
     const bool parallel = std::abs(normal.dot(Imath::V3d(other.normal))) > TouchingSurfaces::kParallel;
-    const double apart = std::abs((Imath::V3d(other.point) - point).dot(normal));
     if (found.count < TouchingSurfaces::kMost && parallel &&
         apart <= scene.touch_distance(point, hit.shape, other.shape) &&
-        std::none_of(found.at.begin(), found.at.begin() + static_cast<std::ptrdiff_t>(found.count), same))
+        std::none_of(found.at.begin(), found.at.begin() + static_cast<std::ptrdiff_t>(found.count),
+                     [&](const SurfaceHit& met) { return one_side(met, other); }))
       found.at[found.count++] = other;
   }
   return found;

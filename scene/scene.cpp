@@ -15,10 +15,11 @@
 namespace abbe {
 namespace {
 
-// Vertices are off the plane they belong to by up to a float step, a point spawned on a surface is up to six
-// from it: what is nearer than these is met together, what is further by the ray that leaves.
+// A point on a surface is up to a float step along each axis off it, the start of a ray four further and half
+// a step along each axis off that, seven together: what is nearer is met together, what is further by the ray
+// that leaves.
 double touching_at(double size) {
-  return 6 * float_step(size);
+  return 8 * float_step(size);
 }
 
 // The volumes of shapes, of a prototype worked out once.

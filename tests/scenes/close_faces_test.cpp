@@ -88,5 +88,18 @@ TEST(CloseFaces, AFloorIsSeenThroughWhatIsAnyFewFloatsAboveIt) {
     }
 }
 
+// Where faces are nearly as far apart as those that count as touching, each place is all one or the other.
+TEST(CloseFaces, FogAboveAFloorTakesItsShareAtAnyGap) {
+  for (const double turned_deg : {37.0, 99.0}) {
+    const CloseFaces faces(1, turned_deg);
+    const double expected = faces.seen(faces.box("fog", 1e-4), faces.lamp(), "path");
+    for (int step = 0; step < 100; ++step) {
+      const double gap = 0.8e-6 + step * 1e-8;
+      EXPECT_NEAR(faces.seen(faces.box("fog", gap), faces.lamp(), "path") / expected, 1, 0.003)
+          << turned_deg << ", " << gap;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace abbe
