@@ -1,5 +1,7 @@
 #include "spectral/colorimetry.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "io/error.h"
@@ -18,6 +20,26 @@ ColorMatching load_color_matching(const std::string& table, const std::string& s
   return {load("xbar" + suffix), load("ybar" + suffix), load("zbar" + suffix)};
 }
 
+// Whether its values at whole nanometres tell a curve: narrow lines lie between them, or on one, and a sum
+// would miss them or count them several times. A table may end in a jump just beyond its last row.
+bool is_told_by_nanometres(const Curve& curve) {
+  constexpr double kBeyond = 1e-9;
+  return std::ranges::all_of(curve.knots(), [](const Knot& knot) {
+    return std::abs(knot.wavelength_nm - std::round(knot.wavelength_nm)) < kBeyond;
+  });
+}
+
+// Over the nanometres that a sum counts.
+double integral(const Curve& curve, SumRange range) {
+  return curve.integral(range.low_nm - 0.5, range.high_nm + 0.5);
+}
+
+// What light gives to that nanometre of a quantity that is told by its values at whole ones.
+double share_of_nanometre(const Curve& light, int nm) {
+  const Curve share({{nm - 1.0, 0}, {nm + 0.0, 1}, {nm + 1.0, 0}});
+  return product(light, share).integral(nm - 1, nm + 1);
+}
+
 }  // namespace
 
 const ColorMatching& color_matching(Observer observer) {
@@ -30,12 +52,15 @@ const ColorMatching& color_matching(Observer observer) {
 }
 
 double sum_product(const Curve& a, const Curve& b, SumRange range) {
+  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b)) return integral(product(a, b), range);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm);
   return total;
 }
 
 double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
+  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b) || !is_told_by_nanometres(c))
+    return integral(product(product(a, b), c), range);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * c(nm);
   return total;
@@ -44,9 +69,10 @@ double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange rang
 std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer, SumRange range) {
   const ColorMatching& cmf = color_matching(observer);
   const double k = 100 / sum_product(illuminant, cmf.y, range);
+  const bool told = is_told_by_nanometres(illuminant);
   std::vector<XYZ> weights;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
-    const double power = k * illuminant(nm);
+    const double power = k * (told ? illuminant(nm) : share_of_nanometre(illuminant, nm));
     weights.push_back({power * cmf.x(nm), power * cmf.y(nm), power * cmf.z(nm)});
   }
   return weights;

@@ -32,7 +32,7 @@ struct SumRange {
   int high_nm = 780;
 };
 
-/// 1 nm sum of the products of two and three curves.
+/// 1 nm sum of the products of two and three curves; the integral if any bends between whole nanometres.
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, SumRange range = {});
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range = {});
 

@@ -12,11 +12,14 @@ namespace {
 
 void require_visible(const Channel& channel, double diffuser) {
   if (std::isfinite(diffuser) && diffuser > 0) return;
-  throw Error(
-      ErrorCode::input, "channel " + channel.name,
-      fmt::format(
-          "the light gives it nothing between 380 and 780 nm (sum {}), so no colour can be calibrated",
-          diffuser));
+  throw Error(ErrorCode::input, "channel " + channel.name,
+              fmt::format("the light gives it nothing that it sees (sum {}), so no colour can be calibrated",
+                          diffuser));
+}
+
+// Sensors count what eyes do not see, too; observers are summed as colours are.
+SumRange sensed(std::span<const Channel> channels) {
+  return is_observer(channels) ? SumRange{} : SumRange{kMinWavelengthNm, kMaxWavelengthNm};
 }
 
 // The channel whose diffuser value is the unit of raw values.
@@ -41,18 +44,18 @@ std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& i
                                const Curve& reflectance) {
   if (channels.empty()) return {};
   const Channel& reference = reference_channel(channels);
-  const double unit = sum_product(illuminant, reference.weight);
+  const double unit = sum_product(illuminant, reference.weight, sensed(channels));
   require_visible(reference, unit);
   std::vector<double> raw;
   for (const Channel& channel : channels)
-    raw.push_back(sum_product(illuminant, channel.weight, reflectance) / unit);
+    raw.push_back(sum_product(illuminant, channel.weight, reflectance, sensed(channels)) / unit);
   return raw;
 }
 
 std::vector<double> diffuser_values(std::span<const Channel> channels, const Curve& illuminant) {
   std::vector<double> values;
   for (const Channel& channel : channels) {
-    values.push_back(sum_product(illuminant, channel.weight));
+    values.push_back(sum_product(illuminant, channel.weight, sensed(channels)));
     require_visible(channel, values.back());
   }
   return values;
@@ -68,7 +71,7 @@ PatchColors integrate(const Chart& chart, std::span<const Channel> channels, con
   for (const Patch& patch : chart.patches) {
     Raw raw{};
     for (std::size_t k = 0; k < raw.size(); ++k)
-      raw[k] = sum_product(illuminant, channels[k].weight, patch.reflectance) / white[k];
+      raw[k] = sum_product(illuminant, channels[k].weight, patch.reflectance, sensed(channels)) / white[k];
     colors.names.push_back(patch.name);
     colors.raw.push_back(raw);
     colors.xyz.push_back(unit_tristimulus(illuminant, patch.reflectance));

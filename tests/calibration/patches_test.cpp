@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {
@@ -13,6 +14,13 @@ TEST(Patches, OneChannelIsItsOwnReference) {
   const std::vector<Channel> ccd = test::camera("kodak_kaf-3200me");
   ASSERT_EQ(ccd.size(), 1U);
   EXPECT_NEAR(camera_raw(ccd, test::illuminant("A"), Curve(0.25))[0], 0.25, 1e-12);
+}
+
+TEST(Patches, ACameraCountsWhatEyesDoNotSee) {
+  std::vector<Channel> camera = test::camera();
+  camera[0].weight = band(590, 1000);
+  EXPECT_NEAR(diffuser_values(camera, planck(3000))[0], integral_of_product(camera[0].weight, planck(3000)),
+              2e-3 * integral_of_product(camera[0].weight, planck(3000)));
 }
 
 TEST(Patches, RefusesWhatCannotBeCalibrated) {

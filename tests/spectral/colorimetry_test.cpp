@@ -29,6 +29,21 @@ TEST(Colorimetry, chromaticity_of_black) {
   EXPECT_EQ(chromaticity({0, 0, 0}), (std::array<double, 2>{0, 0}));
 }
 
+// Lines between whole nanometres, and one on one, count by their power, as do those of a lamp of lasers.
+TEST(Colorimetry, narrow_lines_count_by_their_power) {
+  const std::vector<SpectralLine> three = {{435.8, 0.1, 1}, {546.1, 0.1, 1}, {611, 0.1, 1}};
+  const Curve light = lines(three);
+  const ColorMatching& seen = color_matching(Observer::cie1931);
+  const XYZ exact{integral_of_product(light, seen.x), integral_of_product(light, seen.y),
+                  integral_of_product(light, seen.z)};
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(chromaticity(light)[k], chromaticity(exact)[k], 1e-6) << k;
+  EXPECT_NEAR(sum_product(light, seen.y), exact[1], 1e-6 * exact[1]);
+  const Curve half = band(500, 600);
+  EXPECT_NEAR(sum_product(light, seen.y, half) / seen.y(546.1), 1, 1e-4);
+  const XYZ mirrored = tristimulus(light, half, Observer::cie1931);
+  EXPECT_NEAR(mirrored[1], 100 * seen.y(546.1) / exact[1], 1e-3);
+}
+
 TEST(Photometry, integral_is_exact) {
   // A watt at the peak of V, in a line a picometre wide.
   const std::vector<SpectralLine> line = {{555, 1e-3, 1}};
