@@ -285,11 +285,18 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
   }
 }
 
+// Whether a shape, moved there, no longer tells how its axes are turned.
+bool loses_axes(const PlainShape& shape, const Imath::M44d& to) {
+  const bool round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disc>(shape);
+  return round && to != Imath::M44d().setTranslation(to.translation());
+}
+
 }  // namespace
 
-// What moves is a prototype around its middle, where floats are finest.
+// What moves is a prototype around its middle, where floats are finest; so is what has been turned and could
+// not tell it otherwise.
 abbe::Shape in_motion(PlainShape shape, const Moving& moving, LoadContext& context) {
-  if (!moving.motion) {
+  if (!moving.motion && !loses_axes(shape, moving.opening)) {
     if (moving.opening != Imath::M44d())
       std::visit([&](auto& s) { move(s, Transform{moving.opening}); }, shape);
     return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);

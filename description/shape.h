@@ -102,7 +102,7 @@ void build_objects(const std::vector<schema::Named<spec::Object>>& objects, Load
 /// Adds the shapes of an object, placed, in motion.
 void add_instance(const spec::Instance& instance, const Moving& moving, const std::string& name,
                   LoadContext& context, Scene& scene);
-/// The shape where it is when the shutter opens; one that moves is the only instance of a prototype.
+/// The shape where it is when the shutter opens; one that moves, or keeps axes, is the one of a prototype.
 [[nodiscard]] abbe::Shape in_motion(PlainShape shape, const Moving& moving, LoadContext& context);
 
 void shift(Mesh& mesh, const Imath::V3d& by);

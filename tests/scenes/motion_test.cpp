@@ -2,6 +2,8 @@
 #include <numbers>
 #include <ostream>
 
+#include <fmt/format.h>
+
 #include "tests/scenes/scene_fixture.h"
 
 // What moves while the film is exposed, against what can be told of it by hand, and by every technique.
@@ -219,6 +221,27 @@ std::string refused(const std::string& text, const std::vector<Override>& settin
     return error.what();
   }
   return "";
+}
+
+// What has been turned before the shutter opens, and stands still since, keeps its axes as what still turns.
+TEST(MovingScene, TurnsTheAxesOfWhatStandsStillThen) {
+  const auto through = [](const char* shape, double last_deg) {
+    const Scene scene = test::load_text(fmt::format(R"({{"abbe": 1,
+      "camera": {{"pinhole": {{"fov_deg": 5}}, "from": [0, 0, 6], "to": [0, 0, 0], "up": [0, 1, 0]}},
+      "sensor": {{"resolution": [4, 4], "channels": {{"along": {{"polariser": {{"angle_deg": 0}}}}, "across": {{"polariser": {{"angle_deg": 90}}}}}}}},
+      "materials": {{"sheet": {{"polariser": {{}}}}}},
+      "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
+      "shapes": [{{{}, "material": "sheet", "motion": {{"keyframes": [
+        {{"time_s": 0, "rotate": {{"axis": [0, 0, 1], "deg": 90}}}},
+        {{"time_s": 1, "rotate": {{"axis": [0, 0, 1], "deg": {}}}}}]}}}}],
+      "render": {{"integrator": "path", "samples": 4}}}})",
+                                                    shape, last_deg));
+    const Film film = render(scene, {}).film;
+    return test::whole(film, 0).mean / test::whole(film, 1).mean;
+  };
+  for (const char* shape : {R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 2})",
+                            R"("quad": {"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]})"})
+    for (const double last_deg : {90.0, 90.1}) EXPECT_LT(through(shape, last_deg), 1e-4) << shape << last_deg;
 }
 
 TEST(MovingScene, RefusesWhatHasNoMeaning) {
