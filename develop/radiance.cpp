@@ -84,7 +84,7 @@ void forget_channels(std::map<std::string, std::string>& metadata) {
 
 void forget_layout(std::map<std::string, std::string>& metadata) {
   for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime", "to_xyz_d65",
-                          kHandednessKey, kSpectralBinsKey, kAxisKey, kDistanceKey})
+                          kHandednessKey, kSpectralBinsKey, kAxisKey, kDistanceKey, kShutterKey})
     metadata.erase(key);
 }
 

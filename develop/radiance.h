@@ -21,6 +21,8 @@ inline constexpr const char* kSpectralBinsKey = "spectral_bins";
 /// [sr], and the distance from lens to film in pixels, which a meter has not.
 inline constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
 inline constexpr const char* kDistanceKey = "image_distance_px";
+/// Mean transmission of the shutter over the exposure, of one that does not let all light through.
+inline constexpr const char* kShutterKey = "shutter_transmission";
 
 /// Linear Rec.709, channels R, G, B, of the first three planes, which `to_xyz` takes to XYZ of one scale, or
 /// of the only one, whose colour is its first column.

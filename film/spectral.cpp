@@ -58,6 +58,13 @@ SpectralBins bins_of(const Image& film) {
           static_cast<int>(parse_number(words.at(2)).value())};
 }
 
+// Seconds for which all light would have done the same.
+double exposure_of(const Image& film) {
+  const auto shutter = film.metadata.find(kShutterKey);
+  const double transmission = shutter == film.metadata.end() ? 1 : parse_number(shutter->second).value();
+  return parse_number(film.metadata.at("exposure_s")).value() * transmission;
+}
+
 // Only files of other programs do not tell how their radiances were seen.
 void require_same_view(const SpectralImage& image, const Camera& camera, const std::filesystem::path& path) {
   if (!image.metadata.contains(kAxisKey)) return;
@@ -83,13 +90,13 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity) {
   identity[kAxisKey] = fmt::format("{}", axis_weight(scene.camera));
   if (const auto distance = image_distance(scene.camera))
     identity[kDistanceKey] = fmt::format("{}", *distance);
+  if (scene.shutter.mean() != 1) identity[kShutterKey] = fmt::format("{}", scene.shutter.mean());
   identity["whiteLuminance"] = "1";  // cd/m^2 that 1 in all channels of the preview stands for
 }
 
 Image spectral_film_image(const Image& film) {
-  const double exposure_s = parse_number(film.metadata.at("exposure_s")).value();
   SpectralImage image =
-      spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_s));
+      spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_of(film)));
   for (ImageChannel& channel : observed(image).channels) image.others.push_back(std::move(channel));
   forget_channels(image.metadata);
   for (int component = 0; component < (image.is_polarised() ? 4 : 1); ++component)
@@ -110,7 +117,8 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
   require_same_view(image, camera, path);
   return exposed_film(
       image,
-      {scene.channels, scene.mosaic, exposure_per_radiance(camera, scene.exposure_s), sensor_identity(scene)},
+      {scene.channels, scene.mosaic, exposure_per_radiance(camera, scene.exposure_s * scene.shutter.mean()),
+       sensor_identity(scene)},
       path, diagnostics);
 }
 

@@ -97,6 +97,21 @@ TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {
   EXPECT_EQ(raw.code, 0) << raw.err;
 }
 
+// A shutter that opens and closes all the time passes half the light, whoever looks.
+TEST(DevelopSpectral, AShutterTakesNothingOffRadiancesAndItsShareOffCounts) {
+  const std::string shutter = R"(, "shutter": {"rise_s": 0.01, "fall_s": 0.01})";
+  const std::string path = dome_film("half_open", kBins + shutter);
+  const SpectralImage image = spectral_image(read_exr(path), path);
+  double mean = 0;
+  for (const float radiance : image.bands[30].radiance) mean += static_cast<double>(radiance) / 384;
+  EXPECT_NEAR(mean, 2.5, 0.15);
+  const std::string scene = dome_scene("half_sensor.json", kBroadBands + shutter);
+  ASSERT_EQ(abbe("develop " + path + " --scene " + scene + " -o " + file("half_seen.exr")).code, 0);
+  const Image seen = read_exr_parts(file("half_seen.exr")).front().image;
+  const Image rendered = read_exr(dome_film("half_direct", kBroadBands + shutter));
+  EXPECT_NEAR(seen.find("G")->values[200] / rendered.find("G")->values[200], 1, 0.01);
+}
+
 TEST(DevelopSpectral, AMosaicLooksThroughEachPixelsOwnFilter) {
   const std::string spectral = dome_film("for_mosaic", kBins);
   const auto seen = [&](const std::string& name, const std::string& sensor) {
