@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "io/picture_codec.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
@@ -40,13 +41,12 @@ static Fields fields(Tag<Texture>) {
   return describe(
       "texture", "An image whose channels weigh spectra.",
       {lent(&Texture::file),
-       one_of(
-           &Texture::of,
-           under<Weights>("weights", by_name<Curve>("spectra by channel", 1),
-                          "The spectrum that each channel weighs; values are taken as linear."),
-           under<Rgb>(
-               "rgb",
-               "true: channels R, G, B are a colour, sRGB in files of integers, linear in .exr and .hdr."))});
+       one_of(&Texture::of,
+              under<Weights>("weights", by_name<Curve>("spectra by channel", 1),
+                             "The spectrum that each channel weighs; values are taken as linear."),
+              under<Rgb>("rgb",
+                         "true: channels R, G, B are a colour, linear in files of floats or that say so, "
+                         "else sRGB."))});
 }
 
 Kind kind(Tag<Reflectance>) {
@@ -83,7 +83,7 @@ std::optional<Weights> build(const spec::Weights& said, LoadContext& context) {
   return weights;
 }
 
-// Files of floats hold linear values, those of integers what a display is sent.
+// Files of floats hold linear values, those of integers what a display is sent unless they say otherwise.
 std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, LoadContext& context) {
   if (!said.value) {
     context.diagnostics.error(said.where, "an image that is not rgb needs weights (got false, allowed true)");
@@ -93,7 +93,8 @@ std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, Loa
       file.where, fmt::format("texture \"{}\": red, green and blue have no spectrum: the smooth one that "
                               "looks so under D65 stands in for what was there",
                               file.name));
-  const bool linear = file.name.ends_with(".exr") || file.name.ends_with(".hdr");
+  const auto space = file.image.metadata.find(kColorSpace);
+  const bool linear = space != file.image.metadata.end() && space->second == "Linear";
   const RgbBasis& basis = rgb_basis();
   return Weights{
       {"R", "G", "B"}, {basis.red, basis.green, basis.blue}, linear ? Encoding::linear : Encoding::srgb};

@@ -92,9 +92,8 @@ bool same_bits(const ExrPart& written, const ExrPart& read) {
          });
 }
 
-/// The image a header announces, its channels still empty.
-Image announced(const Imf::Header& header, const std::string& name) {
-  const Imath::Box2i& window = header.dataWindow();
+/// The image of a window that a header announces, its channels still empty.
+Image announced(const Imf::Header& header, const Imath::Box2i& window, const std::string& name) {
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
@@ -115,31 +114,58 @@ Image announced(const Imf::Header& header, const std::string& name) {
   return image;
 }
 
+/// The picture that the display window is, of the pixels of a data window that is another: 0 beyond it.
+Image displayed(const Image& stored, const Imath::Box2i& data, Image picture, const Imath::Box2i& display) {
+  const Imath::Box2i both(
+      Imath::V2i(std::max(data.min.x, display.min.x), std::max(data.min.y, display.min.y)),
+      Imath::V2i(std::min(data.max.x, display.max.x), std::min(data.max.y, display.max.y)));
+  const auto number = [](int width, const Imath::V2i& at) {
+    return static_cast<std::ptrdiff_t>(at.y) * width + at.x;
+  };
+  for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+    std::vector<float>& values = picture.channels[c].values;
+    values.assign(picture.pixels(), 0.0F);
+    for (int y = both.min.y; both.min.x <= both.max.x && y <= both.max.y; ++y)
+      std::copy_n(
+          stored.channels[c].values.begin() + number(stored.width, Imath::V2i(both.min.x, y) - data.min),
+          both.max.x - both.min.x + 1,
+          values.begin() + number(picture.width, Imath::V2i(both.min.x, y) - display.min));
+  }
+  return picture;
+}
+
+Image pixels_of(Imf::MultiPartInputFile& file, int number, const std::string& name) {
+  const Imf::Header& header = file.header(number);
+  const Imath::Box2i& window = header.dataWindow();
+  Image image = announced(header, window, name);
+  for (ImageChannel& channel : image.channels) channel.values.resize(image.pixels());
+  Imf::InputPart part(file, number);
+  part.setFrameBuffer(frame_buffer(image, window));
+  part.readPixels(window.min.y, window.max.y);
+  if (window == header.displayWindow()) return image;
+  return displayed(image, window, announced(header, header.displayWindow(), name), header.displayWindow());
+}
+
 std::vector<ExrPart> read(const std::filesystem::path& path, Inputs* inputs) {
   const std::string name = path.string();
   if (!std::filesystem::is_regular_file(path)) throw Error(ErrorCode::input, name, "no such regular file");
   Imf::MultiPartInputFile file(name.c_str());
-  std::vector<ExrPart> parts;
   std::size_t bytes = 0;
   for (int i = 0; i < file.parts(); ++i) {
     const Imf::Header& header = file.header(i);
-    ExrPart& part =
-        parts.emplace_back(ExrPart{header.hasName() ? header.name() : "", announced(header, name)});
-    bytes += part.image.memory_bytes();
+    bytes += announced(header, header.dataWindow(), name).memory_bytes();
+    if (header.dataWindow() != header.displayWindow())
+      bytes += announced(header, header.displayWindow(), name).memory_bytes();
     if (bytes > kMaxImageBytes)
       throw Error(ErrorCode::resource, name,
                   fmt::format("image too large (got {} parts of more than {} bytes in all)", file.parts(),
                               kMaxImageBytes));
   }
   if (inputs) inputs->take_memory(name, bytes);
+  std::vector<ExrPart> parts;
   for (int i = 0; i < file.parts(); ++i) {
     if (!file.partComplete(i)) throw Error(ErrorCode::input, name, "truncated");
-    Image& image = parts[static_cast<std::size_t>(i)].image;
-    for (ImageChannel& channel : image.channels) channel.values.resize(image.pixels());
-    const Imath::Box2i& window = file.header(i).dataWindow();
-    Imf::InputPart part(file, i);
-    part.setFrameBuffer(frame_buffer(image, window));
-    part.readPixels(window.min.y, window.max.y);
+    parts.push_back({file.header(i).hasName() ? file.header(i).name() : "", pixels_of(file, i, name)});
   }
   return parts;
 }

@@ -1,6 +1,7 @@
 #include "io/picture.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 
@@ -35,6 +36,12 @@ std::vector<Code> interleaved(const Image& image, std::size_t channels, Code (*c
 
 bool is_tiff(const std::filesystem::path& path) {
   return path.extension() == ".tif" || path.extension() == ".tiff";
+}
+
+bool is_exr(const std::filesystem::path& path) {
+  std::string extension = path.extension();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".exr";
 }
 
 PictureHeader described(const std::filesystem::path& path, const Image& image, std::size_t channels) {
@@ -119,7 +126,10 @@ Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
 }
 
 Image read_image(const std::filesystem::path& path, Inputs* inputs) {
-  return path.extension() == ".exr" ? read_exr(path, inputs) : read_picture(path, inputs);
+  if (!is_exr(path)) return read_picture(path, inputs);
+  Image image = read_exr(path, inputs);
+  image.metadata[kColorSpace] = "Linear";
+  return image;
 }
 
 }  // namespace abbe

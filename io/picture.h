@@ -25,7 +25,8 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image);
 /// `inputs` has left, told by its header.
 [[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
-/// Any image file: .exr by `read_exr`, others by `read_picture`.
+/// Any image file: .exr by `read_exr`, others by `read_picture`. Its attribute `kColorSpace` is "Linear"
+/// where the file holds floats, or says so.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 }  // namespace abbe

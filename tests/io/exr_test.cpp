@@ -57,9 +57,10 @@ TEST(Exr, EveryBitAndTheMetadataSurvive) {
           << channel.name << i;
 }
 
-TEST(Exr, HalfAndIntegerChannelsBecomeFloatWhateverTheDataWindow) {
+// Two pixels of a channel of halves and one of integers, as a data window of that display window.
+Image two_pixels(const Imath::Box2i& display, const Imath::Box2i& data) {
   const auto path = test_folder() / "half.exr";
-  Imf::Header header(Imath::Box2i({0, 0}, {9, 9}), Imath::Box2i({5, -3}, {6, -3}));
+  Imf::Header header(display, data);
   header.channels().insert("H", Imf::Channel(Imf::HALF));
   header.channels().insert("U", Imf::Channel(Imf::UINT));
   half halves[2] = {half(0.5F), half(-2.0F)};
@@ -72,11 +73,28 @@ TEST(Exr, HalfAndIntegerChannelsBecomeFloatWhateverTheDataWindow) {
     file.setFrameBuffer(buffer);
     file.writePixels(1);
   }
-  const Image image = read_exr(path);
+  return read_exr(path);
+}
+
+TEST(Exr, HalfAndIntegerChannelsBecomeFloat) {
+  const Imath::Box2i window({5, -3}, {6, -3});
+  const Image image = two_pixels(window, window);
   EXPECT_EQ(image.width, 2);
   EXPECT_EQ(image.height, 1);
   EXPECT_EQ(image.find("H")->values, (std::vector<float>{0.5F, -2}));
   EXPECT_EQ(image.find("U")->values, (std::vector<float>{3, 70000}));
+}
+
+// The display window is the picture: black where there are no data, and without those beyond it.
+TEST(Exr, APictureIsItsDisplayWindow) {
+  const Image within = two_pixels({{0, 0}, {2, 1}}, {{1, 1}, {2, 1}});
+  EXPECT_EQ(within.width, 3);
+  EXPECT_EQ(within.height, 2);
+  EXPECT_EQ(within.find("U")->values, (std::vector<float>{0, 0, 0, 0, 3, 70000}));
+  const Image over = two_pixels({{0, 0}, {1, 0}}, {{-1, 0}, {0, 0}});
+  EXPECT_EQ(over.find("U")->values, (std::vector<float>{70000, 0}));
+  const Image beside = two_pixels({{0, 0}, {0, 1}}, {{5, -3}, {6, -3}});
+  EXPECT_EQ(beside.find("U")->values, (std::vector<float>{0, 0}));
 }
 
 TEST(Exr, EveryTruncationIsAnInputError) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "io/error.h"
+#include "io/exr.h"
 #include "test_files.h"
 
 namespace abbe {
@@ -151,6 +152,28 @@ TEST(Picture, LimitsHoldBeforeAllocation) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::resource) << error.what();
   }
+}
+
+TEST(Picture, FilesOfFloatsAreLinearWhateverTheirNames) {
+  const auto folder = test_folder();
+  const float value = 0.5F;
+  OIIO::ImageSpec spec(1, 1, 1, OIIO::TypeDesc::FLOAT);
+  for (const char* name : {"a.tif", "a.hdr"}) {
+    spec.nchannels = name == std::string("a.hdr") ? 3 : 1;
+    const std::vector<float> pixel(static_cast<std::size_t>(spec.nchannels), value);
+    const auto output = OIIO::ImageOutput::create((folder / name).string());
+    ASSERT_TRUE(output->open((folder / name).string(), spec) &&
+                output->write_image(OIIO::TypeDesc::FLOAT, pixel.data()) && output->close())
+        << name;
+  }
+  write_exr(folder / "a.exr", {1, 1, {{"R", {value}}}, {}});
+  std::filesystem::copy(folder / "a.exr", folder / "b.EXR");
+  write_picture(folder / "a.png", {1, 1, {{"Y", {value}}}, {}});
+  for (const char* name : {"a.tif", "a.hdr", "a.exr", "b.EXR"}) {
+    EXPECT_EQ(read_image(folder / name).metadata.at("oiio:ColorSpace"), "Linear") << name;
+    EXPECT_NEAR(read_image(folder / name).channels[0].values[0], value, 2e-3) << name;
+  }
+  EXPECT_NE(read_image(folder / "a.png").metadata.at("oiio:ColorSpace"), "Linear");
 }
 
 TEST(Picture, RawCodesComeBackExactly) {
