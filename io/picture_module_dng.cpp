@@ -6,7 +6,7 @@
 #include <cstdarg>
 #include <cstring>
 #include <memory>
-#include <span>
+#include <sstream>
 
 #include "io/error.h"
 #include "io/image.h"
@@ -127,17 +127,45 @@ std::uint64_t write_exif(TIFF* tiff, const RawPicture& raw, bool& sound) {
   return offset;
 }
 
-// The colours of a pattern by their numbers in DNG: red, green and blue are 0, 1 and 2.
-std::vector<std::uint8_t> pattern_of(const RawPicture& raw) {
-  std::vector<std::uint8_t> colors;
-  for (const std::string& channel : raw.channels) {
-    const std::size_t known = std::string("RGB").find(channel);
-    colors.push_back(
-        static_cast<std::uint8_t>(channel.size() == 1 && known != std::string::npos ? known : colors.size()));
+// For each channel of a DNG its number among those of the picture: readers take the three for red, green and
+// blue in this order, so that channels of these names are told in it, and others in their own.
+using Order = std::array<std::size_t, 3>;
+constexpr Order kOwnOrder{0, 1, 2};
+Order order_of(const std::vector<std::string>& channels) {
+  const auto place = [&channels](const char* name) {
+    return static_cast<std::size_t>(std::find(channels.begin(), channels.end(), name) - channels.begin());
+  };
+  const Order colors{place("R"), place("G"), place("B")};
+  return std::is_permutation(colors.begin(), colors.end(), kOwnOrder.begin()) ? colors : kOwnOrder;
+}
+
+// A list of what is told of three channels: one after the other, each by `each` entries, as often as it does.
+template <typename List>
+List ordered(const List& list, const Order& order, std::size_t each = 1) {
+  List sorted = list;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::size_t channel = i / each % order.size();
+    sorted[i] = list[i - each * channel + each * order[channel]];
   }
-  std::vector<std::uint8_t> pattern;
-  for (const std::uint8_t channel : raw.mosaic) pattern.push_back(colors[channel]);
-  return pattern;
+  return sorted;
+}
+
+// The picture with the channels of a DNG.
+RawPicture ordered(RawPicture raw) {
+  const Order order = order_of(raw.channels);
+  if (order == kOwnOrder) return raw;
+  raw.channels = ordered(raw.channels, order);
+  if (raw.mosaic_width > 0)
+    for (std::uint8_t& channel : raw.mosaic)
+      channel = static_cast<std::uint8_t>(std::find(order.begin(), order.end(), channel) - order.begin());
+  else
+    raw.codes = ordered(raw.codes, order);
+  for (RawLight& light : raw.lights) {
+    light.color = ordered(light.color, order, 3);  // whose rows are the camera's
+    light.forward = ordered(light.forward, order);
+  }
+  if (raw.neutral) raw.neutral = ordered(*raw.neutral, order);
+  return raw;
 }
 
 void set_layout(Tags& tags, const RawPicture& raw) {
@@ -157,7 +185,7 @@ void set_layout(Tags& tags, const RawPicture& raw) {
     const auto height = static_cast<std::uint16_t>(raw.mosaic.size() / width);
     const std::array<std::uint16_t, 2> repeats{height, width};
     tags.set(TIFFTAG_CFAREPEATPATTERNDIM, repeats.data());
-    tags.set_all(TIFFTAG_CFAPATTERN, pattern_of(raw));
+    tags.set_all(TIFFTAG_CFAPATTERN, raw.mosaic);
   }
 }
 
@@ -210,7 +238,26 @@ bool reads_back(const std::string& path, MemoryTiff& file, const RawPicture& raw
   return TIFFReadEncodedStrip(tiff.get(), 0, codes.data(), size) == size && codes == raw.codes;
 }
 
-// The planes of a DNG and the channels of its pattern, which are red, green and blue.
+// The lines "key: value" of the description, as `set_names` writes them.
+void read_lines(TIFF* tiff, RawPicture& raw) {
+  char* lines = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &lines) == 1) raw.metadata["ImageDescription"] = lines;
+}
+
+// The channels of a DNG in its order: red, green and blue, unless its description names three others.
+std::vector<std::string> channels_of(const RawPicture& raw, const std::string& key) {
+  const auto description = raw.metadata.find("ImageDescription");
+  std::istringstream lines(description == raw.metadata.end() ? "" : description->second);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(key + ": ")) continue;
+    std::istringstream told(line.substr(key.size() + 2));
+    for (std::string name; std::getline(told, name, ',');) names.push_back(name);
+  }
+  return names.size() == 3 ? ordered(names, order_of(names)) : std::vector<std::string>{"R", "G", "B"};
+}
+
+// The planes of a DNG and the channels of its pattern.
 void read_layout(TIFF* tiff, RawPicture& raw) {
   std::uint16_t* repeats = nullptr;
   std::uint16_t count = 0;
@@ -220,11 +267,11 @@ void read_layout(TIFF* tiff, RawPicture& raw) {
       *std::max_element(pattern, pattern + count) < 3) {
     raw.mosaic_width = repeats[1];
     raw.mosaic.assign(pattern, pattern + count);
-    raw.channels = {"R", "G", "B"};
+    raw.channels = channels_of(raw, "mosaic_channels");
     raw.planes = {"raw"};
     return;
   }
-  raw.planes = raw.planes.size() == 3 ? std::vector<std::string>{"R", "G", "B"} : raw.planes;
+  if (raw.planes.size() == 3) raw.planes = channels_of(raw, "sensor_channels");
   raw.channels = raw.planes;
 }
 
@@ -239,12 +286,6 @@ void read_levels(TIFF* tiff, RawPicture& raw) {
     raw.is_linearised = true;
     for (std::uint16_t& code : raw.codes) code = table[std::min<std::size_t>(code, count - 1U)];
   }
-}
-
-// The lines "key: value" of the description, as `set_names` writes them.
-void read_lines(TIFF* tiff, RawPicture& raw) {
-  char* lines = nullptr;
-  if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &lines) == 1) raw.metadata["ImageDescription"] = lines;
 }
 
 // The exposure time, of which the folder of Exif tells; the last to be read, since it leaves the image.
@@ -295,14 +336,15 @@ RawPicture read_dng(const std::string& path) {
   for (int k = 0; k < samples; ++k) raw.planes.push_back(samples == 1 ? "raw" : std::to_string(k));
   raw.codes.resize(static_cast<std::size_t>(width) * height * samples);
   if (!read_codes(tiff.get(), raw)) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  read_lines(tiff.get(), raw);
   read_layout(tiff.get(), raw);
   read_levels(tiff.get(), raw);
-  read_lines(tiff.get(), raw);
   read_exposure(tiff.get(), raw);
   return raw;
 }
 
-std::string encode_dng(const std::string& path, const RawPicture& raw) {
+std::string encode_dng(const std::string& path, const RawPicture& picture) {
+  const RawPicture raw = ordered(picture);
   MemoryTiff file;
   bool sound = true;
   {

@@ -43,8 +43,8 @@ struct RawPicture {
   std::map<std::string, std::string> metadata;  ///< All that the film tells.
 };
 
-/// Writes a DNG 1.4 [DNG]: a mosaic of three channels, one plane, or three. Throws Error{output}, also for
-/// any other sensor.
+/// Writes a DNG 1.4 [DNG]: a mosaic of three channels, one plane, or three, in the order R, G, B where they
+/// have these names. Throws Error{output}, also for any other sensor.
 void write_dng(const std::filesystem::path& path, const RawPicture& raw);
 
 /// Writes a FITS image [FITS4] of unsigned 16-bit numbers, planes as its third axis, the first row first
@@ -54,8 +54,8 @@ void write_fits(const std::filesystem::path& path, const RawPicture& raw);
 /// Reads a DNG whose codes are stored as 16-bit numbers, uncompressed or as TIFF compresses, or a FITS image
 /// of whole numbers: codes, mosaic, black and white level, exposure, gain and, of a file that Abbe wrote,
 /// what the film told, as far as the file tells them; of a DNG with a linearisation table what that makes of
-/// the codes. Channels of a mosaic are R, G and B. Throws Error{input}, or Error{resource} for one beyond the
-/// limits of `io/image.h`.
+/// the codes. Channels of a mosaic are R, G and B, or those that a DNG of ours names. Throws Error{input}, or
+/// Error{resource} for one beyond the limits of `io/image.h`.
 [[nodiscard]] RawPicture read_raw_picture(const std::filesystem::path& path);
 
 /// Whether a file is one for `read_raw_picture`, by its extension: .dng, .fits or .fit.
