@@ -38,6 +38,17 @@ double exposure_of(const FilmSensor& sensor, double electrons, double seconds) {
   return (electrons - sensor.readout->dark_e_per_s * seconds) / sensor.gathering_area_m2;
 }
 
+// The exposure of each pixel under a mosaic whose channels differ in it; else none.
+std::vector<double> pixel_exposures(const FilmSensor& sensor, const Image& film) {
+  std::vector<double> seconds;
+  if (!sensor.mosaic || common_exposure(sensor)) return seconds;
+  seconds.reserve(film.pixels());
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x)
+      seconds.push_back(sensor.exposure_s[static_cast<std::size_t>(sensor.mosaic->at(x, y))]);
+  return seconds;
+}
+
 void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t seed, std::uint32_t frame,
                 DevelopedFilm& developed) {
   const FilmSensor& sensor = exposed.sensor;
@@ -46,14 +57,15 @@ void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t see
   ImageChannel electrons{name, {}};
   for (const float value : exposed.film.find(name)->values)
     electrons.values.push_back(static_cast<float>(value * sensor.gathering_area_m2));
-  const double seconds = sensor.exposure_s[plane];
+  const std::vector<double> own_seconds = pixel_exposures(sensor, exposed.film);
   const auto planes = static_cast<std::uint32_t>(sensor.planes.size());
-  const RawFrame raw = read_out(readout, electrons.values,
-                                {seconds, seed, frame * planes + static_cast<std::uint32_t>(plane),
-                                 static_cast<std::size_t>(exposed.film.width)});
+  const Exposure exposure{sensor.exposure_s[plane], seed, frame * planes + static_cast<std::uint32_t>(plane),
+                          static_cast<std::size_t>(exposed.film.width), own_seconds};
+  const RawFrame raw = read_out(readout, electrons.values, exposure);
   ImageChannel calibrated{name, {}};
-  for (const std::uint16_t dn : raw.dn)
-    calibrated.values.push_back(static_cast<float>(exposure_of(sensor, electrons_of(readout, dn), seconds)));
+  for (std::size_t i = 0; i < raw.dn.size(); ++i)
+    calibrated.values.push_back(
+        static_cast<float>(exposure_of(sensor, electrons_of(readout, raw.dn[i]), exposure.seconds_of(i))));
   developed.electrons.channels.push_back(std::move(electrons));
   developed.codes.channels.push_back({name, {raw.dn.begin(), raw.dn.end()}});
   developed.codes.channels.push_back({"Saturated." + name, {raw.saturated.begin(), raw.saturated.end()}});
@@ -76,7 +88,8 @@ Crop lit_part(const Image& film) {
   return recorded_crop(film).value_or(Crop{0, 0, film.width, film.height});
 }
 
-double mean(const Image& film, const Crop& crop, const std::vector<float>& values) {
+template <typename Value>
+double mean(const Image& film, const Crop& crop, const std::vector<Value>& values) {
   double sum = 0;
   for (int y = crop.y0; y < crop.y1; ++y)
     for (int x = crop.x0; x < crop.x1; ++x)
@@ -115,9 +128,7 @@ Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
   const Readout& readout = *sensor.readout;
   const double full_e = saturation_electrons(readout);
   std::vector<double> saturation;
-  for (std::size_t k = 0; k < 3; ++k)
-    saturation.push_back(
-        exposure_of(sensor, full_e, sensor.exposure_s[std::min(k, sensor.planes.size() - 1)]));
+  for (std::size_t k = 0; k < 3; ++k) saturation.push_back(exposure_of(sensor, full_e, sensor.exposure_s[k]));
   clip_to_white(planes, sensor.channels, sensor.display->to_xyz_d65(), saturation);
   return planes;
 }
@@ -126,9 +137,8 @@ std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const Develope
   const double unit = sensor.readout ? sensor.gathering_area_m2 : 1;
   const Image& counted = sensor.readout ? developed.electrons : developed.exposure;
   const Crop crop = lit_part(developed.exposure);
-  const auto over_film = [&](const std::vector<float>& values) {
-    return mean(developed.exposure, crop, values);
-  };
+  const auto over_film = [&](const auto& values) { return mean(developed.exposure, crop, values); };
+  const std::vector<double> own_seconds = pixel_exposures(sensor, developed.exposure);
   std::vector<PlaneFigures> all;
   for (std::size_t plane = 0; plane < sensor.planes.size(); ++plane) {
     PlaneFigures& figures = all.emplace_back();
@@ -136,7 +146,8 @@ std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const Develope
     if (const ImageChannel* variance = developed.variance.find(variance_of(sensor.planes[plane])))
       figures.render_error = std::sqrt(over_film(variance->values)) * unit;
     if (!sensor.readout) continue;
-    figures.noise = temporal_noise(*sensor.readout, figures.mean, sensor.exposure_s[plane]);
+    const double seconds = own_seconds.empty() ? sensor.exposure_s[plane] : over_film(own_seconds);
+    figures.noise = temporal_noise(*sensor.readout, figures.mean, seconds);
     figures.saturated_share = over_film(developed.codes.find("Saturated." + sensor.planes[plane])->values);
   }
   return all;

@@ -25,8 +25,8 @@ void tell_exposure(ExposedFilm& exposed, double factor) {
     if (told.contains(key)) told[key] = fmt::format("{}", value);
   };
   scale("exposure_s", sensor.shared_exposure_s);
-  for (std::size_t plane = 0; plane < sensor.planes.size(); ++plane)
-    scale("exposure_s." + sensor.planes[plane], sensor.exposure_s[plane]);
+  for (std::size_t k = 0; k < sensor.channels.size(); ++k)
+    scale("exposure_s." + sensor.channels[k], sensor.exposure_s[k]);
   if (const auto seconds = told.find("expTime"); seconds != told.end())
     seconds->second = fmt::format("{}", static_cast<float>(std::stof(seconds->second) * factor));
 }

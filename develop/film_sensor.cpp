@@ -52,12 +52,13 @@ void read_planes(const Metadata& data, FilmSensor& sensor) {
   sensor.planes = split(data.text("sensor_channels"), ',');
   sensor.channels = intensities(sensor.planes);
   const double exposure_s = sensor.shared_exposure_s = data.number("exposure_s");
-  for (const std::string& plane : sensor.planes)
-    sensor.exposure_s.push_back(data.find_number("exposure_s." + plane).value_or(exposure_s));
-  if (!data.find("mosaic")) return;
-  sensor.channels = split(data.text("mosaic_channels"), ',');
-  sensor.mosaic = parse_mosaic(data.text("mosaic"), sensor.channels);
-  if (!sensor.mosaic || sensor.planes.size() != 1) data.refuse("mosaic");
+  if (data.find("mosaic")) {
+    sensor.channels = split(data.text("mosaic_channels"), ',');
+    sensor.mosaic = parse_mosaic(data.text("mosaic"), sensor.channels);
+    if (!sensor.mosaic || sensor.planes.size() != 1) data.refuse("mosaic");
+  }
+  for (const std::string& channel : sensor.channels)
+    sensor.exposure_s.push_back(data.find_number("exposure_s." + channel).value_or(exposure_s));
 }
 
 // A gain takes the place of a speed, and a speed that of a gain.
@@ -148,6 +149,12 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   sensor.white = white ? white : recorded_white(film);
   sensor.display_exposure = data.find_number("display_exposure");
   return sensor;
+}
+
+std::optional<double> common_exposure(const FilmSensor& sensor) {
+  const std::vector<double>& all = sensor.exposure_s;
+  if (all.empty() || std::count(all.begin(), all.end(), all.front()) < std::ssize(all)) return std::nullopt;
+  return all.front();
 }
 
 void require_display(const FilmSensor& sensor) {

@@ -24,7 +24,7 @@ inline constexpr const char* kIsoPointer = "/readout/iso";
 struct FilmSensor {
   std::vector<std::string> planes;
   double shared_exposure_s = 1;    ///< The sensor's,
-  std::vector<double> exposure_s;  ///< and that of each plane.
+  std::vector<double> exposure_s;  ///< and that of each channel.
   std::optional<Mosaic> mosaic;
   std::vector<std::string> channels;  ///< The planes that count light, or the channels of the mosaic.
   double gathering_area_m2 = 0;       ///< Film values times this are what a pixel counts.
@@ -54,6 +54,9 @@ struct ExposedFilm {
                                                     const ViewOptions& view,
                                                     std::optional<Chromaticity> white,
                                                     Diagnostics& diagnostics);
+
+/// The exposure time of all channels [s]; nothing where they differ.
+[[nodiscard]] std::optional<double> common_exposure(const FilmSensor& sensor);
 
 /// Exposes the film anew for `seconds`, without rendering: light, and with the square its variance, grow with
 /// the time. Channels with an exposure of their own keep its ratio to the sensor's. Throws Error{usage} for a

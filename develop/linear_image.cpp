@@ -88,13 +88,6 @@ void require_codes(const Image& image, const std::filesystem::path& path) {
                         i / static_cast<std::size_t>(image.width), scale->highest()));
 }
 
-// Pictures call their channels R, G and B whatever they hold.
-void name_planes(Image& image) {
-  const std::vector<std::string> names = split(told(image, "sensor_channels").value_or(""), ',');
-  for (std::size_t k = 0; k < image.channels.size() && names.size() == image.channels.size(); ++k)
-    image.channels[k].name = names[k];
-}
-
 LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
   LinearImage read{read_picture(path, inputs), {}, {}, 1.0, "code values in [0, 1], as the file has them"};
   std::erase_if(read.image.channels, [](const ImageChannel& channel) { return channel.name == "A"; });

@@ -76,7 +76,7 @@ RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor)
   raw.gain_e_per_dn = readout.gain_e_per_dn;
   raw.read_noise_e = readout.read_noise_e;
   if (std::isfinite(readout.full_well_e)) raw.full_well_e = readout.full_well_e;
-  raw.exposure_s = sensor.shared_exposure_s;
+  raw.exposure_s = common_exposure(sensor);
   raw.f_number = sensor.f_number;
   if (sensor.electrons_per_lx_s) raw.iso_speed = saturation_speed(readout, *sensor.electrons_per_lx_s);
   tell_colors(sensor, raw);

@@ -116,7 +116,8 @@ struct Tags {
 // Exposure time, f-number and speed, in the folder where programs look for them.
 std::uint64_t write_exif(TIFF* tiff, const RawPicture& raw, bool& sound) {
   std::uint64_t offset = 0;
-  if (TIFFCreateEXIFDirectory(tiff) != 0) return offset;
+  const bool tells = raw.exposure_s || raw.f_number || raw.iso_speed;  // an empty folder is none to libtiff
+  if (!tells || TIFFCreateEXIFDirectory(tiff) != 0) return offset;
   Tags exif{tiff};
   if (raw.exposure_s) exif.set(EXIFTAG_EXPOSURETIME, *raw.exposure_s);
   if (raw.f_number) exif.set(EXIFTAG_FNUMBER, *raw.f_number);

@@ -33,7 +33,7 @@ struct RawPicture {
   double gain_e_per_dn = 1;
   double read_noise_e = 0;
   double full_well_e = 0;            ///< 0 where there is no limit.
-  std::optional<double> exposure_s;  ///< Nothing where a file that was read does not tell.
+  std::optional<double> exposure_s;  ///< Nothing where channels differ, or a file does not tell.
   std::optional<double> f_number;
   std::optional<double> iso_speed;
   std::vector<RawLight> lights = {};  ///< The film's own, or two calibrated ones; none without colours.

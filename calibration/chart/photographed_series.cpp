@@ -237,10 +237,7 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
       diagnostics.error(photograph.where, photograph.file + " " + wrong, ErrorCode::input);
       return std::nullopt;
     }
-    const std::optional<double> exposure_s = photograph.exposure_s ? photograph.exposure_s
-                                             : told                ? told->exposure_s
-                                                                   : std::nullopt;
-    if (!exposure_s) {
+    if (!photograph.exposure_s && !(told && told->exposure_s)) {
       diagnostics.error(photograph.where,
                         photograph.file + " tells no exposure time: \"exposure_s\" is needed here",
                         ErrorCode::input);
@@ -259,7 +256,9 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
     }
     add(image, told, regions, listing, all);
     if (inputs) inputs->give_back_memory(image.memory_bytes());
-    for (ExposureSeries& series : all.series) series.times_s.push_back(*exposure_s);
+    for (std::size_t k = 0; k < all.series.size(); ++k)
+      all.series[k].times_s.push_back(photograph.exposure_s ? *photograph.exposure_s
+                                                            : told->exposure_of(all.channels[k]).value());
   }
   if (listing.regions.empty())
     for (ExposureSeries& series : all.series) series.deviations.clear();

@@ -28,6 +28,12 @@ Attributes lines_of(const Image& image) {
   return told;
 }
 
+Attributes all_told(const Image& image) {
+  Attributes told = image.metadata;
+  told.merge(lines_of(image));
+  return told;
+}
+
 std::optional<std::string> attribute(const Attributes& told, const std::string& key) {
   const auto found = told.find(key);
   return found == told.end() ? std::nullopt : std::optional(found->second);
@@ -36,6 +42,14 @@ std::optional<std::string> attribute(const Attributes& told, const std::string& 
 std::optional<double> number(const Attributes& told, const std::string& key) {
   const auto text = attribute(told, key);
   return text ? parse_number(*text) : std::nullopt;
+}
+
+std::map<std::string, double> own_exposures(const Attributes& told) {
+  const std::string prefix = "exposure_s.";
+  std::map<std::string, double> own;
+  for (auto it = told.lower_bound(prefix); it != told.end() && it->first.starts_with(prefix); ++it)
+    if (const auto seconds = parse_number(it->second)) own.emplace(it->first.substr(prefix.size()), *seconds);
+  return own;
 }
 
 // By the tags or keywords that every program writes.
@@ -74,9 +88,15 @@ void tell_lines(Image& image) {
   image.metadata.merge(lines_of(image));
 }
 
+void name_planes(Image& image) {
+  const std::vector<std::string> names =
+      split(attribute(all_told(image), "sensor_channels").value_or(""), ',');
+  for (std::size_t k = 0; k < image.channels.size() && names.size() == image.channels.size(); ++k)
+    image.channels[k].name = names[k];
+}
+
 std::optional<RawScale> raw_scale(const Image& image) {
-  Attributes told = image.metadata;
-  told.merge(lines_of(image));
+  const Attributes told = all_told(image);
   const auto sensor = nlohmann::json::parse(attribute(told, "sensor").value_or(""), nullptr, false);
   if (!sensor.is_object() || !sensor.contains("readout") || !sensor["readout"].is_object())
     return std::nullopt;
@@ -88,6 +108,7 @@ std::optional<RawScale> raw_scale(const Image& image) {
   if (readout.contains("saturation_dn") && readout["saturation_dn"].is_number())
     scale.saturation_dn = readout["saturation_dn"];
   scale.exposure_s = number(told, "exposure_s");
+  scale.own_exposure_s = own_exposures(told);
   scale.gain_e_per_dn = number(told, "gain_e_per_dn");
   scale.electrons_per_lx_s = number(told, "electrons_per_lx_s");
   if (auto mosaic = recorded_mosaic(told)) {
@@ -101,6 +122,7 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_raw_picture(path)) {
     Image image = read_image(path, inputs);
     auto scale = raw_scale(image);
+    if (scale && path.extension() != ".exr") name_planes(image);
     return {std::move(image), std::move(scale)};
   }
   const RawPicture raw = read_raw_picture(path);

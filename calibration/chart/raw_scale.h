@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,11 +19,17 @@ struct RawScale {
   double offset_dn = 0;                 ///< The code of darkness.
   std::optional<double> saturation_dn;  ///< The code at which the camera clips, if below the highest.
   std::optional<double> exposure_s;
+  std::map<std::string, double> own_exposure_s;  ///< Of channels that have one of their own.
   std::optional<double> gain_e_per_dn;
   std::optional<double> electrons_per_lx_s;  ///< Of the most sensitive channel.
   std::vector<std::string> channels;         ///< Of the mosaic, in its order.
   std::optional<Mosaic> mosaic;
 
+  /// The exposure time of a channel; nothing where the file tells none.
+  [[nodiscard]] std::optional<double> exposure_of(const std::string& channel) const {
+    const auto own = own_exposure_s.find(channel);
+    return own == own_exposure_s.end() ? exposure_s : own->second;
+  }
   /// The highest code that occurs.
   [[nodiscard]] double highest() const {
     if (saturation_dn) return *saturation_dn;
@@ -41,6 +48,9 @@ struct RawScale {
 /// Makes attributes of the lines "key: value" that a TIFF, so a DNG, has in their place (`ImageDescription`);
 /// those that it has besides stay.
 void tell_lines(Image& image);
+
+/// Calls the planes of a raw TIFF or PNG, which these call R, G and B, as the file tells the sensor's.
+void name_planes(Image& image);
 
 /// An image whose 16-bit codes are shares of 65535, and what is told of them.
 struct RawImage {

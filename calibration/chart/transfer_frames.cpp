@@ -106,7 +106,8 @@ std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, Inp
 std::vector<FlatPair> pairs_of(const std::vector<Frame>& frames, std::size_t channel) {
   std::vector<FlatPair> pairs;
   for (std::size_t i = 0; i + 1 < frames.size(); i += 2)
-    pairs.push_back({frames[i].exposure_s, frames[i].codes[channel], frames[i + 1].codes[channel]});
+    pairs.push_back({frames[i].scale.exposure_of(frames[i].channels[channel]).value(),
+                     frames[i].codes[channel], frames[i + 1].codes[channel]});
   return pairs;
 }
 

@@ -129,7 +129,7 @@ RawFrame read_out(const Readout& readout, std::span<const float> expected_e, con
   std::vector<ExposedPixel> pixels;
   pixels.reserve(expected_e.size());
   for (const float e : expected_e)
-    pixels.push_back(expose_pixel(readout, e, pixels.size(), exposure.seconds, key));
+    pixels.push_back(expose_pixel(readout, e, pixels.size(), exposure.seconds_of(pixels.size()), key));
   if (readout.blooming && !pixels.empty()) bloom(pixels, width, readout.full_well_e);
 
   RawFrame frame;

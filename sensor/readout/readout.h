@@ -63,6 +63,12 @@ struct Exposure {
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
   std::size_t width = 0;  ///< Pixels in a row, along which there is row noise; 0 where all are one row.
+  /// Of each pixel, where filters over them have exposures of their own; else all have `seconds`.
+  std::span<const double> own_seconds = {};
+
+  [[nodiscard]] double seconds_of(std::size_t pixel) const {
+    return own_seconds.empty() ? seconds : own_seconds[pixel];
+  }
 };
 
 /// What the converter gives, pixel by pixel.

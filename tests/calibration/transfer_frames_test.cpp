@@ -51,6 +51,30 @@ TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
   }
 }
 
+// G, exposed for twice as long as the sensor, has twice the dark current's electrons.
+TEST_F(TransferFrames, ChannelsOfTheirOwnExposureAreDarkForIt) {
+  const auto pair = [&](double electrons, double exposure_s) {
+    std::vector<float> expected(kEdge * kEdge);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      expected[i] = static_cast<float>(electrons + 500 * exposure_s * (i % 2 == 0 ? 1 : 2));
+    std::vector<fs::path> files;
+    for (const char* end : {"a", "b"})
+      files.push_back(PlantedFrames::frame(fmt::format("{}_{}_{}.tif", electrons, exposure_s, end), expected,
+                                           exposure_s, 2, 12,
+                                           {{"mosaic", "R,G"},
+                                            {"mosaic_channels", "R,G"},
+                                            {"exposure_s.G", fmt::format("{}", 2 * exposure_s)}}));
+    return files;
+  };
+  std::vector<fs::path> dark = pair(0, 0.01);
+  for (const fs::path& file : pair(0, 1)) dark.push_back(file);
+  std::vector<fs::path> lit = pair(500, 0.01);
+  for (const fs::path& file : pair(4000, 0.01)) lit.push_back(file);
+  Inputs inputs;
+  for (const ChannelTransfer& one : measure_transfer(dark, lit, inputs))
+    EXPECT_NEAR(one.transfer.dark_e_per_s, 500, 10) << one.channel;
+}
+
 TEST_F(TransferFrames, ObjectsInSentences) {
   const std::vector<fs::path> dark = pair(0, 0.01);
   const std::vector<fs::path> lit = pair(500, 0.01);

@@ -11,9 +11,8 @@ namespace {
 
 using test::counting_film;
 
-ExposedFilm exposed(const std::vector<Override>& overrides = {}) {
+ExposedFilm exposed(const std::vector<Override>& overrides = {}, const Image& film = counting_film()) {
   Diagnostics diagnostics;
-  const Image film = counting_film();
   return {film, film_sensor(film, "a.exr", overrides, {}, {}, diagnostics).value()};
 }
 
@@ -57,6 +56,22 @@ TEST(Develop, WithoutAReadOutTheExposureIsAll) {
   const std::vector<PlaneFigures> figures = plane_figures(film.sensor, developed);
   EXPECT_NEAR(figures[0].mean, 6.5e12, 1e6);
   EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22), 1e5);
+}
+
+// Within six standard deviations of the dark current.
+TEST(Develop, APixelOfAMosaicIsDarkForTheTimeOfItsOwnFilter) {
+  ExposedFilm film = exposed({}, test::mosaic_film());
+  const DevelopedFilm developed = develop(film, 7);
+  const std::vector<float>& codes = developed.codes.find("raw")->values;
+  EXPECT_NEAR(codes[0], 5e4, 6 * std::sqrt(5e4));
+  EXPECT_NEAR(codes[1], 5e3, 6 * std::sqrt(5e3));
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_FLOAT_EQ(developed.calibrated.find("raw")->values[i],
+                    (codes[i] - (i == 0 ? 5e4F : 5e3F)) / 1e-10F);
+  EXPECT_DOUBLE_EQ(plane_figures(film.sensor, developed)[0].noise.dark_e, std::sqrt((5e4 + 5e3) / 2));
+  expose_for(film, 1);
+  EXPECT_EQ(film.sensor.exposure_s, (std::vector<double>{10, 1}));
+  EXPECT_EQ(film.film.metadata.at("exposure_s.R"), "10");
 }
 
 }  // namespace

@@ -19,4 +19,20 @@ inline Image counting_film() {
   return film;
 }
 
+/// A film of two dark pixels under filters, of which the first has ten times the sensor's exposure; their
+/// dark current is 1e4 electrons per s.
+inline Image mosaic_film() {
+  Image film = counting_film();
+  film.channels = {{"raw", {0, 0}}, {"Variance.raw", {0, 0}}};
+  film.metadata["sensor_channels"] = "raw";
+  film.metadata["mosaic"] = "R,G";
+  film.metadata["mosaic_channels"] = "R,G";
+  for (const char* channel : {"channel.R", "channel.G"}) film.metadata[channel] = film.metadata["channel.V"];
+  film.metadata["exposure_s"] = "0.5";
+  film.metadata["exposure_s.R"] = "5";
+  film.metadata["sensor"] = R"({"readout": {"gain_e_per_dn": 1, "bits": 16, "dark_e_per_s": 1e4}})";
+  film.metadata.erase("to_xyz_d65");
+  return film;
+}
+
 }  // namespace abbe::test

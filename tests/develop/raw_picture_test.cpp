@@ -100,5 +100,19 @@ TEST(RawPicture, MatricesOfACalibrationTakeTheirPlace) {
   EXPECT_TRUE(raw.neutral);
 }
 
+// A raw file has room for one exposure.
+TEST(RawPicture, TellsTheExposureOfAllChannelsAlone) {
+  FilmSensor sensor;
+  sensor.planes = sensor.channels = {"R", "G"};
+  sensor.readout = Readout{};
+  DevelopedFilm developed;
+  developed.codes = {1, 1, {{"R", {1}}, {"G", {1}}}, {}};
+  sensor.shared_exposure_s = 0.5;
+  sensor.exposure_s = {5, 5};
+  EXPECT_EQ(raw_picture(developed, sensor).exposure_s, 5);
+  sensor.exposure_s = {5, 0.5};
+  EXPECT_FALSE(raw_picture(developed, sensor).exposure_s);
+}
+
 }  // namespace
 }  // namespace abbe

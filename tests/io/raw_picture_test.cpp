@@ -99,5 +99,11 @@ TEST(Dng, FiltersOfOtherNamesKeepTheirOwnOrder) {
   EXPECT_EQ(read.mosaic, raw.mosaic);
 }
 
+TEST(Dng, NeedsNoExposureToTell) {
+  RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  raw.exposure_s.reset();
+  EXPECT_FALSE(read_back(raw).exposure_s);
+}
+
 }  // namespace
 }  // namespace abbe
