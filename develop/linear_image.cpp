@@ -61,15 +61,23 @@ LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
   return read;
 }
 
+// Makes of codes what they stand for on a straight line above black.
+void take_black(LinearImage& read, const RawScale& scale, double black, double white) {
+  read.unit = kNumbersAboveBlack;
+  read.saturation = scale.linear(white) - black;
+  for (ImageChannel& plane : read.image.channels)
+    for (float& code : plane.values)
+      code = static_cast<float>(scale.linear(static_cast<double>(code)) - black);
+}
+
 LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
   const RawPicture raw = read_raw_picture(path);
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
-  LinearImage read{code_planes(raw), raw.channels, mosaic_of(raw), raw.white_level_dn - raw.black_level_dn,
-                   kNumbersAboveBlack};
+  LinearImage read{code_planes(raw), raw.channels, mosaic_of(raw), {}, {}};
   tell_lines(read.image);
-  for (ImageChannel& plane : read.image.channels)
-    for (float& value : plane.values)
-      value = static_cast<float>(static_cast<double>(value) - raw.black_level_dn);
+  read_mosaic(read);
+  const RawScale scale = raw.is_linearised ? RawScale{} : raw_scale(read.image).value_or(RawScale{});
+  take_black(read, scale, raw.black_level_dn, raw.white_level_dn);
   return read;
 }
 
@@ -99,10 +107,9 @@ LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
   for (const ImageChannel& channel : read.image.channels) read.channels.push_back(channel.name);
   if (!black || !white) return read;
   require_codes(read.image, path);
-  read.unit = kNumbersAboveBlack;
-  read.saturation = *white - *black;
   for (ImageChannel& channel : read.image.channels)
-    for (float& value : channel.values) value = static_cast<float>(code_of(value) - *black);
+    for (float& value : channel.values) value = static_cast<float>(code_of(value));
+  take_black(read, raw_scale(read.image).value_or(RawScale{}), *black, *white);
   read_mosaic(read);
   return read;
 }

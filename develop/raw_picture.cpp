@@ -1,6 +1,5 @@
 #include "develop/raw_picture.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "calibration/output/dng_profile.h"
@@ -18,17 +17,6 @@ std::vector<std::uint16_t> interleaved(const Image& codes, const std::vector<std
   for (std::size_t i = 0; i < codes.pixels(); ++i)
     for (const ImageChannel* plane : found) values.push_back(static_cast<std::uint16_t>(plane->values[i]));
   return values;
-}
-
-// For each code the one that a sensor without the curve would have given.
-std::vector<std::uint16_t> linear_codes(const Readout& readout) {
-  std::vector<std::uint16_t> table;
-  if (!readout.response_curve) return table;
-  for (double dn = 0; dn <= readout.highest_code(); ++dn) {
-    const double linear = readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
-    table.push_back(static_cast<std::uint16_t>(std::clamp(std::round(linear), 0.0, readout.highest_code())));
-  }
-  return table;
 }
 
 std::array<double, 9> rows_of(const Matrix3& matrix) {
@@ -69,10 +57,7 @@ RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor)
   }
   raw.black_level_dn = readout.offset_dn;
   raw.linear_codes = linear_codes(readout);
-  // Converters put the black and the white level behind the table.
-  raw.white_level_dn = raw.linear_codes.empty()
-                           ? white_level(readout)
-                           : raw.linear_codes[static_cast<std::size_t>(white_level(readout))];
+  raw.white_level_dn = white_level(readout);
   raw.gain_e_per_dn = readout.gain_e_per_dn;
   raw.read_noise_e = readout.read_noise_e;
   if (std::isfinite(readout.full_well_e)) raw.full_well_e = readout.full_well_e;

@@ -192,9 +192,11 @@ void set_layout(Tags& tags, const RawPicture& raw) {
 
 void set_levels(Tags& tags, const RawPicture& raw) {
   const std::size_t samples = raw.planes.size();
+  const auto code = static_cast<std::uint32_t>(raw.white_level_dn);
+  // Converters put the black and the white level behind the table.
+  const std::uint32_t white = raw.linear_codes.empty() ? code : raw.linear_codes[code];
   tags.set_all(TIFFTAG_BLACKLEVEL, std::vector<float>(samples, static_cast<float>(raw.black_level_dn)));
-  tags.set_all(TIFFTAG_WHITELEVEL,
-               std::vector<std::uint32_t>(samples, static_cast<std::uint32_t>(raw.white_level_dn)));
+  tags.set_all(TIFFTAG_WHITELEVEL, std::vector<std::uint32_t>(samples, white));
   if (!raw.linear_codes.empty()) tags.set_all(TIFFTAG_LINEARIZATIONTABLE, raw.linear_codes);
 }
 

@@ -74,8 +74,9 @@ void write_header(Header header, const RawPicture& raw) {
   header.number("EGAIN", raw.gain_e_per_dn, "[electron/adu] the same, as others call it");
   header.number("RDNOISE", raw.read_noise_e, "[electron] read noise");
   header.number("PEDESTAL", raw.black_level_dn,
-                "[adu] code without electrons: electrons = (x - PEDESTAL) GAIN");
-  header.number("SATURATE", raw.white_level_dn, "[adu] least code of a saturated pixel");
+                raw.linear_codes.empty() ? "[adu] electrons = (x - PEDESTAL) GAIN"
+                                         : "[adu] no electrons; sensor has response_curve");
+  header.number("SATURATE", raw.white_level_dn, "[adu] saturated pixels reach this code");
   if (raw.full_well_e > 0) header.number("FULLWELL", raw.full_well_e, "[electron] full well");
   if (raw.f_number) header.number("FNUMBER", *raw.f_number, "f-number");
   if (raw.iso_speed) header.number("ISOSPEED", *raw.iso_speed, "saturation-based ISO speed");

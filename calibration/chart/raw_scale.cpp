@@ -2,14 +2,17 @@
 
 #include <bit>
 #include <cmath>
-#include <map>
+#include <memory>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "io/error.h"
+#include "io/json.h"
 #include "io/picture.h"
 #include "io/text.h"
 #include "sensor/film/recorded_mosaic.h"
+#include "sensor/readout/readout_json.h"
 
 namespace abbe {
 namespace {
@@ -50,6 +53,27 @@ std::map<std::string, double> own_exposures(const Attributes& told) {
   for (auto it = told.lower_bound(prefix); it != told.end() && it->first.starts_with(prefix); ++it)
     if (const auto seconds = parse_number(it->second)) own.emplace(it->first.substr(prefix.size()), *seconds);
   return own;
+}
+
+// Pictures for displays tell of the sensor too, those of its codes of their levels.
+bool holds_codes(const Attributes& told) {
+  return told.contains("white_level_dn");
+}
+
+// What undoes the response curve of the read-out that the description of a sensor has.
+std::vector<std::uint16_t> linear_codes_of(const std::string& sensor, std::optional<double> sensitivity) {
+  Diagnostics diagnostics;
+  const auto json = parse_json(std::make_shared<const SourceText>(SourceText{"sensor", sensor}), diagnostics);
+  const JsonValue* said = json ? json->find("readout") : nullptr;
+  const auto readout = said != nullptr ? read_readout(*said, sensitivity, diagnostics) : std::nullopt;
+  if (!readout) throw Error(ErrorCode::input, "attribute \"sensor\"", diagnostics.text());
+  return linear_codes(*readout);
+}
+
+void straighten(Image& image, const RawScale& scale) {
+  const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
+  for (ImageChannel& plane : image.channels)
+    for (float& value : plane.values) value = static_cast<float>(scale.linear(code_of(value))) * share;
 }
 
 // By the tags or keywords that every program writes.
@@ -111,6 +135,8 @@ std::optional<RawScale> raw_scale(const Image& image) {
   scale.own_exposure_s = own_exposures(told);
   scale.gain_e_per_dn = number(told, "gain_e_per_dn");
   scale.electrons_per_lx_s = number(told, "electrons_per_lx_s");
+  if (readout.contains("response_curve") && holds_codes(told))
+    scale.linear_codes = linear_codes_of(told.at("sensor"), scale.electrons_per_lx_s);
   if (auto mosaic = recorded_mosaic(told)) {
     scale.channels = std::move(mosaic->channels);
     scale.mosaic = std::move(mosaic->pattern);
@@ -122,7 +148,8 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_raw_picture(path)) {
     Image image = read_image(path, inputs);
     auto scale = raw_scale(image);
-    if (scale && path.extension() != ".exr") name_planes(image);
+    if (scale && holds_codes(all_told(image))) name_planes(image);
+    if (scale && !scale->linear_codes.empty()) straighten(image, *scale);
     return {std::move(image), std::move(scale)};
   }
   const RawPicture raw = read_raw_picture(path);
@@ -132,8 +159,8 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   for (ImageChannel& plane : read.image.channels)
     for (float& code : plane.values) code *= share;
   read.scale = raw_scale(read.image);
-  // A DNG's codes have been made linear by its table: the levels are those behind it.
-  if (!read.scale || raw.is_linearised) read.scale = scale_of(raw);
+  if (!read.scale) read.scale = scale_of(raw);
+  if (!read.scale->linear_codes.empty() && !raw.is_linearised) straighten(read.image, *read.scale);
   return read;
 }
 

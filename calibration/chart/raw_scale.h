@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,6 +25,7 @@ struct RawScale {
   std::map<std::string, double> own_exposure_s;  ///< Of channels that have one of their own.
   std::optional<double> gain_e_per_dn;
   std::optional<double> electrons_per_lx_s;  ///< Of the most sensitive channel.
+  std::vector<std::uint16_t> linear_codes;   ///< What codes stand for on a line; empty where they are.
   std::vector<std::string> channels;         ///< Of the mosaic, in its order.
   std::optional<Mosaic> mosaic;
 
@@ -35,9 +39,15 @@ struct RawScale {
     if (saturation_dn) return *saturation_dn;
     return static_cast<double>((1U << static_cast<unsigned>(bits)) - 1);
   }
+  /// The code that a sensor without the response curve would have given for this one.
+  [[nodiscard]] double linear(double code) const {
+    if (linear_codes.empty()) return code;
+    return linear_codes[std::min(static_cast<std::size_t>(code), linear_codes.size() - 1)];
+  }
 };
 
-/// Reads that of an image's attributes; nothing for a file that tells of no read-out.
+/// Reads that of an image's attributes; nothing for a file that tells of no read-out. Throws Error{input} for
+/// a read-out with a response curve that makes no sense.
 [[nodiscard]] std::optional<RawScale> raw_scale(const Image& image);
 
 /// A raw picture as an image: a channel of codes for each plane, with what the picture tells as attributes.
@@ -59,7 +69,8 @@ struct RawImage {
 };
 
 /// Reads a DNG or FITS by `read_raw_picture`, its codes as they are and not as a raw converter shows them,
-/// and any other image by `read_image`. What a DNG or FITS of another program tells of its levels, pattern
+/// and any other image by `read_image`; codes by a response curve that the file tells are those of a straight
+/// line, as the table of a DNG makes them. What a DNG or FITS of another program tells of its levels, pattern
 /// and exposure counts too. Throws Error{input} and Error{resource}.
 [[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The 16-bit code that a value of an image from `read_image` stands for.

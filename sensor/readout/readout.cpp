@@ -163,6 +163,16 @@ double white_level(const Readout& readout) {
 }
 
 TemporalNoise temporal_noise(const Readout& readout, double mean_e, double exposure_s) {
+std::vector<std::uint16_t> linear_codes(const Readout& readout) {
+  std::vector<std::uint16_t> table;
+  if (!readout.response_curve) return table;
+  for (double dn = 0; dn <= readout.highest_code(); ++dn) {
+    const double linear = readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
+    table.push_back(static_cast<std::uint16_t>(std::clamp(std::round(linear), 0.0, readout.highest_code())));
+  }
+  return table;
+}
+
   TemporalNoise noise{std::sqrt(std::max(0.0, mean_e)),
                       std::sqrt(readout.dark_e_per_s * exposure_s),
                       readout.read_noise_e,

@@ -93,8 +93,13 @@ struct RawFrame {
 /// Electrons that a code stands for, by offset, curve and gain alone: what calibration makes of raw data.
 [[nodiscard]] double electrons_of(const Readout& readout, double dn);
 
-/// The least code that a pixel at saturation has, noise and fixed patterns left out: the highest, or that of
-/// a full well.
+/// For each code from 0 to the highest the whole number that a sensor without the response curve would have
+/// given; nothing without a curve.
+[[nodiscard]] std::vector<std::uint16_t> linear_codes(const Readout& readout);
+
+/// The code that saturated pixels reach: the highest, or that of a full well less six standard deviations of
+/// what is added to it (read and row noise, DSNU), below which one in 1e9 falls; where that is less than half
+/// the well, that of half of it.
 [[nodiscard]] double white_level(const Readout& readout);
 
 /// Standard deviations of what makes two exposures of one pixel differ [electrons].

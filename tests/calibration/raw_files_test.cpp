@@ -9,6 +9,7 @@
 #include "calibration/chart/raw_scale.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
+#include "sensor/readout/readout.h"
 
 // DNG and FITS serve wherever a raw TIFF does, with the same numbers.
 
@@ -99,6 +100,45 @@ TEST_F(RawFiles, TellWhatTheFilmToldOnAnyNumberOfCards) {
     EXPECT_EQ(read.scale->exposure_s, 0.5) << name;
     EXPECT_EQ(read.scale->highest(), 4000) << name;
   }
+}
+
+// A DNG has a table that does so.
+TEST_F(RawFiles, AResponseCurveIsUndoneWhereTheyAreRead) {
+  RawPicture raw = wedge(0.5);
+  raw.linear_codes.resize(4001);
+  for (std::size_t code = 50; code < raw.linear_codes.size(); ++code)
+    raw.linear_codes[code] = static_cast<std::uint16_t>(std::lround(
+        50 +
+        3950 * MonotoneCurve({{0, 0}, {0.1, 0.4}, {1, 1}}).inverse(static_cast<double>(code - 50) / 3950)));
+  raw.metadata["white_level_dn"] = "4000";
+  raw.metadata["sensor"] =
+      R"({"readout": {"gain_e_per_dn": 2, "bits": 12, "offset_dn": 50, "saturation_dn": 4000,)"
+      R"( "response_curve": [[0, 0], [0.1, 0.4], [1, 1]]}})";
+  for (const char* name : {"curve.dng", "curve.fits", "curve.tif"}) {
+    const RawImage read = read_raw_image(write(name, raw));
+    ASSERT_EQ(read.scale->highest(), 4000) << name;
+    for (std::size_t i = 0; i < raw.codes.size(); i += 7)
+      ASSERT_EQ(code_of(read.image.channels[0].values[i]), raw.linear_codes[raw.codes[i]]) << name << i;
+  }
+}
+
+TEST_F(RawFiles, TellTheExposureOfAChannelsOwn) {
+  RawPicture raw = wedge(0.5);
+  raw.exposure_s.reset();
+  raw.metadata["exposure_s.R"] = "5";
+  for (const char* name : {"own.dng", "own.fits", "own.tif"}) {
+    const RawImage read = read_raw_image(write(name, raw));
+    EXPECT_EQ(read.scale->exposure_of("R"), 5) << name;
+    EXPECT_EQ(read.scale->exposure_of("G"), 0.5) << name;
+  }
+}
+
+TEST_F(RawFiles, PlanesOfTiffHaveTheNamesOfTheSensor) {
+  Image image{1, 1, {{"B", {1}}, {"G", {2}}, {"R", {3}}}, wedge(0.5).metadata};
+  image.metadata.insert({{"sensor_channels", "B,G,R"}, {"white_level_dn", "4000"}});
+  write_raw_picture(folder_ / "planes.tif", image);
+  const Image read = read_raw_image(folder_ / "planes.tif").image;
+  EXPECT_EQ(code_of(read.find("R")->values[0]), 3);
 }
 
 TEST_F(RawFiles, OfOtherProgramsTellLevelsPatternAndExposure) {

@@ -10,6 +10,8 @@
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/picture.h"
+#include "io/raw_picture.h"
+#include "sensor/readout/readout.h"
 
 namespace abbe {
 namespace {
@@ -112,6 +114,56 @@ TEST(LinearImage, OfAFilmItsPlanesAlone) {
   write_exr(path, {1, 1, {{"B", {3}}, {"G", {2}}, {"Id", {1}}, {"R", {1}}}, {{"sensor_channels", "R,G,B"}}});
   EXPECT_EQ(read_linear_image(path).channels, (std::vector<std::string>{"R", "G", "B"}));
   fs::remove(path);
+}
+
+// A 2 x 2 sensor whose codes a response curve bends, under filters that a FITS has no letters of its own for.
+RawPicture curved_picture() {
+  Readout readout;
+  readout.bits = 12;
+  readout.gain_e_per_dn = 2;
+  readout.offset_dn = 100;
+  readout.full_well_e = 7500;
+  readout.response_curve = MonotoneCurve({{0, 0}, {0.5, 0.8}, {1, 1}});
+  RawPicture raw;
+  raw.width = raw.height = raw.mosaic_width = 2;
+  raw.planes = {"raw"};
+  raw.channels = {"G", "M", "Y"};
+  raw.mosaic = {1, 0, 0, 2};
+  raw.codes = {100, 1000, 3900, 4050};
+  raw.exposure_s = 1;
+  raw.black_level_dn = readout.offset_dn;
+  raw.white_level_dn = white_level(readout);
+  raw.linear_codes = linear_codes(readout);
+  raw.metadata = {{"sensor_channels", "raw"},
+                  {"mosaic", "M,G/G,Y"},
+                  {"mosaic_channels", "G,M,Y"},
+                  {"black_level_dn", "100"},
+                  {"white_level_dn", std::to_string(white_level(readout))},
+                  {"sensor", R"({"readout": {"gain_e_per_dn": 2, "bits": 12, "offset_dn": 100,)"
+                             R"( "full_well_e": 7500, "response_curve": [[0, 0], [0.5, 0.8], [1, 1]]}})"}};
+  return raw;
+}
+
+TEST(LinearImage, OfARawFileOfAnyKindIsTheSame) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("abbe_kinds_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const RawPicture raw = curved_picture();
+  write_dng(folder / "a.dng", raw);
+  write_fits(folder / "a.fits", raw);
+  for (const char* name : {"a.tif", "a.png"})
+    write_raw_picture(folder / name, {2, 2, {{"raw", {raw.codes.begin(), raw.codes.end()}}}, raw.metadata});
+  std::vector<float> linear;
+  for (const std::uint16_t code : raw.codes)
+    linear.push_back(static_cast<float>(raw.linear_codes[code] - 100));
+  for (const char* name : {"a.dng", "a.fits", "a.tif", "a.png"}) {
+    const LinearImage read = read_linear_image(folder / name);
+    EXPECT_EQ(read.channels, (std::vector<std::string>{"G", "M", "Y"})) << name;
+    EXPECT_EQ(read.mosaic, (Mosaic{2, 2, {1, 0, 0, 2}})) << name;
+    ASSERT_EQ(read.image.channels.size(), 1U) << name;
+    EXPECT_EQ(read.image.channels[0].values, linear) << name;
+    EXPECT_EQ(read.saturation, 3750) << name << ": the full well over the gain";
+  }
+  fs::remove_all(folder);
 }
 
 TEST(LinearImage, ASaturatedFlatIsRefused) {

@@ -99,6 +99,22 @@ TEST(Dng, FiltersOfOtherNamesKeepTheirOwnOrder) {
   EXPECT_EQ(read.mosaic, raw.mosaic);
 }
 
+TEST(RawPicture, AResponseCurveIsUndoneByTheTableOfADngAlone) {
+  RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  raw.codes = {1, 2, 3};
+  raw.black_level_dn = 0;
+  raw.white_level_dn = 3;
+  raw.linear_codes = {0, 2, 4, 7};
+  const RawPicture dng = read_back(raw);
+  EXPECT_EQ(dng.codes, (std::vector<std::uint16_t>{2, 4, 7}));
+  EXPECT_EQ(dng.white_level_dn, 7);
+  const auto path = test_folder() / "a.fits";
+  write_fits(path, raw);
+  const RawPicture fits = read_raw_picture(path);
+  EXPECT_EQ(fits.codes, raw.codes);
+  EXPECT_EQ(fits.white_level_dn, 3);
+}
+
 TEST(Dng, NeedsNoExposureToTell) {
   RawPicture raw = one_pixel({kRed, kGreen, kBlue});
   raw.exposure_s.reset();
