@@ -1,6 +1,5 @@
 #include "develop/develop.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -126,7 +125,7 @@ Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
                                : calibrated;
   if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return planes;
   const Readout& readout = *sensor.readout;
-  const double full_e = saturation_electrons(readout);
+  const double full_e = electrons_of(readout, white_level(readout));
   std::vector<double> saturation;
   for (std::size_t k = 0; k < 3; ++k) saturation.push_back(exposure_of(sensor, full_e, sensor.exposure_s[k]));
   clip_to_white(planes, sensor.channels, sensor.display->to_xyz_d65(), saturation);

@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-/// Attributes of raw files: what their numbers are, the code of a pixel without electrons, the least code of
-/// a saturated one, and electrons per digital number.
+/// Attributes of raw files: what their numbers are, the code of a pixel without electrons, that which
+/// saturated ones reach, and electrons per digital number.
 inline constexpr const char* kCodesKey = "codes";
 inline constexpr const char* kBlackLevelKey = "black_level_dn";
 inline constexpr const char* kWhiteLevelKey = "white_level_dn";

@@ -72,6 +72,7 @@ void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame) {
   exposed.film.metadata["frame"] = flat ? fmt::format("flat, {} of saturation", flat->share)
                                    : std::holds_alternative<DarkFrame>(frame) ? "dark"
                                                                               : "bias";
+  exposed.film.metadata.erase("frame_mean_error");
   if (std::holds_alternative<BiasFrame>(frame)) set_exposure(exposed, 0);
 }
 

@@ -5,8 +5,8 @@
 
 namespace abbe {
 
-/// What a raw file holds of a film that was read out. Its white level is the least code of a saturated pixel,
-/// its matrix the inverse of the film's own way to colour.
+/// What a raw file holds of a film that was read out. Its matrix is the inverse of the film's own way to
+/// colour.
 [[nodiscard]] RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor);
 
 }  // namespace abbe

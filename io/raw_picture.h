@@ -27,7 +27,7 @@ struct RawPicture {
   std::int64_t mosaic_width = 0;          ///< 0 without a mosaic.
   std::vector<std::uint8_t> mosaic = {};  ///< Numbers among the channels, rows of the pattern from the top.
   double black_level_dn = 0;
-  double white_level_dn = 65535;                 ///< The least code of a saturated pixel.
+  double white_level_dn = 65535;                 ///< The code that saturated pixels reach.
   std::vector<std::uint16_t> linear_codes = {};  ///< What each code stands for; empty where they are linear.
   bool is_linearised = false;  ///< Whether such a table of the file has made the codes that were read.
   double gain_e_per_dn = 1;

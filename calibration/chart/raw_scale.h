@@ -36,7 +36,7 @@ struct RawScale {
   }
   /// The highest code that occurs.
   [[nodiscard]] double highest() const {
-    if (saturation_dn) return *saturation_dn;
+    if (saturation_dn) return std::floor(*saturation_dn);
     return static_cast<double>((1U << static_cast<unsigned>(bits)) - 1);
   }
   /// The code that a sensor without the response curve would have given for this one.

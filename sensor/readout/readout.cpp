@@ -20,6 +20,7 @@ using Uniform = boost::random::uniform_01<double>;
 
 // Beyond this a Poisson distribution is too narrow for 64-bit integers to matter, and no well is so deep.
 constexpr double kMostElectrons = 1e15;
+constexpr double kSaturationDeviations = 6;
 
 double poisson(double mean, SplitMix64& random) {
   if (!(mean > 0)) return 0;
@@ -93,6 +94,11 @@ double curved(const Readout& readout, double signal) {
          (readout.response_curve ? codes * (*readout.response_curve)(signal / codes) : signal);
 }
 
+// The code of so many electrons, before it is cut to those that there are.
+double code_of(const Readout& readout, double electrons) {
+  return std::floor(curved(readout, electrons / readout.gain_e_per_dn) + 0.5);
+}
+
 template <double MonotoneCurve::Point::*From, double MonotoneCurve::Point::*To>
 double interpolated(const std::vector<MonotoneCurve::Point>& points, double x) {
   const auto after = std::find_if(points.begin() + 1, points.end() - 1,
@@ -143,7 +149,7 @@ RawFrame read_out(const Readout& readout, std::span<const float> expected_e, con
     }
     const double signal_e =
         pixel.held_e + pixel.offset_e + row_e + readout.read_noise_e * Normal()(pixel.random);
-    const double code = std::floor(curved(readout, signal_e / readout.gain_e_per_dn) + 0.5);
+    const double code = code_of(readout, signal_e);
     frame.dn.push_back(static_cast<std::uint16_t>(std::clamp(code, 0.0, readout.highest_code())));
     frame.saturated.push_back(pixel.held_e >= readout.full_well_e || code >= readout.highest_code());
   }
@@ -157,12 +163,6 @@ double electrons_of(const Readout& readout, double dn) {
          (readout.response_curve ? codes * readout.response_curve->inverse(signal / codes) : signal);
 }
 
-double white_level(const Readout& readout) {
-  const double full = std::floor(curved(readout, readout.full_well_e / readout.gain_e_per_dn) + 0.5);
-  return std::min(full, readout.highest_code());
-}
-
-TemporalNoise temporal_noise(const Readout& readout, double mean_e, double exposure_s) {
 std::vector<std::uint16_t> linear_codes(const Readout& readout) {
   std::vector<std::uint16_t> table;
   if (!readout.response_curve) return table;
@@ -173,6 +173,14 @@ std::vector<std::uint16_t> linear_codes(const Readout& readout) {
   return table;
 }
 
+double white_level(const Readout& readout) {
+  const double added_e = std::hypot(readout.read_noise_e, readout.row_noise_e, readout.dsnu_e);
+  const double full_e =
+      std::max(readout.full_well_e - kSaturationDeviations * added_e, readout.full_well_e / 2);
+  return std::min(code_of(readout, full_e), readout.highest_code());
+}
+
+TemporalNoise temporal_noise(const Readout& readout, double mean_e, double exposure_s) {
   TemporalNoise noise{std::sqrt(std::max(0.0, mean_e)),
                       std::sqrt(readout.dark_e_per_s * exposure_s),
                       readout.read_noise_e,

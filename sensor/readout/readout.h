@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -49,7 +50,7 @@ struct Readout {
   std::optional<MonotoneCurve> response_curve = {};
 
   [[nodiscard]] double highest_code() const {
-    return std::min(static_cast<double>((1U << bits) - 1), saturation_dn);
+    return std::floor(std::min(static_cast<double>((1U << bits) - 1), saturation_dn));
   }
 };
 

@@ -58,6 +58,33 @@ TEST(Develop, WithoutAReadOutTheExposureIsAll) {
   EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22), 1e5);
 }
 
+// Whatever noise a full well is read with.
+TEST(Develop, WhatIsSaturatedIsShownAsWhite) {
+  constexpr std::size_t kPixels = 200;
+  Image film = counting_film();
+  film.width = kPixels;
+  film.channels.clear();
+  for (const char* name : {"R", "G", "B"}) {
+    film.channels.push_back({name, std::vector<float>(kPixels, 1e14F)});
+    film.metadata[std::string("channel.") + name] = film.metadata["channel.V"];
+  }
+  film.metadata["sensor_channels"] = "R,G,B";
+  film.metadata["to_xyz_d65"] = "1 0 0 0 1 0 0 0 1";
+  film.metadata["sensor"] =
+      R"({"readout": {"gain_e_per_dn": 1, "bits": 12, "full_well_e": 1000, "read_noise_e": 20}})";
+  const ExposedFilm saturated = exposed({}, film);
+  const Image shown = display_planes(saturated.sensor, develop(saturated, 7).calibrated);
+  for (const ImageChannel& plane : shown.channels)
+    EXPECT_EQ(plane.values, std::vector<float>(kPixels, plane.values[0])) << plane.name;
+}
+
+TEST(Develop, AFrameOfNoSceneHasNoErrorOfARender) {
+  ExposedFilm film = exposed();
+  film.film.metadata["frame_mean_error"] = "0.001";
+  expose_to(film, DarkFrame{});
+  EXPECT_FALSE(film.film.metadata.contains("frame_mean_error"));
+}
+
 // Within six standard deviations of the dark current.
 TEST(Develop, APixelOfAMosaicIsDarkForTheTimeOfItsOwnFilter) {
   ExposedFilm film = exposed({}, test::mosaic_film());

@@ -163,6 +163,36 @@ TEST(Readout, CodesEndWhereTheySaturate) {
   EXPECT_EQ(frame.saturated, (std::vector<std::uint8_t>{0, 1}));
 }
 
+// What files promise of saturated pixels holds whatever noise is added to a full well.
+TEST(Readout, SaturatedPixelsReachTheWhiteLevel) {
+  Readout readout;
+  readout.bits = 12;
+  readout.gain_e_per_dn = 2;
+  readout.offset_dn = 100;
+  readout.full_well_e = 7500;
+  EXPECT_EQ(white_level(readout), 3850);
+  readout.read_noise_e = 10;
+  readout.row_noise_e = 4;
+  readout.dsnu_e = 3;
+  const RawFrame frame = read_out(readout, flat(20000, 1e4), {1, 5, 0, 100});
+  EXPECT_EQ(std::count(frame.saturated.begin(), frame.saturated.end(), 1), 20000);
+  const double white = white_level(readout);
+  EXPECT_GE(*std::min_element(frame.dn.begin(), frame.dn.end()), white);
+  EXPECT_EQ(white, std::floor(3850 - 6 * std::sqrt(125.0) / 2 + 0.5));
+  readout.full_well_e = 100;
+  EXPECT_EQ(white_level(readout), 100 + 25) << "that of half a well, where noise hides it";
+}
+
+TEST(Readout, TheHighestCodeIsAWholeNumber) {
+  Readout readout;
+  readout.saturation_dn = 100.7;
+  EXPECT_EQ(readout.highest_code(), 100);
+  EXPECT_EQ(white_level(readout), 100);
+  const RawFrame frame = read_out(readout, std::array{1e4F}, {});
+  EXPECT_EQ(frame.dn[0], 100);
+  EXPECT_EQ(frame.saturated[0], 1);
+}
+
 TEST(Readout, RowsShareTheirNoise) {
   Readout readout;
   readout.offset_dn = 1000;
