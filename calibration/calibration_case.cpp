@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "calibration/chart/measured_patches.h"
 #include "calibration/chart/photographed_series.h"
@@ -11,6 +12,7 @@
 #include "io/error.h"
 #include "io/invalid_input.h"
 #include "io/text.h"
+#include "sensor/response/rgb_order.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
@@ -54,11 +56,36 @@ Chart load_training(const CalibrationSource& source, Diagnostics& diagnostics) {
   return all;
 }
 
+template <typename T>
+std::vector<std::string> names_of(const std::vector<T>& all, std::string T::*name) {
+  std::vector<std::string> names;
+  for (const T& one : all) names.push_back(one.*name);
+  return names;
+}
+
+// What has the names R, G and B in that order, which the columns of tables and the planes of pictures have;
+// all else as it is.
+template <typename T>
+std::vector<T> in_rgb_order(std::vector<T> all, std::string T::*name) {
+  const auto order = rgb_order(names_of(all, name));
+  if (!order) return all;
+  std::vector<T> sorted;
+  for (const std::size_t place : *order) sorted.push_back(std::move(all[place]));
+  return sorted;
+}
+
+// Columns of measured patches are matched with these by name.
+template <typename T>
+void require_rgb(const std::vector<T>& all, std::string T::*name, const char* what) {
+  const std::vector<std::string> names = names_of(all, name);
+  if (!rgb_order(names))
+    throw Error(ErrorCode::input, what,
+                fmt::format("has the channels {} (allowed with --measured R, G and B, its columns)",
+                            fmt::join(names, ", ")));
+}
+
 // Code values to linear ones.
 void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
-  if (responses.size() != 3)
-    throw Error(ErrorCode::input, "--series",
-                fmt::format("expected three channels (got {})", responses.size()));
   for (Raw& value : patches.values)
     for (std::size_t k = 0; k < 3; ++k) value[k] = linearise(responses[k].fit.linear, value[k]);
 }
@@ -70,7 +97,9 @@ std::optional<std::vector<Channel>> camera_channels(const std::string& camera, D
   if (camera.starts_with(kBox)) return box_channels(camera.substr(kBox.size()));
   if (camera == "observer:1931") return observer_channels(Observer::cie1931);
   if (camera == "observer:1964") return observer_channels(Observer::cie1964);
-  return load_camera(camera, {}, diagnostics);
+  auto channels = load_camera(camera, {}, diagnostics);
+  if (channels) channels = in_rgb_order(*std::move(channels), &Channel::name);
+  return channels;
 }
 
 CalibrationCase simulated_calibration(const CalibrationSource& source, const std::string& illuminant,
@@ -108,10 +137,12 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
   std::optional<std::vector<Channel>> channels;
   if (!training.patches.empty()) channels = camera_channels(source.camera, diagnostics);
   require_sound(diagnostics);
+  if (channels) require_rgb(*channels, &Channel::name, "--camera");
   MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}, {}};
   if (!source.series.empty()) {
     RecoveredResponses recovered = recover_responses(source.series, inputs, diagnostics);
-    camera.responses = std::move(recovered.channels);
+    require_rgb(recovered.channels, &ChannelResponse::channel, "--series");
+    camera.responses = in_rgb_order(std::move(recovered.channels), &ChannelResponse::channel);
     scale_to_codes(*patches, recovered.full_scale_dn, source.measured);
     linearise_all(*patches, camera.responses);
   }

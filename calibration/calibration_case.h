@@ -35,8 +35,9 @@ struct CalibrationCase {
 };
 
 /// The channels of a camera of `data/camera` or of a file, of ideal filters "box:a-b,c-d,e-f" [nm] from blue
-/// to red, or of an "observer:1931" or "observer:1964". Reports a name that is none of these; throws
-/// Error{usage} for bands that cannot be.
+/// to red, or of an "observer:1931" or "observer:1964". R, G and B come in this order, whatever that of the
+/// file: so tables and pictures have them. Reports a name that is none of these; throws Error{usage} for
+/// bands that cannot be.
 [[nodiscard]] std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
                                                                   Diagnostics& diagnostics);
 
@@ -45,7 +46,8 @@ struct CalibrationCase {
 [[nodiscard]] CalibrationCase simulated_calibration(const CalibrationSource& source,
                                                     const std::string& illuminant, Diagnostics& diagnostics);
 /// Calibrates the real camera that photographed the chart in that light; by `series`, if there is one, its
-/// values are made linear before. The files that are read are added to `inputs`. Throws as above.
+/// values are made linear before. The files that are read are added to `inputs`. Throws as above, and
+/// Error{input} where the channels of the camera or of the photographs are not those of the measured values.
 [[nodiscard]] CalibrationCase measured_calibration(const CalibrationSource& source,
                                                    const std::string& illuminant, Inputs& inputs,
                                                    Diagnostics& diagnostics);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/output/dng_profile.h"
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "develop/develop.h"
@@ -197,7 +198,8 @@ void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inp
                 fmt::format("its matrices are for three channels (got {})", sensor.channels.size()));
   Diagnostics diagnostics;
   inputs.add_file(options.profile);
-  sensor.lights = accepted(read_dng_profile(options.profile, diagnostics), diagnostics);
+  for (const RawLight& light : accepted(read_dng_profile(options.profile, diagnostics), diagnostics))
+    sensor.lights.push_back(light_for(sensor.channels, light));
 }
 
 // Develops one exposure into all its files, each whatever becomes of the others.

@@ -5,6 +5,7 @@
 
 #include "calibration/output/color_spaces.h"
 #include "calibration/output/exif_light.h"
+#include "sensor/response/rgb_order.h"
 #include "spectral/color_temperature.h"
 
 namespace abbe {
@@ -27,6 +28,17 @@ std::optional<DngLight> dng_light(const CameraProfile& profile, const XYZ& white
   if (!matrices) return std::nullopt;
   return DngLight{profile.light, exif_light_source(profile.light), temperature->kelvin, matrices->color,
                   matrices->forward};
+}
+
+RawLight light_for(std::span<const std::string> channels, const RawLight& light) {
+  RawLight ordered = light;
+  const auto order = rgb_order(channels);
+  for (std::size_t k = 0; order && k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) {
+      ordered.color[3 * (*order)[k] + i] = light.color[3 * k + i];
+      ordered.forward[3 * i + (*order)[k]] = light.forward[3 * i + k];
+    }
+  return ordered;
 }
 
 Matrix3 forward_between(const DngLight& first, const DngLight& second, double kelvin) {

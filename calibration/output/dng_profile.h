@@ -2,9 +2,11 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "calibration/output/camera_profile.h"
+#include "io/raw_picture.h"
 #include "spectral/colorimetry.h"
 #include "spectral/matrix3.h"
 
@@ -34,6 +36,10 @@ struct DngLight {
 /// The matrices of a profile, from the XYZ of its light's white (Y = 1). Nothing for a root polynomial, and
 /// for a light without a colour temperature.
 [[nodiscard]] std::optional<DngLight> dng_light(const CameraProfile& profile, const XYZ& white);
+
+/// The light of a profile, which has R, G and B in this order, for a sensor with these channels, which may be
+/// the same in another.
+[[nodiscard]] RawLight light_for(std::span<const std::string> channels, const RawLight& light);
 
 /// The forward matrix of a light between two: linear in 1/T, held beyond them [DNG, ch. 6].
 [[nodiscard]] Matrix3 forward_between(const DngLight& first, const DngLight& second, double kelvin);

@@ -37,6 +37,20 @@ TEST(DngProfile, TakesWhiteToWhiteBothWays) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], camera_white[k] / greatest, 1e-12);
 }
 
+TEST(DngProfile, SuitsASensorWithTheSameChannelsInAnotherOrder) {
+  const RawLight light{21, {1, 2, 3, 4, 5, 6, 7, 8, 9}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
+  const auto suited = [&light](const std::vector<std::string>& channels) {
+    return light_for(channels, light);
+  };
+  const RawLight turned = suited({"G", "B", "R"});
+  EXPECT_EQ(turned.color, (std::array<double, 9>{4, 5, 6, 7, 8, 9, 1, 2, 3})) << "rows are channels";
+  EXPECT_EQ(turned.forward, (std::array<double, 9>{2, 3, 1, 5, 6, 4, 8, 9, 7})) << "columns are";
+  for (const std::vector<std::string>& others : {std::vector<std::string>{"C", "M", "Y"}, {"R", "G", "B"}}) {
+    EXPECT_EQ(suited(others).color, light.color);
+    EXPECT_EQ(suited(others).forward, light.forward);
+  }
+}
+
 TEST(ExifLight, NumbersStandardLightsAndKindsOfFluorescentLamps) {
   for (const auto& [name, number] : {std::pair{"A", 17},
                                      {"B", 18},

@@ -46,6 +46,27 @@ std::filesystem::path write_series() {
   return path;
 }
 
+// Exposures through a mosaic whose channels are told as B, G, R.
+std::filesystem::path write_mosaic_series() {
+  constexpr int kEdge = 32;
+  std::string listing;
+  for (const double seconds : {0.25, 0.5, 1.0, 2.0}) {
+    Image image{kEdge, kEdge, {{"raw", {}}}, {}};
+    for (int i = 0; i < kEdge * kEdge; ++i) {
+      const double dn = kBlack + seconds * (i / 2 % (kEdge / 2) + 1) / (kEdge / 2) * 0.6 * kFull;
+      image.channels[0].values.push_back(static_cast<float>(std::min(4095.0, std::floor(dn + 0.5))));
+    }
+    image.metadata = {{"exposure_s", fmt::format("{}", seconds)},
+                      {"mosaic", "B,G/G,R"},
+                      {"mosaic_channels", "B,G,R"},
+                      {"sensor", fmt::format(R"({{"readout":{{"bits":12,"offset_dn":{}}}}})", kBlack)}};
+    const std::string name = fmt::format("mosaic_{}.tif", seconds);
+    write_raw_picture(scratch() / name, image);
+    listing += fmt::format(R"({}{{"file": "{}"}})", listing.empty() ? "" : ", ", name);
+  }
+  return scratch().write("mosaic_series.json", R"({"exposures": [)" + listing + "]}");
+}
+
 // The chart as a camera sees it in D65, the perfect diffuser being given; one patch with clipped green.
 CalibrateOptions measured(const std::string& unit, double white, const std::string& clipped = "") {
   CalibrateOptions options;
@@ -73,6 +94,15 @@ TEST(CalibrateRaw, NumbersAboveBlackAreSharesOfWhatTheSeriesTells) {
   options.series = write_series();
   const json both = json_output(calibrate, options);
   EXPECT_NEAR(both["dE00_mean"].get<double>(), plain, 0.05) << "the response is a straight line";
+}
+
+TEST(CalibrateRaw, ResponsesAreMatchedWithMeasuredValuesByName) {
+  CalibrateOptions options = measured(kNumbersAboveBlack, 0.8 * kFull);
+  options.how.fit.objective = Objective::xyz;
+  options.series = write_mosaic_series();
+  const json responses = json_output(calibrate, options)["responses"];
+  ASSERT_EQ(responses.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(responses[k]["channel"], std::string(1, "RGB"[k]));
 }
 
 TEST(CalibrateRaw, SaturatedPatchesAreLeftOutOfBalanceAndFit) {

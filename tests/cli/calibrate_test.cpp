@@ -117,6 +117,44 @@ TEST(Calibrate, TrainsAPhotographedCameraOnSpectraSeenThroughItsCurves) {
   EXPECT_EQ(fault([&] { calibrate(options); }, "the chart itself"), ErrorCode::usage);
 }
 
+// The Nikon's curves as a table with these columns.
+std::string camera_table(const std::vector<std::size_t>& order) {
+  Diagnostics diagnostics;
+  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
+  std::string rows = "# unit: relative\n# outside: zero\nwavelength_nm";
+  for (const std::size_t k : order) rows += "," + (*channels)[k].name;
+  for (int nm = 400; nm <= 700; nm += 10) {
+    rows += fmt::format("\n{}", nm);
+    for (const std::size_t k : order) rows += fmt::format(",{}", (*channels)[k].weight(nm));
+  }
+  return rows + "\n";
+}
+
+TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {
+  const auto in_order = [](const std::string& name, const std::vector<std::size_t>& order) {
+    CalibrateOptions options = nikon();
+    options.camera = scratch().write(name, camera_table(order)).string();
+    options.how.fit.objective = Objective::xyz;
+    return options;
+  };
+  CalibrateOptions rgb = in_order("rgb.csv", {0, 1, 2});
+  CalibrateOptions bgr = in_order("bgr.csv", {2, 1, 0});
+  const json expected = json_output(calibrate, rgb);
+  const json found = json_output(calibrate, bgr);
+  for (const char* key : {"white_values", "to_xyz_d65", "dE00_mean"})
+    EXPECT_EQ(found[key], expected[key]) << key;
+  // Columns of a table and curves of a camera are matched by name too.
+  for (CalibrateOptions* options : {&rgb, &bgr}) {
+    options->measured = scratch().write("measured_rgb.csv", measured_table("D65", 300));
+    options->training = "pmc_chart_luo2024";
+  }
+  EXPECT_EQ(json_output(calibrate, bgr)["dE00_max"], json_output(calibrate, rgb)["dE00_max"]);
+  bgr.camera = "observer:1931";
+  EXPECT_EQ(
+      fault([&] { calibrate(bgr); }, "--camera: has the channels X, Y, Z (allowed with --measured R, G"),
+      ErrorCode::input);
+}
+
 TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
   CalibrateOptions options;
   options.how.bootstrap.replicates = 2;
