@@ -9,6 +9,7 @@
 #include "calibration/output/ocio.h"
 #include "calibration/output/sensitivities.h"
 #include "cli/bench_plots.h"
+#include "cli/calibrate_folder.h"
 #include "cli/calibrate_page.h"
 #include "cli/calibrate_report.h"
 #include "cli/output_files.h"
@@ -22,19 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every file that may be written.
 std::vector<fs::path> output_files(const CalibrateOptions& options) {
-  const fs::path& folder = options.output;
-  if (folder.empty()) return {};
-  std::vector<fs::path> files{folder / "report.json", folder / "response.csv", folder / "config.ocio"};
-  for (const std::string& illuminant : split(options.illuminants, ',')) {
-    CameraProfile profile;
-    profile.light = illuminant;
-    for (const char* end : {".spi1d", ".cube", ".clf", "_to_aces.clf"})
-      files.push_back(folder / camera_file(profile, end));
-  }
-  for (const char* name : {"dng.json", "sensitivities.json", "report.html"}) files.push_back(folder / name);
-  return files;
+  return options.output.empty() ? std::vector<fs::path>{}
+                                : calibration_files(options.output, options.illuminants);
 }
 
 void require_named_once(const std::string& illuminants) {
@@ -55,8 +46,10 @@ int calibrate_response(const CalibrateOptions& options) {
   for (const ChannelResponse& r : responses) report["responses"].push_back(json_of(r));
   if (!options.output.empty()) {
     make_folder(options.output);
-    write_atomically(options.output / "response.csv", csv_of(responses, options.series.string()));
-    write_atomically(options.output / "report.json", text(report, true));
+    const std::vector<fs::path> written{options.output / "response.csv", options.output / "report.json"};
+    write_atomically(written[0], csv_of(responses, options.series.string()));
+    write_atomically(written[1], text(report, true));
+    remove_earlier_files(options.output, written);
   }
   if (options.json)
     print(report, true);
@@ -90,23 +83,28 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
                         const BenchAnswers& bench, Json& report) {
   std::vector<CameraProfile> profiles;
   for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
-  const WrittenConfig written = write_ocio_config(options.output, profiles);
+  WrittenConfig written = write_ocio_config(options.output, profiles);
+  const auto write = [&](const char* name, const std::string& content) {
+    written.files.push_back(options.output / name);
+    write_atomically(written.files.back(), content);
+  };
   if (std::any_of(profiles.begin(), profiles.end(), [](const CameraProfile& profile) {
         return profile.correction.model != CorrectionModel::linear;
       }))
     report["bake_dE00_max"] = written.bake_error;
   if (const Json dng = dng_json(cases); !dng.is_null()) {
-    write_atomically(options.output / "dng.json", text(dng, true));
+    write("dng.json", text(dng, true));
     report["dng"] = dng;
   }
   std::vector<Channel> channels;
   if (!options.camera.empty()) {
     Diagnostics diagnostics;
     channels = accepted(camera_channels(options.camera, diagnostics), diagnostics);
-    write_atomically(options.output / "sensitivities.json", sensitivities_json(options.camera, channels));
+    write("sensitivities.json", sensitivities_json(options.camera, channels));
   }
-  write_atomically(options.output / "report.html", page_of(cases, channels, bench));
-  write_atomically(options.output / "report.json", text(report, true));
+  write("report.html", page_of(cases, channels, bench));
+  write("report.json", text(report, true));
+  remove_earlier_files(options.output, written.files);
 }
 
 }  // namespace

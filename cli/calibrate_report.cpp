@@ -191,7 +191,7 @@ Json dng_json(const std::vector<CalibrationCase>& cases) {
   if (lights.size() < 2 || lights.size() < cases.size()) return {};
   const auto [warm, cool] = std::minmax_element(
       lights.begin(), lights.end(), [](const DngLight& a, const DngLight& b) { return a.kelvin < b.kelvin; });
-  Json answer;
+  Json answer{{"camera", cases.front().camera}};
   for (const DngLight* light : {&*warm, &*cool})
     answer["lights"].push_back({{"light", light->light},
                                 {"CalibrationIlluminant", light->code},

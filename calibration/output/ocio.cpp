@@ -282,22 +282,26 @@ WrittenConfig write_ocio_config(const std::filesystem::path& folder,
   const std::string text = ocio_config_text(profiles);
   make_folder(folder);
   WrittenConfig written;
+  const auto write = [&](const std::string& name, const std::string& content) {
+    written.files.push_back(folder / name);
+    write_atomically(written.files.back(), content);
+  };
   with_ocio_errors(ErrorCode::output, [&] {
     std::istringstream stream(text);
     const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(stream)->createEditableCopy();
     config->validate();
     config->setWorkingDir(folder.string().c_str());
     for (const CameraProfile& profile : profiles) {
-      if (has_curve(profile)) write_atomically(folder / camera_file(profile, ".spi1d"), spi1d_text(profile));
+      if (has_curve(profile)) write(camera_file(profile, ".spi1d"), spi1d_text(profile));
       if (has_cube(profile)) {
-        write_atomically(folder / camera_file(profile, ".cube"), cube_text(profile));
+        write(camera_file(profile, ".cube"), cube_text(profile));
         written.bake_error = std::max(written.bake_error, bake_error(config, profile));
       }
-      write_atomically(folder / camera_file(profile, ".clf"), clf_text(config, profile, kReferenceSpace));
-      write_atomically(folder / camera_file(profile, "_to_aces.clf"), clf_text(config, profile, kAcesSpace));
+      write(camera_file(profile, ".clf"), clf_text(config, profile, kReferenceSpace));
+      write(camera_file(profile, "_to_aces.clf"), clf_text(config, profile, kAcesSpace));
     }
   });
-  write_atomically(folder / "config.ocio", text);
+  write("config.ocio", text);
   return written;
 }
 

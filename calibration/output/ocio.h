@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "calibration/output/camera_profile.h"
 
@@ -32,10 +33,12 @@ inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
 /// Creates a folder unless it is there. Throws Error{output}.
 void make_folder(const std::filesystem::path& folder);
 
-/// What a root polynomial's cube costs: the largest CIEDE2000 between OpenColorIO's interpolation and the
-/// polynomial, over random camera values; 0 for a matrix.
+/// What was written.
 struct WrittenConfig {
+  /// What a root polynomial's cube costs: the largest CIEDE2000 between OpenColorIO's interpolation and the
+  /// polynomial, over random camera values; 0 for a matrix.
   double bake_error = 0;
+  std::vector<std::filesystem::path> files;
 };
 
 /// Writes into `folder`, creating it: curves and cubes of the profiles; for each one `camera_<light>.clf` to

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -153,6 +154,23 @@ TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {
   EXPECT_EQ(
       fault([&] { calibrate(bgr); }, "--camera: has the channels X, Y, Z (allowed with --measured R, G"),
       ErrorCode::input);
+}
+
+TEST(Calibrate, AFolderHoldsOneCalibration) {
+  CalibrateOptions options = nikon();
+  options.output = scratch() / "held";
+  options.illuminants = "D65,A";
+  json_output(calibrate, options);
+  EXPECT_EQ(json::parse(read_file(options.output / "dng.json"))["camera"], "Nikon_D5100");
+  std::ofstream(options.output / "notes.clf") << "mine";
+  options.camera = "Canon_EOS_5D";
+  options.illuminants = "D65";
+  json_output(calibrate, options);
+  std::set<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(options.output))
+    left.insert(entry.path().filename().string());
+  EXPECT_EQ(left, (std::set<std::string>{"camera_D65.clf", "camera_D65_to_aces.clf", "config.ocio",
+                                         "notes.clf", "report.html", "report.json", "sensitivities.json"}));
 }
 
 TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
