@@ -119,6 +119,29 @@ void add_compare(CLI::App& app, Command& command) {
   add_json(*sub.app, sub->json);
 }
 
+// Options of `calibrate` beside which others would have no effect are refused.
+void exclude_without_effect(CLI::App& calibrate) {
+  const auto option = [&calibrate](const std::string& name) { return calibrate.get_option(name); };
+  CLI::Option* const measured = option("--measured");
+  CLI::Option* const series = option("--series");
+  CLI::Option* const all = option("--all-cameras");
+  // Only a simulated camera can look at another chart or be given a response.
+  for (const char* simulated : {"--test", "--response", "--bits"})
+    option(simulated)->excludes(measured)->excludes(series)->excludes(all);
+  std::vector<CLI::Option*> of_colors;
+  for (const char* name :
+       {"--training", "--correction", "--objective", "--adaptation", "--folds", "--transfer", "--mtf"})
+    of_colors.push_back(option(name)->excludes(all));
+  option("--output")->excludes(all);
+  for (const char* name : {"--illuminant", "--chart"}) of_colors.push_back(option(name));
+  // Without values of a chart a series tells of curves, not of colours.
+  calibrate.parse_complete_callback([series, measured, of_colors] {
+    if (series->count() == 0 || measured->count() > 0) return;
+    for (const CLI::Option* color : of_colors)
+      if (color->count() > 0) throw CLI::RequiresError(color->get_name(), measured->get_name());
+  });
+}
+
 void add_calibrate(CLI::App& app, Command& command) {
   const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
                                           calibrate);
@@ -127,18 +150,16 @@ void add_calibrate(CLI::App& app, Command& command) {
       .add_option("--camera", calibration->camera,
                   "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
       ->type_name("CAMERA");
-  CLI::Option* measured =
-      options
-          .add_option("--measured", calibration->measured,
-                      "A real camera's values of the chart, linear or to be made so by --series")
-          ->type_name("FILE.csv");
-  CLI::Option* series =
-      options
-          .add_option("--series", calibration->series,
-                      "Photographs with their exposure times, which the response is recovered from")
-          ->type_name("FILE.json");
-  CLI::Option* all = options.add_flag("--all-cameras", calibration->all_cameras,
-                                      "How well each shipped camera can be calibrated");
+  options
+      .add_option("--measured", calibration->measured,
+                  "A real camera's values of the chart, linear or to be made so by --series")
+      ->type_name("FILE.csv");
+  options
+      .add_option("--series", calibration->series,
+                  "Photographs with their exposure times, which the response is recovered from")
+      ->type_name("FILE.json");
+  options.add_flag("--all-cameras", calibration->all_cameras,
+                   "How well each shipped camera can be calibrated");
   options
       .add_option("--illuminant", calibration->illuminants, "Light on the chart, or several with --camera")
       ->capture_default_str()
@@ -148,26 +169,19 @@ void add_calibrate(CLI::App& app, Command& command) {
                   "Table of patch reflectances, or of measured patches' colours")
       ->capture_default_str()
       ->type_name("TABLE");
-  CLI::Option* test =
-      options.add_option("--test", calibration->test, "Another chart to try the correction on")
-          ->type_name("TABLE");
-  CLI::Option* training =
-      options
-          .add_option(
-              "--training", calibration->training,
-              "Reflectances to fit the correction to instead of the chart, seen through the camera's curves")
-          ->type_name("TABLE[,TABLE...]");
-  training->excludes(all);
-  CLI::Option* response =
-      options
-          .add_option("--response", calibration->planted_response,
-                      "Response to be recovered: linear, gamma:G or s-curve (default: linear, known)")
-          ->type_name("CURVE");
-  CLI::Option* bits = add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
-                                 "Of the code values, 0 for no rounding (default 12)", "N");
-  // Only a simulated camera can look at another chart or be given a response.
-  for (CLI::Option* simulated : {test, response, bits})
-    simulated->excludes(measured)->excludes(series)->excludes(all);
+  options.add_option("--test", calibration->test, "Another chart to try the correction on")
+      ->type_name("TABLE");
+  options
+      .add_option(
+          "--training", calibration->training,
+          "Reflectances to fit the correction to instead of the chart, seen through the camera's curves")
+      ->type_name("TABLE[,TABLE...]");
+  options
+      .add_option("--response", calibration->planted_response,
+                  "Response to be recovered: linear, gamma:G or s-curve (default: linear, known)")
+      ->type_name("CURVE");
+  add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
+             "Of the code values, 0 for no rounding (default 12)", "N");
   add_characterisation(options, calibration->how);
   options
       .add_option("-o,--output", calibration->output,
@@ -178,6 +192,7 @@ void add_calibrate(CLI::App& app, Command& command) {
       ->type_name("FILE.json");
   options.add_option("--mtf", calibration->mtf, "What mtf --json has said, for the same")
       ->type_name("FILE.json");
+  exclude_without_effect(options);
   add_max_memory(options, calibration.options);
   add_json(options, calibration->json);
 }
