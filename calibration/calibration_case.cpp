@@ -9,6 +9,7 @@
 #include "calibration/chart/measured_patches.h"
 #include "calibration/chart/photographed_series.h"
 #include "calibration/fit/balance.h"
+#include "calibration/output/color_spaces.h"
 #include "io/error.h"
 #include "io/invalid_input.h"
 #include "io/text.h"
@@ -84,6 +85,19 @@ void require_rgb(const std::vector<T>& all, std::string T::*name, const char* wh
                             fmt::join(names, ", ")));
 }
 
+// Colours that a table states are those in its own light, whatever light is named.
+void require_light_of(const ChartTargets& chart, const NamedCurve& light) {
+  const Chromaticity own = chromaticity(chart.white);
+  const Chromaticity named = chromaticity(light.curve);
+  const bool is_seen = own[0] > 0;  // else that is said where the white is adapted
+  if (is_seen && !is_same_white(own, named))
+    throw Error(ErrorCode::usage, "--illuminant",
+                fmt::format("got {} with the white ({:.4f}, {:.4f}), but the chart tells its colours in a "
+                            "light with the white ({:.4f}, {:.4f}): name that light, or a chart of "
+                            "reflectances",
+                            light.name, named[0], named[1], own[0], own[1]));
+}
+
 // Code values to linear ones.
 void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
   for (Raw& value : patches.values)
@@ -137,6 +151,7 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
   std::optional<std::vector<Channel>> channels;
   if (!training.patches.empty()) channels = camera_channels(source.camera, diagnostics);
   require_sound(diagnostics);
+  require_light_of(*chart, *light);
   if (channels) require_rgb(*channels, &Channel::name, "--camera");
   MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}, {}};
   if (!source.series.empty()) {

@@ -1,5 +1,7 @@
 #include "calibration/output/color_spaces.h"
 
+#include <cmath>
+
 namespace abbe {
 Matrix3 cone_responses(Adaptation method) {
   switch (method) {
@@ -23,6 +25,11 @@ std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white, Ad
     gain[i] = to[i] / from[i];
   }
   return cones.inverse(true) * diagonal(gain) * cones;
+}
+
+bool is_same_white(const Chromaticity& a, const Chromaticity& b) {
+  constexpr double kRounded = 5e-4;
+  return std::hypot(a[0] - b[0], a[1] - b[1]) < kRounded;
 }
 
 Matrix3 rgb_to_xyz_d65(const RgbSpace& space) {

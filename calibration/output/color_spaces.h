@@ -33,6 +33,10 @@ enum class Adaptation {
 [[nodiscard]] std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white,
                                                 Adaptation method = Adaptation::bradford);
 
+/// Whether two lights have one white: the coordinates of illuminants, as tables round them, differ by less
+/// than 0.0005.
+[[nodiscard]] bool is_same_white(const Chromaticity& a, const Chromaticity& b);
+
 /// Linear RGB of a space to XYZ relative to D65: through Bradford's cones where its own white is another.
 [[nodiscard]] Matrix3 rgb_to_xyz_d65(const RgbSpace& space);
 

@@ -1,11 +1,11 @@
 #include "calibration/output/exif_light.h"
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "calibration/output/color_spaces.h"
 #include "spectral/color_temperature.h"
 #include "spectral/library.h"
 #include "spectral/rgb.h"
@@ -49,11 +49,10 @@ int exif_light_source(const std::string& name) {
 }
 
 int exif_light_source(const Chromaticity& white) {
-  constexpr double kSame = 5e-4;
   constexpr int kLamps = 12;
   const auto is_of = [&](const std::string& name) {
     const auto xy = chromaticity_of(name);
-    return xy && std::hypot((*xy)[0] - white[0], (*xy)[1] - white[1]) < kSame;
+    return xy && is_same_white(*xy, white);
   };
   for (const auto& [name, number] : kStandard)
     if (is_of(std::string(name))) return number;

@@ -156,6 +156,23 @@ TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {
       ErrorCode::input);
 }
 
+// Colours that a table states are those in its own light, which nothing else can be calibrated for.
+TEST(Calibrate, IsOfTheLightThatAChartTellsItsColoursIn) {
+  CalibrateOptions options = nikon();
+  options.camera.clear();
+  options.chart = "colorchecker24_babelcolor_average_xyY";
+  options.measured = scratch().write("measured_d50.csv", measured_table("D50", 300));
+  for (const char* other : {"D65", "A"}) {
+    options.illuminants = other;
+    EXPECT_EQ(fault([&] { calibrate(options); }, fmt::format("--illuminant: got {} with the white (", other)),
+              ErrorCode::usage);
+    EXPECT_EQ(fault([&] { calibrate(options); }, "in a light with the white (0.3457, 0.3585)"),
+              ErrorCode::usage);
+  }
+  options.illuminants = "D50";
+  EXPECT_LT(json_output(calibrate, options)["dE00_mean"], 1.5);
+}
+
 TEST(Calibrate, AFolderHoldsOneCalibration) {
   CalibrateOptions options = nikon();
   options.output = scratch() / "held";

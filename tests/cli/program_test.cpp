@@ -258,7 +258,8 @@ TEST(Calibrate, RealCameraFromPhotographsToConfiguration) {
 TEST(Calibrate, MeasuredCamera) {
   const auto file =
       scratch().write("measured.csv", "# unit: linear camera values\npatch,R,G,B\ndark skin,0.1,0.1,0.1\n");
-  const Outcome few = abbe("calibrate --measured " + file.string() + " --chart colorchecker24_after_nov2014");
+  const Outcome few = abbe("calibrate --illuminant D50 --measured " + file.string() +
+                           " --chart colorchecker24_after_nov2014");
   EXPECT_EQ(few.code, 4);
   EXPECT_NE(few.err.find("missing: light skin"), std::string::npos) << few.err;
   EXPECT_EQ(abbe("calibrate --camera Nikon_D5100 --measured " + file.string()).code, 2);
