@@ -47,7 +47,9 @@ void add_material_queries(CLI::App& query, Command& command) {
   add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
              "Also tell the internal transmittance of that many millimetres", "MM");
   add_index_query(query, "critical", "Critical angle from inside", command, query_critical);
-  add_index_query(query, "brewster", "Brewster's angle from outside", command, query_brewster);
+  add_index_query(query, "brewster",
+                  "Brewster's angle from outside, or of metals the pseudo-Brewster angle, where Rp is least",
+                  command, query_brewster);
 
   const Sub<ReflectanceOptions> reflectance(query, "reflectance", "Reflectance of a polished surface in air",
                                             command, query_reflectance);

@@ -27,9 +27,11 @@ struct IndexOptions {
 /// Prints the index n + ik as catalogued. With a thickness d, also the share of the light between two faces
 /// that reaches the second: exp(-4 pi k d / lambda).
 int query_ior(const IndexOptions& options);
-/// Angle of total reflection against an index of 1 outside; null where n <= 1.
+/// Angle of total reflection against an index of 1 outside; null where n <= 1, and where the material absorbs
+/// so much, 4 pi k >= 1, that no wave goes on within for a wavelength, as in metals.
 int query_critical(const IndexOptions& options);
-/// Polarising angle of light from outside, atan(n).
+/// Angle of least R_p for light from outside, with that R_p: Brewster's, atan(n), where it is none; of what
+/// absorbs the pseudo-Brewster angle, where it is not.
 int query_brewster(const IndexOptions& options);
 
 /// `query reflectance`: of a polished surface, perhaps under thin films, for light from air; with the phases

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
+#include "materials/interface/fresnel.h"
 #include "materials/interface/prism.h"
 #include "sampling/angle.h"
 
@@ -36,15 +38,41 @@ int print_material_answer(const Json& answer, const Options& options) {
   return 0;
 }
 
+// An angle of n and k at each wavelength.
 template <typename F>
-int answer_angle(const IndexOptions& options, F angle) {
-  const NamedIndex material = find(options.name, options.at_nm);
+Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   Json answer;
   answer["name"] = material.name;
   answer["wavelength_nm"] = options.at_nm;
-  answer["angle_deg"] =
-      each(options.at_nm, [&](double nm) { return angle(material.index.catalogued_n(nm)); });
-  return print_material_answer(answer, options);
+  answer["angle_deg"] = each(
+      options.at_nm, [&](double nm) { return angle(material.index.catalogued_n(nm), material.index.k(nm)); });
+  return answer;
+}
+
+// R_p of light from outside.
+long double reflected_p(double n, double k, long double degrees) {
+  const long double cos_i = std::cos(degrees * static_cast<long double>(kDegree));
+  return fresnel_conductor<long double>(cos_i, n, k).Rp;
+}
+
+// Where that is least, by the golden section between the neighbours of the least of whole degrees.
+double least_p_deg(double n, double k) {
+  const auto reflected = [n, k](long double degrees) { return reflected_p(n, k, degrees); };
+  long double low = 0;
+  for (int degrees = 1; degrees < 90; ++degrees)
+    if (reflected(degrees) < reflected(low)) low = degrees;
+  low = std::max(low - 1, 0.0L);
+  long double high = low + 2;
+  constexpr long double kSection = std::numbers::phi_v<long double> - 1;
+  constexpr int kSections = 100;
+  for (int i = 0; i < kSections; ++i) {
+    const long double inner = kSection * (high - low);
+    if (reflected(high - inner) < reflected(low + inner))
+      high = low + inner;
+    else
+      low = high - inner;
+  }
+  return static_cast<double>(low + (high - low) / 2);
 }
 
 // "MATERIAL:NM,..." from outside inwards.
@@ -102,11 +130,30 @@ int query_ior(const IndexOptions& options) {
 }
 
 int query_critical(const IndexOptions& options) {
-  return answer_angle(options, [](double n) { return n > 1 ? Json(std::asin(1 / n) / kDegree) : Json(); });
+  // 4 pi k at which a wave falls to 1/e over a wavelength, so that none goes on within to be reflected.
+  constexpr double kMostOfWaves = 1;
+  const auto critical = [](double n, double k) {
+    const bool is_wave = 4 * std::numbers::pi * k < kMostOfWaves;
+    return n > 1 && is_wave ? Json(std::asin(1 / n) / kDegree) : Json();
+  };
+  return print_material_answer(angles(find(options.name, options.at_nm), options, critical), options);
 }
 
 int query_brewster(const IndexOptions& options) {
-  return answer_angle(options, [](double n) { return std::atan(n) / kDegree; });
+  // A share of the light that is as good as none: what glass reflects for its k.
+  constexpr double kNone = 1e-9;
+  const NamedIndex material = find(options.name, options.at_nm);
+  const auto polarising = [](double n, double k) {
+    return k > 0 ? least_p_deg(n, k) : std::atan(n) / kDegree;
+  };
+  Json answer = angles(material, options, polarising);
+  for (std::size_t i = 0; i < options.at_nm.size(); ++i) {
+    const double least =
+        reflect_from_air(material.index, {}, options.at_nm[i], answer["angle_deg"][i]).power.Rp;
+    answer["kind"].push_back(least < kNone ? "Brewster" : "pseudo-Brewster");
+    answer["Rp"].push_back(least);
+  }
+  return print_material_answer(answer, options);
 }
 
 int query_reflectance(const ReflectanceOptions& options) {
