@@ -16,6 +16,7 @@
 #include "sensor/film/recorded_white.h"
 #include "validation/picture/difference_maps.h"
 #include "validation/statistics/chart_difference.h"
+#include "validation/statistics/common_part.h"
 #include "validation/statistics/polarisation_difference.h"
 
 namespace abbe::cli {
@@ -121,7 +122,7 @@ Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
 }
 
 // The figures of two images, and their maps if wanted.
-void compare_films(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
+void compare_pixels(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
   std::optional<Chromaticity> white;
   if (!options.white.empty())
     white = asked_white(options.white, recorded_white(reference) ? reference : image);
@@ -138,6 +139,14 @@ void compare_films(const CompareOptions& options, const Image& image, const Imag
   if (options.maps.empty()) return;
   answer["maps"] = write_maps(
       options.maps, difference_maps(relative_errors(image, reference), color, image.width, image.height));
+}
+
+// Of films with crops the pixels that both have: all others are black for want of a render.
+void compare_films(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
+  const Crop part = common_part(image, reference);
+  if (part == Crop{0, 0, image.width, image.height}) return compare_pixels(options, image, reference, answer);
+  answer["crop"] = {part.x0, part.y0, part.x1, part.y1};
+  compare_pixels(options, part_of(image, part), part_of(reference, part), answer);
 }
 
 }  // namespace

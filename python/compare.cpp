@@ -9,6 +9,7 @@
 #include "python/scene.h"
 #include "sensor/film/recorded_white.h"
 #include "validation/statistics/chart_difference.h"
+#include "validation/statistics/common_part.h"
 #include "validation/statistics/image_difference.h"
 
 namespace abbe::python {
@@ -21,7 +22,11 @@ py::dict compare(const FilmHandle& film, const FilmHandle& reference, const py::
   if (!white.is_none())
     asked = asked_white(to_text(to_json(white, kWhitePointer)),
                         recorded_white(reference.image()) ? reference.image() : film.image());
-  const Comparison found = compare_images(film.image(), reference.image(), asked);
+  const Crop part = common_part(film.image(), reference.image());
+  const Comparison found =
+      part == Crop{0, 0, film.image().width, film.image().height}
+          ? compare_images(film.image(), reference.image(), asked)
+          : compare_images(part_of(film.image(), part), part_of(reference.image(), part), asked);
   py::dict told;
   told["relMSE"] = found.rel_mse;
   told["rmse"] = found.rmse;

@@ -11,6 +11,7 @@
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/recorded_white.h"
 #include "spectral/rgb.h"
 #include "tests/cli/json_output.h"
@@ -38,6 +39,33 @@ TEST(DeltaEChoice, EachFormulaIsItsOwn) {
   EXPECT_DOUBLE_EQ(delta_e(DeltaE::cie76, a, b), 10);
   EXPECT_NEAR(delta_e(DeltaE::cie94, a, b), 10 / 3.25, 1e-12);
   EXPECT_NEAR(delta_e(DeltaE::cie2000, {50, 2.6772, -79.7751}, {50, 0, -82.7485}), 2.0425, 5e-5);
+}
+
+TEST(Compare, LooksAtPixelsThatBothFilmsHave) {
+  const auto cropped = [](std::vector<float> values, const std::string& crop) {
+    Image film = grey(values);
+    film.metadata[kCropKey] = crop;
+    return film;
+  };
+  const auto compared = [](const Image& image, const Image& reference) {
+    return json_output(cli::compare, {saved("part.exr", image), saved("whole.exr", reference)});
+  };
+  const Image whole = grey({9, 2, 2, 9});
+  const Image part = cropped({0, 1, 2, 0}, "1,0,3,1");
+  const json expected = compared(grey({1, 2}), grey({2, 2}));
+  for (const Image& reference : {whole, cropped({0, 2, 2, 9}, "1,0,4,1")}) {
+    json found = compared(part, reference);
+    EXPECT_EQ(found["crop"], json::array({1, 0, 3, 1}));
+    found.erase("crop");
+    EXPECT_EQ(found, expected);
+  }
+  EXPECT_FALSE(compared(whole, whole).contains("crop"));
+  EXPECT_EQ(fault(
+                [&] {
+                  (void)compared(part, cropped({5, 0, 0, 0}, "0,0,1,1"));
+                },
+                "no pixel in common (got crops 1,0,3,1 and 0,0,1,1)"),
+            ErrorCode::input);
 }
 
 TEST(RelativeErrors, TheirMeanSquareIsTheRelMse) {

@@ -16,6 +16,7 @@
 #include "sensor/film/variance_name.h"
 #include "sensor/response/stokes_channels.h"
 #include "spectral/colorimetry.h"
+#include "validation/statistics/common_part.h"
 #include "validation/statistics/film_colors.h"
 
 namespace abbe {
@@ -28,10 +29,7 @@ struct Pair {
 };
 
 std::vector<Pair> common_channels(const Image& image, const Image& reference) {
-  if (image.width != reference.width || image.height != reference.height)
-    throw Error(ErrorCode::input, "",
-                fmt::format("the images differ in size (got {} x {} and {} x {})", image.width, image.height,
-                            reference.width, reference.height));
+  require_same_size(image, reference);
   std::vector<Pair> pairs;
   for (const std::string& plane : intensities(plane_names(reference))) {
     const ImageChannel* own = reference.find(plane);
