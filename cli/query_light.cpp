@@ -7,6 +7,7 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "cli/query.h"
+#include "develop/radiance.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/extension.h"
@@ -20,10 +21,13 @@ namespace abbe::cli {
 namespace {
 
 // The mean spectral radiance of some pixels of a spectral image, linear between the centres of its bands:
-// steps would be shifted by sums over whole nanometres.
-Curve light_of(const LightOptions& options) {
+// steps would be shifted by sums over whole nanometres. Warns where an eye that is behind what passes this
+// share would see light beyond them.
+Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& diagnostics) {
   Inputs inputs(options.max_memory_bytes);
   const SpectralImage image = spectral_image(read_exr(options.name, &inputs), options.name);
+  for (const Channel& channel : observer_channels(Observer::cie1931))
+    check_coverage(image, behind(channel, FilterStack{passed}), options.name, diagnostics);
   const Crop crop = options.crop.value_or(Crop{0, 0, image.width, image.height});
   if (crop.x1 > image.width || crop.y1 > image.height)
     throw Error(ErrorCode::usage, "--crop",
@@ -58,21 +62,22 @@ Curve within(const char* folder, const std::string& name, Diagnostics& diagnosti
 // The light that is asked about: a lamp's or a picture's, through filters, from a surface.
 Curve asked_light(const LightOptions& options) {
   Diagnostics diagnostics;
+  Curve passed(1.0);
+  if (!options.filters.empty())
+    for (const std::string& filter : split(options.filters, ','))
+      passed = product(passed, within("filter", filter, diagnostics));
+  if (!options.reflectance.empty())
+    passed = product(passed, within("reflectance", options.reflectance, diagnostics));
   Curve light;
   if (options.name.ends_with(".exr")) {
-    light = light_of(options);
+    light = light_of(options, passed, diagnostics);
   } else if (options.crop) {
     throw Error(ErrorCode::usage, "--crop", "is for spectral images");
   } else if (const auto lamp = load_illuminant(options.name, {}, diagnostics)) {
     light = lamp->curve;
   }
-  if (!options.filters.empty())
-    for (const std::string& filter : split(options.filters, ','))
-      light = product(light, within("filter", filter, diagnostics));
-  if (!options.reflectance.empty())
-    light = product(light, within("reflectance", options.reflectance, diagnostics));
   check(diagnostics);
-  return light;
+  return product(light, passed);
 }
 
 void add_fidelity(Json& answer, const ColorFidelity& fidelity) {

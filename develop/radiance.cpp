@@ -17,7 +17,14 @@ namespace {
 
 constexpr std::array kRgb{"R", "G", "B"};
 
-// Light that the image does not have cannot be counted.
+std::vector<std::string> names_of(const std::vector<Channel>& channels) {
+  std::vector<std::string> names;
+  for (const Channel& channel : channels) names.push_back(channel.name);
+  return names;
+}
+
+}  // namespace
+
 void check_coverage(const SpectralImage& image, const Channel& channel, const std::filesystem::path& path,
                     Diagnostics& diagnostics) {
   constexpr double kNegligible = 1e-3;
@@ -31,14 +38,6 @@ void check_coverage(const SpectralImage& image, const Channel& channel, const st
   const auto source = std::make_shared<const SourceText>(SourceText{path.string(), ""});
   diagnostics.warning({source, SourcePosition::kWholeFile, ""}, text);
 }
-
-std::vector<std::string> names_of(const std::vector<Channel>& channels) {
-  std::vector<std::string> names;
-  for (const Channel& channel : channels) names.push_back(channel.name);
-  return names;
-}
-
-}  // namespace
 
 Image rec709_image(const Image& planes, const Matrix3& to_xyz) {
   const Matrix3 to_rgb = rgb_to_xyz(kRec709).inverse(true) * to_xyz;

@@ -24,6 +24,11 @@ inline constexpr const char* kDistanceKey = "image_distance_px";
 /// Mean transmission of the shutter over the exposure, of one that does not let all light through.
 inline constexpr const char* kShutterKey = "shutter_transmission";
 
+/// Warns of a channel that responds beyond the bands of the image read from `path`: light that the image does
+/// not have cannot be counted. Throws Error{input} for one that sees nothing of them.
+void check_coverage(const SpectralImage& image, const Channel& channel, const std::filesystem::path& path,
+                    Diagnostics& diagnostics);
+
 /// Linear Rec.709, channels R, G, B, of the first three planes, which `to_xyz` takes to XYZ of one scale, or
 /// of the only one, whose colour is its first column.
 [[nodiscard]] Image rec709_image(const Image& planes, const Matrix3& to_xyz);

@@ -74,6 +74,23 @@ TEST(QueryLight, ReadsPixelsOfASpectralImage) {
   EXPECT_EQ(fault([&] { query_light(right); }, "beyond the 2 x 1 pixels"), ErrorCode::usage);
 }
 
+TEST(QueryLight, TellsWhatASpectralImageLacksOfTheLightAsked) {
+  SpectralImage image{1, 1, {}, {}, {}};
+  for (int nm = 505; nm < 600; nm += 10) image.bands.push_back({static_cast<double>(nm), {1}});
+  const std::filesystem::path file = scratch() / "green.exr";
+  write_exr(file, spectral_layout(image));
+  const auto warnings = [&](const LightOptions& options) {
+    testing::internal::CaptureStderr();
+    json_output(query_light, options);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_NE(warnings(LightOptions{file.string()}).find("covers 500 to 600 nm only, where"),
+            std::string::npos);
+  const auto filter =
+      scratch().write("green.csv", "# unit: 1\n# outside: zero\nwavelength_nm,T\n510,0\n550,1\n590,0\n");
+  EXPECT_EQ(warnings(LightOptions{file.string(), filter.string()}), "") << "no other light gets through";
+}
+
 TEST(QueryLight, ObjectsInSentences) {
   LightOptions cropped{"D65"};
   cropped.crop = Crop{0, 0, 1, 1};
