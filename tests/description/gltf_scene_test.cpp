@@ -147,6 +147,17 @@ TEST_F(GltfSceneTest, Lights) {
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::illuminance>>(beam.emission->scale).value, 10, 1e-12);
 }
 
+// By the square of what the cosine has left to go: the integral of (c - 1/2)^2/(1/2)^2 from 1/2 to 1 is 1/6.
+TEST_F(GltfSceneTest, SoftSpotsSendOutAsMuch) {
+  const std::string node = R"(, {"extensions": {"KHR_lights_punctual": {"light": 0}}})";
+  const std::string light =
+      R"(, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 20, "spot": {"outerConeAngle": 1.0471975511965976}}]}})";
+  const auto made = convert("a.gltf", gltf(R"({"name": "m"})", node, ", 2", light));
+  ASSERT_TRUE(made) << told_;
+  const auto& spot = std::get<spec::SpotLamp>(made->lights.at(0).kind);
+  EXPECT_NEAR(1 - std::cos(spot.source.half_angle_deg * M_PI / 180), 1.0 / 6, 1e-12);
+}
+
 TEST_F(GltfSceneTest, WithoutACameraAllIsSeen) {
   const auto made = convert("a.gltf", Asset{}.text());
   ASSERT_TRUE(made) << told_;

@@ -104,7 +104,8 @@ void add_light(const JsonValue& light, const M44d& map, const Document& document
   } else if (type == "spot") {
     const double inner = number(&light, "spot/innerConeAngle", 0, document) / kDegree;
     const double outer = number(&light, "spot/outerConeAngle", std::numbers::pi / 4, document) / kDegree;
-    add_lamp(spec::SpotLamp{{at, along, hard_cone(inner, outer, light.where, document.door)},
+    add_lamp(spec::SpotLamp{{at, along,
+                             hard_cone(inner, outer, Falloff::squared_cosine, light.where, document.door)},
                             doors::emission_of<spec::PointEmission, Quantity::luminous_intensity>(lamp)},
              light.where, document.door);
   } else if (type == "directional") {

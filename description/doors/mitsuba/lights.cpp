@@ -46,7 +46,7 @@ void add_spot(const Object& light, const World& world) {
   const double beam = light.number("beam_width", 0.75 * cutoff);
   spec::SpotLamp spot;
   spot.source = {V3d(0, 0, 0) * m, direction({0, 0, 1}, m),
-                 hard_cone(beam, cutoff, light.where(), world.door)};
+                 hard_cone(beam, cutoff, Falloff::linear_angle, light.where(), world.door)};
   spot.emission =
       emission_of<spec::PointEmission, Quantity::luminous_intensity>(lamp(light, "intensity", world));
   add_lamp(spot, light.where(), world.door);

@@ -9,6 +9,7 @@
 #include "description/doors/mitsuba/media.h"
 #include "description/doors/mitsuba/named_indices.h"
 #include "description/doors/shared/materials.h"
+#include "materials/interface/hemispherical.h"
 
 namespace abbe::doors::mitsuba {
 namespace {
@@ -94,13 +95,35 @@ spec::Dielectric dielectric(const Object& bsdf, const Element* inside, const Wor
   return glass;
 }
 
+// The reflectance of the ground under a coat of that index. Here light that the coat throws back meets the
+// ground again; there it does so where "nonlinear" is true, and else counts as a factor 1/(1 - r) whatever
+// the ground reflects, r being the coat's reflectance for diffuse light from within. As much leaves a ground
+// of rho' here: rho'/(1 - rho' r) = rho/(1 - r).
+spec::Reflectance ground(const Object& bsdf, double n, RunsOfV v, const World& world) {
+  constexpr std::string_view kName = "diffuse_reflectance";
+  if (bsdf.truth("nonlinear", false)) return reflectance(bsdf, kName, 0.5, v, world);
+  TextureValue said = texture(bsdf, kName, 0.5, v, world);
+  if (auto* image = std::get_if<spec::Texture>(&said)) {
+    world.door.note(
+        bsdf.place_of(kName),
+        "an image under a clear coat is darker here, and its colours deeper, as with \"nonlinear\"");
+    return *std::move(image);
+  }
+  const double r = diffuse_reflectance_inside(n);
+  const auto there = [r](double rho) { return rho / (1 - r + rho * r); };
+  const auto& spectrum = std::get<Spectrum>(said);
+  if (auto curve = mapped_curve_of(spectrum, there, bsdf.place_of(kName), world.door)) return *curve;
+  return curve_of(spectrum, bsdf.place_of(kName), world.door);
+}
+
 spec::CoatedDiffuse plastic(const Object& bsdf, RunsOfV v, const World& world) {
   note_factors(bsdf, world);
   if (bsdf.type() == "roughplastic")
     world.door.note(bsdf.where(), "a clear coat is smooth here: its roughness is dropped");
-  bsdf.ignore({"alpha", "distribution", "sample_visible", "nonlinear"});
-  return {relative_index(bsdf, "polypropylene", world),
-          reflectance(bsdf, "diffuse_reflectance", 0.5, v, world)};
+  bsdf.ignore({"alpha", "distribution", "sample_visible"});
+  spec::Ior ior = relative_index(bsdf, "polypropylene", world);
+  spec::Reflectance paint = ground(bsdf, std::get<double>(ior.value), v, world);
+  return {std::move(ior), std::move(paint)};
 }
 
 spec::Principled principled(const Object& bsdf, RunsOfV v, const World& world) {

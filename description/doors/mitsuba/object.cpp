@@ -141,6 +141,12 @@ bool Object::has(std::string_view name) const {
   return std::ranges::any_of(element_->children, [&](const Element& child) { return child["name"] == name; });
 }
 
+const SourcePosition& Object::place_of(std::string_view name) const {
+  const auto child = std::ranges::find_if(element_->children,
+                                          [&](const Element& property) { return property["name"] == name; });
+  return child == element_->children.end() ? where() : child->where;
+}
+
 double Object::number(std::string_view name, double absent) const {
   const Element* found = find(name, {"float", "integer"});
   return found ? number_attribute(*found, "value", absent, *world_) : absent;

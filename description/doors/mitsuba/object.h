@@ -39,6 +39,8 @@ class Object {
   [[nodiscard]] const Element* find(std::string_view name,
                                     std::initializer_list<std::string_view> tags) const;
   [[nodiscard]] bool has(std::string_view name) const;
+  /// Where the property of that name stands, or else the object.
+  [[nodiscard]] const SourcePosition& place_of(std::string_view name) const;
   // The same of one kind each, or what holds in its absence.
   [[nodiscard]] double number(std::string_view name, double absent) const;
   [[nodiscard]] bool truth(std::string_view name, bool absent) const;

@@ -1,6 +1,7 @@
 #include "description/doors/mitsuba/reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "description/doors/mitsuba/lights.h"
 #include "description/doors/mitsuba/shapes.h"
 #include "description/doors/shared/camera.h"
+#include "io/text.h"
 #include "sampling/angle.h"
 
 namespace abbe::doors {
@@ -33,23 +35,28 @@ void name_elements(const Element& element, World& world) {
 
 // The tangent of half the view along the shorter axis, of a view that is said along another.
 double half_view(const Object& sensor, double width, double height, const World& world) {
+  if (sensor.has("fov") && sensor.has("focal_length"))
+    world.door.diagnostics.error(sensor.place_of("focal_length"),
+                                 "a view takes \"fov\" or \"focal_length\", not both");
   const double shorter = std::min(width, height);
   const double diagonal = std::hypot(width, height);
-  const std::string focal_length = sensor.text("focal_length", "");
-  if (!focal_length.empty()) {  // of a film of 36 mm x 24 mm
+  if (!sensor.has("fov")) {  // on a film of 36 mm x 24 mm
+    const std::string focal_length = sensor.text("focal_length", "50mm");
     const auto mm = numbers_of(focal_length.substr(0, focal_length.find("mm")));
     if (mm && mm->size() == 1 && mm->front() > 0)
       return std::hypot(36, 24) / 2 / mm->front() * shorter / diagonal;
     world.door.diagnostics.error(sensor.where(),
                                  fmt::format("expected a focal length in mm (got \"{}\")", focal_length));
+    return 1;
   }
-  const std::string axis = sensor.text("fov_axis", "x");
-  const double along = axis == "x"          ? width
-                       : axis == "y"        ? height
-                       : axis == "diagonal" ? diagonal
-                       : axis == "larger"   ? std::max(width, height)
-                                            : shorter;
-  return std::tan(sensor.number("fov", 90) * kDegree / 2) * shorter / along;
+  const std::vector<std::string> axes{"diagonal", "larger", "smaller", "x", "y"};
+  const std::array lengths{diagonal, std::max(width, height), shorter, width, height};
+  const std::string axis = lower_case(sensor.text("fov_axis", "x"));
+  const auto along = static_cast<std::size_t>(std::ranges::find(axes, axis) - axes.begin());
+  if (along < axes.size())
+    return std::tan(sensor.number("fov", 0) * kDegree / 2) * shorter / lengths.at(along);
+  world.door.diagnostics.error(sensor.place_of("fov_axis"), unknown_name("axis", axis, axes));
+  return 1;
 }
 
 void note_film(const Object& film, const World& world) {

@@ -136,15 +136,19 @@ Spectrum spectrum(const Object& object, std::string_view name, const Spectrum& a
   return found ? spectrum_of(*found, world).value_or(absent) : absent;
 }
 
+TextureValue texture(const Object& object, std::string_view name, const Spectrum& absent, RunsOfV v,
+                     const World& world) {
+  const Element* found = object.find(name, {"rgb", "spectrum", "float", "texture"});
+  if (found == nullptr) return absent;
+  if (found->tag == "texture") return texture_of(*found, v, world);
+  return spectrum_of(*found, world).value_or(absent);
+}
+
 spec::Reflectance reflectance(const Object& object, std::string_view name, double absent, RunsOfV v,
                               const World& world) {
-  const Element* found = object.find(name, {"rgb", "spectrum", "float", "texture"});
-  if (found == nullptr) return curve_of(absent, object.where(), world.door);
-  if (found->tag != "texture")
-    return curve_of(spectrum_of(*found, world).value_or(absent), found->where, world.door);
-  TextureValue value = texture_of(*found, v, world);
+  TextureValue value = texture(object, name, absent, v, world);
   if (auto* picture = std::get_if<spec::Texture>(&value)) return *picture;
-  return curve_of(std::get<Spectrum>(value), found->where, world.door);
+  return curve_of(std::get<Spectrum>(value), object.place_of(name), world.door);
 }
 
 double number(const Object& object, std::string_view name, double absent, const World& world) {

@@ -17,6 +17,9 @@ enum class RunsOfV { down, up };
 /// That of a property, `absent` without it.
 [[nodiscard]] Spectrum spectrum(const Object& object, std::string_view name, const Spectrum& absent,
                                 const World& world);
+/// The same of a property that may be an image.
+[[nodiscard]] TextureValue texture(const Object& object, std::string_view name, const Spectrum& absent,
+                                   RunsOfV v, const World& world);
 [[nodiscard]] spec::Reflectance reflectance(const Object& object, std::string_view name, double absent,
                                             RunsOfV v, const World& world);
 /// A number, or what a texture says of it where it says one only.

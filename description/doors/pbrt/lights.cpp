@@ -52,7 +52,7 @@ void add_spot(const Made& light, const Imath::M44d& m, World& world) {
   LampSpectrum sent = lamp(light, "I", world);
   const double whole = p.number("coneangle", 30, world.door);
   const double full = whole - p.number("conedeltaangle", 5, world.door);
-  const double half_angle = hard_cone(full, whole, light.where, world.door);
+  const double half_angle = hard_cone(full, whole, Falloff::smooth_cosine, light.where, world.door);
   const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(half_angle * std::numbers::pi / 180));
   rescale(light, "power", 1 / solid_angle, sent, world);
   const Imath::V3d from = moved(p.point("from", {0, 0, 0}, world.door), m);

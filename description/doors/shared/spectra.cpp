@@ -121,6 +121,31 @@ spec::Curve curve_of(const Spectrum& given, const SourcePosition& where, Door& d
   return std::visit(cases, given);
 }
 
+Samples mapped(const Samples& samples, const std::function<double(double)>& function) {
+  constexpr double kStep = 5;
+  const Curve given = table_curve(samples.nm, samples.values, Outside::clamp);
+  Samples mapped{samples.nm, {}, samples.outside};
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += kStep)
+    if (nm > samples.nm.front() && nm < samples.nm.back()) mapped.nm.push_back(nm);
+  std::ranges::sort(mapped.nm);
+  mapped.nm.erase(std::unique(mapped.nm.begin(), mapped.nm.end()), mapped.nm.end());
+  for (const double nm : mapped.nm) mapped.values.push_back(function(given(nm)));
+  return mapped;
+}
+
+std::optional<spec::Curve> mapped_curve_of(const Spectrum& given,
+                                           const std::function<double(double)>& function,
+                                           const SourcePosition& where, Door& door) {
+  if (const auto* value = std::get_if<double>(&given)) return curve(function(*value), where);
+  if (const auto* samples = std::get_if<Samples>(&given))
+    return curve(table_of(mapped(*samples, function), where), where);
+  const auto* rgb = std::get_if<LinearRgb>(&given);
+  if (rgb == nullptr) return std::nullopt;
+  if (is_grey(*rgb)) return curve(function((*rgb)[0]), where);
+  note_colour(where, door);
+  return curve(table_of(mapped(samples_of(*rgb), function), where), where);
+}
+
 Spectrum scaled(Spectrum spectrum, double factor) {
   const Cases cases{[&](double value) -> Spectrum { return value * factor; },
                     [&](LinearRgb rgb) -> Spectrum {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -39,6 +40,14 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
 /// The curve. A colour becomes the smooth spectrum that looks so under D65 (see `rgb_spectrum`), which is
 /// noted unless it is grey.
 [[nodiscard]] spec::Curve curve_of(const Spectrum& spectrum, const SourcePosition& where, Door& door);
+/// The values through a function that leaves 0 where it is: of samples at each of them and, as lines between
+/// these say something else then, at every 5 nm.
+[[nodiscard]] Samples mapped(const Samples& samples, const std::function<double(double)>& function);
+/// The curve of the values through such a function, a colour's as those of `curve_of`; nothing for a
+/// temperature or a table.
+[[nodiscard]] std::optional<spec::Curve> mapped_curve_of(const Spectrum& spectrum,
+                                                         const std::function<double(double)>& function,
+                                                         const SourcePosition& where, Door& door);
 /// The values times a factor.
 [[nodiscard]] Spectrum scaled(Spectrum spectrum, double factor);
 /// The number that stands for a spectrum where only one can: of samples the value at 589.3 nm, of a colour
