@@ -46,10 +46,11 @@ int calibrate_response(const CalibrateOptions& options) {
   for (const ChannelResponse& r : responses) report["responses"].push_back(json_of(r));
   if (!options.output.empty()) {
     make_folder(options.output);
+    const std::vector<fs::path> earlier = earlier_files(options.output);
     const std::vector<fs::path> written{options.output / "response.csv", options.output / "report.json"};
     write_atomically(written[0], csv_of(responses, options.series.string()));
     write_atomically(written[1], text(report, true));
-    remove_earlier_files(options.output, written);
+    remove_unless_written(earlier, written);
   }
   if (options.json)
     print(report, true);
@@ -83,6 +84,7 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
                         const BenchAnswers& bench, Json& report) {
   std::vector<CameraProfile> profiles;
   for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
+  const std::vector<fs::path> earlier = earlier_files(options.output);
   WrittenConfig written = write_ocio_config(options.output, profiles);
   const auto write = [&](const char* name, const std::string& content) {
     written.files.push_back(options.output / name);
@@ -104,7 +106,7 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
   }
   write("report.html", page_of(cases, channels, bench));
   write("report.json", text(report, true));
-  remove_earlier_files(options.output, written.files);
+  remove_unless_written(earlier, written.files);
 }
 
 }  // namespace

@@ -11,10 +11,11 @@ namespace abbe::cli {
 [[nodiscard]] std::vector<std::filesystem::path> calibration_files(const std::filesystem::path& folder,
                                                                    const std::string& illuminants);
 
-/// Removes the files of the folder with the names that `abbe calibrate` gives, for whatever illuminant, which
-/// are not among those written: an earlier calibration left them, perhaps of another camera. Throws
-/// Error{output}.
-void remove_earlier_files(const std::filesystem::path& folder,
-                          std::span<const std::filesystem::path> written);
+/// The files of the folder that an earlier `abbe calibrate` left there, by its report and the names it gives.
+[[nodiscard]] std::vector<std::filesystem::path> earlier_files(const std::filesystem::path& folder);
+
+/// Removes those that are not among the written ones: they may be of another camera. Throws Error{output}.
+void remove_unless_written(std::span<const std::filesystem::path> earlier,
+                           std::span<const std::filesystem::path> written);
 
 }  // namespace abbe::cli

@@ -179,15 +179,16 @@ TEST(Calibrate, AFolderHoldsOneCalibration) {
   options.illuminants = "D65,A";
   json_output(calibrate, options);
   EXPECT_EQ(json::parse(read_file(options.output / "dng.json"))["camera"], "Nikon_D5100");
-  std::ofstream(options.output / "notes.clf") << "mine";
+  for (const char* mine : {"notes.clf", "camera_mine.cube"}) std::ofstream(options.output / mine) << "mine";
   options.camera = "Canon_EOS_5D";
   options.illuminants = "D65";
   json_output(calibrate, options);
   std::set<std::string> left;
   for (const auto& entry : std::filesystem::directory_iterator(options.output))
     left.insert(entry.path().filename().string());
-  EXPECT_EQ(left, (std::set<std::string>{"camera_D65.clf", "camera_D65_to_aces.clf", "config.ocio",
-                                         "notes.clf", "report.html", "report.json", "sensitivities.json"}));
+  EXPECT_EQ(left, (std::set<std::string>{"camera_D65.clf", "camera_D65_to_aces.clf", "camera_mine.cube",
+                                         "config.ocio", "notes.clf", "report.html", "report.json",
+                                         "sensitivities.json"}));
 }
 
 TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
