@@ -14,6 +14,8 @@
 
 #include "description/doors/doors.h"
 #include "description/scene.h"
+#include "io/exr.h"
+#include "io/picture.h"
 #include "io/schema/read.h"
 
 namespace abbe::test {
@@ -29,6 +31,17 @@ class DoorsTest : public ::testing::Test {
         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
   }
   ~DoorsTest() override { std::filesystem::remove_all(folder_); }
+
+  // An image of one pixel, which may be a colour, a height or a normal: of one channel, or of R, G and B.
+  void put_image(const std::string& name, bool grey) const {
+    std::vector<ImageChannel> channels{{"R", {0.5F}}, {"G", {0.5F}}, {"B", {1}}};
+    if (grey) channels = {{"Y", {0.5F}}};
+    const Image image{1, 1, channels, {}};
+    if (name.ends_with(".exr"))
+      write_exr(folder_ / name, image);
+    else
+      write_picture(folder_ / name, image);
+  }
 
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;

@@ -9,6 +9,7 @@ namespace abbe {
 namespace {
 
 using test::MitsubaTest;
+using test::whole;
 
 TEST_F(MitsubaTest, PlasticSendsOutWhatItDoesThere) {
   constexpr double kIndex = 1.5;
@@ -93,6 +94,120 @@ TEST_F(MitsubaTest, ViewsAreThoseOf50MillimetresUnlessTold) {
   EXPECT_TRUE(tells("a view takes \"fov\" or \"focal_length\", not both")) << told_;
   EXPECT_EQ(fov(R"(<float name="fov" value="40"/><string name="fov_axis" value="largr"/>)"), 0);
   EXPECT_TRUE(tells("unknown axis \"largr\"; did you mean \"larger\"?")) << told_;
+}
+
+TEST_F(MitsubaTest, IntegratorsSayHowDeepPathsGo) {
+  const auto depth = [&](const std::string& integrator) {
+    return scene(integrator + R"(<shape type="sphere"/>)").render->max_depth;
+  };
+  EXPECT_FALSE(depth(""));
+  EXPECT_FALSE(depth(R"(<integrator type="path"/>)"));
+  EXPECT_EQ(depth(R"(<integrator type="volpath"><integer name="max_depth" value="4"/></integrator>)"), 3);
+  EXPECT_FALSE(tells("scattering")) << told_;
+  EXPECT_EQ(depth(R"(<integrator type="direct"><integer name="bsdf_samples" value="2"/></integrator>)"), 1);
+  EXPECT_FALSE(tells("integrator")) << told_;
+  EXPECT_EQ(depth(R"(<integrator type="prb"/>)"), 5);
+  EXPECT_EQ(depth(R"(<integrator type="path"><integer name="max_depth" value="1"/></integrator>)"), 1);
+  EXPECT_TRUE(tells("a path has one scattering or more here")) << told_;
+  EXPECT_EQ(depth(R"(<integrator type="aov"><integrator type="direct"/></integrator>)"), 1);
+  EXPECT_TRUE(tells("what an integrator \"aov\" tells has no counterpart here: a picture of light")) << told_;
+  EXPECT_FALSE(convert("a.xml", whole(R"(<integrator type="pat"/>)")));
+  EXPECT_TRUE(tells("a.xml:3:2: error: unknown integrator \"pat\"; did you mean \"path\"?")) << told_;
+}
+
+TEST_F(MitsubaTest, RawImagesAreLinear) {
+  put_image("photo.png", false);
+  put_image("photo.exr", false);
+  const auto paint = [&](const std::string& file, const std::string& raw) {
+    return std::get<spec::Texture>(
+        material<spec::Diffuse>(R"(<bsdf type="diffuse"><texture name="reflectance" type="bitmap">
+          <string name="filename" value=")" +
+                                file + R"("/><boolean name="raw" value=")" + raw + R"("/></texture></bsdf>)")
+            .reflectance);
+  };
+  EXPECT_TRUE(std::get<spec::Rgb>(paint("photo.png", "false").of).value);
+  EXPECT_TRUE(std::get<spec::Rgb>(paint("photo.exr", "true").of).value);
+  EXPECT_FALSE(tells("a colour has no spectrum")) << told_;
+  const auto weights = std::get<spec::Weights>(paint("photo.png", "true").of).value;
+  EXPECT_TRUE(tells("a colour has no spectrum")) << told_;
+  ASSERT_EQ(weights.size(), 3U);
+  const RgbBasis& basis = rgb_basis();
+  const auto spectrum = [&](std::size_t i, const std::string& name) {
+    EXPECT_EQ(weights[i].name, name);
+    const auto& table = std::get<spec::TableCurve>(std::get<spec::CurveFormula>(weights[i].value.value).of);
+    return table_curve(table.wavelength_nm, table.values, table.outside);
+  };
+  for (const double nm : {300.0, 450.0, 550.0, 650.0}) {
+    EXPECT_NEAR(spectrum(0, "R")(nm), basis.red(nm), 2e-6) << nm;
+    EXPECT_NEAR(spectrum(1, "G")(nm), basis.green(nm), 2e-6) << nm;
+    EXPECT_NEAR(spectrum(2, "B")(nm), basis.blue(nm), 2e-6) << nm;
+    EXPECT_NEAR(spectrum(0, "R")(nm) + spectrum(1, "G")(nm) + spectrum(2, "B")(nm), 1, 1e-12) << nm;
+  }
+}
+
+TEST_F(MitsubaTest, WhatImagesSayAndIsNotSoHereIsTold) {
+  const auto read = [&](const std::string& wrapper, const std::string& file, const std::string& more = "") {
+    return convert("a.xml", whole(R"(<shape type="sphere"><bsdf type=")" + wrapper +
+                                  R"("><bsdf type="diffuse"/><texture type="bitmap" name="map">
+        <string name="filename" value=")" +
+                                  file + "\"/>" + more + "</texture></bsdf></shape>"))
+        .has_value();
+  };
+  for (const std::string wrapper : {"bumpmap", "normalmap"}) {
+    put_image("photo.png", wrapper == "bumpmap");
+    put_image("photo.exr", wrapper == "bumpmap");
+    EXPECT_TRUE(read(wrapper, "photo.png"));
+    EXPECT_TRUE(tells("the values of a relief are linear here, and decoded as sRGB there")) << told_;
+    EXPECT_TRUE(read(wrapper, "photo.exr"));
+    EXPECT_FALSE(tells("relief")) << told_;
+    EXPECT_TRUE(read(wrapper, "photo.png", R"(<boolean name="raw" value="true"/>)"));
+    EXPECT_FALSE(tells("relief")) << told_;
+  }
+  EXPECT_TRUE(read("normalmap", "photo.exr", R"(<string name="wrap_mode" value="mirror"/>)"));
+  EXPECT_TRUE(tells("an image is not mirrored beyond its edges here: it repeats")) << told_;
+  EXPECT_TRUE(read("normalmap", "photo.exr", R"(<string name="wrap_mode" value="clamp"/>)"));
+  EXPECT_FALSE(tells("edges")) << told_;
+  EXPECT_FALSE(read("normalmap", "photo.exr", R"(<string name="wrap_mode" value="miror"/>)"));
+  EXPECT_TRUE(tells("unknown wrap mode \"miror\"; did you mean \"mirror\"?")) << told_;
+}
+
+TEST_F(MitsubaTest, WhatSpectraSayIsUsedOrTold) {
+  const spec::Scene made = scene(R"(<emitter type="constant"><spectrum name="radiance" type="uniform">
+      <float name="value" value="2"/><float name="wavelength_min" value="500"/></spectrum></emitter>)");
+  const auto& emission = std::get<spec::SkyLamp>(made.lights.at(0).kind).emission;
+  EXPECT_EQ(std::get<spec::Illuminant>(emission.spectrum).value, "E");
+  EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminance>>(emission.scale).value,
+              2 * 683.002 * 106.856917101, 1e-3);
+  EXPECT_TRUE(tells("\"wavelength_min\" of spectrum \"uniform\" has no counterpart here: dropped")) << told_;
+}
+
+TEST_F(MitsubaTest, ASecondSideIsTold) {
+  const std::string front = R"(<bsdf type="twosided"><bsdf type="diffuse"/>)";
+  (void)material<spec::Diffuse>(front + "</bsdf>");
+  EXPECT_FALSE(tells("both sides")) << told_;
+  (void)material<spec::Diffuse>(front + R"(<bsdf type="conductor"/></bsdf>)");
+  EXPECT_TRUE(tells("a surface has one material on both sides here: that of the back is dropped")) << told_;
+}
+
+TEST_F(MitsubaTest, MeshesThatAreSmoothedThereAreTold) {
+  const std::string flat = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+  const std::string bent = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3\nf 1 3 4\n";
+  const std::string smooth = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
+  const auto read = [&](const std::string& mesh, const std::string& more = "") {
+    put("m.obj", mesh);
+    (void)scene(R"(<shape type="obj"><string name="filename" value="m.obj"/>)" + more + "</shape>");
+  };
+  const std::string faces = R"(<boolean name="face_normals" value="true"/>)";
+  read(bent);
+  EXPECT_TRUE(tells("a mesh file without vertex normals is not smoothed here")) << told_;
+  read(bent, faces);
+  EXPECT_FALSE(tells("normals")) << told_;
+  read(flat);
+  EXPECT_FALSE(tells("normals")) << told_;
+  read(smooth);
+  EXPECT_FALSE(tells("normals")) << told_;
+  read(smooth, faces);
+  EXPECT_TRUE(tells("vertex normals of a mesh file are used all the same")) << told_;
 }
 
 }  // namespace

@@ -140,5 +140,72 @@ TEST_F(PbrtTest, NamesOfFilesStayInTheirLine) {
   EXPECT_TRUE(convert("two\nlines.pbrt", kBegin)) << told_;
 }
 
+TEST_F(PbrtTest, IntegratorsSayHowDeepPathsGo) {
+  const auto depth = [&](const std::string& integrator) {
+    const auto made = convert("a.pbrt", integrator + kBegin);
+    EXPECT_TRUE(made) << told_;
+    return made ? made->render->max_depth : std::nullopt;
+  };
+  EXPECT_EQ(depth("Integrator \"simplepath\" \"integer maxdepth\" 3\n"), 3);
+  EXPECT_FALSE(tells("integrator")) << told_;
+  EXPECT_EQ(depth("Integrator \"path\" \"integer maxdepth\" 0\n"), 1);
+  EXPECT_TRUE(tells("a path has one scattering or more here")) << told_;
+  EXPECT_EQ(depth("Integrator \"sppm\"\n"), 5);
+  EXPECT_TRUE(tells("photons have a depth of their own there")) << told_;
+  for (const std::string type : {"ambientocclusion", "function"}) {
+    EXPECT_EQ(depth("Integrator \"" + type + "\"\n"), 5);
+    EXPECT_TRUE(tells("what an integrator \"" + type + "\" tells has no counterpart here")) << told_;
+  }
+  expect_refused({{"integrator", "Integrator \"volpth\"\n" + kBegin,
+                   "a.pbrt:1:1: error: unknown integrator \"volpth\"; did you mean \"volpath\"?"}});
+}
+
+TEST_F(PbrtTest, PatchesKeepTheirCoordinates) {
+  const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0] ";
+  const auto mesh = std::get<spec::InlineMesh>(
+      shape<spec::MeshBody>(patch + "\"point2 uv\" [0 0  3 0  0 3  3 3]\n").surface.value);
+  EXPECT_EQ(mesh.uv.value().value, (std::vector<std::array<double, 2>>{{0, 0}, {3, 0}, {0, 3}, {3, 3}}));
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  (void)shape<test::QuadBody>(patch + "\"point2 uv\" [0 0  1 0  0 1  1 1]\n");
+  (void)shape<test::QuadBody>(patch + "\n");
+  // Those of a corner, not of a vertex.
+  (void)shape<test::QuadBody>(patch + "\"integer indices\" [2 3 0 1] \"point2 uv\" [0 1  1 1  0 0  1 0]\n");
+  EXPECT_FALSE(tells("dropped")) << told_;
+  (void)shape<test::QuadBody>(patch + "\"point2 uv\" [0 0  3 0  0 3]\n");
+  EXPECT_TRUE(tells("texture coordinates that are not as many as points are dropped")) << told_;
+}
+
+TEST_F(PbrtTest, WhatImagesSayIsDoneOrTold) {
+  put_image("photo.png", false);
+  const auto image = [&](const std::string& more, const std::string& use) {
+    return scene("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"photo.png\" " + more +
+                 "\nMaterial \"diffuse\" " + use + " \"t\"\nShape \"sphere\"\n");
+  };
+  const std::string paint = "\"texture reflectance\"";
+  const std::string relief = "\"texture displacement\"";
+  const auto texture = [&](const std::string& more) {
+    return std::get<spec::Texture>(
+        std::get<spec::Diffuse>(image(more, paint).materials.at(0).value.model).reflectance);
+  };
+  EXPECT_TRUE(std::holds_alternative<spec::Weights>(texture("\"string encoding\" \"linear\"").of));
+  EXPECT_TRUE(std::holds_alternative<spec::Rgb>(texture("\"string encoding\" \"sRGB\"").of));
+  EXPECT_FALSE(tells("encoding")) << told_;
+  (void)texture("\"string encoding\" \"gamma 2.2\"");
+  EXPECT_TRUE(tells("an image's encoding by a power has no counterpart here: sRGB")) << told_;
+  EXPECT_EQ(texture("\"string wrap\" \"black\"").file.mapping.wrap, TextureWrap::clamp);
+  EXPECT_TRUE(tells("an image beyond its edges is as at them here, not \"black\"")) << told_;
+  EXPECT_EQ(texture("\"string wrap\" \"clamp\"").file.mapping.wrap, TextureWrap::clamp);
+  EXPECT_FALSE(tells("edges")) << told_;
+  put_image("photo.png", true);
+  (void)image("", relief);
+  EXPECT_TRUE(tells("the values of a relief are linear here, and decoded as sRGB there")) << told_;
+  (void)image("\"string encoding\" \"linear\"", relief);
+  EXPECT_FALSE(tells("relief")) << told_;
+  expect_refused({{"wrap",
+                   kBegin + "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"photo.png\" "
+                            "\"string wrap\" \"blak\"\n",
+                   "unknown wrap mode \"blak\"; did you mean \"black\"?"}});
+}
+
 }  // namespace
 }  // namespace abbe

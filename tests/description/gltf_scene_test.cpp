@@ -88,6 +88,28 @@ TEST_F(GltfSceneTest, TexturesLieAsTheyDo) {
   EXPECT_TRUE(tells("an image within the file has no name here: dropped")) << told_;
 }
 
+TEST_F(GltfSceneTest, WhatImagesSayAndIsNotSoHereIsTold) {
+  put_image("normals.exr", false);
+  const auto read = [&](const std::string& sampler, const std::string& scale) {
+    Asset asset;
+    asset.primitive = R"("attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0)";
+    asset.accessors.back() = ',';
+    asset.accessors += R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}])";
+    asset.more = R"(, "materials": [{"name": "m", "normalTexture": {"index": 0)" + scale +
+                 R"(}}], "samplers": [{)" + sampler +
+                 R"(}], "textures": [{"source": 0, "sampler": 0}], "images": [{"uri": "normals.exr"}])";
+    EXPECT_TRUE(convert("a.gltf", asset.text())) << told_;
+  };
+  read(R"("wrapS": 33071, "wrapT": 33071)", R"(, "scale": 1)");
+  EXPECT_FALSE(tells("edges")) << told_;
+  EXPECT_FALSE(tells("normal map")) << told_;
+  read(R"("wrapT": 33071)", R"(, "scale": 0.25)");
+  EXPECT_TRUE(tells("an image goes on beyond its edges along v as along u here")) << told_;
+  EXPECT_TRUE(tells("the scale of a normal map has no counterpart here: dropped")) << told_;
+  read(R"("wrapT": 33648)", "");
+  EXPECT_TRUE(tells("an image is not mirrored beyond its edges here: it repeats")) << told_;
+}
+
 TEST_F(GltfSceneTest, GlassAndPanes) {
   expect_twin(
       gltf(

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "description/doors/shared/materials.h"
+#include "description/doors/shared/picture.h"
 #include "description/meshes/gltf_names.h"
 #include "spectral/colorimetry.h"
 
@@ -40,9 +41,15 @@ std::optional<spec::TextureFile> image(const JsonValue& info, const Document& do
   spec::TextureFile file;
   file.image = {{door.name_of(path)}, info.where};
   constexpr double kClamp = 33071;
+  constexpr double kMirrored = 33648;
   constexpr double kNearest = 9728;
   const JsonValue* sampler = element(document, "samplers", find(texture, "sampler"));
-  if (number(sampler, "wrapS", 0, document) == kClamp) file.mapping.wrap = TextureWrap::clamp;
+  const double wrap_u = number(sampler, "wrapS", 0, document);
+  const double wrap_v = number(sampler, "wrapT", 0, document);
+  if (wrap_u == kClamp) file.mapping.wrap = TextureWrap::clamp;
+  if (wrap_u == kMirrored || wrap_v == kMirrored) door.note(info.where, kNoMirroredImages);
+  if ((wrap_u == kClamp) != (wrap_v == kClamp))
+    door.note(info.where, "an image goes on beyond its edges along v as along u here");
   if (number(sampler, "magFilter", 0, document) == kNearest) file.mapping.filter = TextureFilter::nearest;
   const auto scale = numbers(&info, extension("texture_transform", "scale"), 2, document);
   const auto offset = numbers(&info, extension("texture_transform", "offset"), 2, document);
@@ -189,8 +196,11 @@ spec::Material material_of(const JsonValue* material, const SourcePosition& wher
     set_glass(material, where, made, document);
   else
     set_surface(material, where, made, document);
-  if (const JsonValue* normals = find(material, "normalTexture"))
+  if (const JsonValue* normals = find(material, "normalTexture")) {
     if (const auto file = image(*normals, document)) made.relief = spec::NormalMap{*file};
+    if (number(normals, "scale", 1, document) != 1)
+      document.door.note(normals->where, "the scale of a normal map has no counterpart here: dropped");
+  }
   note_rest(material, where, document);
   return made;
 }

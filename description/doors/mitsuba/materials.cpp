@@ -9,6 +9,7 @@
 #include "description/doors/mitsuba/media.h"
 #include "description/doors/mitsuba/named_indices.h"
 #include "description/doors/shared/materials.h"
+#include "description/doors/shared/picture.h"
 #include "materials/interface/hemispherical.h"
 
 namespace abbe::doors::mitsuba {
@@ -177,6 +178,10 @@ spec::Material Materials::converted(const Object& bsdf, const Element* inside, R
       return {spec::Diffuse{curve_of(0.5, bsdf.where(), world_.door)}, {}, {}};
     }
     const Object core(*inner, world_);
+    const Element* back = bsdf.all("bsdf").back();
+    if (type == "twosided" && back != inner)
+      world_.door.note(back->where,
+                       "a surface has one material on both sides here: that of the back is dropped");
     spec::Material material = converted(core, inside, v);
     core.note_unused();
     if (type == "mask") {
@@ -184,7 +189,10 @@ spec::Material Materials::converted(const Object& bsdf, const Element* inside, R
       bsdf.ignore({"opacity"});
     } else if (type != "twosided") {
       for (const Element* texture : bsdf.all("texture")) {
-        const auto file = image(Object(*texture, world_), v, world_);
+        const Object relief(*texture, world_);
+        const auto file = image(relief, v, world_);
+        if (file && holds_codes(file->image.value) && !relief.truth("raw", false))
+          world_.door.note(relief.where(), kLinearRelief);
         if (file && type == "normalmap") material.relief = spec::NormalMap{*file};
         if (file && type == "bumpmap") material.relief = spec::BumpMap{*file, bsdf.number("scale", 1)};
       }

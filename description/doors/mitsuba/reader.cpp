@@ -121,12 +121,31 @@ void read_sensor(const Object& sensor, World& world) {
   set_camera(camera, door);
 }
 
-// Depths count the light as well there.
+const std::vector<std::string> kIntegratorTypes{
+    "aov",       "depth",          "direct",     "direct_projective", "moment", "path",    "prb",
+    "prb_basic", "prb_projective", "prbvolpath", "ptracer",           "stokes", "volpath", "volpathmis"};
+
+// Depths count the light as well there. Integrators for derivatives have a depth when none is said.
+void limit_depth(const Object& integrator, const World& world) {
+  const std::string& type = integrator.type();
+  if (type.starts_with("direct")) return world.door.limit_depth(1, integrator.where());
+  const int depth = count(integrator, "max_depth", type.starts_with("prb") ? 6 : -1);
+  if (depth >= 0) world.door.limit_depth(depth - 1, integrator.where());
+}
+
 void read_integrator(const Object& integrator, const World& world) {
-  const int depth = count(integrator, "max_depth", -1);
-  if (depth == 0 || depth == 1) world.door.note(integrator.where(), "a path has one scattering or more here");
-  if (depth >= 0) world.door.scene.render->max_depth = std::max(1, depth - 1);
-  integrator.ignore({"rr_depth", "samples_per_pass", "block_size"});
+  Door& door = world.door;
+  const std::string& type = integrator.type();
+  if (std::ranges::find(kIntegratorTypes, type) == kIntegratorTypes.end())
+    return door.diagnostics.error(integrator.where(), unknown_name("integrator", type, kIntegratorTypes));
+  if (type == "aov" || type == "depth" || type == "moment" || type == "stokes")
+    door.note(
+        integrator.where(),
+        fmt::format("what an integrator \"{}\" tells has no counterpart here: a picture of light", type));
+  for (const Element* within : integrator.all("integrator")) read_integrator(Object(*within, world), world);
+  limit_depth(integrator, world);
+  integrator.ignore({"rr_depth", "samples_per_pass", "block_size", "emitter_samples", "bsdf_samples",
+                     "shading_samples", "aovs"});
   integrator.note_unused();
 }
 

@@ -62,16 +62,41 @@ Local cylinder(const Object& shape, const World& world) {
   return {swept({{1, 0}, {1, 1}}, 360), matrix};
 }
 
+// Whether triangles that share a vertex lie in different planes.
+bool is_bent(const Mesh& mesh) {
+  constexpr double kFlat = 1 - 1e-6;
+  std::vector<std::optional<V3d>> normals(mesh.vertices.size());
+  for (const auto& triangle : mesh.triangles) {
+    const V3d& a = mesh.vertices[triangle[0]];
+    const V3d normal = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).normalized();
+    for (const std::uint32_t vertex : triangle) {
+      if (normals[vertex].value_or(normal).dot(normal) < kFlat) return true;
+      normals[vertex] = normal;
+    }
+  }
+  return false;
+}
+
+// Meshes without normals at their vertices are given such there, unless told otherwise.
+void note_normals(const Object& shape, const MeshFile& file, const World& world) {
+  const Mesh& mesh = file.submeshes.front().mesh;
+  const bool flat = shape.truth("face_normals", false);
+  if (flat && !mesh.normals.empty())
+    world.door.note(shape.where(), "vertex normals of a mesh file are used all the same");
+  if (!flat && mesh.normals.empty() && is_bent(mesh))
+    world.door.note(shape.where(),
+                    "a mesh file without vertex normals is not smoothed here: its triangles are seen");
+}
+
 std::optional<Local> mesh_file(const Object& shape, const World& world) {
   const auto path = world.folder / shape.text("filename", "");
-  if (!world.door.take_file(path, shape.where()) ||
-      !load_mesh_file(path, FileMaterials::ignored, shape.where(), world.door.diagnostics,
-                      FileCoordinates::ignored, world.door.inputs))
-    return std::nullopt;
+  if (!world.door.take_file(path, shape.where())) return std::nullopt;
+  const auto file = load_mesh_file(path, FileMaterials::ignored, shape.where(), world.door.diagnostics,
+                                   FileCoordinates::ignored, world.door.inputs);
+  if (!file) return std::nullopt;
   const bool obj = shape.type() == "obj";
   const bool turned = shape.truth("flip_tex_coords", obj);
-  if (shape.truth("face_normals", false))
-    world.door.note(shape.where(), "vertex normals of a mesh file are used all the same");
+  if (!file->submeshes.empty()) note_normals(shape, *file, world);
   shape.ignore({"max_smooth_angle"});
   return Local{MeshFileSurface{path}, {}, turned ? RunsOfV::up : RunsOfV::down};
 }

@@ -1,5 +1,6 @@
 #include "description/doors/mitsuba/spectra.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -8,12 +9,18 @@
 
 #include <fmt/format.h>
 
+#include "description/doors/shared/picture.h"
 #include "description/doors/shared/spectrum_file.h"
 #include "io/text.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::doors::mitsuba {
 namespace {
+
+// The property of that name that says a spectrum.
+const Element* find_spectrum(const Object& object, std::string_view name) {
+  return object.find(name, {"rgb", "spectrum", "float", "integer", "texture"});
+}
 
 // #rrggbb, sRGB-encoded.
 std::optional<LinearRgb> hexadecimal(const std::string& text) {
@@ -81,8 +88,7 @@ std::optional<Spectrum> samples_of_lists(const Object& object, const World& worl
 }
 
 // A spectrum that is an object with a type.
-std::optional<Spectrum> typed(const Element& element, const World& world) {
-  const Object object(element, world);
+std::optional<Spectrum> typed(const Object& object, const World& world) {
   const std::string& type = object.type();
   if (type == "uniform") return object.number("value", 1);
   if (type == "d65") return scaled(Shipped{"D65"}, object.number("scale", 1));
@@ -90,7 +96,7 @@ std::optional<Spectrum> typed(const Element& element, const World& world) {
   if (type == "regular" || type == "irregular") return samples_of_lists(object, world);
   if (type == "srgb" || type == "srgb_d65") return spectrum(object, "color", 1.0, world);
   world.door.diagnostics.error(
-      element.where,
+      object.where(),
       unknown_name("spectrum", type,
                    std::vector<std::string>{"blackbody", "d65", "irregular", "regular", "srgb", "uniform"}));
   return std::nullopt;
@@ -110,7 +116,7 @@ TextureValue texture_of(const Element& element, RunsOfV v, const World& world) {
   if (object.type() == "bitmap") {
     auto file = image(object, v, world);
     if (!file) return Spectrum(0.5);
-    return spec::Texture{*std::move(file), spec::Rgb{{{true}, object.where()}}};
+    return colours_of(*std::move(file), object.truth("raw", false), object.where(), world.door);
   }
   return stand_in(object, world);
 }
@@ -120,7 +126,12 @@ TextureValue texture_of(const Element& element, RunsOfV v, const World& world) {
 std::optional<Spectrum> spectrum_of(const Element& element, const World& world) {
   if (element.tag == "rgb") return rgb_of(element, world);
   if (element.tag == "texture") return stand_in(Object(element, world), world);
-  if (!element["type"].empty()) return typed(element, world);
+  if (!element["type"].empty()) {
+    const Object object(element, world);
+    auto spectrum = typed(object, world);
+    object.note_unused();
+    return spectrum;
+  }
   if (!element["filename"].empty()) {
     auto samples = read_spectrum_file(world.folder / element["filename"], element.where, world.door);
     if (!samples) return std::nullopt;
@@ -132,7 +143,7 @@ std::optional<Spectrum> spectrum_of(const Element& element, const World& world) 
 }
 
 Spectrum spectrum(const Object& object, std::string_view name, const Spectrum& absent, const World& world) {
-  const Element* found = object.find(name, {"rgb", "spectrum", "float", "integer", "texture"});
+  const Element* found = find_spectrum(object, name);
   return found ? spectrum_of(*found, world).value_or(absent) : absent;
 }
 
@@ -164,7 +175,12 @@ std::optional<spec::TextureFile> image(const Object& texture, RunsOfV v, const W
   if (!world.door.take_file(path, texture.where())) return std::nullopt;
   spec::TextureFile file;
   file.image = {{world.door.name_of(path)}, texture.where()};
-  if (texture.text("wrap_mode", "repeat") != "repeat") file.mapping.wrap = TextureWrap::clamp;
+  const std::string wrap = texture.text("wrap_mode", "repeat");
+  const std::vector<std::string> wraps{"clamp", "mirror", "repeat"};
+  if (wrap == "clamp") file.mapping.wrap = TextureWrap::clamp;
+  if (wrap == "mirror") world.door.note(texture.where(), kNoMirroredImages);
+  if (std::ranges::find(wraps, wrap) == wraps.end())
+    world.door.diagnostics.error(texture.place_of("wrap_mode"), unknown_name("wrap mode", wrap, wraps));
   if (texture.text("filter_type", "bilinear") == "nearest") file.mapping.filter = TextureFilter::nearest;
   const Imath::M44d m = texture.transform("to_uv");
   if (m[0][1] != 0 || m[1][0] != 0)
@@ -183,7 +199,10 @@ double y_of_one() {
 }
 
 LampSpectrum lamp(const Object& object, std::string_view name, const World& world) {
-  const Spectrum given = spectrum(object, name, 1.0, world);
+  const Element* said = find_spectrum(object, name);
+  const Spectrum given = said ? spectrum_of(*said, world).value_or(1.0) : 1.0;
+  if (said != nullptr && (*said)["type"] == "uniform")
+    return lamp_of(given, number_of(given).value_or(1) * y_of_one(), object.where(), world.door);
   if (const auto* table = std::get_if<Shipped>(&given))
     return lamp_of(given, table->factor * y_of_one(), object.where(), world.door);
   return absolute_lamp_of(given, 1, y_of_one(), object.where(), world.door);

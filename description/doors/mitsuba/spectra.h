@@ -28,7 +28,7 @@ enum class RunsOfV { down, up };
 [[nodiscard]] std::optional<spec::TextureFile> image(const Object& texture, RunsOfV v, const World& world);
 
 /// The lamp of a property: samples, and temperatures, are in W and nm; a colour or number c is D65 of which
-/// the integral of the CIE 1931 y is that of c everywhere.
+/// the integral of the CIE 1931 y is that of c everywhere; a spectrum "uniform" is even.
 [[nodiscard]] LampSpectrum lamp(const Object& object, std::string_view name, const World& world);
 /// The integral of the CIE 1931 y [nm].
 [[nodiscard]] double y_of_one();

@@ -101,17 +101,34 @@ void set_view(const Picture& picture, World& world) {
   set_camera(given, door);
 }
 
+const std::vector<std::string> kIntegratorTypes{
+    "ambientocclusion", "bdpt",       "function",      "lightpath", "mlt",    "path",
+    "randomwalk",       "simplepath", "simplevolpath", "sppm",      "volpath"};
+
+void read_integrator(const Made& integrator, Door& door) {
+  const std::string& type = integrator.type;
+  if (std::ranges::find(kIntegratorTypes, type) == kIntegratorTypes.end())
+    return door.diagnostics.error(integrator.where, unknown_name("integrator", type, kIntegratorTypes));
+  if (type == "ambientocclusion" || type == "function")
+    door.note(
+        integrator.where,
+        fmt::format("what an integrator \"{}\" tells has no counterpart here: a picture of light", type));
+  if (type == "sppm")
+    door.note(integrator.where,
+              "photons have a depth of their own there, beside that of the paths that meet them: here "
+              "\"maxdepth\" is that of both together");
+  door.limit_depth(count(integrator.parameters, "maxdepth", 5, door), integrator.where);
+}
+
 void set_render(const Picture& picture, Door& door) {
   spec::Render& render = door.scene.render.emplace();
-  render.max_depth = 5;
+  render.max_depth = 5;  // of the integrator that pbrt takes when none is named
   if (picture.sampler) {
     const Parameters& p = picture.sampler->parameters;
     render.samples = std::max(1, count(p, "pixelsamples", 16, door));
     p.ignore({"xsamples", "ysamples", "jitter", "randomization", "seed"});
   }
-  if (!picture.integrator) return;
-  const Parameters& p = picture.integrator->parameters;
-  render.max_depth = std::max(1, count(p, "maxdepth", 5, door));
+  if (picture.integrator) read_integrator(*picture.integrator, door);
 }
 
 }  // namespace

@@ -50,9 +50,12 @@ std::optional<std::vector<std::uint32_t>> indices(const Made& made, std::size_t 
   return indices;
 }
 
-void add_coordinates(const Parameters& p, spec::InlineMesh& mesh, World& world) {
+void add_coordinates(const Made& made, spec::InlineMesh& mesh, World& world) {
+  const Parameters& p = made.parameters;
   const std::vector<double> uv = p.numbers(p.has("st") ? "st" : "uv", world.door);
-  if (uv.size() != 2 * mesh.vertices.size()) return;
+  if (uv.empty()) return;
+  if (uv.size() != 2 * mesh.vertices.size())
+    return world.door.note(made.where, "texture coordinates that are not as many as points are dropped");
   mesh.uv.emplace();
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) mesh.uv->value.push_back({uv[i], uv[i + 1]});
 }
@@ -66,7 +69,7 @@ std::optional<Surface> triangle_mesh(const Made& made, World& world) {
   if (mesh.vertices.size() < 3 || !corners) return std::nullopt;
   for (std::size_t i = 0; i + 2 < corners->size(); i += 3)
     mesh.triangles.push_back({(*corners)[i], (*corners)[i + 1], (*corners)[i + 2]});
-  add_coordinates(made.parameters, mesh, world);
+  add_coordinates(made, mesh, world);
   if (made.parameters.has("N"))
     world.door.note(made.where,
                     "vertex normals of triangles in the scene file are dropped: those of mesh "
@@ -78,6 +81,13 @@ std::optional<Surface> triangle_mesh(const Made& made, World& world) {
 bool is_parallelogram(const Imath::V3d& p00, const Imath::V3d& p10, const Imath::V3d& p01,
                       const Imath::V3d& p11) {
   return (p00 + p11 - p10 - p01).length() <= 1e-6 * (p11 - p00).length();
+}
+
+// Whether corners have the coordinates of a parallelogram that has none of its own.
+bool has_plain_coordinates(const spec::InlineMesh& mesh, const std::vector<std::uint32_t>& corners) {
+  constexpr std::array<std::array<double, 2>, 4> kPlain{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+  if (!mesh.uv) return true;
+  return std::ranges::equal(corners, kPlain, {}, [&](std::uint32_t i) { return mesh.uv->value[i]; });
 }
 
 // Patches of four corners each; a single plain one stays a parallelogram.
@@ -94,12 +104,11 @@ std::optional<Surface> bilinear_mesh(const Made& made, World& world) {
   mesh.where = made.where;
   mesh.vertices = vertices;
   made.parameters.ignore({"N", "faceIndices"});
+  add_coordinates(made, mesh, world);
   for (std::size_t i = 0; i + 3 < corners->size(); i += 4) {
     const bool plain = is_parallelogram(at(i), at(i + 1), at(i + 2), at(i + 3));
-    if (plain && corners->size() == 4) {
-      made.parameters.ignore({"uv"});
+    if (plain && corners->size() == 4 && has_plain_coordinates(mesh, *corners))
       return spec::Quad{at(0), at(1) - at(0), at(2) - at(0), made.where};
-    }
     const Imath::V3d normal = (at(i + 1) - at(i)).cross(at(i + 2) - at(i));
     if (std::abs(normal.normalized().dot(at(i + 3) - at(i))) > 1e-6 * (at(i + 3) - at(i)).length())
       world.door.note(made.where, "a curved patch becomes two flat triangles");
@@ -107,7 +116,6 @@ std::optional<Surface> bilinear_mesh(const Made& made, World& world) {
     mesh.triangles.push_back({corner(0), corner(1), corner(3)});
     mesh.triangles.push_back({corner(0), corner(3), corner(2)});
   }
-  add_coordinates(made.parameters, mesh, world);
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "description/doors/pbrt/named_spectra.h"
+#include "description/doors/shared/picture.h"
 #include "description/doors/shared/spectrum_file.h"
 #include "io/text.h"
 
@@ -87,7 +88,10 @@ TextureValue texture_of(const Made& made, World& world) {
   if (made.type == "imagemap") {
     const auto file = image_file(made.parameters, made.where, world);
     if (!file) return Spectrum(0.5);
-    return spec::Texture{*file, spec::Rgb{{{true}, made.where}}};
+    const std::string encoding = made.parameters.text("encoding", "sRGB", world.door);
+    if (encoding != "linear" && encoding != "sRGB")
+      world.door.note(made.where, "an image's encoding by a power has no counterpart here: sRGB");
+    return colours_of(*file, encoding == "linear", made.where, world.door);
   }
   world.door.note(made.where,
                   fmt::format("a texture \"{}\" has no counterpart here: one value in its place", made.type));
@@ -133,7 +137,11 @@ double number(const Parameters& parameters, std::string_view name, double absent
 std::optional<spec::TextureFile> image(const std::string& name, const SourcePosition& where, World& world) {
   const TextureValue* known = find(world.textures, "texture", name, where, world.door);
   if (known == nullptr) return std::nullopt;
-  if (const auto* texture = std::get_if<spec::Texture>(known)) return texture->file;
+  if (const auto* texture = std::get_if<spec::Texture>(known)) {
+    if (holds_codes(texture->file.image.value) && std::holds_alternative<spec::Rgb>(texture->of))
+      world.door.note(where, kLinearRelief);
+    return texture->file;
+  }
   world.door.note(where, fmt::format("the texture \"{}\" is no image: dropped", name));
   return std::nullopt;
 }
@@ -152,7 +160,13 @@ std::optional<spec::TextureFile> image_file(const Parameters& parameters, const 
   file.image = {{door.name_of(path)}, name->where};
   file.mapping.scale = {parameters.number("uscale", 1, door), parameters.number("vscale", 1, door)};
   file.mapping.offset = {parameters.number("udelta", 0, door), parameters.number("vdelta", 0, door)};
-  if (parameters.text("wrap", "repeat", door) == "clamp") file.mapping.wrap = TextureWrap::clamp;
+  const std::string wrap = parameters.text("wrap", "repeat", door);
+  const std::vector<std::string> wraps{"black", "clamp", "octahedralsphere", "repeat"};
+  if (std::ranges::find(wraps, wrap) == wraps.end())
+    door.diagnostics.error(where, unknown_name("wrap mode", wrap, wraps));
+  if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
+  if (wrap == "black" || wrap == "octahedralsphere")
+    door.note(where, fmt::format("an image beyond its edges is as at them here, not \"{}\"", wrap));
   if (parameters.text("filter", "bilinear", door) == "point") file.mapping.filter = TextureFilter::nearest;
   return file;
 }

@@ -26,6 +26,11 @@ bool Door::refuse(const SourcePosition& where, std::string what) {
   return false;
 }
 
+void Door::limit_depth(int events, const SourcePosition& where) {
+  if (events < 1) note(where, "a path has one scattering or more here");
+  scene.render->max_depth = std::max(1, events);
+}
+
 std::string Door::name_of(const fs::path& file) const {
   const fs::path beside = fs::absolute(file).lexically_normal().lexically_proximate(
       fs::absolute(folder.empty() ? "." : folder).lexically_normal());

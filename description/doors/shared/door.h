@@ -32,6 +32,8 @@ struct Door {
   void note(const SourcePosition& where, const std::string& text);
   /// Reports what is wrong at `where`, and gives false.
   bool refuse(const SourcePosition& where, std::string what);
+  /// Sets how many events a path of the scene's render may have; that fewer than one are one here is noted.
+  void limit_depth(int events, const SourcePosition& where);
   /// The name by which the scene to be written finds a file: as from its folder, but for what is named from
   /// the root and lies elsewhere.
   [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;

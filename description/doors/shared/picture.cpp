@@ -12,11 +12,6 @@
 namespace abbe::doors {
 namespace {
 
-bool is_linear(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 3> kLinear{".exr", ".hdr", ".pfm"};
-  return std::ranges::find(kLinear, file.extension().string()) != kLinear.end();
-}
-
 // Nothing if a value is not finite.
 std::optional<double> mean(const ImageChannel& channel, bool linear) {
   double sum = 0;
@@ -29,6 +24,11 @@ std::optional<double> mean(const ImageChannel& channel, bool linear) {
 }
 
 }  // namespace
+
+bool holds_codes(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 3> kLinear{".exr", ".hdr", ".pfm"};
+  return std::ranges::find(kLinear, file.extension().string()) == kLinear.end();
+}
 
 std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const SourcePosition& where,
                                      Door& door) {
@@ -44,7 +44,7 @@ std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const So
       constexpr std::array<std::string_view, 3> kNames{"R", "G", "B"};
       const ImageChannel* channel = image.find(image.find("R") ? kNames.at(c) : "Y");
       if (channel == nullptr) return refuse("the image has no channels R, G, B or Y", ErrorCode::input);
-      const auto value = mean(*channel, is_linear(file));
+      const auto value = mean(*channel, !holds_codes(file));
       if (!value) return refuse("the image holds values that are not finite", ErrorCode::input);
       colour.at(c) = *value;
     }

@@ -8,6 +8,17 @@
 
 namespace abbe::doors {
 
+/// What is noted of an image that is mirrored beyond its edges.
+inline constexpr const char* kNoMirroredImages = "an image is not mirrored beyond its edges here: it repeats";
+
+/// What is noted of heights and normals in codes.
+inline constexpr const char* kLinearRelief =
+    "the values of a relief are linear here, and decoded as sRGB there";
+
+/// Whether files of that name hold codes of 8 or 16 bits, sRGB-encoded unless told otherwise; others hold
+/// linear values.
+[[nodiscard]] bool holds_codes(const std::filesystem::path& file);
+
 /// The mean linear Rec.709 colour of an image's pixels, those of files with 8 or 16 bits decoded as sRGB and
 /// negative values taken as 0. Reports, at `where`, a file that is missing or no image, one without channels
 /// R, G, B or Y, and values that are not finite.

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "description/doors/shared/picture.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -119,6 +120,21 @@ spec::Curve curve_of(const Spectrum& given, const SourcePosition& where, Door& d
                      where);
       }};
   return std::visit(cases, given);
+}
+
+spec::Texture colours_of(spec::TextureFile file, bool linear, const SourcePosition& where, Door& door) {
+  if (!linear || !holds_codes(file.image.value)) return {std::move(file), spec::Rgb{{{true}, where}}};
+  note_colour(where, door);
+  const Samples red = samples_of({1, 0, 0});
+  const Samples green = samples_of({0, 1, 0});
+  Samples blue = red;  // what is left, so that white is 1 to the last digit
+  for (std::size_t i = 0; i < blue.values.size(); ++i) blue.values[i] = 1 - red.values[i] - green.values[i];
+  spec::Weights weights;
+  weights.where = where;
+  weights.value = {{"R", curve(table_of(red, where), where), where},
+                   {"G", curve(table_of(green, where), where), where},
+                   {"B", curve(table_of(blue, where), where), where}};
+  return {std::move(file), std::move(weights)};
 }
 
 Samples mapped(const Samples& samples, const std::function<double(double)>& function) {

@@ -40,6 +40,10 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
 /// The curve. A colour becomes the smooth spectrum that looks so under D65 (see `rgb_spectrum`), which is
 /// noted unless it is grey.
 [[nodiscard]] spec::Curve curve_of(const Spectrum& spectrum, const SourcePosition& where, Door& door);
+/// The texture of an image's colours; `linear`: also of files that hold codes, whose channels weigh the basis
+/// then, which is noted as above.
+[[nodiscard]] spec::Texture colours_of(spec::TextureFile file, bool linear, const SourcePosition& where,
+                                       Door& door);
 /// The values through a function that leaves 0 where it is: of samples at each of them and, as lines between
 /// these say something else then, at every 5 nm.
 [[nodiscard]] Samples mapped(const Samples& samples, const std::function<double(double)>& function);
