@@ -108,7 +108,7 @@ spec::Reflectance ground(const Object& bsdf, double n, RunsOfV v, const World& w
     world.door.note(
         bsdf.place_of(kName),
         "an image under a clear coat is darker here, and its colours deeper, as with \"nonlinear\"");
-    return *std::move(image);
+    return std::move(*image);
   }
   const double r = diffuse_reflectance_inside(n);
   const auto there = [r](double rho) { return rho / (1 - r + rho * r); };
