@@ -11,6 +11,7 @@
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
 #include "scene/shapes/mesh.h"
+#include "scene/shapes/placed.h"
 
 namespace abbe::spec {
 namespace {
