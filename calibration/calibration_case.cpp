@@ -12,8 +12,8 @@
 #include "calibration/output/color_spaces.h"
 #include "io/error.h"
 #include "io/invalid_input.h"
+#include "io/rgb_order.h"
 #include "io/text.h"
-#include "sensor/response/rgb_order.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 

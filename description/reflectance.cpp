@@ -93,8 +93,7 @@ std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, Loa
       file.where, fmt::format("texture \"{}\": red, green and blue have no spectrum: the smooth one that "
                               "looks so under D65 stands in for what was there",
                               file.name));
-  const auto space = file.image.metadata.find(kColorSpace);
-  const bool linear = space != file.image.metadata.end() && space->second == "Linear";
+  const bool linear = is_linear(file.image.metadata);
   const RgbBasis& basis = rgb_basis();
   return Weights{
       {"R", "G", "B"}, {basis.red, basis.green, basis.blue}, linear ? Encoding::linear : Encoding::srgb};

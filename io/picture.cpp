@@ -1,7 +1,6 @@
 #include "io/picture.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 
@@ -10,6 +9,7 @@
 #include "io/exr.h"
 #include "io/picture_codec.h"
 #include "io/png.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -39,9 +39,7 @@ bool is_tiff(const std::filesystem::path& path) {
 }
 
 bool is_exr(const std::filesystem::path& path) {
-  std::string extension = path.extension();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".exr";
+  return lower_case(path.extension().string()) == ".exr";
 }
 
 PictureHeader described(const std::filesystem::path& path, const Image& image, std::size_t channels) {
@@ -101,7 +99,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
                 "a file of this kind holds one plane or three (got " + std::to_string(channels) +
                     ", allowed any number in a .tif)");
   PictureHeader header = described(path, image, channels);
-  if (!is_tiff(path)) header.metadata[kColorSpace] = "Linear";  // without which PNG means sRGB
+  if (!is_tiff(path)) header.metadata[kColorSpace] = kLinear;  // without which PNG means sRGB
   write_atomically(path, encode(path, header, interleaved(image, channels, whole_number)));
 }
 
@@ -128,7 +126,7 @@ Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
 Image read_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_exr(path)) return read_picture(path, inputs);
   Image image = read_exr(path, inputs);
-  image.metadata[kColorSpace] = "Linear";
+  image.metadata[kColorSpace] = kLinear;
   return image;
 }
 

@@ -21,6 +21,12 @@ struct PictureHeader {
 
 /// The attribute that says how a picture's codes are to be read, "sRGB" or "Linear".
 inline constexpr const char* kColorSpace = "oiio:ColorSpace";
+inline constexpr const char* kLinear = "Linear";
+/// Whether attributes, those of an image from `read_image`, say that values are linear.
+[[nodiscard]] inline bool is_linear(const std::map<std::string, std::string>& metadata) {
+  const auto space = metadata.find(kColorSpace);
+  return space != metadata.end() && space->second == kLinear;
+}
 
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;

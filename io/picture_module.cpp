@@ -21,7 +21,7 @@ PictureHeader header_of(const OIIO::ImageSpec& spec) {
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       header.metadata[attribute.name().string()] = attribute.get_string();
-  if (spec.format.is_floating_point()) header.metadata[kColorSpace] = "Linear";
+  if (spec.format.is_floating_point()) header.metadata[kColorSpace] = kLinear;
   return header;
 }
 

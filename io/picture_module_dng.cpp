@@ -11,6 +11,7 @@
 #include "io/error.h"
 #include "io/image.h"
 #include "io/picture_module.h"
+#include "io/rgb_order.h"
 
 namespace abbe::picture_module {
 namespace {
@@ -133,11 +134,7 @@ std::uint64_t write_exif(TIFF* tiff, const RawPicture& raw, bool& sound) {
 using Order = std::array<std::size_t, 3>;
 constexpr Order kOwnOrder{0, 1, 2};
 Order order_of(const std::vector<std::string>& channels) {
-  const auto place = [&channels](const char* name) {
-    return static_cast<std::size_t>(std::find(channels.begin(), channels.end(), name) - channels.begin());
-  };
-  const Order colors{place("R"), place("G"), place("B")};
-  return std::is_permutation(colors.begin(), colors.end(), kOwnOrder.begin()) ? colors : kOwnOrder;
+  return rgb_order(channels).value_or(kOwnOrder);
 }
 
 // A list of what is told of three channels: one after the other, each by `each` entries, as often as it does.

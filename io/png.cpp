@@ -61,7 +61,7 @@ bool write(Png& png, const PictureHeader& header, const std::string& space,
                header.channels.size() == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (space == "sRGB") png_set_sRGB_gAMA_and_cHRM(png.write, png.info, PNG_sRGB_INTENT_ABSOLUTE);
-  if (space == "Linear") png_set_gAMA(png.write, png.info, 1);
+  if (space == kLinear) png_set_gAMA(png.write, png.info, 1);
   png_set_text(png.write, png.info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(png.write, png.info);
   if (pixels.bits == 16) png_set_swap(png.write);

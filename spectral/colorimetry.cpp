@@ -37,7 +37,7 @@ double integral(const Curve& curve, SumRange range) {
 // What light gives to that nanometre of a quantity that is told by its values at whole ones.
 double share_of_nanometre(const Curve& light, int nm) {
   const Curve share({{nm - 1.0, 0}, {nm + 0.0, 1}, {nm + 1.0, 0}});
-  return product(light, share).integral(nm - 1, nm + 1);
+  return integral_of_product(light, share);
 }
 
 }  // namespace

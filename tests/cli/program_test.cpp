@@ -278,21 +278,6 @@ TEST(Calibrate, OptionsWithoutEffectAreRefused) {
     }
 }
 
-// What is of one camera's colours: nothing of all cameras at once, nor of curves alone.
-TEST(Calibrate, OptionsOfColoursAreRefusedWhereThereAreNone) {
-  const auto expect_refused = [](const std::string& what, const std::string& option) {
-    const Outcome run = abbe("calibrate " + what + " " + option);
-    EXPECT_EQ(run.code, 2) << what << ' ' << option;
-    EXPECT_NE(run.err.find(option.substr(0, option.find(' '))), std::string::npos) << run.err;
-  };
-  for (const char* option : {"--correction auto", "--objective dE76", "--adaptation cat02", "--folds 3",
-                             "--transfer t.json", "--mtf m.json", "--training pmc_chart_luo2024"})
-    for (const char* what : {"--all-cameras", "--series x.json"}) expect_refused(what, option);
-  expect_refused("--all-cameras", "--output folder");
-  for (const char* option : {"--chart nonsense", "--illuminant nonsense"})
-    expect_refused("--series x.json", option);
-}
-
 TEST(Trace, FromTheCommandLine) {
   const std::string trace =
       "trace " + scratch().write("prism.json", prism_scene()).string() + " --origin -100,0,-20 ";

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "io/picture.h"
+#include "io/picture_codec.h"
+#include "io/text.h"
 
 namespace abbe::doors {
 namespace {
@@ -26,8 +28,8 @@ std::optional<double> mean(const ImageChannel& channel, bool linear) {
 }  // namespace
 
 bool holds_codes(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 3> kLinear{".exr", ".hdr", ".pfm"};
-  return std::ranges::find(kLinear, file.extension().string()) == kLinear.end();
+  constexpr std::array<std::string_view, 3> kOfFloats{".exr", ".hdr", ".pfm"};
+  return std::ranges::find(kOfFloats, lower_case(file.extension().string())) == kOfFloats.end();
 }
 
 std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const SourcePosition& where,
@@ -44,7 +46,7 @@ std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const So
       constexpr std::array<std::string_view, 3> kNames{"R", "G", "B"};
       const ImageChannel* channel = image.find(image.find("R") ? kNames.at(c) : "Y");
       if (channel == nullptr) return refuse("the image has no channels R, G, B or Y", ErrorCode::input);
-      const auto value = mean(*channel, !holds_codes(file));
+      const auto value = mean(*channel, is_linear(image.metadata));
       if (!value) return refuse("the image holds values that are not finite", ErrorCode::input);
       colour.at(c) = *value;
     }

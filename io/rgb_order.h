@@ -1,10 +1,16 @@
-#include "sensor/response/rgb_order.h"
+#pragma once
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
 
 namespace abbe {
 
-std::optional<std::array<std::size_t, 3>> rgb_order(std::span<const std::string> names) {
+/// Where R, G and B stand among these names, in that order, which pictures and tables have; nothing unless
+/// the names are these three.
+[[nodiscard]] inline std::optional<std::array<std::size_t, 3>> rgb_order(std::span<const std::string> names) {
   constexpr std::array kRgb{"R", "G", "B"};
   if (!std::is_permutation(names.begin(), names.end(), kRgb.begin(), kRgb.end())) return std::nullopt;
   std::array<std::size_t, 3> order{};
