@@ -115,6 +115,24 @@ TEST_F(MitsubaTest, IntegratorsSayHowDeepPathsGo) {
   EXPECT_TRUE(tells("a.xml:3:2: error: unknown integrator \"pat\"; did you mean \"path\"?")) << told_;
 }
 
+TEST_F(MitsubaTest, IntegratorsThatLeaveMediaOutAreTold) {
+  const auto told_of = [&](const std::string& integrator) {
+    (void)scene(
+        integrator +
+        R"(<shape type="sphere"><bsdf type="dielectric"/><medium name="interior" type="homogeneous"/></shape>)");
+    return tells("leaves media out there");
+  };
+  EXPECT_FALSE(told_of("")) << told_;
+  for (const std::string type : {"volpath", "volpathmis", "prbvolpath"})
+    EXPECT_FALSE(told_of("<integrator type=\"" + type + "\"/>")) << told_;
+  for (const std::string type : {"path", "direct", "prb", "ptracer"})
+    EXPECT_TRUE(told_of("<integrator type=\"" + type + "\"/>")) << told_;
+  EXPECT_FALSE(told_of(R"(<integrator type="moment"><integrator type="volpath"/></integrator>)")) << told_;
+  EXPECT_TRUE(told_of(R"(<integrator type="aov"><integrator type="path"/></integrator>)")) << told_;
+  (void)scene(R"(<integrator type="path"/><shape type="sphere"/>)");
+  EXPECT_FALSE(tells("media")) << told_;
+}
+
 TEST_F(MitsubaTest, RawImagesAreLinear) {
   put_image("photo.png", false);
   put_image("photo.exr", false);

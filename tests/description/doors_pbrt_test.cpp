@@ -160,6 +160,33 @@ TEST_F(PbrtTest, IntegratorsSayHowDeepPathsGo) {
                    "a.pbrt:1:1: error: unknown integrator \"volpth\"; did you mean \"volpath\"?"}});
 }
 
+TEST_F(PbrtTest, IntegratorsThatLeaveMediaOutAreTold) {
+  const auto told_of = [&](const std::string& integrator) {
+    EXPECT_TRUE(
+        convert("a.pbrt", integrator + kBegin +
+                              "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\"\n"
+                              "MediumInterface \"milk\" \"\"\nMaterial \"dielectric\"\nShape \"sphere\"\n"))
+        << told_;
+    return tells("leaves media out there");
+  };
+  EXPECT_FALSE(told_of("")) << told_;
+  EXPECT_FALSE(told_of("Integrator \"volpath\"\n")) << told_;
+  EXPECT_FALSE(told_of("Integrator \"bdpt\"\n")) << told_;
+  EXPECT_TRUE(told_of("Integrator \"path\"\n")) << told_;
+  EXPECT_TRUE(told_of("Integrator \"sppm\"\n")) << told_;
+  EXPECT_TRUE(convert("a.pbrt", "Integrator \"path\"\n" + kBegin + "Shape \"sphere\"\n")) << told_;
+  EXPECT_FALSE(tells("media")) << told_;
+}
+
+TEST_F(PbrtTest, WhatIntegratorsSayIsOfNoiseOrTold) {
+  const std::string more =
+      "\"bool regularize\" true \"float rrthreshold\" 0.5 \"string lightsampler\" \"power\"\n";
+  ASSERT_TRUE(convert("a.pbrt", "Integrator \"volpath\" " + more + kBegin)) << told_;
+  EXPECT_TRUE(tells("\"regularize\" of integrator has no counterpart here: dropped")) << told_;
+  EXPECT_FALSE(tells("rrthreshold")) << told_;
+  EXPECT_FALSE(tells("lightsampler")) << told_;
+}
+
 TEST_F(PbrtTest, PatchesKeepTheirCoordinates) {
   const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0] ";
   const auto mesh = std::get<spec::InlineMesh>(

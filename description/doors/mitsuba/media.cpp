@@ -55,6 +55,7 @@ Spectrum rest_of(const Spectrum& share) {
 
 spec::Medium medium_of(const Object& medium, const World& world) {
   spec::Medium matter;
+  world.door.note_medium(medium.where());
   if (medium.type() != "homogeneous") {
     world.door.note(medium.where(),
                     fmt::format("a medium \"{}\" has no counterpart here: empty", medium.type()));

@@ -138,7 +138,9 @@ void read_integrator(const Object& integrator, const World& world) {
   const std::string& type = integrator.type();
   if (std::ranges::find(kIntegratorTypes, type) == kIntegratorTypes.end())
     return door.diagnostics.error(integrator.where(), unknown_name("integrator", type, kIntegratorTypes));
-  if (type == "aov" || type == "depth" || type == "moment" || type == "stokes")
+  const bool of_another = type == "aov" || type == "depth" || type == "moment" || type == "stokes";
+  if (!of_another && type.find("volpath") == std::string::npos) door.surface_integrator = type;
+  if (of_another)
     door.note(
         integrator.where(),
         fmt::format("what an integrator \"{}\" tells has no counterpart here: a picture of light", type));

@@ -105,6 +105,8 @@ const std::vector<std::string> kIntegratorTypes{
     "ambientocclusion", "bdpt",       "function",      "lightpath", "mlt",    "path",
     "randomwalk",       "simplepath", "simplevolpath", "sppm",      "volpath"};
 
+const std::vector<std::string> kMediumIntegratorTypes{"bdpt", "mlt", "simplevolpath", "volpath"};
+
 void read_integrator(const Made& integrator, Door& door) {
   const std::string& type = integrator.type;
   if (std::ranges::find(kIntegratorTypes, type) == kIntegratorTypes.end())
@@ -117,7 +119,15 @@ void read_integrator(const Made& integrator, Door& door) {
     door.note(integrator.where,
               "photons have a depth of their own there, beside that of the paths that meet them: here "
               "\"maxdepth\" is that of both together");
-  door.limit_depth(count(integrator.parameters, "maxdepth", 5, door), integrator.where);
+  if (std::ranges::find(kMediumIntegratorTypes, type) == kMediumIntegratorTypes.end())
+    door.surface_integrator = type;
+  const Parameters& p = integrator.parameters;
+  door.limit_depth(count(p, "maxdepth", 5, door), integrator.where);
+  // What decides how noisy its picture is.
+  p.ignore({"lightsampler", "rrthreshold", "samplelights", "samplebsdf", "cossample", "photonsperiteration",
+            "radius", "seed", "mutationsperpixel", "chains", "bootstrapsamples", "largestepprobability",
+            "sigma"});
+  p.note_unused("integrator", door);
 }
 
 void set_render(const Picture& picture, Door& door) {
@@ -127,6 +137,7 @@ void set_render(const Picture& picture, Door& door) {
     const Parameters& p = picture.sampler->parameters;
     render.samples = std::max(1, count(p, "pixelsamples", 16, door));
     p.ignore({"xsamples", "ysamples", "jitter", "randomization", "seed"});
+    p.note_unused("sampler", door);
   }
   if (picture.integrator) read_integrator(*picture.integrator, door);
 }

@@ -10,6 +10,7 @@ spec::Medium medium_of(const std::string& name, const SourcePosition& where, Wor
   spec::Medium medium;
   const Made* made = find(world.media, "medium", name, where, world.door);
   if (made == nullptr) return medium;
+  world.door.note_medium(made->where);
   const Parameters& p = made->parameters;
   if (made->type != "homogeneous") {
     world.door.note(made->where, fmt::format("a medium \"{}\" has no counterpart here: empty", made->type));

@@ -31,6 +31,14 @@ void Door::limit_depth(int events, const SourcePosition& where) {
   scene.render->max_depth = std::max(1, events);
 }
 
+void Door::note_medium(const SourcePosition& where) {
+  if (surface_integrator.empty()) return;
+  note(where,
+       fmt::format("the integrator \"{}\" leaves media out there: here light is scattered and absorbed in "
+                   "them",
+                   surface_integrator));
+}
+
 std::string Door::name_of(const fs::path& file) const {
   const fs::path beside = fs::absolute(file).lexically_normal().lexically_proximate(
       fs::absolute(folder.empty() ? "." : folder).lexically_normal());

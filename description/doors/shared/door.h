@@ -26,7 +26,8 @@ struct Door {
   std::filesystem::path folder;  ///< Of the scene to be written, whose files are named as from there.
   spec::Scene scene{};
   std::vector<Note> notes{};
-  std::size_t included = 0;  ///< Files that the other renderer's scene has included so far.
+  std::size_t included = 0;          ///< Files that the other renderer's scene has included so far.
+  std::string surface_integrator{};  ///< The other scene's integrator, where it leaves media out.
 
   /// Remembers that something was approximated or dropped; the same text is kept once, and counted.
   void note(const SourcePosition& where, const std::string& text);
@@ -34,6 +35,8 @@ struct Door {
   bool refuse(const SourcePosition& where, std::string what);
   /// Sets how many events a path of the scene's render may have; that fewer than one are one here is noted.
   void limit_depth(int events, const SourcePosition& where);
+  /// Notes, where the other scene's integrator leaves media out, that this one at `where` is looked at here.
+  void note_medium(const SourcePosition& where);
   /// The name by which the scene to be written finds a file: as from its folder, but for what is named from
   /// the root and lies elsewhere.
   [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;
