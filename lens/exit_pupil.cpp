@@ -19,19 +19,28 @@ constexpr double kWider = 1.02;          // than the rim found at some points an
 constexpr double kInwards = 0.99;        // of cosines, likewise
 constexpr double kLeastForward = 0.052;  // cosine of 87 degrees
 constexpr int kPlanes = 65;              // that the disc in front may lie in
+constexpr int kBisections = 6;           // towards where light ends between two points of the image
+
+// The pupil as a point of the image sees it, at all wavelengths; no points where no light comes.
+struct SeenFrom {
+  V2d image;
+  std::vector<V2d> points;
+
+  [[nodiscard]] bool is_lit() const { return !points.empty(); }
+};
 
 // The points of some pupils, and where their rays come in.
 class Findings {
  public:
-  explicit Findings(const SpectralSystem& system) : system_(system) {
+  Findings(const SpectralSystem& system, std::span<const double> wavelengths_nm)
+      : system_(system), wavelengths_nm_(wavelengths_nm) {
     const double length = system.last_z() + system.stop_radius_mm();
     for (int i = 0; i < kPlanes; ++i) planes_.push_back({length * i / (kPlanes - 1), 0});
   }
 
-  // All points at the wavelengths.
-  std::vector<V2d> points_at(const V2d& image, std::span<const double> wavelengths_nm) {
+  SeenFrom seen_from(const V2d& image) {
     std::vector<V2d> points;
-    for (const double nm : wavelengths_nm) {
+    for (const double nm : wavelengths_nm_) {
       const SeenPupil seen = search_pupil(system_, image, nm);
       points.insert(points.end(), seen.points.begin(), seen.points.end());
       for (const Ray& ray : seen.leaving) add(ray);
@@ -39,7 +48,21 @@ class Findings {
     const double depth = system_.image_z() - system_.last_z();
     for (const V2d& point : points)
       least_cosine_ = std::min(least_cosine_, depth / std::hypot(depth, (point - image).length()));
-    return points;
+    return {image, std::move(points)};
+  }
+
+  // From next to where light ends between two points of the image; nothing where it does not end there.
+  std::vector<SeenFrom> rim_between(const SeenFrom& a, const SeenFrom& b) {
+    if (a.is_lit() == b.is_lit()) return {};
+    V2d lit = a.is_lit() ? a.image : b.image;
+    V2d dark = a.is_lit() ? b.image : a.image;
+    std::vector<SeenFrom> rim;
+    for (int i = 0; i < kBisections; ++i) {
+      SeenFrom middle = seen_from((lit + dark) / 2);
+      (middle.is_lit() ? lit : dark) = middle.image;
+      if (middle.is_lit()) rim = {std::move(middle)};
+    }
+    return rim;
   }
 
   // The smallest of the discs.
@@ -64,6 +87,7 @@ class Findings {
   }
 
   const SpectralSystem& system_;
+  std::span<const double> wavelengths_nm_;
   std::vector<EntranceDisc> planes_;
   double least_cosine_ = 1;
 };
@@ -82,10 +106,17 @@ PupilBound around(const std::vector<V2d>& points) {
   return bound;
 }
 
-std::vector<V2d> joined(std::span<const std::vector<V2d>* const> parts) {
-  std::vector<V2d> all;
-  for (const std::vector<V2d>* part : parts) all.insert(all.end(), part->begin(), part->end());
-  return all;
+// An ellipse around what points of the image near `middle` see, as that sees it if pupils move by `shift`
+// times as much as who looks.
+PupilBound around(std::span<const SeenFrom> seen, const V2d& middle, double shift) {
+  std::vector<V2d> points;
+  for (const SeenFrom& from : seen)
+    for (const V2d& point : from.points) points.push_back(point - shift * (from.image - middle));
+  return around(points);
+}
+
+void append(std::vector<SeenFrom>& all, const std::vector<SeenFrom>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 // Of which the bounds along a radius are those all around.
@@ -113,7 +144,7 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
       centred_(!system.system().displaced()),
       columns_(centred_ ? kRadii : kCells),
       rows_(centred_ ? 1 : kCells),
-      columns_per_mm_(columns_ / half_image_mm.length()) {
+      shift_(pupil_shift(system, (low_nm + high_nm) / 2)) {
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
   const SpectralSystem round = without_blades(system);
   centred_ ? bound_along_radius(round, wavelengths_nm) : bound_all_over(round, wavelengths_nm);
@@ -121,12 +152,19 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
     throw Error(ErrorCode::scene, system.system().title, "no light comes through the lens to the film");
 }
 
+V2d ExitPupil::at(double column, double row) const {
+  return centred_ ? V2d(half_image_.length() * column / columns_, 0)
+                  : half_image_ * V2d(2 * column / columns_ - 1, 2 * row / rows_ - 1);
+}
+
 void ExitPupil::bound_along_radius(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
-  Findings findings(system);
-  std::vector<V2d> before = findings.points_at({0, 0}, wavelengths_nm);
+  Findings findings(system, wavelengths_nm);
+  SeenFrom before = findings.seen_from(at(0, 0));
   for (int i = 1; i <= columns_; ++i) {
-    std::vector<V2d> here = findings.points_at({half_image_.length() * i / columns_, 0}, wavelengths_nm);
-    bounds_.push_back(around(joined(std::array<const std::vector<V2d>*, 2>{&before, &here})));
+    SeenFrom here = findings.seen_from(at(i, 0));
+    std::vector<SeenFrom> seen = findings.rim_between(before, here);
+    append(seen, {std::move(before), here});
+    bounds_.push_back(around(seen, at(i - 0.5, 0), shift_));
     before = std::move(here);
   }
   entrance_ = findings.entrance();
@@ -134,35 +172,48 @@ void ExitPupil::bound_along_radius(const SpectralSystem& system, std::span<const
 }
 
 void ExitPupil::bound_all_over(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
-  Findings findings(system);
-  std::vector<std::vector<V2d>> corners;
+  Findings findings(system, wavelengths_nm);
+  const auto index = [this](int i, int j) { return static_cast<std::size_t>(j * (columns_ + 1) + i); };
+  std::vector<SeenFrom> corners;
   for (int j = 0; j <= rows_; ++j)
-    for (int i = 0; i <= columns_; ++i)
-      corners.push_back(
-          findings.points_at(half_image_ * V2d(2.0 * i / columns_ - 1, 2.0 * j / rows_ - 1), wavelengths_nm));
-  const auto corner = [&](int i, int j) {
-    return &corners[static_cast<std::size_t>(j * (columns_ + 1) + i)];
-  };
+    for (int i = 0; i <= columns_; ++i) corners.push_back(findings.seen_from(at(i, j)));
+  // Where light ends on the edges that leave a corner in x and in y.
+  std::vector<std::vector<SeenFrom>> ends_in_x(corners.size());
+  std::vector<std::vector<SeenFrom>> ends_in_y(corners.size());
+  for (int j = 0; j <= rows_; ++j)
+    for (int i = 0; i <= columns_; ++i) {
+      const std::size_t here = index(i, j);
+      if (i < columns_) ends_in_x[here] = findings.rim_between(corners[here], corners[index(i + 1, j)]);
+      if (j < rows_) ends_in_y[here] = findings.rim_between(corners[here], corners[index(i, j + 1)]);
+    }
   for (int j = 0; j < rows_; ++j)
-    for (int i = 0; i < columns_; ++i)
-      bounds_.push_back(around(joined(std::array<const std::vector<V2d>*, 4>{
-          corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)})));
+    for (int i = 0; i < columns_; ++i) {
+      std::vector<SeenFrom> seen{corners[index(i, j)], corners[index(i + 1, j)], corners[index(i, j + 1)],
+                                 corners[index(i + 1, j + 1)]};
+      append(seen, ends_in_x[index(i, j)]);
+      append(seen, ends_in_x[index(i, j + 1)]);
+      append(seen, ends_in_y[index(i, j)]);
+      append(seen, ends_in_y[index(i + 1, j)]);
+      bounds_.push_back(around(seen, at(i + 0.5, j + 0.5), shift_));
+    }
   entrance_ = findings.entrance();
   least_cosine_ = findings.least_cosine();
 }
 
 PupilBound ExitPupil::bound(const V2d& image) const {
-  const auto cell = [](double at, int count) {
-    return static_cast<std::size_t>(std::clamp(static_cast<int>(at), 0, count - 1));
-  };
-  if (!centred_) {
-    const V2d share = (image / half_image_ + V2d(1)) / 2;
-    return bounds_[cell(share.y * rows_, rows_) * static_cast<std::size_t>(columns_) +
-                   cell(share.x * columns_, columns_)];
-  }
   const double radius = std::sqrt(image.length2());
-  PupilBound bound = bounds_[cell(radius * columns_per_mm_, columns_)];
-  if (radius > 0) bound.along = image * (1 / radius);
+  const V2d cells = centred_ ? V2d(radius / half_image_.length() * columns_, 0)
+                             : (image / half_image_ + V2d(1)) / 2 * V2d(columns_, rows_);
+  const auto cell = [](double at, int count) { return std::clamp(static_cast<int>(at), 0, count - 1); };
+  const int i = cell(cells.x, columns_);
+  const int j = cell(cells.y, rows_);
+  PupilBound bound = bounds_[static_cast<std::size_t>(j * columns_ + i)];
+  if (centred_) {
+    bound.center.x += shift_ * (radius - at(i + 0.5, 0).x);
+    if (radius > 0) bound.along = image * (1 / radius);
+  } else {
+    bound.center += shift_ * (image - at(i + 0.5, j + 0.5));
+  }
   return bound;
 }
 

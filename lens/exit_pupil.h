@@ -28,9 +28,10 @@ struct EntranceDisc {
 
 /// Bounds of the exit pupil, of a stop with blades that of its circle, as the points of an image see it,
 /// found once by rays from there, and of where all of these rays come in. Nothing passes outside of them:
-/// they are those of the rim at neighbouring points of the image and at some wavelengths together, a little
-/// widened. Where surfaces without clear apertures would let light through by ways apart from the beam, far
-/// outside of it, that light is none of the lens's.
+/// they are those of the rim at neighbouring points of the image, next to where light ends too, and at some
+/// wavelengths together, each moved as the middle of the pupil is between the points, a little widened. Where
+/// surfaces without clear apertures would let light through by ways apart from the beam, far outside of it,
+/// that light is none of the lens's.
 class ExitPupil {
  public:
   /// For an image of these half sides [mm] and wavelengths between the ends of the range. Throws
@@ -48,11 +49,14 @@ class ExitPupil {
   void bound_along_radius(const SpectralSystem& system, std::span<const double> wavelengths_nm);
   void bound_all_over(const SpectralSystem& system, std::span<const double> wavelengths_nm);
 
+  // The point of the image that is so many cells from where they begin; along the radius for columns alone.
+  [[nodiscard]] Imath::V2d at(double column, double row) const;
+
   Imath::V2d half_image_;
   bool centred_;  // so that the distance from the axis alone matters
   int columns_;   // of the bounds; along the radius these are all there are
   int rows_ = 1;
-  double columns_per_mm_;  // of the radius
+  double shift_;  // of the pupil, over that of the point of the image
   std::vector<PupilBound> bounds_;
   EntranceDisc entrance_{0, 0};
   double least_cosine_ = 1;

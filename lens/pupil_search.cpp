@@ -48,17 +48,21 @@ struct PupilRays {
   }
 };
 
+// From the last vertex to the image, over from the exit pupil to there; 0 for a pupil far away.
+double depth_of_pupil(const SpectralSystem& system, const FirstOrder& first) {
+  const double film = system.image_z() - system.last_z();
+  const double to_pupil = film - first.exit_pupil_mm;
+  return std::isfinite(to_pupil) && to_pupil != 0 ? film / to_pupil : 0;
+}
+
 // A square around where paraxial optics has the exit pupil.
 Box first_guess(const PupilRays& rays) {
   const SpectralSystem& system = rays.system;
   const FirstOrder first = first_order(SystemAt(system.system(), rays.wavelength_nm));
-  const double film = system.image_z() - system.last_z();
-  V2d center = rays.image;
-  double half = film / 2;
-  if (const double to_pupil = film - first.exit_pupil_mm; std::isfinite(to_pupil) && to_pupil != 0) {
-    center = rays.image * (1 - film / to_pupil);
-    half = 1.5 * std::abs(system.stop_radius_mm() * first.exit_magnification * film / to_pupil);
-  }
+  const double depth = depth_of_pupil(system, first);
+  const V2d center = rays.image * (1 - depth);
+  const double half = depth != 0 ? 1.5 * std::abs(system.stop_radius_mm() * first.exit_magnification * depth)
+                                 : (system.image_z() - system.last_z()) / 2;
   return {center - V2d(half), center + V2d(half)};
 }
 
@@ -162,6 +166,10 @@ std::vector<V2d> rim_around(const PupilRays& rays, const V2d& inner, double far)
 }
 
 }  // namespace
+
+double pupil_shift(const SpectralSystem& system, double wavelength_nm) {
+  return 1 - depth_of_pupil(system, first_order(SystemAt(system.system(), wavelength_nm)));
+}
 
 SeenPupil search_pupil(const SpectralSystem& system, const V2d& image, double wavelength_nm) {
   const PupilRays rays{system, image, wavelength_nm};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "lens/beam.h"
@@ -150,6 +151,57 @@ TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
   }
   EXPECT_GT(passed, 1000);
 }
+
+// An achromat with a field stop that lets light to a part of the image smaller than what bounds are found
+// for, next to the image, where the beam is as narrow and moves as far as the point that it goes to.
+class FieldStop : public ::testing::TestWithParam<double> {
+ protected:
+  static System lens() {
+    System lens = abbe::test::lens_named("achromat");
+    Surface gate;
+    gate.thickness_mm = 1;
+    gate.semi_aperture_mm = 2;
+    gate.decenter_mm = {GetParam(), 0};
+    lens.surfaces.back().thickness_mm -= gate.thickness_mm;
+    lens.surfaces.push_back(gate);
+    return lens;
+  }
+
+  SpectralSystem system{lens(), stop_radius(lens())};
+  ExitPupil pupil{system, V2d(21, 21), 450, 650};
+  std::mt19937 numbers{3};
+  double uniform(double reach) { return std::uniform_real_distribution(-reach, reach)(numbers); }
+  std::optional<Ray> from(const V2d& image, const V2d& point) {
+    const V3d start(image.x, image.y, system.image_z());
+    return system.to_object({start, (V3d(point.x, point.y, system.last_z()) - start).normalized()}, 550);
+  }
+};
+
+TEST_P(FieldStop, LosesNothingByTheBoundsOfTheExitPupil) {
+  int passed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const V2d image(uniform(2.2), uniform(2.2));
+    const V2d point = image + V2d(uniform(0.15), uniform(0.15));
+    const auto out = from(image, point);
+    if (!out) continue;
+    ++passed;
+    ASSERT_TRUE(pupil.bound(image).contains(point)) << point << " of the image at " << image;
+    const EntranceDisc& disc = pupil.entrance();
+    const V3d in = out->origin + (disc.z - out->origin.z) / out->direction.z * out->direction;
+    ASSERT_LT(std::hypot(in.x, in.y), disc.radius) << "comes in beside the disc";
+  }
+  EXPECT_GT(passed, 1000);
+  passed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const V2d image(uniform(1.3), uniform(1.3));
+    const double angle = uniform(std::numbers::pi);
+    const double radius = std::sqrt(std::abs(uniform(1)));
+    passed += from(image, pupil.bound(image).point(radius * V2d(std::cos(angle), std::sin(angle)))) ? 1 : 0;
+  }
+  EXPECT_GT(passed, 0.6 * 20000) << "the bounds are not wide";
+}
+
+INSTANTIATE_TEST_SUITE_P(CentredOrNot, FieldStop, ::testing::Values(0, 1e-6));
 
 }  // namespace
 }  // namespace abbe::lens
