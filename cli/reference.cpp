@@ -9,8 +9,9 @@
 namespace abbe::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kExitCodes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kExitCodes{{
     {"0", "all went well"},
+    {"1", "a case of validate failed, bench --soak found a fault, or bench --strict a run that is worse"},
     {"2", "the command line cannot be understood"},
     {"3", "the scene file is invalid, or with --strict makes a wrong image"},
     {"4", "an input file is missing or corrupt"},

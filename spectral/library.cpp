@@ -257,8 +257,8 @@ std::optional<NamedCurve> curve_of(const Table& table, const std::string& column
   if (table.outside == Outside::error && !covers(result, needed)) {
     diagnostics.error(
         table.where,
-        fmt::format("covers {} to {} nm and declares \"outside: error\", but {} to {} nm are needed "
-                    "(declare \"outside: clamp\" or \"outside: zero\" to say what holds there)",
+        fmt::format("covers {} to {} nm, but {} to {} nm are needed (a line \"# outside: clamp\" or "
+                    "\"# outside: zero\" says what holds there)",
                     result.low_nm, result.high_nm, needed.low_nm, needed.high_nm),
         ErrorCode::input);
     return std::nullopt;

@@ -9,6 +9,7 @@ abbe render data/scenes/colour_bench.json -o flat.exr --quiet \
 
 abbe develop chart.exr -o chart.dng
 abbe develop flat.exr -o flat.dng
+abbe develop chart.exr --display chart.png
 
 abbe measure chart.dng --chart data/scenes/colour_bench.json -o uneven.csv
 abbe measure chart.dng --chart data/scenes/colour_bench.json --flat flat.dng -o patches.csv
@@ -16,5 +17,3 @@ abbe measure chart.dng --chart data/scenes/colour_bench.json --flat flat.dng -o 
 abbe calibrate --measured uneven.csv --json >uneven.json
 abbe calibrate --measured patches.csv -o nikon --json >found.json
 abbe calibrate --camera Nikon_D5100 --bits 0 --json >limit.json
-
-abbe develop chart.exr --display chart.png

@@ -26,7 +26,7 @@ def outer_edge_mm(image):
 
 
 run("abbe render data/scenes/rainbow.json --spp 16 -o rainbow.exr --display rainbow.png --quiet")
-run(f"abbe render data/scenes/rainbow.json --spp 64 -o bands.exr --quiet --set '/sensor={BANDS}' --set /lights/0/sun/angular_diameter_deg=0.05")
+run(f"abbe render data/scenes/rainbow.json --spp 64 -o bands.exr --display bands.png --quiet --set '/sensor={BANDS}' --set /lights/0/sun/angular_diameter_deg=0.05")
 
 film = planes("bands.exr")
 edges = {name: outer_edge_mm(film[name]) for name in ("450", "546", "656")}

@@ -129,7 +129,9 @@ TEST(Library, refuses_malformed_spectra) {
 }
 
 TEST(Library, a_table_that_holds_nothing_outside_must_cover_what_is_needed) {
-  expect_refused("# unit: 1\nwavelength_nm,r\n400,0\n700,1\n", "covers 400 to 700 nm");
+  expect_refused("# unit: 1\nwavelength_nm,r\n400,0\n700,1\n",
+                 "covers 400 to 700 nm, but 380 to 780 nm are needed (a line \"# outside: clamp\" or \"# "
+                 "outside: zero\" says what holds there)");
   const UserFile file("# unit: 1\nwavelength_nm,r\n400,0\n700,1\n");
   Diagnostics diagnostics;
   EXPECT_TRUE(load_curve("reflectance", file.name(), {}, diagnostics, {400, 700})) << diagnostics.text();
