@@ -152,12 +152,12 @@ TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
   EXPECT_GT(passed, 1000);
 }
 
-// An achromat with a field stop that lets light to a part of the image smaller than what bounds are found
+// A lens with a field stop that lets light to a part of the image smaller than what bounds are found
 // for, next to the image, where the beam is as narrow and moves as far as the point that it goes to.
 class FieldStop : public ::testing::TestWithParam<double> {
  protected:
   static System lens() {
-    System lens = abbe::test::lens_named("achromat");
+    System lens = abbe::test::lens_named("double_gauss");
     Surface gate;
     gate.thickness_mm = 1;
     gate.semi_aperture_mm = 2;
