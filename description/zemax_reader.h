@@ -26,6 +26,8 @@ struct ReadSurface {
   bool fixed = false;  // its diameter is one that stops light
   bool at_infinity = false;
   bool has_type = false;
+  bool standard = false;            // of the type that has no parameters
+  std::optional<Line> parameter{};  // the first of its parameters that is not 0
   bool has_curvature = false;
   bool has_thickness = false;
 };
@@ -55,6 +57,7 @@ class Reader {
   void environment(const Line& line);
   void catalogues(const Line& line);
   void field_type(const Line& line);
+  void require_plain_spaces(const Line& line);
   void x_fields(const Line& line);
   void y_fields(const Line& line) { fields_ = line.numbers(1); }
   void wavelength(const Line& line);
@@ -69,18 +72,20 @@ class Reader {
   void glass(const Line& line);
   void conic(const Line& line);
   void parameter(const Line& line);
-  void stop(const Line&) { now().surface.stop = true; }
+  void stop(const Line& line);
   void diameter(const Line& line);
   void clear_aperture(const Line& line);
   void floating_aperture(const Line&) { now().fixed = true; }
   void coating(const Line& line);
 
   ReadSurface& now() { return surfaces_.back(); }
+  [[nodiscard]] bool is_object() const { return surfaces_.size() == 1; }
   void error(const Line& line, std::size_t word, std::string message) {
     diagnostics_.error(line.where(word), std::move(message), ErrorCode::input);
   }
   spec::LensGlass named_glass(const Line& line) const;
   void require_whole();
+  void require_meaning(const ReadSurface& read, bool object);
   void finish_fields();
   void finish_wavelengths(const SourcePosition& where);
   spec::LensSurface finished(const ReadSurface& read) const;

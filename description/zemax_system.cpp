@@ -77,6 +77,18 @@ void Reader::field_type(const Line& line) {
   };
   field_count_ = count(2);
   wavelength_count_ = count(3);
+  require_plain_spaces(line);
+}
+
+// The second number of FTYP tells a telecentric object space, the seventh an afocal image space.
+void Reader::require_plain_spaces(const Line& line) {
+  for (const auto& [word, space] :
+       {std::pair(2, "a telecentric object space"), std::pair(7, "an afocal image space")}) {
+    const auto at = static_cast<std::size_t>(word);
+    const std::string said = line.text(at).value_or("0");
+    if (parse_number(said) != 0)
+      error(line, at, fmt::format("{} is not understood (got {}, allowed 0)", space, said));
+  }
 }
 
 void Reader::x_fields(const Line& line) {
