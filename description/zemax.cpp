@@ -81,7 +81,7 @@ std::optional<spec::Lens> Reader::read(const std::shared_ptr<const SourceText>& 
   for (std::size_t i = 1; i + 1 < surfaces_.size(); ++i) lens_.surfaces.push_back(finished(surfaces_[i]));
   if (auto* pupil = std::get_if<spec::PupilDiameter>(&lens_.aperture)) pupil->value *= unit_mm_;
   finish_fields();
-  finish_wavelengths(lens_.where);
+  finish_wavelengths();
   return diagnostics_.has_errors() ? std::nullopt : std::optional(std::move(lens_));
 }
 

@@ -168,6 +168,24 @@ TEST(LensZemax, ObjectsAndImagesOfOtherKindsAreErrorsAtTheirLine) {
   EXPECT_TRUE(lens_of(replaced(kAchromat, "FTYP 0 0 2 3 0 0 0", "FTYP 0 0.0 2 3"), ".zmx").system);
 }
 
+TEST(LensZemax, WhatASystemSaysTwiceOrNotInFullIsAnError) {
+  expect_zemax_fault(replaced(kAchromat, "PWAV 2", "PWAV 4"), "16:6",
+                     "no wavelength of the file has this number (got 4, allowed 1, 2, 3)");
+  expect_zemax_fault(replaced(kAchromat.substr(0, kAchromat.find("WAVM")), "GCAT", "PWAV 1\nGCAT") +
+                         kAchromat.substr(kAchromat.find("SURF 0")),
+                     "7:6", "no wavelength of the file has this number (got 1, allowed none without WAVM)");
+  const std::string heights = "YFLN 0 1 0 0 0 0 0 0 0 0 0 0\n";
+  expect_zemax_fault(replaced(kAchromat, heights, "YFLN 0\n"), "10:1",
+                     "fewer fields along y than FTYP says (got 1, expected 2)");
+  expect_zemax_fault(replaced(kAchromat, heights, ""), "8:10",
+                     "fewer fields along y than FTYP says (got 0, expected 2)");
+  EXPECT_TRUE(lens_of(replaced(replaced(kAchromat, heights, ""), "FTYP 0 0 2", "FTYP 0 0 1"), ".zmx").system);
+  for (const std::string second : {"FNUM 4 0", "ENPD 20", "FLOA"})
+    expect_zemax_fault(
+        replaced(kAchromat, "ENVD", second + "\nENVD"), "6:1",
+        "a second aperture (got ENPD and " + second.substr(0, 4) + ", allowed one of ENPD, FNUM, FLOA)");
+}
+
 TEST(LensZemax, StandardSurfacesHaveNoParameters) {
   const std::string type = "  TYPE STANDARD\n  CURV 1";
   for (const std::string parameter : {"PARM 1 0.001", "PARM 2 0.001"})
