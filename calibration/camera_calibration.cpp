@@ -133,6 +133,7 @@ CameraCalibration calibrate_camera(const CalibrationSetup& setup, const Characte
   }
   CameraCalibration result = calibrate_measured(camera, options);
   result.times_s = times_s;
+  for (std::size_t k = 0; k < 3; ++k) result.profile.channels[k] = setup.channels[k].name;
   return result;
 }
 

@@ -183,8 +183,12 @@ Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
 
 // Changes what was exposed as the options ask.
 void expose_anew(ExposedFilm& exposed, const DevelopOptions& options) {
-  if (options.exposure_s) expose_for(exposed, *options.exposure_s);
-  if (options.frame) expose_to(exposed, *options.frame);
+  Diagnostics diagnostics;
+  if (options.exposure_s) expose_for(exposed, *options.exposure_s, diagnostics);
+  if (options.frame)
+    expose_to(exposed, *options.frame);
+  else
+    check(diagnostics);  // which are about what a frame does not see
   if (options.display_exposure) exposed.sensor.display_exposure = options.display_exposure;
 }
 

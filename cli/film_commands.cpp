@@ -16,8 +16,10 @@ namespace {
 
 // How `develop` exposes a film anew, or what it sees instead.
 void add_exposure(CLI::App& options, DevelopOptions& how) {
-  add_parsed(options, "--exposure-s", how.exposure_s, number_in(1e-12, 1e9),
-             "Expose anew for this time in s, without rendering", "T");
+  add_parsed(
+      options, "--exposure-s", how.exposure_s, number_in(1e-12, 1e9),
+      "Expose anew for this time in s, without rendering: what moves stays blurred as in the film's own",
+      "T");
   options
       .add_option_function<std::vector<std::string>>(
           "--light",

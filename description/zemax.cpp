@@ -32,10 +32,22 @@ void Reader::report_unknown(const Line& line) {
   error(line, 0, unknown_name("keyword of Zemax", line.keyword(), known));
 }
 
+// A surface's type may stand below its parameters.
+void Reader::require_meaning(const ReadSurface& read, bool object) {
+  if (!read.parameter) return;
+  const std::string said = read.parameter->text(2).value_or("");
+  if (read.standard)
+    error(*read.parameter, 2,
+          fmt::format("a STANDARD surface has no parameters: is it an EVENASPH? (got {}, allowed 0)", said));
+  else if (object)
+    error(*read.parameter, 2, fmt::format("a curved object is not understood (got {}, allowed 0)", said));
+}
+
 // What a file has that ends where it should: all of each surface, and an image that is plane and in air.
 void Reader::require_whole() {
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const ReadSurface& read = surfaces_[i];
+    require_meaning(read, i == 0);
     for (const auto& [there, word] : {std::pair(read.has_type, "TYPE"), std::pair(read.has_curvature, "CURV"),
                                       std::pair(read.has_thickness, "DISZ")})
       if (!there)
@@ -44,7 +56,7 @@ void Reader::require_whole() {
                            ErrorCode::input);
   }
   const ReadSurface& image = surfaces_.back();
-  if (image.surface.glass || image.curvature != 0 || image.surface.stop)
+  if (image.surface.glass || image.curvature != 0 || image.parameter || image.surface.stop)
     diagnostics_.error(
         image.surface.where,
         "the last surface, which is the image, must be plane, in air and not the stop: is the file cut "
@@ -69,7 +81,7 @@ std::optional<spec::Lens> Reader::read(const std::shared_ptr<const SourceText>& 
   for (std::size_t i = 1; i + 1 < surfaces_.size(); ++i) lens_.surfaces.push_back(finished(surfaces_[i]));
   if (auto* pupil = std::get_if<spec::PupilDiameter>(&lens_.aperture)) pupil->value *= unit_mm_;
   finish_fields();
-  finish_wavelengths(lens_.where);
+  finish_wavelengths();
   return diagnostics_.has_errors() ? std::nullopt : std::optional(std::move(lens_));
 }
 

@@ -26,6 +26,8 @@ struct ReadSurface {
   bool fixed = false;  // its diameter is one that stops light
   bool at_infinity = false;
   bool has_type = false;
+  bool standard = false;            // of the type that has no parameters
+  std::optional<Line> parameter{};  // the first of its parameters that is not 0
   bool has_curvature = false;
   bool has_thickness = false;
 };
@@ -49,14 +51,16 @@ class Reader {
   void mode(const Line& line);
   void name(const Line& line);
   void unit(const Line& line);
+  void require_first_aperture(const Line& line);
   void pupil(const Line& line);
   void f_number(const Line& line);
-  void open_by_stop(const Line&) { open_by_stop_ = true; }
+  void open_by_stop(const Line& line);
   void environment(const Line& line);
   void catalogues(const Line& line);
   void field_type(const Line& line);
+  void require_plain_spaces(const Line& line);
   void x_fields(const Line& line);
-  void y_fields(const Line& line) { fields_ = line.numbers(1); }
+  void y_fields(const Line& line);
   void wavelength(const Line& line);
   void primary(const Line& line);
   void vignetting(const Line& line);
@@ -69,20 +73,22 @@ class Reader {
   void glass(const Line& line);
   void conic(const Line& line);
   void parameter(const Line& line);
-  void stop(const Line&) { now().surface.stop = true; }
+  void stop(const Line& line);
   void diameter(const Line& line);
   void clear_aperture(const Line& line);
   void floating_aperture(const Line&) { now().fixed = true; }
   void coating(const Line& line);
 
   ReadSurface& now() { return surfaces_.back(); }
+  [[nodiscard]] bool is_object() const { return surfaces_.size() == 1; }
   void error(const Line& line, std::size_t word, std::string message) {
     diagnostics_.error(line.where(word), std::move(message), ErrorCode::input);
   }
   spec::LensGlass named_glass(const Line& line) const;
   void require_whole();
+  void require_meaning(const ReadSurface& read, bool object);
   void finish_fields();
-  void finish_wavelengths(const SourcePosition& where);
+  void finish_wavelengths();
   spec::LensSurface finished(const ReadSurface& read) const;
 
   Diagnostics& diagnostics_;
@@ -95,7 +101,10 @@ class Reader {
   int field_kind_ = 0;
   std::size_t field_count_ = 0;       // 0: as many as stand there
   std::size_t wavelength_count_ = 0;  // the same
+  SourcePosition fields_where_{};     // what tells them, else how many there are
   int primary_ = 1;
+  std::optional<Line> primary_line_{};
+  std::string aperture_word_{};  // of the line that has told the aperture
   bool open_by_stop_ = false;
   bool ended_ = false;  // what follows are operands of merit functions and tolerances
 };

@@ -35,11 +35,14 @@ void Reader::type(const Line& line) {
   if (said != "STANDARD" && said != "EVENASPH")
     error(line, 1,
           fmt::format("this type of surface is not understood (got {}, allowed STANDARD, EVENASPH)", said));
+  now().standard = said == "STANDARD";
 }
 
 void Reader::curvature(const Line& line) {
   now().has_curvature = true;
   now().curvature = line.number(1, diagnostics_).value_or(0);
+  if (is_object() && now().curvature != 0)
+    error(line, 1, fmt::format("a curved object is not understood (got {:g}, allowed 0)", now().curvature));
 }
 
 void Reader::thickness(const Line& line) {
@@ -70,6 +73,8 @@ void Reader::glass(const Line& line) {
   const std::string said = line.text(1).value_or("");
   if (said == "MIRROR") return error(line, 1, "mirrors are not understood: lenses refract alone");
   if (said.empty()) return error(line, 0, "GLAS names a glass");
+  if (is_object())
+    return error(line, 1, fmt::format("an object in glass is not understood (got {}, allowed air)", said));
   if (said != "___BLANK") {
     now().surface.glass = named_glass(line);
     return;
@@ -93,12 +98,18 @@ void Reader::parameter(const Line& line) {
   const auto number = line.number(1, diagnostics_);
   const auto value = line.number(2, diagnostics_);
   if (!number || !value || *value == 0) return;
+  if (!now().parameter) now().parameter = line;
   if (*number >= 1 && *number <= static_cast<double>(kEvenCoefficients))
     now().even[static_cast<std::size_t>(*number) - 1] = *value;
   else
     error(line, 1,
           fmt::format("parameter without a meaning here (got {:g}, allowed 1 to {})", *number,
                       kEvenCoefficients));
+}
+
+void Reader::stop(const Line& line) {
+  if (is_object()) error(line, 0, "the object cannot be the stop");
+  now().surface.stop = true;
 }
 
 // The second number tells a diameter that the user has set from one that Zemax has worked out.

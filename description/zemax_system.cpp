@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "description/zemax_reader.h"
 #include "io/text.h"
@@ -42,11 +43,26 @@ void Reader::unit(const Line& line) {
     unit_mm_ = found->second;
 }
 
+void Reader::require_first_aperture(const Line& line) {
+  if (!aperture_word_.empty())
+    error(line, 0,
+          fmt::format("a second aperture (got {} and {}, allowed one of ENPD, FNUM, FLOA)", aperture_word_,
+                      line.keyword()));
+  aperture_word_ = line.keyword();
+}
+
 void Reader::pupil(const Line& line) {
+  require_first_aperture(line);
   if (const auto value = line.positive(1, diagnostics_)) lens_.aperture = spec::PupilDiameter{{*value}};
 }
 
+void Reader::open_by_stop(const Line& line) {
+  require_first_aperture(line);
+  open_by_stop_ = true;
+}
+
 void Reader::f_number(const Line& line) {
+  require_first_aperture(line);
   if (const auto value = line.positive(1, diagnostics_)) lens_.aperture = spec::FNumber{{*value}};
   if (line.text(2).value_or("0") != "0")
     error(line, 2, "an f-number of a near object is not understood: say ENPD or FLOA");
@@ -77,6 +93,19 @@ void Reader::field_type(const Line& line) {
   };
   field_count_ = count(2);
   wavelength_count_ = count(3);
+  fields_where_ = line.where(3);
+  require_plain_spaces(line);
+}
+
+// The second number of FTYP tells a telecentric object space, the seventh an afocal image space.
+void Reader::require_plain_spaces(const Line& line) {
+  for (const auto& [word, space] :
+       {std::pair(2, "a telecentric object space"), std::pair(7, "an afocal image space")}) {
+    const auto at = static_cast<std::size_t>(word);
+    const std::string said = line.text(at).value_or("0");
+    if (parse_number(said) != 0)
+      error(line, at, fmt::format("{} is not understood (got {}, allowed 0)", space, said));
+  }
 }
 
 void Reader::x_fields(const Line& line) {
@@ -85,6 +114,11 @@ void Reader::x_fields(const Line& line) {
     if (values[i] != 0)
       return error(line, i + 1,
                    fmt::format("fields are taken along y alone (got x {:g}, allowed 0)", values[i]));
+}
+
+void Reader::y_fields(const Line& line) {
+  fields_ = line.numbers(1);
+  fields_where_ = line.where();
 }
 
 void Reader::wavelength(const Line& line) {
@@ -103,7 +137,10 @@ void Reader::wavelength(const Line& line) {
 }
 
 void Reader::primary(const Line& line) {
-  if (const auto number = line.positive(1, diagnostics_)) primary_ = static_cast<int>(*number);
+  if (const auto number = line.positive(1, diagnostics_)) {
+    primary_ = static_cast<int>(*number);
+    primary_line_ = line;
+  }
 }
 
 void Reader::vignetting(const Line& line) {
@@ -123,6 +160,12 @@ void Reader::configurations(const Line& line) {
 }
 
 void Reader::finish_fields() {
+  // The axis needs no YFLN.
+  if (std::max<std::size_t>(fields_.size(), 1) < field_count_)
+    diagnostics_.error(fields_where_,
+                       fmt::format("fewer fields along y than FTYP says (got {}, expected {})",
+                                   fields_.size(), field_count_),
+                       ErrorCode::input);
   if (field_count_ > 0) fields_.resize(field_count_);
   if (field_kind_ != 0)
     for (double& field : fields_) field *= unit_mm_;
@@ -134,15 +177,20 @@ void Reader::finish_fields() {
     lens_.fields = spec::ImageHeights{{fields_}};
 }
 
-void Reader::finish_wavelengths(const SourcePosition& where) {
-  if (wavelengths_nm_.empty()) return;
-  lens_.wavelengths_nm.clear();
+void Reader::finish_wavelengths() {
+  std::vector<int> numbers;
+  std::vector<double> used_nm;
   for (const auto& [number, nm] : wavelengths_nm_) {
     if (wavelength_count_ > 0 && number > static_cast<int>(wavelength_count_)) break;
-    lens_.wavelengths_nm.push_back(nm);
+    numbers.push_back(number);
+    used_nm.push_back(nm);
+    if (number == primary_) lens_.primary_nm = {{nm}, primary_line_ ? primary_line_->where(1) : lens_.where};
   }
-  if (const auto found = wavelengths_nm_.find(primary_); found != wavelengths_nm_.end())
-    lens_.primary_nm = {{found->second}, where};
+  if (primary_line_ && !lens_.primary_nm)
+    error(*primary_line_, 1,
+          fmt::format("no wavelength of the file has this number (got {}, allowed {})", primary_,
+                      numbers.empty() ? "none without WAVM" : fmt::format("{}", fmt::join(numbers, ", "))));
+  if (!used_nm.empty()) lens_.wavelengths_nm = std::move(used_nm);
 }
 
 }  // namespace abbe::description::zemax

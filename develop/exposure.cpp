@@ -1,10 +1,13 @@
 // Films exposed anew, and frames of no scene.
 #include <algorithm>
+#include <array>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "develop/film_sensor.h"
 #include "io/error.h"
+#include "io/json.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/speed.h"
 
@@ -43,13 +46,41 @@ void fill_plane(Image& film, const std::string& name, double value) {
       std::fill(channel.values.begin(), channel.values.end(), static_cast<float>(value));
 }
 
+bool is_zero(const JsonValue& said) {
+  const auto* number = std::get_if<double>(&said.value);
+  return number != nullptr && *number == 0;
+}
+
+// Whether the film's shutter passes more of the light at some times of the exposure, or in some rows, than in
+// others.
+bool has_shaped_shutter(const FilmSensor& sensor) {
+  Diagnostics none;  // the description has been read before
+  const auto said = parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
+  const JsonValue* shutter = said ? said->find("shutter") : nullptr;
+  constexpr std::array kShapes{"rise_s", "fall_s", "transmission", "row_delay_s"};
+  return shutter != nullptr && std::any_of(kShapes.begin(), kShapes.end(), [&](const char* key) {
+           const JsonValue* shape = shutter->find(key);
+           return shape != nullptr && !is_zero(*shape);
+         });
+}
+
+void warn_of_shutter(const FilmSensor& sensor, Diagnostics& diagnostics) {
+  if (!has_shaped_shutter(sensor)) return;
+  const auto option = std::make_shared<const SourceText>(SourceText{"--exposure-s", ""});
+  diagnostics.warning({option, SourcePosition::kWholeFile, ""},
+                      fmt::format("the film's motion blur is that of its own exposure time of {} s, and its "
+                                  "shutter opens, closes and delays rows in the same shares of the new one",
+                                  sensor.shared_exposure_s));
+}
+
 }  // namespace
 
-void expose_for(ExposedFilm& exposed, double seconds) {
+void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics) {
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.exposure_s.empty())
     throw Error(ErrorCode::usage, "--exposure-s", "the film tells of no exposure: radiances have none");
   const double factor = seconds / sensor.shared_exposure_s;
+  if (factor != 1) warn_of_shutter(sensor, diagnostics);
   for (const std::string& plane : sensor.planes) {
     scale_plane(exposed.film, plane, factor);
     scale_plane(exposed.film, variance_of(plane), factor * factor);

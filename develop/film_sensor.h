@@ -59,9 +59,10 @@ struct ExposedFilm {
 [[nodiscard]] std::optional<double> common_exposure(const FilmSensor& sensor);
 
 /// Exposes the film anew for `seconds`, without rendering: light, and with the square its variance, grow with
-/// the time. Channels with an exposure of their own keep its ratio to the sensor's. Throws Error{usage} for a
-/// film that tells no exposure, such as what the eye sees of a spectral one.
-void expose_for(ExposedFilm& exposed, double seconds);
+/// the time. Channels with an exposure of their own keep its ratio to the sensor's. What moved stays blurred
+/// as it is: films do not tell that something did, but where their shutter takes its time, they warn of it.
+/// Throws Error{usage} for a film that tells no exposure, such as what the eye sees of a spectral one.
+void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics);
 
 /// What a camera sees without a scene: nothing, in no time, for its read-out alone; nothing in the film's own
 /// time; or light that lets every pixel expect the same share of saturation.

@@ -19,6 +19,7 @@ struct CameraProfile {
   std::array<double, 3> gains{1, 1, 1};  ///< White balance: from linear to the values the correction takes.
   ColorCorrection correction;            ///< To XYZ relative to the light's white.
   Matrix3 adaptation;                    ///< From there to XYZ relative to a D65 white.
+  std::array<std::string, 3> channels{"R", "G", "B"};  ///< Names of the camera's values.
 };
 
 /// Linear camera values of the perfect diffuser, which become XYZ of the white with Y = 1: the scale in which

@@ -45,9 +45,10 @@ bool has_cube(const CameraProfile& profile) {
 std::string described(const CameraProfile& profile) {
   const Raw white = white_values(profile);
   return fmt::format(
-      "{}. Input: {}; the perfect diffuser, which becomes Y = 1, has {}R {:.6g}, G {:.6g}, B {:.6g}.",
+      "{}. Input: {}; the perfect diffuser, which becomes Y = 1, has {}{} {:.6g}, {} {:.6g}, {} {:.6g}.",
       profile.description, has_curve(profile) ? "code values, 1 at full scale" : "linear camera values",
-      has_curve(profile) ? "after the curve " : "", white[0], white[1], white[2]);
+      has_curve(profile) ? "after the curve " : "", profile.channels[0], white[0], profile.channels[1],
+      white[1], profile.channels[2], white[2]);
 }
 
 OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3& m) {

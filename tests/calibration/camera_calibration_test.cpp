@@ -54,6 +54,12 @@ TEST(CameraCalibration, ProfileShowsWhatTheFitSays) {
   }
 }
 
+TEST(CameraCalibration, ProfileHasTheNamesOfTheChannels) {
+  CalibrationSetup observer = setup("linear");
+  observer.channels = observer_channels(Observer::cie1931);
+  EXPECT_EQ(calibrate_camera(observer).profile.channels, (std::array<std::string, 3>{"X", "Y", "Z"}));
+}
+
 TEST(CameraCalibration, JudgesPatchesItHasNotSeen) {
   const CameraCalibration one_out = calibrate_camera(setup("linear"));
   CharacterisationOptions options;

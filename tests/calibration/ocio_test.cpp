@@ -217,6 +217,12 @@ TEST(OcioConfig, LinearCameraNeedsNoFile) {
   EXPECT_NE(text.find("ocio_profile_version: 2"), std::string::npos);
 }
 
+TEST(OcioConfig, CallsChannelsByTheirNames) {
+  const CameraProfile observer{"D65", "observer", {}, {1.1, 0.9, 1.2}, kMatrix, {}, {"X", "Y", "Z"}};
+  const std::string text = ocio_config_text({&observer, 1});
+  EXPECT_NE(text.find("has X 0.909091, Y 1.11111, Z 0.833333."), std::string::npos) << text;
+}
+
 TEST(OcioConfig, RefusesUnequalCurves) {
   CameraProfile p = profile();
   p.linearisation[1].pop_back();

@@ -161,6 +161,14 @@ TEST(DevelopAnew, TwiceTheTimeIsTwiceTheLight) {
   EXPECT_DOUBLE_EQ(dark["dark_noise_e"][0], 10);
 }
 
+TEST(DevelopAnew, AShutterIsWarnedOfWhereItsSceneIsSeen) {
+  const std::string path = ball_film("shutter", std::string(kTwo) + R"(, "shutter": {"rise_s": 0.2})");
+  const std::string anew = "develop " + path + " --exposure-s 2 -o " + file("shutter.tif");
+  EXPECT_NE(abbe(anew).err.find("--exposure-s: warning: the film's motion blur is that of its own exposure"),
+            std::string::npos);
+  EXPECT_EQ(abbe(anew + " --frame dark").err, "");
+}
+
 TEST(DevelopAnew, FramesHaveNoiseOfTheirOwn) {
   const std::string path = ball_film("frames", kTwo);
   developed(path + " --frames 3 -o " + file("f.tif"));

@@ -96,9 +96,32 @@ TEST(Develop, APixelOfAMosaicIsDarkForTheTimeOfItsOwnFilter) {
     EXPECT_FLOAT_EQ(developed.calibrated.find("raw")->values[i],
                     (codes[i] - (i == 0 ? 5e4F : 5e3F)) / 1e-10F);
   EXPECT_DOUBLE_EQ(plane_figures(film.sensor, developed)[0].noise.dark_e, std::sqrt((5e4 + 5e3) / 2));
-  expose_for(film, 1);
+  Diagnostics diagnostics;
+  expose_for(film, 1, diagnostics);
   EXPECT_EQ(film.sensor.exposure_s, (std::vector<double>{10, 1}));
   EXPECT_EQ(film.film.metadata.at("exposure_s.R"), "10");
+}
+
+std::string warned_of(const std::string& shutter, double seconds) {
+  Image film = counting_film();
+  film.metadata["sensor"] = R"({"exposure_s": 0.01, "shutter": )" + shutter + "}";
+  ExposedFilm shot = exposed({}, film);
+  Diagnostics diagnostics;
+  expose_for(shot, seconds, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors());
+  return diagnostics.text();
+}
+
+TEST(Develop, AnotherTimeThanAShutterThatTakesItsOwnIsWarnedOf) {
+  const std::string warning =
+      "--exposure-s: warning: the film's motion blur is that of its own exposure time of 0.01 s, and its "
+      "shutter "
+      "opens, closes and delays rows in the same shares of the new one\n";
+  for (const char* shape : {R"("rise_s": 0.002)", R"("fall_s": 0.002)", R"("row_delay_s": 0.0002)",
+                            R"("transmission": [[0, 0], [1, 1]])"})
+    EXPECT_EQ(warned_of(std::string("{") + shape + "}", 0.02), warning) << shape;
+  EXPECT_EQ(warned_of(R"({"rise_s": 0.002})", 0.01), "");
+  EXPECT_EQ(warned_of(R"({"open_s": 0.1, "rise_s": 0, "fall_s": 0.0, "row_delay_s": 0})", 0.02), "");
 }
 
 }  // namespace

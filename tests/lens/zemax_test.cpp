@@ -149,6 +149,51 @@ TEST(LensZemax, FaultsAreToldAtTheirPlace) {
   expect_zemax_fault(replaced(kAchromat, "-2.187705097352880100E-002", "-0.2"), "31:1", "beyond the edge");
 }
 
+TEST(LensZemax, ObjectsAndImagesOfOtherKindsAreErrorsAtTheirLine) {
+  const std::string object = "  CURV 0.0 0 0 0 0 \"\"\n  DISZ INFINITY";
+  expect_zemax_fault(replaced(kAchromat, "  DISZ INFINITY", "  GLAS N-BK7\n  DISZ 200"), "20:8",
+                     "an object in glass is not understood (got N-BK7, allowed air)");
+  expect_zemax_fault(replaced(kAchromat, object, "  CURV 0.01\n  DISZ 200"), "19:8",
+                     "a curved object is not understood (got 0.01, allowed 0)");
+  expect_zemax_fault(replaced(kAchromat, "STANDARD\n" + object, "EVENASPH\n CURV 0\n PARM 2 1e-5\n DISZ 200"),
+                     "20:9", "a curved object is not understood (got 1e-5, allowed 0)");
+  expect_zemax_fault(replaced(kAchromat, "  DISZ INFINITY", "  STOP\n  DISZ 200"), "20:3",
+                     "the object cannot be the stop");
+  expect_zemax_fault(replaced(kAchromat, "FTYP 0 0", "FTYP 0 1"), "8:8",
+                     "a telecentric object space is not understood (got 1, allowed 0)");
+  expect_zemax_fault(replaced(kAchromat, "2 3 0 0 0", "2 3 0 0 1"), "8:18",
+                     "an afocal image space is not understood (got 1, allowed 0)");
+  expect_zemax_fault(replaced(kAchromat, "SURF 4\n  TYPE STANDARD\n", "SURF 4\n TYPE EVENASPH\n PARM 1 1\n"),
+                     "42:1", "the last surface, which is the image, must be plane");
+  EXPECT_TRUE(lens_of(replaced(kAchromat, "FTYP 0 0 2 3 0 0 0", "FTYP 0 0.0 2 3"), ".zmx").system);
+}
+
+TEST(LensZemax, WhatASystemSaysTwiceOrNotInFullIsAnError) {
+  expect_zemax_fault(replaced(kAchromat, "PWAV 2", "PWAV 4"), "16:6",
+                     "no wavelength of the file has this number (got 4, allowed 1, 2, 3)");
+  expect_zemax_fault(replaced(kAchromat.substr(0, kAchromat.find("WAVM")), "GCAT", "PWAV 1\nGCAT") +
+                         kAchromat.substr(kAchromat.find("SURF 0")),
+                     "7:6", "no wavelength of the file has this number (got 1, allowed none without WAVM)");
+  const std::string heights = "YFLN 0 1 0 0 0 0 0 0 0 0 0 0\n";
+  expect_zemax_fault(replaced(kAchromat, heights, "YFLN 0\n"), "10:1",
+                     "fewer fields along y than FTYP says (got 1, expected 2)");
+  expect_zemax_fault(replaced(kAchromat, heights, ""), "8:10",
+                     "fewer fields along y than FTYP says (got 0, expected 2)");
+  EXPECT_TRUE(lens_of(replaced(replaced(kAchromat, heights, ""), "FTYP 0 0 2", "FTYP 0 0 1"), ".zmx").system);
+  for (const std::string second : {"FNUM 4 0", "ENPD 20", "FLOA"})
+    expect_zemax_fault(
+        replaced(kAchromat, "ENVD", second + "\nENVD"), "6:1",
+        "a second aperture (got ENPD and " + second.substr(0, 4) + ", allowed one of ENPD, FNUM, FLOA)");
+}
+
+TEST(LensZemax, StandardSurfacesHaveNoParameters) {
+  const std::string type = "  TYPE STANDARD\n  CURV 1";
+  for (const std::string parameter : {"PARM 1 0.001", "PARM 2 0.001"})
+    expect_zemax_fault(replaced(kAchromat, type, "  " + parameter + "\n" + type), "25:10",
+                       "a STANDARD surface has no parameters: is it an EVENASPH? (got 0.001, allowed 0)");
+  EXPECT_TRUE(lens_of(replaced(kAchromat, type, "  PARM 1 0\n" + type), ".zmx").system);
+}
+
 TEST(LensZemax, TruncatedFilesAreToldAsSuch) {
   expect_zemax_fault(kAchromat.substr(0, kAchromat.find("SURF 1")), "", "is the file cut short?");
   expect_zemax_fault(kAchromat.substr(0, kAchromat.find("  DISZ 9.7068")), "37:1", "surface 3 has no DISZ");
