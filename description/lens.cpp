@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "io/error.h"
+#include "lens/field.h"
 #include "lens/focus.h"
 #include "lens/paraxial.h"
 #include "sampling/angle.h"
@@ -246,6 +248,37 @@ void set_focus(const spec::Lens& said, System& system) {
   last += said.defocus;
 }
 
+// A stop whose own clear aperture is less than what the lens is said to open to.
+void check_stop(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
+  const std::optional<double>& aperture = system.surfaces[system.stop].semi_aperture_mm;
+  if (!aperture || lens::stop_radius(system) <= *aperture * (1 + lens::kNominalRounding)) return;
+  constexpr int kCells = 16;
+  const auto widest = lens::speed(lens::SystemAt(system, system.primary_nm()), *aperture, kCells);
+  const bool by_pupil = system.aperture.kind == lens::ApertureKind::entrance_pupil;
+  const auto told = [&](double value) {
+    return by_pupil ? fmt::format("an entrance pupil of {:.4g} mm", value) : fmt::format("f/{:.4g}", value);
+  };
+  const auto allowed = [&] {
+    if (!widest) return std::string("what lets light pass it");
+    return told(by_pupil ? widest->entrance_diameter_mm : widest->f_number) +
+           (by_pupil ? " or less" : " or more");
+  };
+  diagnostics.error(
+      said.surfaces[system.stop].where,
+      fmt::format("the stop does not open so far, its aperture being {:g} mm (got {}, allowed {})", *aperture,
+                  told(system.aperture.value), allowed()));
+}
+
+void warn_of_cut_beam(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
+  const auto ray = lens::cut_rim_ray(lens::SystemAt(system, system.primary_nm()), lens::stop_radius(system));
+  if (!ray) return;
+  diagnostics.warning(
+      said.where,
+      fmt::format("the axial beam that fills the stop does not get to the image whole: its rim {}. "
+                  "T-stops count that, f-numbers do not",
+                  lens::reason(*ray)));
+}
+
 }  // namespace
 
 std::optional<System> build(const spec::Lens& said, LoadContext& context) {
@@ -262,7 +295,15 @@ std::optional<System> build(const spec::Lens& said, LoadContext& context) {
   if (context.diagnostics.has_errors()) return std::nullopt;
   set_fields(said, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
-  set_focus(said, system);
+  try {
+    check_stop(said, system, context.diagnostics);
+    if (context.diagnostics.has_errors()) return std::nullopt;
+    set_focus(said, system);
+    warn_of_cut_beam(said, system, context.diagnostics);
+  } catch (const Error& error) {  // of a stop that its ray does not get to
+    context.diagnostics.error(said.where, error.what());
+    return std::nullopt;
+  }
   return system;
 }
 

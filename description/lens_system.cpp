@@ -77,9 +77,8 @@ std::optional<double> closed_stop(const spec::LensSystem& said, const lens::Syst
   if (!said.f_number) return widest;
   lens::System closed = lens;
   closed.aperture = {lens::ApertureKind::f_number, said.f_number->value};
-  constexpr double kRounding = 1e-3;  // of nominal f-numbers
   const double radius = lens::stop_radius(closed);
-  if (radius <= widest * (1 + kRounding)) return std::min(radius, widest);
+  if (radius <= widest * (1 + lens::kNominalRounding)) return std::min(radius, widest);
   constexpr int kCells = 16;
   const auto speed = lens::speed(lens::SystemAt(lens, lens.primary_nm()), widest, kCells);
   context.diagnostics.error(

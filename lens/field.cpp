@@ -27,10 +27,28 @@ std::optional<RayPath> chief_path(const SystemAt& at, double field, double stop_
   return beam ? traced(*beam, {0, 0}, Apertures::ignored) : std::nullopt;
 }
 
+System with_round_stop(System system) {
+  system.surfaces[system.stop].iris.reset();
+  return system;
+}
+
+// Of the power that would fill the round stop, what the image has: `round` tells it without blades, whose
+// share is exact where nothing else cuts the beam. Cells of a spot tell it less well.
+double share_at_image(const SystemAt& at, double stop_radius_mm, const Spot& round, int side) {
+  const auto& iris = at.surface(at.system->stop).iris;
+  if (!iris) return round.transmitted / round.filled;
+  if (round.passed == round.filled) return round.transmitted / round.filled * iris->share();
+  const auto beam = Beam::of(at, 0, stop_radius_mm);
+  const Spot bladed = spot(*beam, 0, side);
+  return bladed.transmitted / bladed.filled;
+}
+
 }  // namespace
 
 std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) {
-  const auto beam = Beam::of(at, 0, stop_radius_mm);
+  const System round = with_round_stop(*at.system);
+  const SystemAt round_at(round, at.wavelength_nm);
+  const auto beam = Beam::of(round_at, 0, stop_radius_mm);
   const auto edge = beam ? beam->aim({0, 1}) : std::nullopt;
   const auto marginal = edge ? traced(*beam, {0, 1}, Apertures::ignored) : std::nullopt;
   if (!marginal) return std::nullopt;
@@ -44,10 +62,22 @@ std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) 
   speed.f_number = std::abs(first.focal_length_mm) / speed.entrance_diameter_mm;
   speed.working_f_number = 1 / (2 * at.n.back() * std::abs(marginal->last.direction.y));
   speed.transmittance = axial.transmitted / axial.passed;
-  const auto& iris = at.surface(at.system->stop).iris;
-  speed.t_stop = speed.f_number / std::sqrt(speed.transmittance * (iris ? iris->share() : 1));
+  speed.t_stop = speed.f_number / std::sqrt(share_at_image(at, stop_radius_mm, axial, side));
   speed.airy_radius_um = kFirstZeroOfJ1 / std::numbers::pi * at.wavelength_nm * 1e-3 * speed.working_f_number;
   return speed;
+}
+
+std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm) {
+  constexpr double kRim = 1 - kNominalRounding;  // of the stop's radius
+  const auto beam = Beam::of(at, 0, stop_radius_mm);
+  if (!beam) return std::nullopt;
+  for (const V2d& pupil : {V2d(kRim, 0), V2d(0, kRim), V2d(-kRim, 0), V2d(0, -kRim)}) {
+    const auto launched = beam->aim(pupil);
+    if (!launched) continue;
+    RayPath path = trace(at, beam->launch(*launched), Apertures::obeyed);
+    if (!path.reached()) return path;
+  }
+  return std::nullopt;
 }
 
 std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_radius_mm) {

@@ -14,11 +14,16 @@ struct Speed {
   double f_number;              ///< Focal length over that diameter.
   double working_f_number;      ///< 1/(2 n' sin U') of the real marginal ray.
   double transmittance;         ///< Mean over the axial beam.
-  double t_stop;                ///< f-number over the root of the transmittance and the share between blades.
+  double t_stop;                ///< f-number over the root of the share of the power through the round stop
+                                ///< that blades, clear apertures and the transmittance leave.
   double airy_radius_um;        ///< Of the first dark ring, 0.6098 lambda/(n' sin U'). [Born1999]
 };
 /// Nothing where the axial beam does not get to the image.
 [[nodiscard]] std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side);
+
+/// The way of a ray along the rim of the axial beam that does not get to the image, clear apertures obeyed;
+/// nothing where the beam passes whole, to within `kNominalRounding` of the stop's radius.
+[[nodiscard]] std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm);
 
 /// The chief ray of a field in the plane of the image.
 struct Chief {

@@ -227,5 +227,19 @@ TEST(LensField, VignettingIsTheShareThatAperturesTake) {
   EXPECT_NEAR(spots[0].vignetting(), 0.5, 5e-3);
 }
 
+// Half of the beam is cut; blades whose polygon holds the other half take nothing of it.
+TEST(LensField, TStopCountsAperturesThatCutTheAxialBeam) {
+  System system = perfect(0);
+  system.surfaces.insert(system.surfaces.begin(), Surface{});
+  system.surfaces[1].semi_aperture_mm = 3 / std::sqrt(2.0);
+  for (const int blades : {0, 7}) {
+    if (blades > 0) system.surfaces[0].iris = Iris(blades, 0);
+    const auto found = speed(SystemAt(system, 550), 3, 200);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->f_number, 50, 1e-9);
+    EXPECT_NEAR(std::pow(found->f_number / found->t_stop, 2) / found->transmittance, 0.5, 5e-3) << blades;
+  }
+}
+
 }  // namespace
 }  // namespace abbe::lens

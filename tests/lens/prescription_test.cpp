@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "lens/paraxial.h"
@@ -79,6 +80,37 @@ TEST(LensPrescription, AperturesEndWhereTheirSurfaceDoes) {
   expect_json_fault(singlet(kFront + ", [8, 40, null, 8.5]"), "2:", "got 8.5 mm, allowed less than 8 mm");
   EXPECT_TRUE(
       lens_of(singlet(kFront + R"(, {"radius": 8, "thickness": 40, "aperture": 8.5, "conic": -1})")).system);
+}
+
+// A plano-convex lens of 100 mm, 5 mm before its stop.
+std::string stopped_lens(const std::string& opening, double stop_aperture, double front_aperture) {
+  return singlet(fmt::format(R"([51.68, 4, 1.5168, {}], [0, 5],
+    {{"stop": true, "thickness": 90, "aperture": {}}})",
+                             front_aperture, stop_aperture),
+                 opening);
+}
+
+TEST(LensPrescription, StopOpensAsFarAsItsAperture) {
+  expect_json_fault(stopped_lens(R"("f_number": 5)", 6, 12.5),
+                    "3:", "the stop does not open so far, its aperture being 6 mm (got f/5, allowed f/7.7");
+  expect_json_fault(stopped_lens(R"("entrance_pupil": 20)", 6, 12.5),
+                    "3:", "(got an entrance pupil of 20 mm, allowed an entrance pupil of 12.9");
+  for (const char* sound : {R"("f_number": 7.8)", R"("entrance_pupil": 12.9)", R"("title": "as its stop")"}) {
+    const auto loaded = lens_of(stopped_lens(sound, 6, 12.5));
+    EXPECT_TRUE(loaded.system && loaded.diagnostics.all().empty()) << loaded.text();
+  }
+}
+
+TEST(LensPrescription, AperturesThatCutTheAxialBeamAreTold) {
+  const auto cut = lens_of(stopped_lens(R"("f_number": 5)", 12.5, 6));
+  ASSERT_TRUE(cut.system) << cut.text();
+  EXPECT_NE(
+      cut.text().find("warning: the axial beam that fills the stop does not get to the image whole: its "
+                      "rim is stopped by the aperture of surface 1"),
+      std::string::npos)
+      << cut.text();
+  const auto whole = lens_of(stopped_lens(R"("f_number": 5)", 12.5, 10.005));
+  EXPECT_TRUE(whole.system && whole.diagnostics.all().empty()) << whole.text();
 }
 
 TEST(LensPrescription, SurfacesDoNotCross) {
