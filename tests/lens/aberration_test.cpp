@@ -227,6 +227,42 @@ TEST(LensField, VignettingIsTheShareThatAperturesTake) {
   EXPECT_NEAR(spots[0].vignetting(), 0.5, 5e-3);
 }
 
+// A plano-convex lens of 100 mm before its stop; its surfaces, or the stop, displaced.
+System displaced_lens(const std::string& lens, const std::string& stop) {
+  return test::sound_lens_of(R"({"entrance_pupil": 10, "focus": "paraxial", "surfaces": [
+    {"radius": 51.68, "thickness": 4, "glass": 1.5168)" +
+                             lens + R"(}, {"radius": 0, "thickness": 30)" + lens +
+                             R"(}, {"stop": true, "thickness": 50)" + stop + "}]}");
+}
+
+TEST(LensField, SpeedDoesNotDependOnTheDirectionOfADisplacement) {
+  const auto speed_of = [](const std::string& lens, const std::string& stop) {
+    const System system = displaced_lens(lens, stop);
+    return speed(SystemAt(system, 550), stop_radius(system), 60).value();
+  };
+  const Speed centred = speed_of("", "");
+  const auto expect_alike = [&](const Speed& x, const Speed& y) {
+    EXPECT_NEAR(x.entrance_diameter_mm, y.entrance_diameter_mm, 1e-9);
+    EXPECT_NEAR(x.working_f_number, y.working_f_number, 1e-9);
+    EXPECT_NEAR(x.t_stop, y.t_stop, 1e-4 * x.t_stop);
+    EXPECT_NEAR(x.f_number / centred.f_number, 1, 0.02);
+    EXPECT_NEAR(x.working_f_number / centred.working_f_number, 1, 0.02);
+  };
+  expect_alike(speed_of(R"(, "decenter": [4, 0])", ""), speed_of(R"(, "decenter": [0, 4])", ""));
+  expect_alike(speed_of(R"(, "tilt_deg": [5, 0])", ""), speed_of(R"(, "tilt_deg": [0, 5])", ""));
+  expect_alike(speed_of("", R"(, "decenter": [-4, 0])"), speed_of("", R"(, "decenter": [0, -4])"));
+  expect_alike(speed_of(R"(, "decenter": [2.4, 3.2])", ""), speed_of(R"(, "decenter": [0, 4])", ""));
+}
+
+// The paraxial height is 0 there, whatever the image's distance from the paraxial focus adds to it.
+TEST(LensField, TiltedLensesHaveNoDistortionOnTheAxis) {
+  System system = displaced_lens(R"(, "tilt_deg": [5, 0])", "");
+  system.surfaces.back().thickness_mm += 0.3;
+  const auto chief = chief_ray(SystemAt(system, 587.5618), 0, stop_radius(system));
+  ASSERT_TRUE(chief);
+  EXPECT_FALSE(chief->distortion);
+}
+
 // Half of the beam is cut; blades whose polygon holds the other half take nothing of it.
 TEST(LensField, TStopCountsAperturesThatCutTheAxialBeam) {
   System system = perfect(0);
