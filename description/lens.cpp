@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -112,11 +113,12 @@ lens::Glass model_glass(const spec::ModelGlass& glass) {
           RefractiveIndex(formula, std::nullopt, IndexMedium::air, kMinWavelengthNm, kMaxWavelengthNm)};
 }
 
-std::optional<lens::Glass> build(const spec::LensGlass& said, const spec::Lens& lens, LoadContext& context) {
+std::optional<lens::Glass> build(const spec::LensGlass& said, const std::set<double>& wavelengths_nm,
+                                 LoadContext& context) {
   if (const auto* model = std::get_if<spec::ModelGlass>(&said.value)) return model_glass(*model);
   auto ior = build(std::get<spec::Ior>(said.value), context);
   if (!ior) return std::nullopt;
-  for (const double nm : lens.wavelengths_nm)
+  for (const double nm : wavelengths_nm)
     if (nm < ior->index.low_nm() || nm > ior->index.high_nm()) {
       context.diagnostics.warning(
           said.where, fmt::format("{} has no data at {:g} nm: its index at {:g} nm is used", ior->name, nm,
@@ -125,7 +127,8 @@ std::optional<lens::Glass> build(const spec::LensGlass& said, const spec::Lens& 
   return lens::Glass{std::move(ior->name), std::move(ior->index)};
 }
 
-lens::Surface build(const spec::LensSurface& said, const spec::Lens& lens, LoadContext& context) {
+lens::Surface build(const spec::LensSurface& said, const std::set<double>& wavelengths_nm,
+                    LoadContext& context) {
   lens::Surface surface;
   surface.profile.curvature = said.radius == 0 ? 0 : 1 / said.radius;
   surface.profile.conic = said.conic;
@@ -147,7 +150,7 @@ lens::Surface build(const spec::LensSurface& said, const spec::Lens& lens, LoadC
   surface.decenter_mm = {said.decenter[0], said.decenter[1]};
   surface.tilt_deg = {said.tilt_deg[0], said.tilt_deg[1]};
   surface.coating = build(said.coating, context);
-  if (said.glass) surface.behind = build(*said.glass, lens, context);
+  if (said.glass) surface.behind = build(*said.glass, wavelengths_nm, context);
   return surface;
 }
 
@@ -248,6 +251,13 @@ void set_focus(const spec::Lens& said, System& system) {
   last += said.defocus;
 }
 
+// Its stop and its image stay as they are set at its own primary wavelength.
+void look_at(System& system, const std::vector<double>& wavelengths_nm) {
+  system.aperture = {lens::ApertureKind::stop, lens::stop_radius(system)};
+  system.wavelengths_nm = wavelengths_nm;
+  system.primary = wavelengths_nm.size() / 2;
+}
+
 // A stop whose own clear aperture is less than what the lens is said to open to.
 void check_stop(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
   const std::optional<double>& aperture = system.surfaces[system.stop].semi_aperture_mm;
@@ -281,12 +291,15 @@ void warn_of_cut_beam(const spec::Lens& said, const System& system, Diagnostics&
 
 }  // namespace
 
-std::optional<System> build(const spec::Lens& said, LoadContext& context) {
+std::optional<System> build(const spec::Lens& said, LoadContext& context,
+                            const std::vector<double>& wavelengths_nm) {
   System system;
   system.title = said.title;
   system.source = said.source;
+  std::set<double> all_nm(said.wavelengths_nm.begin(), said.wavelengths_nm.end());
+  all_nm.insert(wavelengths_nm.begin(), wavelengths_nm.end());
   for (const spec::LensSurface& surface : said.surfaces)
-    system.surfaces.push_back(build(surface, said, context));
+    system.surfaces.push_back(build(surface, all_nm, context));
   system.object_distance_mm = said.object_distance;
   find_stop(said, system, context.diagnostics);
   set_aperture(said, system, context.diagnostics);
@@ -300,6 +313,7 @@ std::optional<System> build(const spec::Lens& said, LoadContext& context) {
     if (context.diagnostics.has_errors()) return std::nullopt;
     set_focus(said, system);
     warn_of_cut_beam(said, system, context.diagnostics);
+    if (!wavelengths_nm.empty()) look_at(system, wavelengths_nm);
   } catch (const Error& error) {  // of a stop that its ray does not get to
     context.diagnostics.error(said.where, error.what());
     return std::nullopt;

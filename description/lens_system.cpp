@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -116,6 +117,20 @@ Support counted_range(const Sensor& sensor) {
   return range.low < range.high ? range : Support{kMinWavelengthNm, kMaxWavelengthNm};
 }
 
+// Each index once, however many surfaces have it.
+void check_indices(const spec::LensSystem& said, const lens::System& lens, const Support& counted,
+                   const LoadContext& context) {
+  std::set<std::string> told;
+  const auto check = [&](const std::string& name, const RefractiveIndex& index) {
+    if (told.insert(name).second)
+      check_validity({&name, &index}, counted, said.prescription.where, context.diagnostics);
+  };
+  for (const lens::Surface& surface : lens.surfaces) {
+    if (surface.behind) check(surface.behind->name, surface.behind->index);
+    for (const Coating::Material& film : surface.coating.materials) check(film.index_name, film.index);
+  }
+}
+
 bool is_in_air(const spec::LensSystem& said, const lens::System& lens, LoadContext& context) {
   if (!lens.surfaces.back().behind) return true;
   context.diagnostics.error(said.prescription.where,
@@ -142,6 +157,7 @@ std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame&
     if (!stop || (said.focus_distance && !focus(said, *lens, *stop, context))) return std::nullopt;
     lens->surfaces[lens->stop].iris = build(said.iris, context);
     const Support counted = counted_range(sensor);
+    check_indices(said, *lens, counted, context);
     const FilmGrid grid{sensor.width, sensor.height, sensor.pixel_pitch};
     using Ghosts = LensOptics::Ghosts;
     const auto optics = std::make_shared<LensOptics>(*std::move(lens), *stop, grid, counted.low, counted.high,

@@ -70,6 +70,20 @@ TEST(LensPrescription, UnknownGlassIsToldWithTheNearest) {
   expect_json_fault(singlet(kFront + R"(, [-50, 3, "N-SF66x"], [0, 1])"), "2:", "did you mean \"N-SF66\"?");
 }
 
+TEST(LensPrescription, WavelengthsBeyondAGlassAreTold) {
+  const auto warning = [](double nm) {
+    return fmt::format("warning: schott/SF5 has no data at {} nm: its index at 350 nm is used", nm);
+  };
+  Diagnostics diagnostics;
+  const auto system = load_lens("achromat", diagnostics, nullptr, {}, {310, 330, 350});
+  ASSERT_TRUE(system);
+  EXPECT_EQ(system->wavelengths_nm, (std::vector<double>{310, 330, 350}));
+  EXPECT_EQ(system->primary, 1U);
+  for (const double nm : {310, 330})
+    EXPECT_NE(diagnostics.text().find(warning(nm)), std::string::npos) << diagnostics.text();
+  EXPECT_EQ(diagnostics.all().size(), 2U) << diagnostics.text();
+}
+
 TEST(LensPrescription, LensHasOneStop) {
   expect_json_fault(singlet("[50, 4, 1.5], [-50, 40]"), "1:1", "no surface is the stop");
   expect_json_fault(singlet(kFront + R"(, {"radius": -50, "thickness": 9, "stop": true})"),
