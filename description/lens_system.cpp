@@ -41,10 +41,9 @@ Fields fields(Tag<LensSystem>) {
        field("focus_distance", &LensSystem::focus_distance,
              "Distance from the first surface to the plane in focus, which moves the film; where the "
              "prescription has its image when absent."),
-       defaulted(
-           "focus", &LensSystem::focus, word<FilmPlane>("focus", {"paraxial", "best"}),
-           "Where the film is moved for `focus_distance`: to the paraxial focus, or where the spot on the "
-           "axis is least, of the prescription's wavelengths together."),
+       field("focus", &LensSystem::focus, word<FilmPlane>("focus", {"paraxial", "best"}),
+             "Where the film is moved for `focus_distance`: to the paraxial focus, or where the spot on the "
+             "axis is least, of the prescription's wavelengths together, as it is when absent."),
        field("f_number", &LensSystem::f_number, Range{0, 1e6, true, false},
              "Focal length over the diameter of the beam on the axis, to which the stop is closed; as wide "
              "as the prescription says when absent."),
@@ -99,7 +98,7 @@ bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius,
   double& film = lens.surfaces.back().thickness_mm;
   film = lens::first_order(lens::SystemAt(lens, lens.primary_nm())).image_distance_mm;
   if (film > 0 && std::isfinite(film)) {
-    if (said.focus == spec::FilmPlane::best) film += lens::best_focus(lens);
+    if (!said.focus || said.focus->value == spec::FilmPlane::best) film += lens::best_focus(lens);
     if (film > 0) return true;
   }
   context.diagnostics.error(
@@ -152,6 +151,10 @@ std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame&
         "give: it needs a thin lens or a pinhole");
     return std::nullopt;
   }
+  if (said.focus && !said.focus_distance)
+    context.diagnostics.warning(said.focus->where,
+                                "a focus without effect: without a focus_distance the film stays where the "
+                                "prescription has its image");
   try {
     const std::optional<double> stop = closed_stop(said, *lens, context);
     if (!stop || (said.focus_distance && !focus(said, *lens, *stop, context))) return std::nullopt;

@@ -397,6 +397,20 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
   EXPECT_EQ(told.find("N-SF11 holds"), told.rfind("N-SF11 holds")) << told;
 }
 
+TEST_F(DescriptionFaultsTest, AFocusOfALensThatIsNotMovedIsTold) {
+  const auto told = [&](const std::string& beside) {
+    return load(R"({"camera": {"lens_system": {"prescription": "achromat", )" + beside + R"(},
+        "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}, "sensor": {"resolution": [1, 1],
+        "channels": {"a": {"band": [500, 600]}}}, "lights": [{"environment": {}, "emission": {"spectrum": 1}}]})")
+        .text();
+  };
+  const std::string alone = told(R"("focus": "paraxial")");
+  EXPECT_NE(alone.find("/camera/lens_system/focus: warning: a focus without effect"), std::string::npos)
+      << alone;
+  EXPECT_EQ(told(R"("focus": "paraxial", "focus_distance": 3)"), "");
+  EXPECT_EQ(told(R"("focus_distance": 3)"), "");
+}
+
 TEST_F(DescriptionFaultsTest, TheLeastThatAFileCanSayIsHeld) {
   for (const char* least : {"5e-324", "1e-318", "1e-310"}) {
     const Loaded faint = load(fmt::format(
