@@ -130,7 +130,7 @@ Json whole_answer(const LensFigures& figures) {
   answer["stop_surface"] = figures.system.stop + 1;
   answer["stop_radius_mm"] = figures.stop_radius_mm;
   answer["image_mm"] = figures.system.surfaces.back().thickness_mm;
-  answer["best_focus_shift_mm"] = figures.best_focus_mm;
+  answer["best_focus_shift_mm"] = optional(figures.best_focus_mm);
   return answer;
 }
 

@@ -243,12 +243,28 @@ void set_fields(const spec::Lens& said, System& system, Diagnostics& diagnostics
   if (system.fields.empty()) system.fields = {0};
 }
 
-void set_focus(const spec::Lens& said, System& system) {
+// How far behind the last vertex the image is that is asked for.
+std::optional<double> image_distance(const spec::Lens& said, System system, Diagnostics& diagnostics) {
   double& last = system.surfaces.back().thickness_mm;
-  if (said.focus != spec::LensFocus::given)
-    last = lens::first_order(lens::SystemAt(system, system.primary_nm())).image_distance_mm;
-  if (said.focus == spec::LensFocus::best) last += lens::best_focus(system);
-  last += said.defocus;
+  if (said.focus == spec::LensFocus::given) return last;
+  last = lens::first_order(lens::SystemAt(system, system.primary_nm())).image_distance_mm;
+  if (!(std::abs(last) <= spec::kMaxMm)) {
+    diagnostics.error(
+        said.where,
+        fmt::format("the lens is afocal and has no focus: its image is \"given\" by the last "
+                    "thickness (got a focus {:g} mm behind the last surface, allowed [{:g}, {:g}])",
+                    last, -spec::kMaxMm, spec::kMaxMm));
+    return std::nullopt;
+  }
+  if (said.focus == spec::LensFocus::paraxial) return last;
+  const auto shift = lens::best_focus(system);
+  if (!shift) diagnostics.error(said.where, "no beam of the lens comes together: it has no best focus");
+  return shift ? std::optional(last + *shift) : std::nullopt;
+}
+
+void set_focus(const spec::Lens& said, System& system, Diagnostics& diagnostics) {
+  if (const auto distance = image_distance(said, system, diagnostics))
+    system.surfaces.back().thickness_mm = *distance + said.defocus;
 }
 
 // Its stop and its image stay as they are set at its own primary wavelength.
@@ -311,7 +327,8 @@ std::optional<System> build(const spec::Lens& said, LoadContext& context,
   try {
     check_stop(said, system, context.diagnostics);
     if (context.diagnostics.has_errors()) return std::nullopt;
-    set_focus(said, system);
+    set_focus(said, system, context.diagnostics);
+    if (context.diagnostics.has_errors()) return std::nullopt;
     warn_of_cut_beam(said, system, context.diagnostics);
     if (!wavelengths_nm.empty()) look_at(system, wavelengths_nm);
   } catch (const Error& error) {  // of a stop that its ray does not get to

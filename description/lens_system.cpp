@@ -98,7 +98,7 @@ bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius,
   double& film = lens.surfaces.back().thickness_mm;
   film = lens::first_order(lens::SystemAt(lens, lens.primary_nm())).image_distance_mm;
   if (film > 0 && std::isfinite(film)) {
-    if (!said.focus || said.focus->value == spec::FilmPlane::best) film += lens::best_focus(lens);
+    if (!said.focus || said.focus->value == spec::FilmPlane::best) film += lens::best_focus(lens).value_or(0);
     if (film > 0) return true;
   }
   context.diagnostics.error(

@@ -132,8 +132,20 @@ TEST(LensSpot, DefocusedPointIsADisc) {
 }
 
 TEST(LensFocus, BestFocusFindsThePoint) {
-  EXPECT_NEAR(best_focus(perfect(2)), -2, 1e-9);
-  EXPECT_NEAR(best_focus(perfect(-0.5)), 0.5, 1e-9);
+  EXPECT_NEAR(best_focus(perfect(2)).value(), -2, 1e-9);
+  EXPECT_NEAR(best_focus(perfect(-0.5)).value(), 0.5, 1e-9);
+}
+
+TEST(LensFocus, ParallelBeamsHaveNone) {
+  System hole;
+  hole.surfaces.resize(1);
+  hole.surfaces[0].thickness_mm = 100;
+  hole.aperture = {ApertureKind::stop, 0.5};
+  hole.fields = {0, 20, 40, 60};
+  EXPECT_FALSE(best_focus(hole));
+  hole.object_distance_mm = 50;
+  hole.fields = {0};
+  EXPECT_NEAR(best_focus(hole).value(), -150, 1e-9);
 }
 
 TEST(LensFocus, FileMayAskForTheLeastSpots) {
@@ -148,7 +160,7 @@ TEST(LensFocus, FileMayAskForTheLeastSpots) {
   EXPECT_EQ(with_focus("given").surfaces.back().thickness_mm, 40);
   // Undercorrected: rays from the edge meet nearer to the lens. No move of the image is better than none.
   EXPECT_LT(best.surfaces.back().thickness_mm, first.back_focus_mm - 0.1);
-  EXPECT_NEAR(best_focus(best), 0, 1e-3);
+  EXPECT_NEAR(best_focus(best).value(), 0, 1e-3);
   double least = size_of(axial_spots(best))->rms_mm;
   for (const double shift : {-0.05, 0.05}) {
     System moved = best;

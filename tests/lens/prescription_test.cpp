@@ -152,6 +152,16 @@ TEST(LensPrescription, ConditionsMustFit) {
                     "2:", "an asphere ends at r^20");
 }
 
+TEST(LensPrescription, AfocalLensesHaveNoFocus) {
+  const std::string hole = R"({"stop": true, "aperture": 0.5, "thickness": 100})";
+  for (const char* focus : {R"("focus": "paraxial")", R"("focus": "best")"})
+    expect_json_fault(singlet(hole, focus), "1:1", "the lens is afocal and has no focus");
+  EXPECT_TRUE(lens_of(singlet(hole, R"("focus": "given")")).system);
+  expect_json_fault(
+      singlet(kFront + ", [-50, 40]", R"("entrance_pupil": 5, "focus": "best", "fields_deg": [100])"), "1:1",
+      "no beam of the lens comes together");
+}
+
 TEST(LensPrescription, FieldsOfAnyKindBecomeDirectionsOrHeights) {
   const System image = sound_lens_of(singlet(kFront + ", [-50, 40]", R"("image_heights": [0, 10])"));
   const double f = first_order(SystemAt(image, image.primary_nm())).focal_length_mm;
