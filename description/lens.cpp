@@ -270,6 +270,7 @@ void set_focus(const spec::Lens& said, System& system, Diagnostics& diagnostics)
 // Its stop and its image stay as they are set at its own primary wavelength.
 void look_at(System& system, const std::vector<double>& wavelengths_nm) {
   system.aperture = {lens::ApertureKind::stop, lens::stop_radius(system)};
+  system.set_at_nm = system.primary_nm();
   system.wavelengths_nm = wavelengths_nm;
   system.primary = wavelengths_nm.size() / 2;
 }

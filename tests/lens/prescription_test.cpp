@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "lens/beam.h"
 #include "lens/paraxial.h"
 #include "lenses.h"
 
@@ -82,6 +83,19 @@ TEST(LensPrescription, WavelengthsBeyondAGlassAreTold) {
   for (const double nm : {310, 330})
     EXPECT_NE(diagnostics.text().find(warning(nm)), std::string::npos) << diagnostics.text();
   EXPECT_EQ(diagnostics.all().size(), 2U) << diagnostics.text();
+}
+
+// The lens stays as it stands.
+TEST(LensPrescription, OtherWavelengthsKeepStopAndFocus) {
+  Diagnostics diagnostics;
+  const auto other = load_lens("fisheye", diagnostics, nullptr, {}, {450});
+  ASSERT_TRUE(other) << diagnostics.text();
+  const System own = test::lens_named("fisheye");
+  EXPECT_EQ(other->primary_nm(), 450);
+  EXPECT_EQ(other->set_at_nm.value(), own.primary_nm());
+  EXPECT_EQ(stop_radius(*other), stop_radius(own));
+  EXPECT_EQ(other->surfaces.back().thickness_mm, own.surfaces.back().thickness_mm);
+  EXPECT_FALSE(own.set_at_nm);
 }
 
 TEST(LensPrescription, LensHasOneStop) {
