@@ -253,17 +253,19 @@ TEST(LensField, SpeedDoesNotDependOnTheDirectionOfADisplacement) {
     return speed(SystemAt(system, 550), stop_radius(system), 60).value();
   };
   const Speed centred = speed_of("", "");
-  const auto expect_alike = [&](const Speed& x, const Speed& y) {
-    EXPECT_NEAR(x.entrance_diameter_mm, y.entrance_diameter_mm, 1e-9);
-    EXPECT_NEAR(x.working_f_number, y.working_f_number, 1e-9);
-    EXPECT_NEAR(x.t_stop, y.t_stop, 1e-4 * x.t_stop);
+  const auto expect_alike = [&](const Speed& x, const Speed& y, double bound) {
+    EXPECT_NEAR(x.entrance_diameter_mm / y.entrance_diameter_mm, 1, bound);
+    EXPECT_NEAR(x.working_f_number / y.working_f_number, 1, bound);
+    EXPECT_NEAR(x.t_stop / y.t_stop, 1, 1e-4);
     EXPECT_NEAR(x.f_number / centred.f_number, 1, 0.02);
     EXPECT_NEAR(x.working_f_number / centred.working_f_number, 1, 0.02);
   };
-  expect_alike(speed_of(R"(, "decenter": [4, 0])", ""), speed_of(R"(, "decenter": [0, 4])", ""));
-  expect_alike(speed_of(R"(, "tilt_deg": [5, 0])", ""), speed_of(R"(, "tilt_deg": [0, 5])", ""));
-  expect_alike(speed_of("", R"(, "decenter": [-4, 0])"), speed_of("", R"(, "decenter": [0, -4])"));
-  expect_alike(speed_of(R"(, "decenter": [2.4, 3.2])", ""), speed_of(R"(, "decenter": [0, 4])", ""));
+  const Speed upwards = speed_of(R"(, "decenter": [0, 4])", "");
+  expect_alike(speed_of(R"(, "decenter": [4, 0])", ""), upwards, 1e-10);
+  expect_alike(speed_of(R"(, "tilt_deg": [5, 0])", ""), speed_of(R"(, "tilt_deg": [0, 5])", ""), 1e-10);
+  expect_alike(speed_of("", R"(, "decenter": [-4, 0])"), speed_of("", R"(, "decenter": [0, -4])"), 1e-10);
+  // Aberrations of the pupil make its beam a little less than an ellipse.
+  expect_alike(speed_of(R"(, "decenter": [2.4, 3.2])", ""), upwards, 1e-6);
 }
 
 // The paraxial height is 0 there, whatever the image's distance from the paraxial focus adds to it.
