@@ -275,25 +275,30 @@ void look_at(System& system, const std::vector<double>& wavelengths_nm) {
   system.primary = wavelengths_nm.size() / 2;
 }
 
+// What the lens is said to open to, with this value of it.
+std::string opening(lens::ApertureKind kind, double value) {
+  return kind == lens::ApertureKind::entrance_pupil ? fmt::format("an entrance pupil of {:.4g} mm", value)
+                                                    : fmt::format("f/{:.4g}", value);
+}
+
+// The widest for which the stop is no wider than its own aperture.
+std::string widest_opening(const System& system, double stop_aperture_mm) {
+  constexpr int kCells = 16;
+  const auto speed = lens::speed(lens::SystemAt(system, system.primary_nm()), stop_aperture_mm, kCells);
+  if (!speed) return "what lets light pass it";
+  const lens::ApertureKind kind = system.aperture.kind;
+  return kind == lens::ApertureKind::entrance_pupil ? opening(kind, speed->entrance_diameter_mm) + " or less"
+                                                    : opening(kind, speed->f_number) + " or more";
+}
+
 // A stop whose own clear aperture is less than what the lens is said to open to.
 void check_stop(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
   const std::optional<double>& aperture = system.surfaces[system.stop].semi_aperture_mm;
   if (!aperture || lens::stop_radius(system) <= *aperture * (1 + lens::kNominalRounding)) return;
-  constexpr int kCells = 16;
-  const auto widest = lens::speed(lens::SystemAt(system, system.primary_nm()), *aperture, kCells);
-  const bool by_pupil = system.aperture.kind == lens::ApertureKind::entrance_pupil;
-  const auto told = [&](double value) {
-    return by_pupil ? fmt::format("an entrance pupil of {:.4g} mm", value) : fmt::format("f/{:.4g}", value);
-  };
-  const auto allowed = [&] {
-    if (!widest) return std::string("what lets light pass it");
-    return told(by_pupil ? widest->entrance_diameter_mm : widest->f_number) +
-           (by_pupil ? " or less" : " or more");
-  };
   diagnostics.error(
       said.surfaces[system.stop].where,
       fmt::format("the stop does not open so far, its aperture being {:g} mm (got {}, allowed {})", *aperture,
-                  told(system.aperture.value), allowed()));
+                  opening(system.aperture.kind, system.aperture.value), widest_opening(system, *aperture)));
 }
 
 void warn_of_cut_beam(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
@@ -304,6 +309,23 @@ void warn_of_cut_beam(const spec::Lens& said, const System& system, Diagnostics&
       fmt::format("the axial beam that fills the stop does not get to the image whole: its rim {}. "
                   "T-stops count that, f-numbers do not",
                   lens::reason(*ray)));
+}
+
+// Stop and image; at these wavelengths, if there are any. False after an error.
+bool set_up(const spec::Lens& said, System& system, const std::vector<double>& wavelengths_nm,
+            Diagnostics& diagnostics) {
+  try {
+    check_stop(said, system, diagnostics);
+    if (diagnostics.has_errors()) return false;
+    set_focus(said, system, diagnostics);
+    if (diagnostics.has_errors()) return false;
+    warn_of_cut_beam(said, system, diagnostics);
+    if (!wavelengths_nm.empty()) look_at(system, wavelengths_nm);
+    return true;
+  } catch (const Error& error) {  // of a stop that its ray does not get to
+    diagnostics.error(said.where, error.what());
+    return false;
+  }
 }
 
 }  // namespace
@@ -325,17 +347,7 @@ std::optional<System> build(const spec::Lens& said, LoadContext& context,
   if (context.diagnostics.has_errors()) return std::nullopt;
   set_fields(said, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
-  try {
-    check_stop(said, system, context.diagnostics);
-    if (context.diagnostics.has_errors()) return std::nullopt;
-    set_focus(said, system, context.diagnostics);
-    if (context.diagnostics.has_errors()) return std::nullopt;
-    warn_of_cut_beam(said, system, context.diagnostics);
-    if (!wavelengths_nm.empty()) look_at(system, wavelengths_nm);
-  } catch (const Error& error) {  // of a stop that its ray does not get to
-    context.diagnostics.error(said.where, error.what());
-    return std::nullopt;
-  }
+  if (!set_up(said, system, wavelengths_nm, context.diagnostics)) return std::nullopt;
   return system;
 }
 
