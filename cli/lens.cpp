@@ -17,13 +17,7 @@ namespace {
 
 lens::System load(const LensOptions& options, Inputs& inputs) {
   Diagnostics diagnostics;
-  lens::System system = accepted(load_lens(options.lens, diagnostics, &inputs), diagnostics);
-  if (options.wavelengths_nm.empty()) return system;
-  // The stop keeps the size it has at the lens's own primary wavelength.
-  system.aperture = {lens::ApertureKind::stop, lens::stop_radius(system)};
-  system.wavelengths_nm = options.wavelengths_nm;
-  system.primary = system.wavelengths_nm.size() / 2;
-  return system;
+  return accepted(load_lens(options.lens, diagnostics, &inputs, {}, options.wavelengths_nm), diagnostics);
 }
 
 // A table of columns with a line for each.

@@ -127,10 +127,11 @@ Json field_answer(const LensFigures& figures, const LensFieldFigures& field) {
 Json whole_answer(const LensFigures& figures) {
   Json answer{{"title", figures.system.title}, {"source", figures.system.source}};
   answer["primary_nm"] = figures.system.primary_nm();
+  answer["set_at_nm"] = figures.system.set_at_nm.value_or(figures.system.primary_nm());
   answer["stop_surface"] = figures.system.stop + 1;
   answer["stop_radius_mm"] = figures.stop_radius_mm;
   answer["image_mm"] = figures.system.surfaces.back().thickness_mm;
-  answer["best_focus_shift_mm"] = figures.best_focus_mm;
+  answer["best_focus_shift_mm"] = optional(figures.best_focus_mm);
   return answer;
 }
 

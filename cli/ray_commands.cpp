@@ -98,7 +98,9 @@ void add_lens(CLI::App& app, Command& command) {
       ->required()
       ->type_name("FILE.json|FILE.zmx|FILE.dat");
   add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
-             "Wavelengths in place of the lens's, the middle one being the primary", "NM,...");
+             "Wavelengths in place of the lens's, the middle one being the primary; stop and focus stay as "
+             "set at its own",
+             "NM,...");
   add_parsed(*sub.app, "--frequencies", sub->frequencies_per_mm, numbers_in(1e-3, 1e4),
              "Lines per mm to tell the modulation at (default 10,20,40)", "N,...");
   sub.app->add_option("--html", sub->html, "Page to write")->type_name("FILE.html");

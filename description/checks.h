@@ -21,7 +21,10 @@ void check_lamps(const LoadContext& context, const Scene& scene);
 /// that emits, only few float steps large where it stands, and a view of little more than one direction, of
 /// the `camera` said there.
 void check_precision(const SourcePosition& camera, const LoadContext& context, const Scene& scene);
-/// Warns of every index used beyond the wavelengths it holds for.
+/// Warns at `where` if this index does not hold for all wavelengths that the sensor sees.
+void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
+                    Diagnostics& diagnostics);
+/// Warns of every index of a material used beyond the wavelengths it holds for.
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene);
 
 }  // namespace abbe::description

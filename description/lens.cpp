@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "io/error.h"
+#include "lens/field.h"
 #include "lens/focus.h"
 #include "lens/paraxial.h"
 #include "sampling/angle.h"
@@ -110,11 +113,12 @@ lens::Glass model_glass(const spec::ModelGlass& glass) {
           RefractiveIndex(formula, std::nullopt, IndexMedium::air, kMinWavelengthNm, kMaxWavelengthNm)};
 }
 
-std::optional<lens::Glass> build(const spec::LensGlass& said, const spec::Lens& lens, LoadContext& context) {
+std::optional<lens::Glass> build(const spec::LensGlass& said, const std::set<double>& wavelengths_nm,
+                                 LoadContext& context) {
   if (const auto* model = std::get_if<spec::ModelGlass>(&said.value)) return model_glass(*model);
   auto ior = build(std::get<spec::Ior>(said.value), context);
   if (!ior) return std::nullopt;
-  for (const double nm : lens.wavelengths_nm)
+  for (const double nm : wavelengths_nm)
     if (nm < ior->index.low_nm() || nm > ior->index.high_nm()) {
       context.diagnostics.warning(
           said.where, fmt::format("{} has no data at {:g} nm: its index at {:g} nm is used", ior->name, nm,
@@ -123,7 +127,8 @@ std::optional<lens::Glass> build(const spec::LensGlass& said, const spec::Lens& 
   return lens::Glass{std::move(ior->name), std::move(ior->index)};
 }
 
-lens::Surface build(const spec::LensSurface& said, const spec::Lens& lens, LoadContext& context) {
+lens::Surface build(const spec::LensSurface& said, const std::set<double>& wavelengths_nm,
+                    LoadContext& context) {
   lens::Surface surface;
   surface.profile.curvature = said.radius == 0 ? 0 : 1 / said.radius;
   surface.profile.conic = said.conic;
@@ -145,7 +150,7 @@ lens::Surface build(const spec::LensSurface& said, const spec::Lens& lens, LoadC
   surface.decenter_mm = {said.decenter[0], said.decenter[1]};
   surface.tilt_deg = {said.tilt_deg[0], said.tilt_deg[1]};
   surface.coating = build(said.coating, context);
-  if (said.glass) surface.behind = build(*said.glass, lens, context);
+  if (said.glass) surface.behind = build(*said.glass, wavelengths_nm, context);
   return surface;
 }
 
@@ -238,22 +243,102 @@ void set_fields(const spec::Lens& said, System& system, Diagnostics& diagnostics
   if (system.fields.empty()) system.fields = {0};
 }
 
-void set_focus(const spec::Lens& said, System& system) {
+// How far behind the last vertex the image is that is asked for.
+std::optional<double> image_distance(const spec::Lens& said, System system, Diagnostics& diagnostics) {
   double& last = system.surfaces.back().thickness_mm;
-  if (said.focus != spec::LensFocus::given)
-    last = lens::first_order(lens::SystemAt(system, system.primary_nm())).image_distance_mm;
-  if (said.focus == spec::LensFocus::best) last += lens::best_focus(system);
-  last += said.defocus;
+  if (said.focus == spec::LensFocus::given) return last;
+  last = lens::first_order(lens::SystemAt(system, system.primary_nm())).image_distance_mm;
+  if (!(std::abs(last) <= spec::kMaxMm)) {
+    diagnostics.error(
+        said.where,
+        fmt::format("the lens is afocal and has no focus: its image is \"given\" by the last "
+                    "thickness (got a focus {:g} mm behind the last surface, allowed [{:g}, {:g}])",
+                    last, -spec::kMaxMm, spec::kMaxMm));
+    return std::nullopt;
+  }
+  if (said.focus == spec::LensFocus::paraxial) return last;
+  const auto shift = lens::best_focus(system);
+  if (!shift) diagnostics.error(said.where, "no beam of the lens comes together: it has no best focus");
+  return shift ? std::optional(last + *shift) : std::nullopt;
+}
+
+void set_focus(const spec::Lens& said, System& system, Diagnostics& diagnostics) {
+  if (const auto distance = image_distance(said, system, diagnostics))
+    system.surfaces.back().thickness_mm = *distance + said.defocus;
+}
+
+// Its stop and its image stay as they are set at its own primary wavelength.
+void look_at(System& system, const std::vector<double>& wavelengths_nm) {
+  system.aperture = {lens::ApertureKind::stop, lens::stop_radius(system)};
+  system.set_at_nm = system.primary_nm();
+  system.wavelengths_nm = wavelengths_nm;
+  system.primary = wavelengths_nm.size() / 2;
+}
+
+// What the lens is said to open to, with this value of it.
+std::string opening(lens::ApertureKind kind, double value) {
+  return kind == lens::ApertureKind::entrance_pupil ? fmt::format("an entrance pupil of {:.4g} mm", value)
+                                                    : fmt::format("f/{:.4g}", value);
+}
+
+// The widest for which the stop is no wider than its own aperture.
+std::string widest_opening(const System& system, double stop_aperture_mm) {
+  constexpr int kCells = 16;
+  const auto speed = lens::speed(lens::SystemAt(system, system.primary_nm()), stop_aperture_mm, kCells);
+  if (!speed) return "what lets light pass it";
+  const lens::ApertureKind kind = system.aperture.kind;
+  return kind == lens::ApertureKind::entrance_pupil ? opening(kind, speed->entrance_diameter_mm) + " or less"
+                                                    : opening(kind, speed->f_number) + " or more";
+}
+
+// A stop whose own clear aperture is less than what the lens is said to open to.
+void check_stop(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
+  const std::optional<double>& aperture = system.surfaces[system.stop].semi_aperture_mm;
+  if (!aperture || lens::stop_radius(system) <= *aperture * (1 + lens::kNominalRounding)) return;
+  diagnostics.error(
+      said.surfaces[system.stop].where,
+      fmt::format("the stop does not open so far, its aperture being {:g} mm (got {}, allowed {})", *aperture,
+                  opening(system.aperture.kind, system.aperture.value), widest_opening(system, *aperture)));
+}
+
+void warn_of_cut_beam(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
+  const auto ray = lens::cut_rim_ray(lens::SystemAt(system, system.primary_nm()), lens::stop_radius(system));
+  if (!ray) return;
+  diagnostics.warning(
+      said.where,
+      fmt::format("the axial beam that fills the stop does not get to the image whole: its rim {}. "
+                  "T-stops count that, f-numbers do not",
+                  lens::reason(*ray)));
+}
+
+// Stop and image; at these wavelengths, if there are any. False after an error.
+bool set_up(const spec::Lens& said, System& system, const std::vector<double>& wavelengths_nm,
+            Diagnostics& diagnostics) {
+  try {
+    check_stop(said, system, diagnostics);
+    if (diagnostics.has_errors()) return false;
+    set_focus(said, system, diagnostics);
+    if (diagnostics.has_errors()) return false;
+    warn_of_cut_beam(said, system, diagnostics);
+    if (!wavelengths_nm.empty()) look_at(system, wavelengths_nm);
+    return true;
+  } catch (const Error& error) {  // of a stop that its ray does not get to
+    diagnostics.error(said.where, error.what());
+    return false;
+  }
 }
 
 }  // namespace
 
-std::optional<System> build(const spec::Lens& said, LoadContext& context) {
+std::optional<System> build(const spec::Lens& said, LoadContext& context,
+                            const std::vector<double>& wavelengths_nm) {
   System system;
   system.title = said.title;
   system.source = said.source;
+  std::set<double> all_nm(said.wavelengths_nm.begin(), said.wavelengths_nm.end());
+  all_nm.insert(wavelengths_nm.begin(), wavelengths_nm.end());
   for (const spec::LensSurface& surface : said.surfaces)
-    system.surfaces.push_back(build(surface, said, context));
+    system.surfaces.push_back(build(surface, all_nm, context));
   system.object_distance_mm = said.object_distance;
   find_stop(said, system, context.diagnostics);
   set_aperture(said, system, context.diagnostics);
@@ -262,7 +347,7 @@ std::optional<System> build(const spec::Lens& said, LoadContext& context) {
   if (context.diagnostics.has_errors()) return std::nullopt;
   set_fields(said, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
-  set_focus(said, system);
+  if (!set_up(said, system, wavelengths_nm, context.diagnostics)) return std::nullopt;
   return system;
 }
 

@@ -64,7 +64,9 @@ namespace abbe::description {
 
 /// The system. Reports a stop that is missing or doubled, unknown glasses, clear apertures beyond the edge of
 /// their surface, surfaces that cross within theirs, and apertures, fields and wavelengths that do not fit;
-/// nothing then.
-[[nodiscard]] std::optional<lens::System> build(const spec::Lens& lens, LoadContext& context);
+/// nothing then. Warns of wavelengths that glasses have no data at. With `wavelengths_nm` it is looked at at
+/// these, the middle one being the primary, its stop and image set at its own.
+[[nodiscard]] std::optional<lens::System> build(const spec::Lens& lens, LoadContext& context,
+                                                const std::vector<double>& wavelengths_nm = {});
 
 }  // namespace abbe::description

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -40,10 +41,9 @@ Fields fields(Tag<LensSystem>) {
        field("focus_distance", &LensSystem::focus_distance,
              "Distance from the first surface to the plane in focus, which moves the film; where the "
              "prescription has its image when absent."),
-       defaulted(
-           "focus", &LensSystem::focus, word<FilmPlane>("focus", {"paraxial", "best"}),
-           "Where the film is moved for `focus_distance`: to the paraxial focus, or where the spot on the "
-           "axis is least, of the prescription's wavelengths together."),
+       field("focus", &LensSystem::focus, word<FilmPlane>("focus", {"paraxial", "best"}),
+             "Where the film is moved for `focus_distance`: to the paraxial focus, or where the spot on the "
+             "axis is least, of the prescription's wavelengths together, as it is when absent."),
        field("f_number", &LensSystem::f_number, Range{0, 1e6, true, false},
              "Focal length over the diameter of the beam on the axis, to which the stop is closed; as wide "
              "as the prescription says when absent."),
@@ -77,9 +77,8 @@ std::optional<double> closed_stop(const spec::LensSystem& said, const lens::Syst
   if (!said.f_number) return widest;
   lens::System closed = lens;
   closed.aperture = {lens::ApertureKind::f_number, said.f_number->value};
-  constexpr double kRounding = 1e-3;  // of nominal f-numbers
   const double radius = lens::stop_radius(closed);
-  if (radius <= widest * (1 + kRounding)) return std::min(radius, widest);
+  if (radius <= widest * (1 + lens::kNominalRounding)) return std::min(radius, widest);
   constexpr int kCells = 16;
   const auto speed = lens::speed(lens::SystemAt(lens, lens.primary_nm()), widest, kCells);
   context.diagnostics.error(
@@ -99,7 +98,7 @@ bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius,
   double& film = lens.surfaces.back().thickness_mm;
   film = lens::first_order(lens::SystemAt(lens, lens.primary_nm())).image_distance_mm;
   if (film > 0 && std::isfinite(film)) {
-    if (said.focus == spec::FilmPlane::best) film += lens::best_focus(lens);
+    if (!said.focus || said.focus->value == spec::FilmPlane::best) film += lens::best_focus(lens).value_or(0);
     if (film > 0) return true;
   }
   context.diagnostics.error(
@@ -115,6 +114,20 @@ Support counted_range(const Sensor& sensor) {
   Support range;
   for (const Channel& channel : sensor.channels) extend(range, envelope(channel));
   return range.low < range.high ? range : Support{kMinWavelengthNm, kMaxWavelengthNm};
+}
+
+// Each index once, however many surfaces have it.
+void check_indices(const spec::LensSystem& said, const lens::System& lens, const Support& counted,
+                   const LoadContext& context) {
+  std::set<std::string> told;
+  const auto check = [&](const std::string& name, const RefractiveIndex& index) {
+    if (told.insert(name).second)
+      check_validity({&name, &index}, counted, said.prescription.where, context.diagnostics);
+  };
+  for (const lens::Surface& surface : lens.surfaces) {
+    if (surface.behind) check(surface.behind->name, surface.behind->index);
+    for (const Coating::Material& film : surface.coating.materials) check(film.index_name, film.index);
+  }
 }
 
 bool is_in_air(const spec::LensSystem& said, const lens::System& lens, LoadContext& context) {
@@ -138,11 +151,16 @@ std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame&
         "give: it needs a thin lens or a pinhole");
     return std::nullopt;
   }
+  if (said.focus && !said.focus_distance)
+    context.diagnostics.warning(said.focus->where,
+                                "a focus without effect: without a focus_distance the film stays where the "
+                                "prescription has its image");
   try {
     const std::optional<double> stop = closed_stop(said, *lens, context);
     if (!stop || (said.focus_distance && !focus(said, *lens, *stop, context))) return std::nullopt;
     lens->surfaces[lens->stop].iris = build(said.iris, context);
     const Support counted = counted_range(sensor);
+    check_indices(said, *lens, counted, context);
     const FilmGrid grid{sensor.width, sensor.height, sensor.pixel_pitch};
     using Ghosts = LensOptics::Ghosts;
     const auto optics = std::make_shared<LensOptics>(*std::move(lens), *stop, grid, counted.low, counted.high,

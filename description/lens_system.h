@@ -29,7 +29,7 @@ struct LensSystem {
   schema::Located<Prescription> prescription;
   std::optional<FocusDistance>
       focus_distance;  ///< The image stays where the prescription has it when absent.
-  FilmPlane focus = FilmPlane::best;
+  std::optional<schema::Located<FilmPlane>> focus;  ///< `best` when absent.
   std::optional<schema::Located<double>> f_number;
   Iris iris;
   bool ghosts = false;

@@ -45,7 +45,8 @@ std::vector<std::string> lens_names() {
 }
 
 std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics, Inputs* inputs,
-                                      const SourcePosition& where) {
+                                      const SourcePosition& where,
+                                      const std::vector<double>& wavelengths_nm) {
   fs::path file = name;
   if (reader_of(file) == nullptr) {
     const std::vector<std::string> names = lens_names();
@@ -59,7 +60,7 @@ std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diag
   const auto said = reader_of(file)(file, diagnostics);
   if (inputs != nullptr) inputs->add_file(file);
   description::LoadContext context{diagnostics, file.parent_path(), inputs};
-  auto system = said ? description::build(*said, context) : std::nullopt;
+  auto system = said ? description::build(*said, context, wavelengths_nm) : std::nullopt;
   if (system && system->title.empty()) system->title = file.stem().string();
   return system;
 }

@@ -16,21 +16,26 @@ void extend(Support& support, const Curve& curve) {
   }
 }
 
+void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
+                    Diagnostics& diagnostics) {
+  const RefractiveIndex& index = *use.index;
+  if (index.low_nm() <= sensor.low && sensor.high <= index.high_nm()) return;
+  diagnostics.warning(
+      where,
+      fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
+                  "held from the nearer end",
+                  *use.name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
+}
+
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene) {
   Support sensor;
   for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
-  const auto check = [&](const Material& material, const std::string& name, const RefractiveIndex& index) {
-    if (index.low_nm() <= sensor.low && sensor.high <= index.high_nm()) return;
+  for (const Material& material : scene.materials) {
     const auto said = std::find_if(materials.begin(), materials.end(),
                                    [&](const auto& named) { return named.name == material.name; });
-    context.diagnostics.warning(
-        said != materials.end() ? said->where : SourcePosition{},
-        fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
-                    "held from the nearer end",
-                    name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
-  };
-  for (const Material& material : scene.materials)
-    for (const IndexUse& use : indices(material)) check(material, *use.name, *use.index);
+    const SourcePosition where = said != materials.end() ? said->where : SourcePosition{};
+    for (const IndexUse& use : indices(material)) check_validity(use, sensor, where, context.diagnostics);
+  }
 }
 
 void check_lamps(const LoadContext& context, const Scene& scene) {

@@ -49,6 +49,9 @@ class Beam {
   Imath::V2d chief_{0, 0};
 };
 
+/// Apertures that differ by no more than this share of them are the same: nominal f-numbers are rounded.
+inline constexpr double kNominalRounding = 1e-3;
+
 /// Radius of the stop [mm], as the aperture of the system says at the primary wavelength. Throws Error{scene}
 /// when the ray that tells it does not get there.
 [[nodiscard]] double stop_radius(const System& system);

@@ -27,27 +27,85 @@ std::optional<RayPath> chief_path(const SystemAt& at, double field, double stop_
   return beam ? traced(*beam, {0, 0}, Apertures::ignored) : std::nullopt;
 }
 
+// What is said of the rays through the right, left, upper and lower end of the stop.
+using Ends = std::array<V2d, 4>;
+
+// Of the circle as large as the ellipse that has these ends of two conjugate diameters.
+double mean_radius(const Ends& ends) {
+  return std::sqrt(std::abs((ends[0] - ends[1]).cross(ends[2] - ends[3]))) / 2;
+}
+
+struct Rim {
+  Ends entrance_mm;    // where they cross the paraxial entrance pupil
+  Ends image_cosines;  // of their directions at the image, along x and y
+};
+
+std::optional<Rim> rim_of(const Beam& beam) {
+  const SystemAt& at = beam.at();
+  const double pupil_z = first_order(at).entrance_pupil_mm;
+  constexpr std::array<std::array<double, 2>, 4> kEnds{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  Rim rim;
+  for (std::size_t i = 0; i < kEnds.size(); ++i) {
+    const auto launched = beam.aim({kEnds[i][0], kEnds[i][1]});
+    if (!launched) return std::nullopt;
+    const Ray ray = beam.launch(*launched);
+    const RayPath path = trace(at, ray, Apertures::ignored);
+    if (!path.reached()) return std::nullopt;
+    // Light of an object at infinity has the same width in every plane, a pupil at infinity included.
+    const double along = at.system->object_distance_mm ? (pupil_z - ray.origin.z) / ray.direction.z : 0;
+    rim.entrance_mm[i] = V2d(ray.origin.x, ray.origin.y) + along * V2d(ray.direction.x, ray.direction.y);
+    rim.image_cosines[i] = {path.last.direction.x, path.last.direction.y};
+  }
+  return rim;
+}
+
+System with_round_stop(System system) {
+  system.surfaces[system.stop].iris.reset();
+  return system;
+}
+
+// Of the power that would fill the round stop, what the image has: `round` tells it without blades, whose
+// share is exact where nothing else cuts the beam. Cells of a spot tell it less well.
+double share_at_image(const SystemAt& at, double stop_radius_mm, const Spot& round, int side) {
+  const auto& iris = at.surface(at.system->stop).iris;
+  if (!iris) return round.transmitted / round.filled;
+  if (round.passed == round.filled) return round.transmitted / round.filled * iris->share();
+  const auto beam = Beam::of(at, 0, stop_radius_mm);
+  const Spot bladed = spot(*beam, 0, side);
+  return bladed.transmitted / bladed.filled;
+}
+
 }  // namespace
 
 std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) {
-  const auto beam = Beam::of(at, 0, stop_radius_mm);
-  const auto edge = beam ? beam->aim({0, 1}) : std::nullopt;
-  const auto marginal = edge ? traced(*beam, {0, 1}, Apertures::ignored) : std::nullopt;
-  if (!marginal) return std::nullopt;
+  const System round = with_round_stop(*at.system);
+  const SystemAt round_at(round, at.wavelength_nm);
+  const auto beam = Beam::of(round_at, 0, stop_radius_mm);
+  const auto rim = beam ? rim_of(*beam) : std::nullopt;
+  if (!rim) return std::nullopt;
   const Spot axial = spot(*beam, 0, side);
   if (!(axial.passed > 0)) return std::nullopt;
-  const FirstOrder first = first_order(at);
-  const Ray ray = beam->launch(*edge);
-  const double to_pupil = (first.entrance_pupil_mm - ray.origin.z) / ray.direction.z;
   Speed speed{};
-  speed.entrance_diameter_mm = 2 * std::abs(ray.origin.y + to_pupil * ray.direction.y);
-  speed.f_number = std::abs(first.focal_length_mm) / speed.entrance_diameter_mm;
-  speed.working_f_number = 1 / (2 * at.n.back() * std::abs(marginal->last.direction.y));
+  speed.entrance_diameter_mm = 2 * mean_radius(rim->entrance_mm);
+  speed.f_number = std::abs(first_order(at).focal_length_mm) / speed.entrance_diameter_mm;
+  speed.working_f_number = 1 / (2 * at.n.back() * mean_radius(rim->image_cosines));
   speed.transmittance = axial.transmitted / axial.passed;
-  const auto& iris = at.surface(at.system->stop).iris;
-  speed.t_stop = speed.f_number / std::sqrt(speed.transmittance * (iris ? iris->share() : 1));
+  speed.t_stop = speed.f_number / std::sqrt(share_at_image(at, stop_radius_mm, axial, side));
   speed.airy_radius_um = kFirstZeroOfJ1 / std::numbers::pi * at.wavelength_nm * 1e-3 * speed.working_f_number;
   return speed;
+}
+
+std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm) {
+  constexpr double kRim = 1 - kNominalRounding;  // of the stop's radius
+  const auto beam = Beam::of(at, 0, stop_radius_mm);
+  if (!beam) return std::nullopt;
+  for (const V2d& pupil : {V2d(kRim, 0), V2d(0, kRim), V2d(-kRim, 0), V2d(0, -kRim)}) {
+    const auto launched = beam->aim(pupil);
+    if (!launched) continue;
+    RayPath path = trace(at, beam->launch(*launched), Apertures::obeyed);
+    if (!path.reached()) return path;
+  }
+  return std::nullopt;
 }
 
 std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_radius_mm) {
@@ -57,8 +115,9 @@ std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_rad
   const FirstOrder first = first_order(at);
   const Imath::V3d& d = path->last.direction;
   const double defocus = at.system->surfaces.back().thickness_mm - first.image_distance_mm;
-  const double ideal = paraxial_image_height(at, first, field) + defocus * d.y / d.z;
-  if (ideal != 0 && std::isfinite(ideal)) chief.distortion = chief.height_mm / ideal - 1;
+  const double paraxial = paraxial_image_height(at, first, field);
+  const double ideal = paraxial + defocus * d.y / d.z;
+  if (paraxial != 0 && ideal != 0 && std::isfinite(ideal)) chief.distortion = chief.height_mm / ideal - 1;
   return chief;
 }
 

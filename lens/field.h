@@ -8,22 +8,29 @@
 
 namespace abbe::lens {
 
-/// How fast a lens is on its axis, at one wavelength.
+/// How fast a lens is on its axis, at one wavelength. Of displaced surfaces its beam is an ellipse: it counts
+/// as the circle of the same area.
 struct Speed {
   double entrance_diameter_mm;  ///< Of the real axial beam at the entrance pupil.
   double f_number;              ///< Focal length over that diameter.
-  double working_f_number;      ///< 1/(2 n' sin U') of the real marginal ray.
+  double working_f_number;      ///< 1/(2 n' sin U'): U' of the real marginal ray, sin^2 U' the area that the
+                                ///< direction cosines of the beam along x and y fill, over pi.
   double transmittance;         ///< Mean over the axial beam.
-  double t_stop;                ///< f-number over the root of the transmittance and the share between blades.
+  double t_stop;                ///< f-number over the root of the share of the power through the round stop
+                                ///< that blades, clear apertures and the transmittance leave.
   double airy_radius_um;        ///< Of the first dark ring, 0.6098 lambda/(n' sin U'). [Born1999]
 };
 /// Nothing where the axial beam does not get to the image.
 [[nodiscard]] std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side);
 
+/// The way of a ray along the rim of the axial beam that does not get to the image, clear apertures obeyed;
+/// nothing where the beam passes whole, to within `kNominalRounding` of the stop's radius.
+[[nodiscard]] std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm);
+
 /// The chief ray of a field in the plane of the image.
 struct Chief {
   double height_mm;                  ///< y there.
-  std::optional<double> distortion;  ///< Share by which it is off the paraxial height; none on the axis.
+  std::optional<double> distortion;  ///< Share by which it is off the paraxial height; none where that is 0.
 };
 /// Where the image is off the paraxial focus the paraxial height is moved along the real chief ray.
 [[nodiscard]] std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_radius_mm);

@@ -22,7 +22,7 @@ std::vector<std::vector<Spot>> all_spots(const System& system, double stop_radiu
   return groups;
 }
 
-double best_focus(const System& system) {
+std::optional<double> best_focus(const System& system) {
   return best_focus(all_spots(system, stop_radius(system), kFocusCells));
 }
 

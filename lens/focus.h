@@ -9,7 +9,7 @@ namespace abbe::lens {
 [[nodiscard]] std::vector<std::vector<Spot>> all_spots(const System& system, double stop_radius_mm, int side);
 
 /// How far the image must move towards +z for the least mean square of the spots of all fields, each at all
-/// wavelengths about its own centroid [mm].
-[[nodiscard]] double best_focus(const System& system);
+/// wavelengths about its own centroid [mm]; nothing where the rays of every field are parallel, or none.
+[[nodiscard]] std::optional<double> best_focus(const System& system);
 
 }  // namespace abbe::lens

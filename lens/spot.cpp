@@ -73,7 +73,7 @@ std::optional<SpotSize> size_of(std::span<const Spot> spots) {
 }
 
 // A plane moved by z takes a ray by z times its slope, so that the mean square is a parabola in z.
-double best_focus(std::span<const std::vector<Spot>> groups) {
+std::optional<double> best_focus(std::span<const std::vector<Spot>> groups) {
   double across = 0;
   double slopes = 0;
   for (const std::vector<Spot>& group : groups) {
@@ -86,7 +86,8 @@ double best_focus(std::span<const std::vector<Spot>> groups) {
         slopes += ray.weight / mean.weight * slope.length2();
       }
   }
-  return slopes > 0 ? -across / slopes : 0;
+  constexpr double kParallel = 1e-12;  // slopes that rounding alone parts
+  return slopes > kParallel * kParallel ? std::optional(-across / slopes) : std::nullopt;
 }
 
 double geometric_mtf(std::span<const Spot> spots, double per_mm, const V2d& direction) {

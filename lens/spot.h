@@ -44,7 +44,7 @@ struct SpotSize {
 
 /// How far the image must move towards +z for the least sum of the mean squares of groups of spots, each
 /// about its own centroid [mm]; 0 when no move changes it.
-[[nodiscard]] double best_focus(std::span<const std::vector<Spot>> groups);
+[[nodiscard]] std::optional<double> best_focus(std::span<const std::vector<Spot>> groups);
 
 /// Modulus of the Fourier transform of spots taken together: the geometric modulation transfer of lines
 /// across `direction` (unit) at so many per millimetre. Diffraction is left out. Of no rays 0.

@@ -62,7 +62,8 @@ struct System {
   /// light that rises towards +y, a positive height is towards +y.
   std::vector<double> fields{0};
   std::vector<double> wavelengths_nm{587.5618};
-  std::size_t primary = 0;  ///< Which of them the stop is set and the focus is found at.
+  std::size_t primary = 0;            ///< Which of them the stop is set and the focus is found at,
+  std::optional<double> set_at_nm{};  ///< if not at one of their own, in whose place they are.
 
   [[nodiscard]] double primary_nm() const { return wavelengths_nm[primary]; }
   /// Where a vertex is on the axis; that of the image for the number of surfaces.

@@ -60,6 +60,9 @@ TEST(Lens, OtherWavelengthsKeepTheStop) {
   const auto own = abbe("lens double_gauss --json").json();
   const auto other = abbe("lens double_gauss --lambda 450 --json").json();
   EXPECT_EQ(own["stop_radius_mm"], other["stop_radius_mm"]);
+  EXPECT_EQ(own["set_at_nm"], other["set_at_nm"]);
+  EXPECT_EQ(other["set_at_nm"], 587.6);
+  EXPECT_EQ(other["primary_nm"], 450);
   EXPECT_NE(own["entrance_diameter_mm"][1], other["entrance_diameter_mm"][0]);
 }
 

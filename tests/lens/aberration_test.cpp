@@ -132,8 +132,20 @@ TEST(LensSpot, DefocusedPointIsADisc) {
 }
 
 TEST(LensFocus, BestFocusFindsThePoint) {
-  EXPECT_NEAR(best_focus(perfect(2)), -2, 1e-9);
-  EXPECT_NEAR(best_focus(perfect(-0.5)), 0.5, 1e-9);
+  EXPECT_NEAR(best_focus(perfect(2)).value(), -2, 1e-9);
+  EXPECT_NEAR(best_focus(perfect(-0.5)).value(), 0.5, 1e-9);
+}
+
+TEST(LensFocus, ParallelBeamsHaveNone) {
+  System hole;
+  hole.surfaces.resize(1);
+  hole.surfaces[0].thickness_mm = 100;
+  hole.aperture = {ApertureKind::stop, 0.5};
+  hole.fields = {0, 20, 40, 60};
+  EXPECT_FALSE(best_focus(hole));
+  hole.object_distance_mm = 50;
+  hole.fields = {0};
+  EXPECT_NEAR(best_focus(hole).value(), -150, 1e-9);
 }
 
 TEST(LensFocus, FileMayAskForTheLeastSpots) {
@@ -148,7 +160,7 @@ TEST(LensFocus, FileMayAskForTheLeastSpots) {
   EXPECT_EQ(with_focus("given").surfaces.back().thickness_mm, 40);
   // Undercorrected: rays from the edge meet nearer to the lens. No move of the image is better than none.
   EXPECT_LT(best.surfaces.back().thickness_mm, first.back_focus_mm - 0.1);
-  EXPECT_NEAR(best_focus(best), 0, 1e-3);
+  EXPECT_NEAR(best_focus(best).value(), 0, 1e-3);
   double least = size_of(axial_spots(best))->rms_mm;
   for (const double shift : {-0.05, 0.05}) {
     System moved = best;
@@ -225,6 +237,58 @@ TEST(LensField, VignettingIsTheShareThatAperturesTake) {
   system.surfaces[0].semi_aperture_mm = 3 / std::sqrt(2.0);
   const auto spots = axial_spots(system);
   EXPECT_NEAR(spots[0].vignetting(), 0.5, 5e-3);
+}
+
+// A plano-convex lens of 100 mm before its stop; its surfaces, or the stop, displaced.
+System displaced_lens(const std::string& lens, const std::string& stop) {
+  return test::sound_lens_of(R"({"entrance_pupil": 10, "focus": "paraxial", "surfaces": [
+    {"radius": 51.68, "thickness": 4, "glass": 1.5168)" +
+                             lens + R"(}, {"radius": 0, "thickness": 30)" + lens +
+                             R"(}, {"stop": true, "thickness": 50)" + stop + "}]}");
+}
+
+TEST(LensField, SpeedDoesNotDependOnTheDirectionOfADisplacement) {
+  const auto speed_of = [](const std::string& lens, const std::string& stop) {
+    const System system = displaced_lens(lens, stop);
+    return speed(SystemAt(system, 550), stop_radius(system), 60).value();
+  };
+  const Speed centred = speed_of("", "");
+  const auto expect_alike = [&](const Speed& x, const Speed& y, double bound) {
+    EXPECT_NEAR(x.entrance_diameter_mm / y.entrance_diameter_mm, 1, bound);
+    EXPECT_NEAR(x.working_f_number / y.working_f_number, 1, bound);
+    EXPECT_NEAR(x.t_stop / y.t_stop, 1, 1e-4);
+    EXPECT_NEAR(x.f_number / centred.f_number, 1, 0.02);
+    EXPECT_NEAR(x.working_f_number / centred.working_f_number, 1, 0.02);
+  };
+  const Speed upwards = speed_of(R"(, "decenter": [0, 4])", "");
+  expect_alike(speed_of(R"(, "decenter": [4, 0])", ""), upwards, 1e-10);
+  expect_alike(speed_of(R"(, "tilt_deg": [5, 0])", ""), speed_of(R"(, "tilt_deg": [0, 5])", ""), 1e-10);
+  expect_alike(speed_of("", R"(, "decenter": [-4, 0])"), speed_of("", R"(, "decenter": [0, -4])"), 1e-10);
+  // Aberrations of the pupil make its beam a little less than an ellipse.
+  expect_alike(speed_of(R"(, "decenter": [2.4, 3.2])", ""), upwards, 1e-6);
+}
+
+// The paraxial height is 0 there, whatever the image's distance from the paraxial focus adds to it.
+TEST(LensField, TiltedLensesHaveNoDistortionOnTheAxis) {
+  System system = displaced_lens(R"(, "tilt_deg": [5, 0])", "");
+  system.surfaces.back().thickness_mm += 0.3;
+  const auto chief = chief_ray(SystemAt(system, 587.5618), 0, stop_radius(system));
+  ASSERT_TRUE(chief);
+  EXPECT_FALSE(chief->distortion);
+}
+
+// Half of the beam is cut; blades whose polygon holds the other half take nothing of it.
+TEST(LensField, TStopCountsAperturesThatCutTheAxialBeam) {
+  System system = perfect(0);
+  system.surfaces.insert(system.surfaces.begin(), Surface{});
+  system.surfaces[1].semi_aperture_mm = 3 / std::sqrt(2.0);
+  for (const int blades : {0, 7}) {
+    if (blades > 0) system.surfaces[0].iris = Iris(blades, 0);
+    const auto found = speed(SystemAt(system, 550), 3, 200);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->f_number, 50, 1e-9);
+    EXPECT_NEAR(std::pow(found->f_number / found->t_stop, 2) / found->transmittance, 0.5, 5e-3) << blades;
+  }
 }
 
 }  // namespace

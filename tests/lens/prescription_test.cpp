@@ -1,8 +1,10 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "lens/beam.h"
 #include "lens/paraxial.h"
 #include "lenses.h"
 
@@ -69,6 +71,33 @@ TEST(LensPrescription, UnknownGlassIsToldWithTheNearest) {
   expect_json_fault(singlet(kFront + R"(, [-50, 3, "N-SF66x"], [0, 1])"), "2:", "did you mean \"N-SF66\"?");
 }
 
+TEST(LensPrescription, WavelengthsBeyondAGlassAreTold) {
+  const auto warning = [](double nm) {
+    return fmt::format("warning: schott/SF5 has no data at {} nm: its index at 350 nm is used", nm);
+  };
+  Diagnostics diagnostics;
+  const auto system = load_lens("achromat", diagnostics, nullptr, {}, {310, 330, 350});
+  ASSERT_TRUE(system);
+  EXPECT_EQ(system->wavelengths_nm, (std::vector<double>{310, 330, 350}));
+  EXPECT_EQ(system->primary, 1U);
+  for (const double nm : {310, 330})
+    EXPECT_NE(diagnostics.text().find(warning(nm)), std::string::npos) << diagnostics.text();
+  EXPECT_EQ(diagnostics.all().size(), 2U) << diagnostics.text();
+}
+
+// The lens stays as it stands.
+TEST(LensPrescription, OtherWavelengthsKeepStopAndFocus) {
+  Diagnostics diagnostics;
+  const auto other = load_lens("fisheye", diagnostics, nullptr, {}, {450});
+  ASSERT_TRUE(other) << diagnostics.text();
+  const System own = test::lens_named("fisheye");
+  EXPECT_EQ(other->primary_nm(), 450);
+  EXPECT_EQ(other->set_at_nm.value(), own.primary_nm());
+  EXPECT_EQ(stop_radius(*other), stop_radius(own));
+  EXPECT_EQ(other->surfaces.back().thickness_mm, own.surfaces.back().thickness_mm);
+  EXPECT_FALSE(own.set_at_nm);
+}
+
 TEST(LensPrescription, LensHasOneStop) {
   expect_json_fault(singlet("[50, 4, 1.5], [-50, 40]"), "1:1", "no surface is the stop");
   expect_json_fault(singlet(kFront + R"(, {"radius": -50, "thickness": 9, "stop": true})"),
@@ -79,6 +108,37 @@ TEST(LensPrescription, AperturesEndWhereTheirSurfaceDoes) {
   expect_json_fault(singlet(kFront + ", [8, 40, null, 8.5]"), "2:", "got 8.5 mm, allowed less than 8 mm");
   EXPECT_TRUE(
       lens_of(singlet(kFront + R"(, {"radius": 8, "thickness": 40, "aperture": 8.5, "conic": -1})")).system);
+}
+
+// A plano-convex lens of 100 mm, 5 mm before its stop.
+std::string stopped_lens(const std::string& opening, double stop_aperture, double front_aperture) {
+  return singlet(fmt::format(R"([51.68, 4, 1.5168, {}], [0, 5],
+    {{"stop": true, "thickness": 90, "aperture": {}}})",
+                             front_aperture, stop_aperture),
+                 opening);
+}
+
+TEST(LensPrescription, StopOpensAsFarAsItsAperture) {
+  expect_json_fault(stopped_lens(R"("f_number": 5)", 6, 12.5),
+                    "3:", "the stop does not open so far, its aperture being 6 mm (got f/5, allowed f/7.7");
+  expect_json_fault(stopped_lens(R"("entrance_pupil": 20)", 6, 12.5),
+                    "3:", "(got an entrance pupil of 20 mm, allowed an entrance pupil of 12.9");
+  for (const char* sound : {R"("f_number": 7.8)", R"("entrance_pupil": 12.9)", R"("title": "as its stop")"}) {
+    const auto loaded = lens_of(stopped_lens(sound, 6, 12.5));
+    EXPECT_TRUE(loaded.system && loaded.diagnostics.all().empty()) << loaded.text();
+  }
+}
+
+TEST(LensPrescription, AperturesThatCutTheAxialBeamAreTold) {
+  const auto cut = lens_of(stopped_lens(R"("f_number": 5)", 12.5, 6));
+  ASSERT_TRUE(cut.system) << cut.text();
+  EXPECT_NE(
+      cut.text().find("warning: the axial beam that fills the stop does not get to the image whole: its "
+                      "rim is stopped by the aperture of surface 1"),
+      std::string::npos)
+      << cut.text();
+  const auto whole = lens_of(stopped_lens(R"("f_number": 5)", 12.5, 10.005));
+  EXPECT_TRUE(whole.system && whole.diagnostics.all().empty()) << whole.text();
 }
 
 TEST(LensPrescription, SurfacesDoNotCross) {
@@ -104,6 +164,16 @@ TEST(LensPrescription, ConditionsMustFit) {
                     "2:", "did you mean \"radius\"?");
   expect_json_fault(singlet(kFront + R"(, {"asphere": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]})"),
                     "2:", "an asphere ends at r^20");
+}
+
+TEST(LensPrescription, AfocalLensesHaveNoFocus) {
+  const std::string hole = R"({"stop": true, "aperture": 0.5, "thickness": 100})";
+  for (const char* focus : {R"("focus": "paraxial")", R"("focus": "best")"})
+    expect_json_fault(singlet(hole, focus), "1:1", "the lens is afocal and has no focus");
+  EXPECT_TRUE(lens_of(singlet(hole, R"("focus": "given")")).system);
+  expect_json_fault(
+      singlet(kFront + ", [-50, 40]", R"("entrance_pupil": 5, "focus": "best", "fields_deg": [100])"), "1:1",
+      "no beam of the lens comes together");
 }
 
 TEST(LensPrescription, FieldsOfAnyKindBecomeDirectionsOrHeights) {

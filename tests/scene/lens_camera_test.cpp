@@ -82,6 +82,20 @@ TEST(LensCamera, ExposesByItsStop) {
   }
 }
 
+// What the T-stop leaves of the light of the stop, where something else cuts the beam to half its width.
+TEST(LensCamera, ExposesByItsTStopWhereAnApertureCutsTheAxialBeam) {
+  lens::System lens = lens_named("landscape");
+  const double stop = lens::stop_radius(lens);
+  lens.surfaces.back().semi_aperture_mm = 0.5 * stop;
+  const auto speed = lens::speed(lens::SystemAt(lens, 550), stop, 256);
+  ASSERT_TRUE(speed);
+  EXPECT_GT(speed->t_stop, 1.9 * speed->f_number);
+  const Camera camera = looking_through(lens, stop);
+  const double sine = sine_of_rim(std::get<LensSystem>(camera.kind).optics->system, 550);
+  const double told = kPi * std::pow(sine * speed->f_number / speed->t_stop, 2);
+  EXPECT_NEAR(irradiance(camera, {200, 200}, 550, 300) / told, 1, 0.003);
+}
+
 TEST(LensCamera, DarkensTowardsTheCornersAsOnTheBench) {
   for (const char* name : {"double_gauss", "cooke_triplet", "tessar"}) {
     const lens::System lens = lens_named(name);

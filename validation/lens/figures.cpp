@@ -107,7 +107,7 @@ LensFigures lens_figures(const lens::System& system, const LensLook& look) {
                       .first_order = {},
                       .speed = {},
                       .seidel = {},
-                      .best_focus_mm = 0,
+                      .best_focus_mm = {},
                       .frequencies_per_mm = look.frequencies_per_mm,
                       .fields = {},
                       .ghosts = {}};

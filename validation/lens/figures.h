@@ -38,8 +38,8 @@ struct LensFigures {
   double stop_radius_mm;
   std::vector<lens::FirstOrder> first_order;      ///< By wavelength.
   std::vector<std::optional<lens::Speed>> speed;  ///< By wavelength; none where the axis is blocked.
-  lens::SeidelSums seidel;  ///< At the primary wavelength, of the field furthest from the axis.
-  double best_focus_mm;     ///< How far the image would have to move for the least spots.
+  lens::SeidelSums seidel;              ///< At the primary wavelength, of the field furthest from the axis.
+  std::optional<double> best_focus_mm;  ///< As `lens::best_focus` tells.
   std::vector<double> frequencies_per_mm;
   std::vector<LensFieldFigures> fields;
   std::vector<GhostFigures> ghosts;  ///< The brightest first, by reflectance over area.

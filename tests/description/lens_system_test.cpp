@@ -1,0 +1,43 @@
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using LensSystemTest = test::DescriptionTest;
+
+// Once for a glass of two surfaces.
+TEST_F(LensSystemTest, TellsGlassesThatDoNotHoldForAllThatTheSensorSees) {
+  const auto through = [&](const std::string& band) {
+    return load(R"({"camera": {"lens_system": {"prescription": {"entrance_pupil": 4, "surfaces": [
+          {"stop": true, "thickness": 2}, [60, 5, "N-SF11"], [-60, 1], [60, 5, "N-SF11"], [-60, 15]]}},
+          "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "sensor": {"resolution": [1, 1], "channels": {"a": {"band": )" +
+                band + "}}}}")
+        .text();
+  };
+  EXPECT_EQ(through("[400, 500]"), "");
+  const std::string told = through("[350, 500]");
+  const std::string warning =
+      "/camera/lens_system/prescription: warning: N-SF11 holds on [370, 2500] nm, the sensor sees [350, 500] "
+      "nm: ";
+  EXPECT_NE(told.find(warning), std::string::npos) << told;
+  EXPECT_EQ(told.find("N-SF11 holds"), told.rfind("N-SF11 holds")) << told;
+}
+
+TEST_F(LensSystemTest, TellsAFocusOfAFilmThatNothingMoves) {
+  const auto told = [&](const std::string& beside) {
+    return load(R"({"camera": {"lens_system": {"prescription": "achromat", )" + beside + R"(},
+        "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}, "sensor": {"resolution": [1, 1],
+        "channels": {"a": {"band": [500, 600]}}}, "lights": [{"environment": {}, "emission": {"spectrum": 1}}]})")
+        .text();
+  };
+  const std::string alone = told(R"("focus": "paraxial")");
+  EXPECT_NE(alone.find("/camera/lens_system/focus: warning: a focus without effect"), std::string::npos)
+      << alone;
+  EXPECT_EQ(told(R"("focus": "paraxial", "focus_distance": 3)"), "");
+  EXPECT_EQ(told(R"("focus_distance": 3)"), "");
+}
+
+}  // namespace
+}  // namespace abbe
