@@ -86,7 +86,7 @@ std::optional<double> best_focus(std::span<const std::vector<Spot>> groups) {
         slopes += ray.weight / mean.weight * slope.length2();
       }
   }
-  constexpr double kParallel = 1e-12;  // slopes that rounding alone parts
+  constexpr double kParallel = 1e-9;  // slopes that rounding, of sums of many rays, may part
   return slopes > kParallel * kParallel ? std::optional(-across / slopes) : std::nullopt;
 }
 

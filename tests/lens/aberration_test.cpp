@@ -142,7 +142,9 @@ TEST(LensFocus, ParallelBeamsHaveNone) {
   hole.surfaces[0].thickness_mm = 100;
   hole.aperture = {ApertureKind::stop, 0.5};
   hole.fields = {0, 20, 40, 60};
+  hole.wavelengths_nm = {486, 588, 656};
   EXPECT_FALSE(best_focus(hole));
+  EXPECT_FALSE(best_focus(all_spots(hole, 0.5, 100)));
   hole.object_distance_mm = 50;
   hole.fields = {0};
   EXPECT_NEAR(best_focus(hole).value(), -150, 1e-9);

@@ -82,12 +82,13 @@ TEST(LensCamera, ExposesByItsStop) {
   }
 }
 
-// What the T-stop leaves of the light of the stop, where something else cuts the beam to half its width.
+// What the T-stop leaves of the light of the stop, where something else cuts the beam to half its width; at
+// f/30, where spherical aberration does not take rays of the film's middle elsewhere in the stop.
 TEST(LensCamera, ExposesByItsTStopWhereAnApertureCutsTheAxialBeam) {
   lens::System lens = lens_named("landscape");
-  const double stop = lens::stop_radius(lens);
+  const double stop = lens::stop_radius(lens) / 3;
   lens.surfaces.back().semi_aperture_mm = 0.5 * stop;
-  const auto speed = lens::speed(lens::SystemAt(lens, 550), stop, 256);
+  const auto speed = lens::speed(lens::SystemAt(lens, 550), stop, 512);
   ASSERT_TRUE(speed);
   EXPECT_GT(speed->t_stop, 1.9 * speed->f_number);
   const Camera camera = looking_through(lens, stop);
