@@ -289,7 +289,7 @@ TEST(Develop, TheGuidesCommandsWork) {
     EXPECT_EQ(run.code, 0) << (*i)[1] << '\n' << run.err;
   }
   EXPECT_GE(count, 7);
-  for (const char* name : {"ccd.tif", "ccd.png", "coarse.png", "prism.tif", "spectral.png", "filtered.tif"})
+  for (const char* name : {"ccd.tif", "ccd.png", "coarse.png", "small.tif", "spectral.png", "filtered.tif"})
     EXPECT_EQ(read_picture(file(name)).channels.empty(), false) << name;
   EXPECT_EQ(read_exr_parts(file("ccd_parts.exr")).size(), 5U);
 }
