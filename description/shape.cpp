@@ -278,8 +278,9 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
   if (emission && mesh && !mesh->material)
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
   for (NamedShape& part : parts) {
-    scene.shapes.push_back(
-        {std::move(part.name), in_motion(std::move(part.shape), moving, context), part.material});
+    scene.shapes.push_back({std::move(part.name),
+                            in_motion(std::move(part.shape), emission != nullptr, moving, context),
+                            part.material});
     if (emission)
       add_area_light(*emission, emits_from_both_sides(shape),
                      static_cast<std::uint32_t>(scene.shapes.size() - 1), context, scene);
@@ -296,8 +297,8 @@ bool loses_axes(const PlainShape& shape, const Imath::M44d& to) {
 
 // What moves is a prototype around its middle, where floats are finest; so is what has been turned and could
 // not tell it otherwise.
-abbe::Shape in_motion(PlainShape shape, const Moving& moving, LoadContext& context) {
-  if (!moving.motion && !loses_axes(shape, moving.opening)) {
+abbe::Shape in_motion(PlainShape shape, bool emits, const Moving& moving, LoadContext& context) {
+  if (!moving.motion && (emits || !loses_axes(shape, moving.opening))) {
     if (moving.opening != Imath::M44d())
       std::visit([&](auto& s) { move(s, Transform{moving.opening}); }, shape);
     return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);

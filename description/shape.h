@@ -103,7 +103,8 @@ void build_objects(const std::vector<schema::Named<spec::Object>>& objects, Load
 void add_instance(const spec::Instance& instance, const Moving& moving, const std::string& name,
                   LoadContext& context, Scene& scene);
 /// The shape where it is when the shutter opens; one that moves, or keeps axes, is the one of a prototype.
-[[nodiscard]] abbe::Shape in_motion(PlainShape shape, const Moving& moving, LoadContext& context);
+/// What `emits` and stands still is a shape by itself, since places on it are drawn.
+[[nodiscard]] abbe::Shape in_motion(PlainShape shape, bool emits, const Moving& moving, LoadContext& context);
 
 void shift(Mesh& mesh, const Imath::V3d& by);
 void shift(Sphere& sphere, const Imath::V3d& by);

@@ -244,6 +244,25 @@ TEST(MovingScene, TurnsTheAxesOfWhatStandsStillThen) {
     for (const double last_deg : {90.0, 90.1}) EXPECT_LT(through(shape, last_deg), 1e-4) << shape << last_deg;
 }
 
+// A lamp that has been turned before the shutter opens, and stands still since, shines as one that still
+// turns.
+TEST(MovingScene, WhatStandsStillThenEmits) {
+  const auto seen = [](double last_deg) {
+    const Scene scene = test::load_text(fmt::format(R"({{"abbe": 1,
+      "camera": {{"pinhole": {{"fov_deg": 5}}, "from": [0, 0, 6], "to": [0, 0, 0], "up": [0, 1, 0]}},
+      "sensor": {{"resolution": [4, 4], "channels": {{"Y": {{"band": [500, 600]}}}}}},
+      "materials": {{"black": {{"diffuse": {{"reflectance": 0}}}}}},
+      "shapes": [{{"material": "black", "sphere": {{"center": [0, 0, 0], "radius": 2}}, "emission": {{"spectrum": 1}}, "motion": {{"keyframes": [
+        {{"time_s": 0, "rotate": {{"axis": [0, 0, 1], "deg": 90}}}},
+        {{"time_s": 1, "rotate": {{"axis": [0, 0, 1], "deg": {}}}}}]}}}}],
+      "render": {{"integrator": "path", "samples": 16}}}})",
+                                                    last_deg));
+    return test::whole(render(scene, {}).film, 0).mean;
+  };
+  EXPECT_GT(seen(90), 0);
+  EXPECT_NEAR(seen(90) / seen(91), 1, 1e-3);
+}
+
 TEST(MovingScene, RefusesWhatHasNoMeaning) {
   const auto says = [](const std::string& said, const std::string& part) {
     EXPECT_NE(said.find(part), std::string::npos) << said;
