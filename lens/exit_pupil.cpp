@@ -144,6 +144,8 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
       centred_(!system.system().displaced()),
       columns_(centred_ ? kRadii : kCells),
       rows_(centred_ ? 1 : kCells),
+      cell_mm_(centred_ ? V2d(half_image_mm.length() / columns_, 0)
+                        : 2.0 * half_image_mm / V2d(columns_, rows_)),
       shift_(pupil_shift(system, (low_nm + high_nm) / 2)) {
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
   const SpectralSystem round = without_blades(system);
@@ -153,8 +155,7 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
 }
 
 V2d ExitPupil::at(double column, double row) const {
-  return centred_ ? V2d(half_image_.length() * column / columns_, 0)
-                  : half_image_ * V2d(2 * column / columns_ - 1, 2 * row / rows_ - 1);
+  return centred_ ? V2d(column * cell_mm_.x, 0) : V2d(column, row) * cell_mm_ - half_image_;
 }
 
 void ExitPupil::bound_along_radius(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
@@ -201,19 +202,20 @@ void ExitPupil::bound_all_over(const SpectralSystem& system, std::span<const dou
 }
 
 PupilBound ExitPupil::bound(const V2d& image) const {
-  const double radius = std::sqrt(image.length2());
-  const V2d cells = centred_ ? V2d(radius / half_image_.length() * columns_, 0)
-                             : (image / half_image_ + V2d(1)) / 2 * V2d(columns_, rows_);
   const auto cell = [](double at, int count) { return std::clamp(static_cast<int>(at), 0, count - 1); };
-  const int i = cell(cells.x, columns_);
-  const int j = cell(cells.y, rows_);
-  PupilBound bound = bounds_[static_cast<std::size_t>(j * columns_ + i)];
-  if (centred_) {
-    bound.center.x += shift_ * (radius - at(i + 0.5, 0).x);
-    if (radius > 0) bound.along = image * (1 / radius);
-  } else {
+  if (!centred_) {
+    const V2d cells = (image + half_image_) / cell_mm_;
+    const int i = cell(cells.x, columns_);
+    const int j = cell(cells.y, rows_);
+    PupilBound bound = bounds_[static_cast<std::size_t>(j * columns_ + i)];
     bound.center += shift_ * (image - at(i + 0.5, j + 0.5));
+    return bound;
   }
+  const double radius = std::sqrt(image.length2());
+  const int i = cell(radius / cell_mm_.x, columns_);
+  PupilBound bound = bounds_[static_cast<std::size_t>(i)];
+  bound.center.x += shift_ * (radius - at(i + 0.5, 0).x);
+  if (radius > 0) bound.along = image * (1 / radius);
   return bound;
 }
 

@@ -56,7 +56,8 @@ class ExitPupil {
   bool centred_;  // so that the distance from the axis alone matters
   int columns_;   // of the bounds; along the radius these are all there are
   int rows_ = 1;
-  double shift_;  // of the pupil, over that of the point of the image
+  Imath::V2d cell_mm_;  // along the radius in x alone
+  double shift_;        // of the pupil, over that of the point of the image
   std::vector<PupilBound> bounds_;
   EntranceDisc entrance_{0, 0};
   double least_cosine_ = 1;

@@ -43,7 +43,7 @@ struct SpotSize {
 [[nodiscard]] std::optional<SpotSize> size_of(std::span<const Spot> spots);
 
 /// How far the image must move towards +z for the least sum of the mean squares of groups of spots, each
-/// about its own centroid [mm]; 0 when no move changes it.
+/// about its own centroid [mm]; nothing where no move changes it, as of parallel rays.
 [[nodiscard]] std::optional<double> best_focus(std::span<const std::vector<Spot>> groups);
 
 /// Modulus of the Fourier transform of spots taken together: the geometric modulation transfer of lines
