@@ -18,12 +18,15 @@ template <typename T>
   const Imath::Vec3<T> e2 = c - a;
   const Imath::Vec3<T> s = ray.origin - a;
   const T determinant = ray.direction.cross(e2).dot(e1);
-  const T u = ray.direction.cross(e2).dot(s) / determinant;
-  const T v = s.cross(e1).dot(ray.direction) / determinant;
+  if (determinant == 0) return std::nullopt;  // along its plane, or it has none
+  const T sign = std::copysign(T{1}, determinant);
+  const T scale = std::abs(determinant);
+  const T u = ray.direction.cross(e2).dot(s) * sign;  // times the scale, as is v
+  const T v = s.cross(e1).dot(ray.direction) * sign;
   // Neighbours overlap by the width of rounding, so that a ray through their common edge meets one of them.
   const T magnitude = s.length() * ray.direction.length() * std::max(e1.length(), e2.length());
-  const T slack = 8 * std::numeric_limits<T>::epsilon() * magnitude / std::abs(determinant);
-  if (!(u >= -slack && v >= -slack && u + v <= 1 + slack)) return std::nullopt;
+  const T slack = 8 * std::numeric_limits<T>::epsilon() * magnitude;
+  if (!(u >= -slack && v >= -slack && u + v <= scale + slack)) return std::nullopt;
   return s.cross(e1).dot(e2) / determinant;
 }
 
