@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@
 
 namespace abbe::soak {
 namespace {
+
+// A scene rendered by two threads, and what its pilots have taught.
+struct Whole {
+  RenderResult result;
+  std::shared_ptr<const Guides> guides;
+};
 
 // A component of the Stokes vector but the intensity, which may be negative.
 bool has_sign(const std::string& plane) {
@@ -81,7 +88,8 @@ std::string fault_of_layers(const Film& film, const Film& layers, double faintes
   return "";
 }
 
-std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
+// The first part learns by itself, on one thread, what the others are told.
+std::string difference_of_parts(const Scene& scene, const Whole& whole) {
   const auto samples = static_cast<std::uint64_t>(scene.render.samples);
   RenderOptions options;
   options.threads = 1;
@@ -89,6 +97,7 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
   options.samples = SampleRange{0, samples / 3};
   std::optional<RenderResult> first;
   if (samples / 3 > 0) first = render(scene, options);
+  options.guides = whole.guides;
   options.samples = SampleRange{samples / 3, samples};
   RenderResult sum = render(scene, options);
   const std::uint64_t rays = sum.stats.rays + (first ? first->stats.rays : 0);
@@ -96,55 +105,59 @@ std::string difference_of_parts(const Scene& scene, const RenderResult& whole) {
     sum.film.add(first->film);
     sum.layers->add(*first->layers);
   }
-  if (sum.film.bytes() == whole.film.bytes() && rays == whole.stats.rays)
+  const RenderResult& together = whole.result;
+  if (sum.film.bytes() == together.film.bytes() && rays == together.stats.rays)
     return fault_of_layers(sum.film, *sum.layers, faintest_value(scene));
   return fmt::format("other bits in parts of {} and {} samples, by one thread: {} rays instead of {}",
-                     samples / 3, samples - samples / 3, rays, whole.stats.rays);
+                     samples / 3, samples - samples / 3, rays, together.stats.rays);
 }
 
 // Of the values that a crop to the first quarter has.
-std::string difference_of_crop(const Scene& scene, const RenderResult& whole) {
+std::string difference_of_crop(const Scene& scene, const Whole& whole) {
   RenderOptions options;
   options.threads = 1;
+  options.guides = whole.guides;
   const int width = (scene.camera.width + 1) / 2;
   const int height = (scene.camera.height + 1) / 2;
   options.crop = Crop{0, 0, width, height};
   const Film film = render(scene, options).film;
+  const Film& all = whole.result.film;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.camera.width) +
                          static_cast<std::size_t>(x);
       for (int plane = 0; plane < film.channels(); ++plane)
-        if (film.mean(pixel, plane) != whole.film.mean(pixel, plane))
+        if (film.mean(pixel, plane) != all.mean(pixel, plane))
           return fmt::format("plane {} of pixel ({}, {}) is {}, in a crop {}", plane, x, y,
-                             whole.film.mean(pixel, plane), film.mean(pixel, plane));
+                             all.mean(pixel, plane), film.mean(pixel, plane));
     }
   return "";
 }
 
-std::string failure_of(const Scene& scene, const RenderResult& whole, const DrawnScene& drawn) {
-  if (whole.stats.nonfinite_samples > 0)
-    return fmt::format("{} samples are not finite", whole.stats.nonfinite_samples);
-  if (std::string fault = faulty_value(whole.film, scene.film_planes(), drawn); !fault.empty()) return fault;
+std::string failure_of(const Scene& scene, const Whole& whole, const DrawnScene& drawn) {
+  const RenderResult& result = whole.result;
+  if (result.stats.nonfinite_samples > 0)
+    return fmt::format("{} samples are not finite", result.stats.nonfinite_samples);
+  if (std::string fault = faulty_value(result.film, scene.film_planes(), drawn); !fault.empty()) return fault;
   if (std::string fault = difference_of_parts(scene, whole); !fault.empty()) return fault;
   if (std::string fault = difference_of_crop(scene, whole); !fault.empty()) return fault;
   return traps_seen();
 }
 
 // Photons refuse some lamps, with an error that says so: such scenes are for path tracing.
-RenderResult rendered(Scene& scene) {
+Whole rendered(Scene& scene) {
   RenderOptions options;
   options.threads = 2;
   try {
     const IntegratorChoice choice = choose_integrator(scene, options.threads);
     scene.render.integrator = choice.integrator;
     options.guides = choice.guides;
-    return render(scene, options);
+    return {render(scene, options), choice.guides};
   } catch (const Error& error) {
     if (error.code != ErrorCode::scene) throw;
     scene.render.integrator = Integrator::path;
     options.guides = {};
-    return render(scene, options);
+    return {render(scene, options), {}};
   }
 }
 
@@ -155,8 +168,8 @@ Outcome check(const DrawnScene& drawn) {
   std::optional<Scene> scene = load_scene(drawn.path, {}, diagnostics);
   if (!scene) return {0, 0, "refused: " + diagnostics.text()};
   watch_traps();
-  const RenderResult whole = rendered(*scene);
-  return {whole.stats.paths, whole.stats.rays, failure_of(*scene, whole, drawn)};
+  const Whole whole = rendered(*scene);
+  return {whole.result.stats.paths, whole.result.stats.rays, failure_of(*scene, whole, drawn)};
 }
 
 }  // namespace abbe::soak

@@ -5,8 +5,9 @@
 namespace abbe::soak {
 namespace {
 
-constexpr int kMostPaths = 600'000;
-constexpr int kMostSamples = 10'000;
+constexpr int kMostPaths = 2'400'000;
+constexpr int kMostSamples = 40'000;
+constexpr double kMostVertices = 6e8;
 constexpr double kMostPairs = 3e7;  // of vertices, or of a vertex and a photon: minutes of CPU time at most
 
 // How many photons are traced, and how they are gathered. Returns how many each sample has at least.
@@ -22,11 +23,15 @@ int draw_photons(Drawing& drawing, Json& render) {
   return per_sample;
 }
 
+double depth_of(const Json& render) {
+  constexpr int kUsualDepth = 100;
+  return render.value("max_depth", kUsualDepth);
+}
+
 // Each of two paths of n events may be joined at each event, and what gathers photons may find each event of
 // all of them.
 double pairs_of_sample(const Json& render, int pixels, int photons) {
-  constexpr int kUsualDepth = 100;
-  const double depth = render.value("max_depth", kUsualDepth);
+  const double depth = depth_of(render);
   return pixels * depth * (photons > 0 ? photons : depth);
 }
 
@@ -61,7 +66,9 @@ void draw_render(Drawing& drawing) {
   if (joins || !plays || chance(random, 0.5))
     render["max_depth"] = static_cast<int>(decades(random, 1, plays && !joins ? 1000 : 60));
   render["roulette_depth"] = plays ? integer(random, 0, 12) : -1;
-  double most = std::min(kMostSamples, kMostPaths / std::max(pixels, photons));
+  const int paths = std::max(pixels, photons);
+  double most = std::min<double>(kMostSamples, kMostPaths / paths);
+  most = std::min(most, kMostVertices / (paths * depth_of(render)));
   if (joins || gathers) most = std::min(most, kMostPairs / pairs_of_sample(render, pixels, photons));
   render["samples"] = static_cast<int>(most * part_of_most + 1);
 }

@@ -22,7 +22,7 @@ constexpr std::uint16_t kX87Flags = 0x80ff;   // what the x87 unit, which long d
 constexpr std::uint64_t kSingleStep = 0x100;  // of RFLAGS
 // Steps cost microseconds, and Embree raises some hundred exceptions for a path that meets balls: a thread
 // that has made so many is left alone.
-constexpr std::uint32_t kMostSteps = 4'000;
+constexpr std::uint32_t kMostSteps = 1'000;
 
 // An instruction that raised something. Handlers may not allocate.
 struct Site {
