@@ -39,12 +39,13 @@ function(abbe_common_options target)
     -fno-trapping-math $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-mmove-max=256 -mstore-max=256>)
 endfunction()
 
-# Those and the build's sanitizers, for all that is not a test.
+# Those and the build's sanitizers, for all that is not a test; rooms that no path comes through have the build's options for these besides, as
+# they take most of the time to compile and are seldom waited for.
 function(abbe_compile_options target)
   abbe_common_options(${target})
   target_compile_options(${target} PRIVATE ${ABBE_SANITIZERS})
   set(traced abbe_sampling abbe_spectral abbe_materials abbe_lens abbe_sensor abbe_scene abbe_transport)
-  if(ABBE_SANITIZERS AND NOT target IN_LIST traced)  # compiled in two thirds of the time, and seldom waited for
-    target_compile_options(${target} PRIVATE -O1)
+  if(NOT target IN_LIST traced)
+    target_compile_options(${target} PRIVATE ${ABBE_SANITIZERS_OFF_PATHS})
   endif()
 endfunction()

@@ -152,9 +152,9 @@ TEST(Far, PhotonsOfEveryLightBringAllOfIt) {
   }
 }
 
-// A ball of glass throws a caustic on the card: by chance, and by photons. The ratio of the means has a
-// standard error of 0.13 %.
+// A ball of glass throws a caustic on the card: by chance, and by photons.
 TEST(Far, CausticsOfASunAgree) {
+  const int kMore = test::nightly() ? 4 : 1;  // as many samples for half the noise
   const std::string ball = R"(, {"sphere": {"center": [0, 0, 0.6], "radius": 0.4}, "material": "glass"})";
   const auto caustic = [&](const std::string& light, const char* integrator, int samples) {
     Scene scene = test::load_text(card(light, ball), {{"/render/integrator", integrator},
@@ -171,7 +171,8 @@ TEST(Far, CausticsOfASunAgree) {
        std::string(
            R"({"sphere": {"center": [3e7, 2e7, 1e8], "radius": 3e7}, "emission": {"spectrum": {"band": [500, 600]}, "radiance": 1}})")}) {
     const test::Comparison c =
-        test::compare_regions(caustic(light, "path", 16384), caustic(light, "auto", 4096), 4);
+        test::compare_regions(caustic(light, "path", 4096 * kMore), caustic(light, "auto", 1024 * kMore), 4);
+    std::printf("largest z %.2f, ratio of the means %.5f\n", c.largest_z, c.ratio);
     EXPECT_LT(c.largest_z, 5.6) << light;
     EXPECT_NEAR(c.ratio, 1, 0.003) << light;
   }
