@@ -15,7 +15,9 @@ template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Disc& disc, const BasicRay<T>& ray, T t_min) {
   const Imath::Vec3<T> normal(disc.normal);
   const Imath::Vec3<T> to_center = Imath::Vec3<T>(disc.center) - ray.origin;
-  const T t = to_center.dot(normal) / ray.direction.dot(normal);
+  const T towards = ray.direction.dot(normal);
+  if (towards == 0) return std::nullopt;
+  const T t = to_center.dot(normal) / towards;
   if (!(t > t_min && t < ray.t_max)) return std::nullopt;
   const Imath::Vec3<T> across = ray.direction * t - to_center;
   if (across.length2() > static_cast<T>(disc.radius * disc.radius)) return std::nullopt;

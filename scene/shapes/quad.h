@@ -13,7 +13,9 @@ template <typename T>
   const Imath::Vec3<T> edge_v(quad.edge_v);
   const Imath::Vec3<T> corner(quad.corner);
   const Imath::Vec3<T> normal = edge_u.cross(edge_v);
-  const T t = (corner - ray.origin).dot(normal) / ray.direction.dot(normal);
+  const T towards = ray.direction.dot(normal);
+  if (towards == 0) return std::nullopt;
+  const T t = (corner - ray.origin).dot(normal) / towards;
   if (!(t > t_min && t < ray.t_max)) return std::nullopt;
   const Imath::Vec3<T> w = ray.origin + ray.direction * t - corner;
   const T u = w.cross(edge_v).dot(normal) / normal.length2();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/shapes/disc.h"
+#include "scene/shapes/quad.h"
 #include "scene/shapes/triangle.h"
 #include "scenes.h"
 #include "tests/scene/expect_near.h"
@@ -88,15 +90,20 @@ TYPED_TEST(ShapeTest, FlatShapesAreMetWhereTheyAre) {
   EXPECT_FALSE(this->hit(mesh, V(TypeParam(0.9), TypeParam(0.9), 0), V(0, 0, 1)));
 }
 
-TYPED_TEST(ShapeTest, NothingIsMetAlongATriangleNorWhereThereIsNone) {
+// Told before anything is divided by zero.
+TYPED_TEST(ShapeTest, NothingIsMetAlongAFlatShapeNorWhereThereIsNone) {
   using V = typename TestFixture::V;
   using Ray = typename TestFixture::Ray;
   const V a(0, 0, 0);
   const V b(1, 0, 0);
   const V c(0, 1, 0);
   std::feclearexcept(FE_ALL_EXCEPT);
-  for (const TypeParam height : {TypeParam(-1), TypeParam(0), TypeParam(1)})
-    EXPECT_FALSE(intersect_triangle(a, b, c, Ray{V(-1, TypeParam(0.25), height), V(1, 0, 0)}));
+  for (const TypeParam height : {TypeParam(-1), TypeParam(0), TypeParam(1)}) {
+    const Ray along{V(-1, TypeParam(0.25), height), V(1, 0, 0)};
+    EXPECT_FALSE(intersect_triangle(a, b, c, along));
+    EXPECT_FALSE(intersect(Disc{V3d(0), V3d(0, 0, 1), 1}, along, TypeParam(0)));
+    EXPECT_FALSE(intersect(Quad{V3d(0), V3d(1, 0, 0), V3d(0, 1, 0)}, along, TypeParam(0)));
+  }
   for (const V& corner : {a, b, V(2, 0, 0)})
     EXPECT_FALSE(intersect_triangle(a, b, corner, Ray{V(TypeParam(0.5), 0, 1), V(0, 0, -1)}));
   EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW), 0);
