@@ -101,7 +101,8 @@ class Reader {
   int field_kind_ = 0;
   std::size_t field_count_ = 0;       // 0: as many as stand there
   std::size_t wavelength_count_ = 0;  // the same
-  SourcePosition fields_where_{};     // what tells them, else how many there are
+  SourcePosition wavelength_count_where_{};
+  SourcePosition fields_where_{};  // what tells them, else how many there are
   int primary_ = 1;
   std::optional<Line> primary_line_{};
   std::string aperture_word_{};  // of the line that has told the aperture

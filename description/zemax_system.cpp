@@ -94,6 +94,7 @@ void Reader::field_type(const Line& line) {
   field_count_ = count(2);
   wavelength_count_ = count(3);
   fields_where_ = line.where(3);
+  wavelength_count_where_ = line.where(4);
   require_plain_spaces(line);
 }
 
@@ -190,6 +191,11 @@ void Reader::finish_wavelengths() {
     error(*primary_line_, 1,
           fmt::format("no wavelength of the file has this number (got {}, allowed {})", primary_,
                       numbers.empty() ? "none without WAVM" : fmt::format("{}", fmt::join(numbers, ", "))));
+  if (used_nm.size() < wavelength_count_)
+    diagnostics_.error(wavelength_count_where_,
+                       fmt::format("fewer wavelengths (WAVM) than FTYP says (got {}, expected {})",
+                                   used_nm.size(), wavelength_count_),
+                       ErrorCode::input);
   if (!used_nm.empty()) lens_.wavelengths_nm = std::move(used_nm);
 }
 

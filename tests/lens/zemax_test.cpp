@@ -180,6 +180,9 @@ TEST(LensZemax, WhatASystemSaysTwiceOrNotInFullIsAnError) {
   expect_zemax_fault(replaced(kAchromat, heights, ""), "8:10",
                      "fewer fields along y than FTYP says (got 0, expected 2)");
   EXPECT_TRUE(lens_of(replaced(replaced(kAchromat, heights, ""), "FTYP 0 0 2", "FTYP 0 0 1"), ".zmx").system);
+  expect_zemax_fault(replaced(kAchromat, "WAVM 3 6.563E-1 1\n", ""), "8:12",
+                     "fewer wavelengths (WAVM) than FTYP says (got 2, expected 3)");
+  EXPECT_TRUE(lens_of(replaced(kAchromat, "WAVM 4 5.5E-1 1\n", ""), ".zmx").system);
   for (const std::string second : {"FNUM 4 0", "ENPD 20", "FLOA"})
     expect_zemax_fault(
         replaced(kAchromat, "ENVD", second + "\nENVD"), "6:1",
