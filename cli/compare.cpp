@@ -125,8 +125,10 @@ Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
 void compare_pixels(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
   std::optional<Chromaticity> white;
   if (!options.white.empty())
-    white = asked_white(options.white, recorded_white(reference) ? reference : image);
+    white = asked_white(options.white, recorded_white(reference) ? reference : image).xy;
   const Comparison c = compare_images(image, reference, white);
+  if (const auto untold = channel_of_untold_unit(image, reference))
+    say(fmt::format("warning: only one of the images tells the unit of channel {}", *untold));
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;
@@ -141,11 +143,21 @@ void compare_pixels(const CompareOptions& options, const Image& image, const Ima
       options.maps, difference_maps(relative_errors(image, reference), color, image.width, image.height));
 }
 
-// Of films with crops the pixels that both have: all others are black for want of a render.
+// Of films with crops or gaps the pixels that both have: all others are black for want of a render.
 void compare_films(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
-  const Crop part = common_part(image, reference);
-  if (part == Crop{0, 0, image.width, image.height}) return compare_pixels(options, image, reference, answer);
-  answer["crop"] = {part.x0, part.y0, part.x1, part.y1};
+  const std::vector<Crop> part = common_part(image, reference);
+  if (part.front() == Crop{0, 0, image.width, image.height})
+    return compare_pixels(options, image, reference, answer);
+  if (part.size() > 1 && !options.maps.empty())
+    throw Error(
+        ErrorCode::usage, "--maps",
+        fmt::format("needs films that have a rectangle of pixels in common (got areas {})", to_text(part)));
+  Json areas = Json::array();
+  for (const Crop& area : part) areas.push_back({area.x0, area.y0, area.x1, area.y1});
+  if (part.size() == 1)
+    answer["crop"] = areas.front();
+  else
+    answer["areas"] = std::move(areas);
   compare_pixels(options, part_of(image, part), part_of(reference, part), answer);
 }
 

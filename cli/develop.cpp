@@ -60,7 +60,10 @@ std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
 
 std::vector<fs::path> check_outputs(const DevelopOptions& options) {
   for (const fs::path& output : options.outputs) require_developed_extension(output);
-  if (!options.display.empty()) require_picture_extension(options.display);
+  if (options.display.empty())
+    require_no_view(options.view, "--display");
+  else
+    require_picture_extension(options.display);
   std::vector<fs::path> files = polarisation_files(options);
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     for (const fs::path& output : options.outputs) files.push_back(numbered(output, frame, options));
@@ -95,10 +98,12 @@ Asked asked(const DevelopOptions& options) {
 }
 
 FilmSensor sensor_of(const Image& film, const fs::path& path, const std::vector<Override>& overrides,
-                     const DevelopOptions& options, std::optional<Chromaticity> white = {}) {
+                     const DevelopOptions& options, const std::optional<White>& white = {}) {
   Diagnostics diagnostics;
+  const auto xy = white ? std::optional(white->xy) : std::nullopt;
   FilmSensor sensor =
-      accepted(film_sensor(film, path, overrides, view_of(options), white, diagnostics), diagnostics);
+      accepted(film_sensor(film, path, overrides, view_of(options), xy, diagnostics), diagnostics);
+  if (white) sensor.white_name = white->name;
   require_planes(film, sensor, options.film);
   return sensor;
 }
@@ -124,8 +129,11 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
                                                : "";
   if (*unmet != 0)
     throw Error(ErrorCode::usage, unmet, "a spectral film needs a sensor that looks at it: --scene");
-  return observed_film(image, view_of(options),
-                       white ? std::optional(asked_white(*white, told)) : recorded_white(told));
+  if (!white) return observed_film(image, view_of(options), recorded_white(told));
+  const White chosen = asked_white(*white, told);
+  ExposedFilm seen = observed_film(image, view_of(options), chosen.xy);
+  seen.sensor.white_name = chosen.name;
+  return seen;
 }
 
 // What a film tells of polarisation, whatever looks at it: itself, or by what lies behind its polarisers.
@@ -152,8 +160,8 @@ ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
   const auto [white, others] = asked(options);
-  const auto xy = white ? std::optional(asked_white(*white, film)) : std::nullopt;
-  FilmSensor sensor = sensor_of(film, options.film, others, options, xy);
+  const auto chosen = white ? std::optional(asked_white(*white, film)) : std::nullopt;
+  FilmSensor sensor = sensor_of(film, options.film, others, options, chosen);
   return {std::move(film), std::move(sensor)};
 }
 
@@ -204,6 +212,14 @@ void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inp
   inputs.add_file(options.profile);
   for (const RawLight& light : accepted(read_dng_profile(options.profile, diagnostics), diagnostics))
     sensor.lights.push_back(light_for(sensor.channels, light));
+}
+
+// The noise of a read-out is all that exposures of one film differ by.
+void require_noise(const FilmSensor& sensor, const DevelopOptions& options) {
+  const char* unmet = options.frames > 1 ? "--frames" : options.seed ? "--seed" : "";
+  if (*unmet != 0 && !sensor.readout)
+    throw Error(ErrorCode::usage, unmet,
+                "the film has no read-out whose noise it could draw (allowed: --set '/readout={...}')");
 }
 
 // Develops one exposure into all its files, each whatever becomes of the others.
@@ -258,6 +274,7 @@ int develop(const DevelopOptions& options) {
   if (wants_raw && !sensor.readout)
     throw Error(ErrorCode::usage, "-o",
                 "the film has no read-out to make codes with (allowed: --set '/readout={...}', or a .exr)");
+  require_noise(sensor, options);
   if (!options.display.empty()) require_display(sensor);
   expose_anew(exposed, options);
 

@@ -18,7 +18,8 @@ namespace {
 void add_exposure(CLI::App& options, DevelopOptions& how) {
   add_parsed(
       options, "--exposure-s", how.exposure_s, number_in(1e-12, 1e9),
-      "Expose anew for this time in s, without rendering: what moves stays blurred as in the film's own",
+      "Expose anew for this time in s, without rendering: that of all channels, or where they differ the "
+      "sensor's, to which theirs keep their ratio; what moves stays blurred as in the film's own",
       "T");
   options
       .add_option_function<std::vector<std::string>>(

@@ -43,6 +43,15 @@ void require_picture_extension(const fs::path& path) {
   require_extension(path, {".png", ".jpg", ".tif"});
 }
 
+void require_no_view(const ViewOptions& view, std::string_view pictures) {
+  const char* unmet = !view.view.empty()      ? "--view"
+                      : !view.display.empty() ? "--screen"
+                      : !view.config.empty()  ? "--ocio"
+                                              : "";
+  if (*unmet != 0)
+    throw Error(ErrorCode::usage, unmet, fmt::format("only a picture takes it (allowed with {})", pictures));
+}
+
 void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {
   constexpr std::string_view kIsRead = ", which is read: an output needs a place of its own";
   std::map<std::string, fs::path> written;

@@ -5,7 +5,10 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "calibration/output/display.h"
 
 namespace abbe::cli {
 
@@ -15,6 +18,10 @@ void require_film_output(const std::filesystem::path& path);
 
 /// The same for pictures that displays show.
 void require_picture_extension(const std::filesystem::path& path);
+
+/// Throws Error{usage} for a view that is asked for where nothing is shown by it; `pictures` names the
+/// options that show something.
+void require_no_view(const ViewOptions& view, std::string_view pictures);
 
 /// Throws Error{usage} for an output that is the same file as another output, as an input or as a table of
 /// the data directory, by whatever name or link, hard ones too; empty paths are none.

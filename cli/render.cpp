@@ -73,6 +73,8 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
     throw Error(ErrorCode::usage, outputs.film.string(),
                 "a part is all that its render writes: merge --display shows the film of all parts");
   if (outputs.display.empty() && !part) outputs.display = scene.output.display;
+  if (outputs.display.empty() && outputs.gamut.empty() && !options.preview)
+    require_no_view(options.view, "--display, --gamut or --preview");
   require_film_output(outputs.film);
   for (const fs::path& picture : {outputs.display, outputs.gamut}) {
     if (picture.empty()) continue;

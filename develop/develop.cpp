@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "calibration/output/white_clip.h"
+#include "develop/radiance.h"
 #include "io/text.h"
-#include "sensor/film/feature_film.h"
 #include "sensor/film/recorded_crop.h"
-#include "sensor/film/recorded_layers.h"
+#include "sensor/film/recorded_white.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
@@ -16,11 +16,20 @@
 namespace abbe {
 namespace {
 
+// How pictures show the film: the white is the film's own unless another was asked for.
+void tell_showing(const FilmSensor& sensor, std::map<std::string, std::string>& told) {
+  if (sensor.display_exposure) told["display_exposure"] = fmt::format("{}", *sensor.display_exposure);
+  if (sensor.white_name.empty() || !sensor.white || !sensor.display) return;
+  record_white(sensor.white_name, *sensor.white, told);
+  told["to_xyz_d65"] = to_text(sensor.display->to_xyz_d65());
+}
+
 // What the film tells, of the sensor as it is read out.
 std::map<std::string, std::string> told_of(const ExposedFilm& exposed) {
   const FilmSensor& sensor = exposed.sensor;
   std::map<std::string, std::string> told = exposed.film.metadata;
-  for (const char* beside : {kLayersKey, kFeaturesKey, kShapeNamesKey}) told.erase(beside);
+  forget_layers_and_features(told);
+  tell_showing(sensor, told);
   if (!sensor.description.empty()) told["sensor"] = sensor.description;
   if (sensor.readout && sensor.electrons_per_lx_s)
     told[kIsoSpeedKey] =
@@ -71,6 +80,12 @@ void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t see
   developed.calibrated.channels.push_back(std::move(calibrated));
 }
 
+// The unit of what the sensor's channels count, in place of the film's.
+void tell_unit(const char* unit, std::map<std::string, std::string>& told) {
+  for (auto& [key, text] : told)
+    if (key.starts_with("channel.")) text = unit;
+}
+
 // What the numbers of a raw file stand for, so that nothing that reads it has to guess.
 void tell_codes(const Readout& readout, std::map<std::string, std::string>& told) {
   told[kCodesKey] =
@@ -82,19 +97,18 @@ void tell_codes(const Readout& readout, std::map<std::string, std::string>& told
   told[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
 }
 
-// The pixels of a film that have been rendered: all, or those of its crop.
-Crop lit_part(const Image& film) {
-  return recorded_crop(film).value_or(Crop{0, 0, film.width, film.height});
-}
-
 template <typename Value>
-double mean(const Image& film, const Crop& crop, const std::vector<Value>& values) {
+double mean(const Image& film, const std::vector<Crop>& areas, const std::vector<Value>& values) {
   double sum = 0;
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x)
-      sum += static_cast<double>(values[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
-                                        static_cast<std::size_t>(x)]);
-  return sum / (static_cast<double>(crop.x1 - crop.x0) * (crop.y1 - crop.y0));
+  double count = 0;
+  for (const Crop& area : areas) {
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x)
+        sum += static_cast<double>(values[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
+                                          static_cast<std::size_t>(x)]);
+    count += static_cast<double>(pixel_count(area));
+  }
+  return sum / count;
 }
 
 }  // namespace
@@ -110,6 +124,8 @@ DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint3
       developed.variance.channels.push_back(*variance);
     if (exposed.sensor.readout) read_plane(exposed, plane, seed, frame, developed);
   }
+  tell_unit("electrons per pixel", developed.electrons.metadata);
+  tell_unit("digital numbers", developed.codes.metadata);
   if (exposed.sensor.readout) tell_codes(*exposed.sensor.readout, developed.codes.metadata);
   if (!exposed.sensor.readout) developed.calibrated = developed.exposure;
   return developed;
@@ -135,8 +151,8 @@ Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
 std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const DevelopedFilm& developed) {
   const double unit = sensor.readout ? sensor.gathering_area_m2 : 1;
   const Image& counted = sensor.readout ? developed.electrons : developed.exposure;
-  const Crop crop = lit_part(developed.exposure);
-  const auto over_film = [&](const auto& values) { return mean(developed.exposure, crop, values); };
+  const std::vector<Crop> rendered = recorded_areas(developed.exposure);
+  const auto over_film = [&](const auto& values) { return mean(developed.exposure, rendered, values); };
   const std::vector<double> own_seconds = pixel_exposures(sensor, developed.exposure);
   std::vector<PlaneFigures> all;
   for (std::size_t plane = 0; plane < sensor.planes.size(); ++plane) {

@@ -8,6 +8,7 @@
 #include "develop/film_sensor.h"
 #include "io/error.h"
 #include "io/json.h"
+#include "io/text.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/speed.h"
 
@@ -18,6 +19,37 @@ void scale_plane(Image& film, const std::string& name, double factor) {
   for (ImageChannel& channel : film.channels)
     if (channel.name == name)
       for (float& value : channel.values) value = static_cast<float>(static_cast<double>(value) * factor);
+}
+
+// What the film says of its sensor; it has been read before.
+std::optional<JsonValue> said_of(const FilmSensor& sensor) {
+  Diagnostics none;
+  return parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
+}
+
+void set_number(JsonValue* said, const char* key, double value) {
+  if (JsonValue* member = said != nullptr ? said->find(key) : nullptr; member != nullptr)
+    if (auto* number = std::get_if<double>(&member->value)) *number = value;
+}
+
+void scale_number(JsonValue* said, const char* key, double factor) {
+  if (const JsonValue* member = said != nullptr ? said->find(key) : nullptr; member != nullptr)
+    if (const auto* number = std::get_if<double>(&member->value)) set_number(said, key, *number * factor);
+}
+
+// The description says the sensor's exposure and what channels have of their own; the shutter's times keep
+// their shares of it.
+void describe_exposure(FilmSensor& sensor, double factor) {
+  std::optional<JsonValue> said = said_of(sensor);
+  if (!said) return;
+  Diagnostics none;
+  set_json(*said, "/exposure_s", fmt::format("{}", sensor.shared_exposure_s), none);
+  if (JsonValue* channels = said->find("channels"); channels != nullptr)
+    for (std::size_t k = 0; k < sensor.channels.size(); ++k)
+      set_number(channels->find(sensor.channels[k]), "exposure_s", sensor.exposure_s[k]);
+  for (const char* key : {"rise_s", "fall_s", "row_delay_s"})
+    scale_number(said->find("shutter"), key, factor);
+  sensor.description = to_text(*said);
 }
 
 // What the film tells of its exposure, in full and as the standard attribute in single precision.
@@ -31,12 +63,14 @@ void tell_exposure(ExposedFilm& exposed, double factor) {
   for (std::size_t k = 0; k < sensor.channels.size(); ++k)
     scale("exposure_s." + sensor.channels[k], sensor.exposure_s[k]);
   if (const auto seconds = told.find("expTime"); seconds != told.end())
-    seconds->second = fmt::format("{}", static_cast<float>(std::stof(seconds->second) * factor));
+    if (const auto before = parse_number(seconds->second))
+      seconds->second = fmt::format("{}", static_cast<float>(*before * factor));
 }
 
 void set_exposure(ExposedFilm& exposed, double factor) {
   exposed.sensor.shared_exposure_s *= factor;
   for (double& seconds : exposed.sensor.exposure_s) seconds *= factor;
+  describe_exposure(exposed.sensor, factor);
   tell_exposure(exposed, factor);
 }
 
@@ -54,8 +88,7 @@ bool is_zero(const JsonValue& said) {
 // Whether the film's shutter passes more of the light at some times of the exposure, or in some rows, than in
 // others.
 bool has_shaped_shutter(const FilmSensor& sensor) {
-  Diagnostics none;  // the description has been read before
-  const auto said = parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
+  const std::optional<JsonValue> said = said_of(sensor);
   const JsonValue* shutter = said ? said->find("shutter") : nullptr;
   constexpr std::array kShapes{"rise_s", "fall_s", "transmission", "row_delay_s"};
   return shutter != nullptr && std::any_of(kShapes.begin(), kShapes.end(), [&](const char* key) {
@@ -64,13 +97,18 @@ bool has_shaped_shutter(const FilmSensor& sensor) {
          });
 }
 
+// The exposure time that the film is said to have.
+double stated_exposure(const FilmSensor& sensor) {
+  return common_exposure(sensor).value_or(sensor.shared_exposure_s);
+}
+
 void warn_of_shutter(const FilmSensor& sensor, Diagnostics& diagnostics) {
   if (!has_shaped_shutter(sensor)) return;
   const auto option = std::make_shared<const SourceText>(SourceText{"--exposure-s", ""});
   diagnostics.warning({option, SourcePosition::kWholeFile, ""},
                       fmt::format("the film's motion blur is that of its own exposure time of {} s, and its "
                                   "shutter opens, closes and delays rows in the same shares of the new one",
-                                  sensor.shared_exposure_s));
+                                  stated_exposure(sensor)));
 }
 
 }  // namespace
@@ -79,7 +117,7 @@ void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics) 
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.exposure_s.empty())
     throw Error(ErrorCode::usage, "--exposure-s", "the film tells of no exposure: radiances have none");
-  const double factor = seconds / sensor.shared_exposure_s;
+  const double factor = seconds / stated_exposure(sensor);
   if (factor != 1) warn_of_shutter(sensor, diagnostics);
   for (const std::string& plane : sensor.planes) {
     scale_plane(exposed.film, plane, factor);

@@ -37,6 +37,13 @@ Image joined(std::vector<ExrPart> parts, const std::filesystem::path& path) {
   return film;
 }
 
+// Linear Rec.709 that displays show, with nothing of the sensor that would have it read as a film.
+Image preview(const Image& planes, const Matrix3& to_xyz) {
+  Image rgb = rec709_image(planes, to_xyz);
+  forget_sensor(rgb.metadata);
+  return rgb;
+}
+
 }  // namespace
 
 void require_finite(const Image& film, const std::filesystem::path& path) {
@@ -66,7 +73,7 @@ void write_parts(const std::filesystem::path& path, const DevelopedFilm& develop
   }
   if (sensor.display) {
     const double factor = scale ? *scale : sensor.display->automatic_scale(planes);
-    parts.push_back({"preview", rec709_image(planes, sensor.display->to_xyz_d65() * factor)});
+    parts.push_back({"preview", preview(planes, sensor.display->to_xyz_d65() * factor)});
   }
   write_exr(path, parts);
 }

@@ -36,6 +36,7 @@ struct FilmSensor {
   std::optional<DisplayTransform> display;
   std::optional<double> display_exposure;  ///< Film value shown as white.
   std::optional<Chromaticity> white;       ///< Shown as white: what was asked for, else the film's own.
+  std::string white_name;                  ///< Of what was asked for; empty for the film's own.
   std::vector<RawLight> lights;            ///< Of a calibration, for raw converters; else none.
 };
 
@@ -59,9 +60,10 @@ struct ExposedFilm {
 [[nodiscard]] std::optional<double> common_exposure(const FilmSensor& sensor);
 
 /// Exposes the film anew for `seconds`, without rendering: light, and with the square its variance, grow with
-/// the time. Channels with an exposure of their own keep its ratio to the sensor's. What moved stays blurred
-/// as it is: films do not tell that something did, but where their shutter takes its time, they warn of it.
-/// Throws Error{usage} for a film that tells no exposure, such as what the eye sees of a spectral one.
+/// the time. That is the time of all channels, or where they differ the sensor's, to which theirs keep their
+/// ratio. What moved stays blurred as it is: films do not tell that something did, but where their shutter
+/// takes its time, they warn of it. Throws Error{usage} for a film that tells no exposure, such as what the
+/// eye sees of a spectral one.
 void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics);
 
 /// What a camera sees without a scene: nothing, in no time, for its read-out alone; nothing in the film's own

@@ -158,7 +158,7 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
 }  // namespace
 
 MeasuredPlanes LinearImage::planes() const {
-  MeasuredPlanes planes{{}, channels, mosaic, saturation, recorded_crop(image)};
+  MeasuredPlanes planes{{}, channels, mosaic, saturation, recorded_areas(image)};
   for (const ImageChannel& channel : image.channels) planes.planes.push_back(&channel);
   return planes;
 }

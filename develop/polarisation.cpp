@@ -58,6 +58,7 @@ Image polarisation_image(const Image& film) {
   Image image{film.width, film.height, {}, film.metadata};
   forget_channels(image.metadata);
   forget_layout(image.metadata);
+  forget_layers_and_features(image.metadata);
   image.metadata.erase("sensor_channels");
   for (const StokesPlanes& planes : required_planes(film)) {
     ImageChannel degree{"DoP." + planes.channel, {}};

@@ -8,8 +8,12 @@
 
 #include "calibration/output/color_spaces.h"
 #include "io/error.h"
+#include "sensor/film/feature_film.h"
+#include "sensor/film/recorded_layers.h"
+#include "sensor/film/recorded_white.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/readout/demosaic.h"
+#include "sensor/response/polariser_group.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
@@ -74,11 +78,27 @@ ExposedFilm observed_film(const SpectralImage& image, const ViewOptions& view,
   FilmSensor sensor;
   sensor.planes = sensor.channels = {kRgb.begin(), kRgb.end()};
   sensor.display = display_of_radiance(view, white);
+  sensor.white = white;
   return {observed(image), std::move(sensor)};
 }
 
 void forget_channels(std::map<std::string, std::string>& metadata) {
   std::erase_if(metadata, [](const auto& entry) { return entry.first.starts_with("channel."); });
+}
+
+void forget_sensor(std::map<std::string, std::string>& metadata) {
+  forget_channels(metadata);
+  std::erase_if(metadata, [](const auto& entry) {
+    return entry.first.starts_with(kAnalyserKey) || entry.first.starts_with("exposure_s");
+  });
+  for (const char* key :
+       {"sensor", "sensor_channels", "mosaic", "mosaic_channels", "gathering_area_m2", "electrons_per_lx_s",
+        "to_xyz_d65", "display_exposure", kWhiteKey, kWhiteXyKey, kLightsXyKey, kHandednessKey})
+    metadata.erase(key);
+}
+
+void forget_layers_and_features(std::map<std::string, std::string>& metadata) {
+  for (const char* key : {kLayersKey, kFeaturesKey, kShapeNamesKey}) metadata.erase(key);
 }
 
 void forget_layout(std::map<std::string, std::string>& metadata) {

@@ -55,6 +55,13 @@ struct RadianceSensor {
 /// Drops what is said of the channels of the sensor that a film was exposed on.
 void forget_channels(std::map<std::string, std::string>& metadata);
 
+/// Drops what is said of the sensor that a film was exposed on, of its colours and their white, from what is
+/// told of a picture made for displays, which has colours of its own.
+void forget_sensor(std::map<std::string, std::string>& metadata);
+
+/// Drops what is said of layers and features, which films have beside their planes.
+void forget_layers_and_features(std::map<std::string, std::string>& metadata);
+
 /// Drops what is said of the layout of a spectral film, and of its preview.
 void forget_layout(std::map<std::string, std::string>& metadata);
 

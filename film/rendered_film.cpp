@@ -66,7 +66,7 @@ std::size_t film_bytes(const Scene& scene, const RenderOptions& how) {
                         .unit_exponent = 0,
                         .crop = how.crop};
   return bytes_of_sums(shape) + (how.layers ? bytes_of_sums(layered(shape, how.layers->names.size())) : 0) +
-         bytes_of_features(how.features, shape);
+         bytes_of_features(how.features, shape, scene.film_planes());
 }
 
 void write_film(const std::filesystem::path& path, const RenderPart& part) {

@@ -28,11 +28,6 @@ void require_adaptable(const White& white, ErrorCode code, const std::string& wh
                           white.xy[0], white.xy[1]));
 }
 
-std::string on_one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', '?');  // headers have a line per entry
-  return text;
-}
-
 White read_asked(const std::string& text, const WhiteNames& names, Diagnostics& diagnostics) {
   JsonValue root{JsonValue::Object{}, {}, 0};
   set_json(root, kWhitePointer, text, diagnostics);
@@ -79,8 +74,7 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!has_colors(scene)) return;
   const White white = white_of(scene);
   if (!std::isfinite(white.xy[0])) return;
-  identity[kWhiteKey] = on_one_line(white.name);
-  identity[kWhiteXyKey] = fmt::format("{} {}", white.xy[0], white.xy[1]);
+  record_white(white.name, white.xy, identity);
   if (scene.lights.size() > kMostLights) return;
   Json lights = Json::object();
   for (const Light& light : scene.lights)
@@ -92,7 +86,7 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
 }
 
-Chromaticity asked_white(const std::string& text, const Image& film) {
+White asked_white(const std::string& text, const Image& film) {
   Diagnostics diagnostics;
   const auto recorded = film.metadata.find(kLightsXyKey);
   Json lights = Json::object();
@@ -107,9 +101,9 @@ Chromaticity asked_white(const std::string& text, const Image& film) {
   names.white_of_light = [&](std::size_t i) {
     return White{names.lights[i], "", lights[names.lights[i]].get<Chromaticity>()};
   };
-  const White white = read_asked(text, names, diagnostics);
+  White white = read_asked(text, names, diagnostics);
   require_adaptable(white, ErrorCode::usage, kWhitePointer);
-  return white.xy;
+  return white;
 }
 
 }  // namespace abbe

@@ -26,8 +26,8 @@ void add_white(const Scene& scene, FilmIdentity& identity);
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                   const std::optional<std::string>& asked);
 
-/// The chromaticity asked for as `output/white` has it, lights being those a film tells of. Throws
-/// Error{usage} for an unknown one, and for one to which no eye adapts.
-[[nodiscard]] Chromaticity asked_white(const std::string& text, const Image& film);
+/// The white asked for as `output/white` has it, lights being those a film tells of. Throws Error{usage} for
+/// an unknown one, and for one to which no eye adapts.
+[[nodiscard]] White asked_white(const std::string& text, const Image& film);
 
 }  // namespace abbe

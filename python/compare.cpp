@@ -21,10 +21,11 @@ py::dict compare(const FilmHandle& film, const FilmHandle& reference, const py::
   std::optional<Chromaticity> asked;
   if (!white.is_none())
     asked = asked_white(to_text(to_json(white, kWhitePointer)),
-                        recorded_white(reference.image()) ? reference.image() : film.image());
-  const Crop part = common_part(film.image(), reference.image());
+                        recorded_white(reference.image()) ? reference.image() : film.image())
+                .xy;
+  const std::vector<Crop> part = common_part(film.image(), reference.image());
   const Comparison found =
-      part == Crop{0, 0, film.image().width, film.image().height}
+      part.front() == Crop{0, 0, film.image().width, film.image().height}
           ? compare_images(film.image(), reference.image(), asked)
           : compare_images(part_of(film.image(), part), part_of(reference.image(), part), asked);
   py::dict told;

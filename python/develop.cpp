@@ -54,11 +54,13 @@ py::object array_of(const Image& image, std::vector<std::string> planes, const s
   return planes_of(image, planes);
 }
 
-FilmSensor sensor_of(const Image& film, const py::object& readout, std::optional<Chromaticity> white) {
+FilmSensor sensor_of(const Image& film, const py::object& readout, const std::optional<White>& white) {
   std::vector<Override> overrides;
   if (!readout.is_none()) overrides.push_back({kReadout, to_text(to_json(readout, kReadout))});
   Diagnostics diagnostics;
-  FilmSensor sensor = accepted(film_sensor(film, kWhere, overrides, {}, white, diagnostics), diagnostics);
+  const auto xy = white ? std::optional(white->xy) : std::nullopt;
+  FilmSensor sensor = accepted(film_sensor(film, kWhere, overrides, {}, xy, diagnostics), diagnostics);
+  if (white) sensor.white_name = white->name;
   require_planes(film, sensor, kWhere);
   return sensor;
 }
@@ -86,9 +88,11 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
   if (is_spectral(image) && !readout.is_none())
     throw Error(ErrorCode::usage, "readout",
                 "a spectral film has no sensor to read out: `scene` gives it one");
-  if (is_spectral(image))
-    return observed_film(spectral_image(image, kWhere), {}, asked ? asked : recorded_white(image));
-  return {image, sensor_of(image, readout, asked)};
+  if (!is_spectral(image)) return {image, sensor_of(image, readout, asked)};
+  ExposedFilm seen =
+      observed_film(spectral_image(image, kWhere), {}, asked ? asked->xy : recorded_white(image));
+  if (asked) seen.sensor.white_name = asked->name;
+  return seen;
 }
 
 Developed develop_film(const FilmHandle& film, const py::object& readout, const py::object& white,

@@ -40,7 +40,7 @@ const ImageChannel& channel_of(const Image& film, const std::string& name) {
 
 // The channels of a film, which under a mosaic are all in one plane.
 MeasuredPlanes planes_of(const Image& film, const std::vector<std::string>& channels) {
-  MeasuredPlanes planes{{}, channels, {}, {}, recorded_crop(film)};
+  MeasuredPlanes planes{{}, channels, {}, {}, recorded_areas(film)};
   if (const auto told = recorded_mosaic(film.metadata); told && told->channels == channels) {
     planes.mosaic = told->pattern;
     planes.planes.push_back(&channel_of(film, kRawPlane));

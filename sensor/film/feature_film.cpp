@@ -9,6 +9,7 @@
 
 #include "io/error.h"
 #include "io/text.h"
+#include "sensor/response/stokes_channels.h"
 
 namespace abbe {
 namespace {
@@ -31,7 +32,7 @@ std::vector<std::string> planes_of(Feature feature, std::span<const std::string>
       break;
   }
   std::vector<std::string> planes;
-  for (const std::string& plane : film_planes) planes.push_back("Albedo." + plane);
+  for (const std::string& plane : intensities(film_planes)) planes.push_back("Albedo." + plane);
   return planes;
 }
 
@@ -138,10 +139,10 @@ void FeatureFilm::develop(Image& image, const Crop& area, double samples) const 
   }
 }
 
-std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside) {
+std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside,
+                              std::span<const std::string> film_planes) {
   if (features.empty()) return 0;
-  const std::vector<std::string> unnamed(static_cast<std::size_t>(beside.channels));
-  return bytes_of_sums(shape_beside(beside, feature_planes(features, unnamed).size()));
+  return bytes_of_sums(shape_beside(beside, feature_planes(features, film_planes).size()));
 }
 
 }  // namespace abbe

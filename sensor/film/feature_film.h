@@ -32,7 +32,8 @@ struct FeaturePlane {
 };
 /// The planes of features beside a film of such planes: first `Coverage`, then of each feature its own, under
 /// the names that denoisers and compositors read: `depth.Z`, `P.X` to `P.Z`, `N` and `Ns` likewise,
-/// `Albedo.<plane of the film>`, `Id`. Throws Error{scene} where a plane of the film has such a name.
+/// `Albedo.<plane of the film>` for those of intensities, `Id`. Throws Error{scene} where a plane of the film
+/// has such a name.
 [[nodiscard]] std::vector<FeaturePlane> feature_planes(std::span<const Feature> features,
                                                        std::span<const std::string> film_planes);
 
@@ -75,7 +76,9 @@ class FeatureFilm {
   Film sums_;
 };
 
-/// Memory of those sums beside a film of that shape; of no features, none.
-[[nodiscard]] std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside);
+/// Memory of those sums beside a film of that shape and planes; of no features, none. Throws as
+/// `feature_planes`.
+[[nodiscard]] std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside,
+                                            std::span<const std::string> film_planes);
 
 }  // namespace abbe

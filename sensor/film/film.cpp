@@ -16,9 +16,8 @@ constexpr int kFractionBits = 80;
 constexpr int kHeadroomBits = 44;
 
 std::size_t sums_of(const FilmShape& shape) {
-  const Crop crop = pixels_of(shape);
-  return static_cast<std::size_t>(crop.x1 - crop.x0) * static_cast<std::size_t>(crop.y1 - crop.y0) *
-         static_cast<std::size_t>(shape.channels) * static_cast<std::size_t>(shape.replicates);
+  return pixel_count(pixels_of(shape)) * static_cast<std::size_t>(shape.channels) *
+         static_cast<std::size_t>(shape.replicates);
 }
 
 FilmShape without_needless_crop(FilmShape shape) {

@@ -31,17 +31,36 @@ struct Pixel {
   int x, y;
 };
 
-std::vector<Pixel> pixels_in(const PatchOutline& outline, const Crop& held, const char* held_by) {
+// Whether disjoint areas hold all pixels of a box.
+bool hold(const std::vector<Crop>& areas, const Imath::V2d& low, const Imath::V2d& high) {
+  const auto common = [](double from, double to, int first, int last) {
+    return std::max(0.0, std::min<double>(to, last) - std::max<double>(from, first));
+  };
+  double without = std::max(1.0, high.x - low.x) * std::max(1.0, high.y - low.y);
+  for (const Crop& area : areas)
+    without -= common(low.x, high.x, area.x0, area.x1) * common(low.y, high.y, area.y0, area.y1);
+  return without <= 0;
+}
+
+std::string edges_of(const std::vector<Crop>& areas) {
+  std::string text;
+  for (const Crop& area : areas)
+    text += fmt::format("{}[{}, {}] and [{}, {}]", text.empty() ? "" : " or ", area.x0, area.x1, area.y0,
+                        area.y1);
+  return text;
+}
+
+std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop>& held,
+                             const char* held_by) {
   const auto by_x = [](const Imath::V2d& a, const Imath::V2d& b) { return a.x < b.x; };
   const auto by_y = [](const Imath::V2d& a, const Imath::V2d& b) { return a.y < b.y; };
   const auto [left, right] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_x);
   const auto [top, bottom] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_y);
-  if (!(left->x >= held.x0 && top->y >= held.y0 && right->x <= held.x1 && bottom->y <= held.y1))
+  if (!hold(held, {std::floor(left->x), std::floor(top->y)}, {std::ceil(right->x), std::ceil(bottom->y)}))
     throw Error(
         ErrorCode::input, outline.name,
-        fmt::format("its middle is beyond {} (got x in [{:.5g}, {:.5g}], y in [{:.5g}, {:.5g}], allowed "
-                    "[{}, {}] and [{}, {}])",
-                    held_by, left->x, right->x, top->y, bottom->y, held.x0, held.x1, held.y0, held.y1));
+        fmt::format("its middle is beyond {} (got x in [{:.5g}, {:.5g}], y in [{:.5g}, {:.5g}], allowed {})",
+                    held_by, left->x, right->x, top->y, bottom->y, edges_of(held)));
   std::vector<Pixel> pixels;
   for (int y = static_cast<int>(top->y); y < static_cast<int>(std::ceil(bottom->y)); ++y)
     for (int x = static_cast<int>(left->x); x < static_cast<int>(std::ceil(right->x)); ++x)
@@ -77,8 +96,9 @@ PatchChannel measure(const Image& image, const ImageChannel& plane, const std::v
 
 std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
                                          std::span<const PatchOutline> outlines) {
-  const Crop held = planes.rendered.value_or(Crop{0, 0, image.width, image.height});
-  const char* held_by = planes.rendered ? "the pixels that were rendered" : "the film";
+  const Crop all{0, 0, image.width, image.height};
+  const std::vector<Crop> held = planes.rendered.empty() ? std::vector{all} : planes.rendered;
+  const char* held_by = held.front() == all ? "the film" : "the pixels that were rendered";
   std::vector<PatchValues> patches;
   for (const PatchOutline& outline : outlines) {
     const std::vector<Pixel> pixels = pixels_in(outline, held, held_by);

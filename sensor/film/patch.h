@@ -42,8 +42,8 @@ struct MeasuredPlanes {
   std::vector<const ImageChannel*> planes;
   std::vector<std::string> channels;
   std::optional<Mosaic> mosaic;
-  std::optional<double> saturation;   ///< Values from which a pixel counts as saturated.
-  std::optional<Crop> rendered = {};  ///< The pixels that hold anything, if not all do.
+  std::optional<double> saturation;  ///< Values from which a pixel counts as saturated.
+  std::vector<Crop> rendered = {};   ///< The pixels that hold anything, as disjoint areas; of none all do.
 };
 
 /// Measures the pixels that lie wholly within each outline. Throws Error{input} naming a patch that reaches

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "io/image.h"
 #include "sensor/film/crop.h"
@@ -9,5 +10,9 @@ namespace abbe {
 
 /// The pixels that a film, or what was developed of it, tells to have; nothing where it has all.
 [[nodiscard]] std::optional<Crop> recorded_crop(const Image& film);
+
+/// The same as disjoint rectangles, of which a film that is merged of some parts may tell several: one of all
+/// pixels where it has all.
+[[nodiscard]] std::vector<Crop> recorded_areas(const Image& film);
 
 }  // namespace abbe

@@ -1,5 +1,6 @@
 #include "sensor/film/recorded_white.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,13 @@
 #include "io/text.h"
 
 namespace abbe {
+
+void record_white(const std::string& name, const Chromaticity& xy,
+                  std::map<std::string, std::string>& metadata) {
+  std::string& told = metadata[kWhiteKey] = name;
+  std::replace(told.begin(), told.end(), '\n', '?');  // headers have a line per entry
+  metadata[kWhiteXyKey] = fmt::format("{} {}", xy[0], xy[1]);
+}
 
 std::optional<Chromaticity> recorded_white(const Image& film) {
   const auto found = film.metadata.find(kWhiteXyKey);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "io/image.h"
 #include "spectral/colorimetry.h"
@@ -15,6 +17,10 @@ inline constexpr const char* kWhiteXyKey = "white_xy";
 /// The attribute with the chromaticities of the scene's lights: a JSON object of [x, y] by name, null for a
 /// name that several lights have.
 inline constexpr const char* kLightsXyKey = "lights_xy";
+
+/// Adds a white to what a film tells.
+void record_white(const std::string& name, const Chromaticity& xy,
+                  std::map<std::string, std::string>& metadata);
 
 /// The chromaticity of the white that a film tells; nothing for a film that does not tell its name too.
 /// Throws Error{input} when it makes no sense.

@@ -61,6 +61,24 @@ TEST(Aov, PartsOfAnyCropsAndRangesMakeTheFileOfTheWhole) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
+// Of the other components of the Stokes vector, which have signs, there is none; in parts neither.
+TEST(Aov, AlbedoIsThatOfIntensities) {
+  const std::string stokes = "--set /sensor/stokes=true --aov albedo ";
+  ASSERT_EQ(rendered_ball("stokes.exr", stokes).code, 0);
+  const Image film = read_exr(file("stokes.exr"));
+  ASSERT_NE(film.find("Albedo.Y"), nullptr);
+  EXPECT_NEAR(film.find("Albedo.Y")->values[8 * 24 + 12], 0.8, 1e-6);
+  EXPECT_NE(film.find("S1.Y"), nullptr);
+  for (const char* signed_plane : {"Albedo.S1.X", "Albedo.S2.Y", "Albedo.S3.Z"})
+    EXPECT_EQ(film.find(signed_plane), nullptr) << signed_plane;
+  ASSERT_EQ(rendered_ball("a.abbepart", stokes + "--crop 0,0,9,16").code, 0);
+  ASSERT_EQ(rendered_ball("b.abbepart", stokes + "--crop 9,0,24,16").code, 0);
+  ASSERT_EQ(
+      abbe(fmt::format("merge {} {} -o {}", file("a.abbepart"), file("b.abbepart"), file("sum.exr"))).code,
+      0);
+  EXPECT_EQ(read_file(file("sum.exr")), read_file(file("stokes.exr")));
+}
+
 TEST(Aov, AChannelOfTheSensorKeepsItsName) {
   const Outcome run = rendered_ball(
       "id.exr",

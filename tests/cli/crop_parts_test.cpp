@@ -132,6 +132,33 @@ TEST(CropParts, APartialFilmIsRightWherePixelsHaveDifferentSamples) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
+// Black for want of a render is no darkness.
+TEST(CropParts, AFilmWithGapsTellsWhichPixelsItHas) {
+  const std::string a = part_of(ball(), "a", "--crop 0,0,10,8");
+  const std::string b = part_of(ball(), "b", "--crop 10,8,24,16");
+  const std::string gaps = file("gaps.exr");
+  ASSERT_EQ(merged(a + " " + b, gaps + " --partial").code, 0);
+  const auto told = read_exr(gaps).metadata;
+  EXPECT_EQ(told.at("areas"), "0,0,10,8=0:8 10,8,24,16=0:8");
+  for (const char* of_the_whole : {"crop", "samples_per_pixel", "samples_stated"})
+    EXPECT_FALSE(told.contains(of_the_whole)) << of_the_whole;
+  const std::string compare = "compare " + gaps + " " + film_of(ball(), "whole");
+  const Outcome compared = abbe(compare + " --json");
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  EXPECT_EQ(compared.json()["mean_ratio"], 1);
+  EXPECT_EQ(compared.json()["rmse"], 0);
+  EXPECT_EQ(compared.json()["areas"], nlohmann::json::parse("[[0, 0, 10, 8], [10, 8, 24, 16]]"));
+  const Outcome maps = abbe(compare + " --maps " + file("maps"));
+  EXPECT_EQ(maps.code, 2);
+  EXPECT_TRUE(names(maps.err, "a rectangle of pixels in common (got areas 0,0,10,8 10,8,24,16)")) << maps.err;
+  const nlohmann::json of_a = developed(film_of(ball(), "a", "--crop 0,0,10,8"));
+  const nlohmann::json of_b = developed(film_of(ball(), "b", "--crop 10,8,24,16"));
+  const nlohmann::json of_both = developed(gaps);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(of_both["mean"][k].get<double>(),
+                (80 * of_a["mean"][k].get<double>() + 112 * of_b["mean"][k].get<double>()) / 192, 1e-9);
+}
+
 TEST(CropParts, OfOneCropMakeItsFilm) {
   const std::string parts = part_of(ball(), "a", "--crop 3,2,20,5") + " " +
                             part_of(ball(), "b", "--crop 3,5,20,9 --sample-range 0:3") + " " +

@@ -263,6 +263,24 @@ TEST(Develop, ThePreviewIsLinear) {
   EXPECT_GT(compared, 50);
 }
 
+// Nothing that the preview tells makes a comparison read its colours otherwise than those of any Rec.709.
+TEST(Develop, ThePreviewIsComparedAsRec709) {
+  developed(rgb_film() + " -o " + file("told_parts.exr"));
+  Image told = read_exr_parts(file("told_parts.exr")).back().image;
+  Image brighter = told;
+  for (float& value : brighter.channels.at(1).values) value *= 1.1F;
+  const auto difference = [&](const std::string& name) {
+    write_exr(file(name + "_a.exr"), brighter);
+    write_exr(file(name + "_b.exr"), told);
+    return abbe("compare " + file(name + "_a.exr") + " " + file(name + "_b.exr") + " --json")
+        .json()["dE00_mean"];
+  };
+  const auto of_preview = difference("told");
+  told.metadata.clear();
+  brighter.metadata.clear();
+  EXPECT_EQ(of_preview, difference("bare"));
+}
+
 TEST(Develop, MergedPartsDevelopLikeTheirWhole) {
   const std::string text = uneven_scene("halves.json", kRgb + ", \"readout\": " + kReadout);
   for (const char* range : {"0:4", "4:8"})

@@ -127,6 +127,18 @@ TEST(Render, ShowsThroughViewsAndUsersConfigurations) {
   EXPECT_EQ(shell("OCIO=/nowhere.ocio " + (ABBE_BINARY " " + render) + file("a.png")).code, 4);
 }
 
+TEST(Render, AViewOfNoPictureIsRefused) {
+  for (const char* option : {"--view", "--screen", "--ocio"}) {
+    const Outcome run =
+        abbe("render " + ball() + " --quiet -o " + file("film.exr") + " " + option + " nonsense");
+    EXPECT_EQ(run.code, 2) << option;
+    EXPECT_NE(run.err.find(std::string(option) +
+                           ": only a picture takes it (allowed with --display, --gamut or --preview)"),
+              std::string::npos)
+        << run.err;
+  }
+}
+
 TEST(Render, SameBitsAndOptionsThatChangeThem) {
   const std::string render = "render " + ball() + " --quiet -o ";
   ASSERT_EQ(abbe(render + file("one.exr") + " --threads 1").code, 0);

@@ -85,6 +85,25 @@ TEST_P(AnySensor, ShowsTheMainLightAsWhiteOrWhatIsAskedFor) {
   }
 }
 
+// A developed film and its picture tell the white that was asked for, and the film shows it when it is
+// developed again.
+TEST(White, IsToldByWhatIsDevelopedForIt) {
+  const std::string film = film_of(lit_dome("t.json", kNikon), "t");
+  developed(film + " --white D65 --exposure 0.002 -o " + file("t_d65.exr") + " --display " +
+            file("t_d65.png"));
+  const auto of_film = read_exr_parts(file("t_d65.exr")).front().image.metadata;
+  const auto of_picture = read_picture(file("t_d65.png")).metadata;
+  for (const auto* told : {&of_film, &of_picture}) {
+    EXPECT_EQ(told->at("white"), "D65");
+    EXPECT_TRUE(told->at("white_xy").starts_with("0.312")) << told->at("white_xy");
+    EXPECT_NE(told->at("to_xyz_d65"), read_exr(film).metadata.at("to_xyz_d65"));
+    EXPECT_DOUBLE_EQ(std::stod(told->at("display_exposure")), 0.002);
+  }
+  developed(file("t_d65.exr") + " --display " + file("t_again.png"));
+  EXPECT_EQ(read_picture(file("t_again.png")).channels[0].values,
+            read_picture(file("t_d65.png")).channels[0].values);
+}
+
 INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kNikon, kSpectral));
 
 TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {

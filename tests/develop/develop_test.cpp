@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "develop/film_file.h"
 #include "films.h"
+#include "io/exr.h"
+#include "sensor/film/recorded_white.h"
 
 namespace abbe {
 namespace {
@@ -44,6 +48,13 @@ TEST(Develop, FiguresAreMeansAndRootsOfMeanSquares) {
   EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22) * 1e-10, 1e-5);
   EXPECT_NEAR(figures[0].noise.photon_e, std::sqrt(650.0), 1e-3);
   EXPECT_EQ(figures[0].saturated_share, 0.5);
+}
+
+TEST(Develop, FiguresAreOfTheAreasThatWereRendered) {
+  Image film = counting_film();
+  film.metadata["areas"] = "1,0,2,1=0:8";
+  const ExposedFilm merged = exposed({}, film);
+  EXPECT_NEAR(plane_figures(merged.sensor, develop(merged, 7))[0].mean, 900, 1e-3);
 }
 
 TEST(Develop, WithoutAReadOutTheExposureIsAll) {
@@ -100,6 +111,89 @@ TEST(Develop, APixelOfAMosaicIsDarkForTheTimeOfItsOwnFilter) {
   expose_for(film, 1, diagnostics);
   EXPECT_EQ(film.sensor.exposure_s, (std::vector<double>{10, 1}));
   EXPECT_EQ(film.film.metadata.at("exposure_s.R"), "10");
+}
+
+// Where all channels have one time of their own, that is the film's: the sensor's is nobody's.
+TEST(Develop, ATimeIsThatOfAllChannelsWhereTheySayTheSame) {
+  Image film = counting_film();
+  film.metadata["exposure_s"] = "1";
+  film.metadata["exposure_s.V"] = film.metadata["expTime"] = "2";
+  for (const auto& [seconds, factor] : {std::pair{2.0, 1.0F}, std::pair{4.0, 2.0F}}) {
+    ExposedFilm shot = exposed({}, film);
+    Diagnostics diagnostics;
+    expose_for(shot, seconds, diagnostics);
+    EXPECT_EQ(common_exposure(shot.sensor), seconds);
+    EXPECT_EQ(std::stod(shot.film.metadata.at("expTime")), seconds);
+    EXPECT_EQ(std::stod(shot.film.metadata.at("exposure_s.V")), seconds);
+    EXPECT_EQ(shot.film.find("V")->values[0], factor * film.find("V")->values[0]);
+  }
+}
+
+TEST(Develop, AnotherTimeIsToldByAllThatTellOne) {
+  Image film = test::mosaic_film();
+  film.metadata["expTime"] = "0.002";
+  film.metadata["exposure_s"] = "0.002";
+  film.metadata["exposure_s.R"] = "0.02";
+  film.metadata["sensor"] =
+      R"({"exposure_s":0.002,"channels":{"R":{"filters":[],"exposure_s":0.02},"G":"bessell_V"},)"
+      R"("shutter":{"open_s":1,"rise_s":0.001}})";
+  ExposedFilm shot = exposed({}, film);
+  Diagnostics diagnostics;
+  expose_for(shot, 0.02, diagnostics);
+  const std::map<std::string, std::string> told = develop(shot, 7).exposure.metadata;
+  EXPECT_EQ(told.at("expTime"), "0.02");
+  EXPECT_EQ(told.at("exposure_s"), "0.02");
+  EXPECT_EQ(told.at("exposure_s.R"), "0.2");
+  EXPECT_EQ(told.at("sensor"),
+            R"({"exposure_s":0.02,"channels":{"R":{"filters":[],"exposure_s":0.2},"G":"bessell_V"},)"
+            R"("shutter":{"open_s":1,"rise_s":0.01}})");
+}
+
+TEST(Develop, FilesTellWhatTheyAreShownBy) {
+  Image film = counting_film();
+  film.metadata["white"] = "sun";
+  film.metadata["white_xy"] = "0.31272 0.32903";
+  const DevelopedFilm own = develop(exposed({}, film), 7);
+  EXPECT_EQ(own.exposure.metadata.at("white"), "sun");
+  EXPECT_EQ(own.exposure.metadata.at("to_xyz_d65"), film.metadata.at("to_xyz_d65"));
+  Diagnostics diagnostics;
+  const Chromaticity a{0.44758, 0.40745};
+  ExposedFilm asked{film, film_sensor(film, "a.exr", {}, {}, a, diagnostics).value()};
+  asked.sensor.white_name = "A";
+  asked.sensor.display_exposure = 5e12;
+  const DevelopedFilm developed = develop(asked, 7);
+  for (const Image* image : {&developed.exposure, &developed.codes, &developed.calibrated}) {
+    EXPECT_EQ(image->metadata.at("white"), "A");
+    EXPECT_EQ(recorded_white(*image), a);
+    EXPECT_EQ(image->metadata.at("to_xyz_d65"), to_text(asked.sensor.display->to_xyz_d65()));
+    EXPECT_EQ(std::stod(image->metadata.at("display_exposure")), 5e12);
+  }
+}
+
+TEST(Develop, PartsTellTheUnitThatTheyHave) {
+  const DevelopedFilm developed = develop(exposed(), 7);
+  EXPECT_EQ(developed.exposure.metadata.at("channel.V"), "quantum, electrons per m^2");
+  EXPECT_EQ(developed.electrons.metadata.at("channel.V"), "electrons per pixel");
+  EXPECT_EQ(developed.codes.metadata.at("channel.V"), "digital numbers");
+}
+
+TEST(Develop, ThePreviewIsOfNoSensor) {
+  Image film = counting_film();
+  film.metadata["mosaic"] = film.metadata["mosaic_channels"] = "V";
+  film.metadata["white"] = "sun";
+  film.metadata["white_xy"] = "0.31272 0.32903";
+  film.metadata["scene"] = "a.json";
+  const ExposedFilm shot = exposed({}, film);
+  const DevelopedFilm developed = develop(shot, 7);
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "preview_parts.exr";
+  write_parts(path, developed, display_planes(shot.sensor, developed.calibrated), shot.sensor, {});
+  const ExrPart part = read_exr_parts(path).back();
+  std::filesystem::remove(path);
+  ASSERT_EQ(part.name, "preview");
+  for (const char* key : {"channel.V", "sensor_channels", "sensor", "to_xyz_d65", "mosaic", "mosaic_channels",
+                          "white", "white_xy", "exposure_s", "display_exposure"})
+    EXPECT_FALSE(part.image.metadata.contains(key)) << key;
+  EXPECT_EQ(part.image.metadata.at("scene"), "a.json");
 }
 
 std::string warned_of(const std::string& shutter, double seconds) {

@@ -4,6 +4,8 @@
 
 #include "io/error.h"
 #include "io/spectral_exr.h"
+#include "sensor/film/feature_film.h"
+#include "sensor/film/recorded_layers.h"
 
 namespace abbe {
 namespace {
@@ -30,6 +32,14 @@ TEST(PolarisationOfFilms, TellsEachChannel) {
   EXPECT_EQ(told.find("AoLP.G")->values[0], 0);
   EXPECT_EQ(told.find("DoP.B")->values[0], 0) << "no light";
   EXPECT_FALSE(told.metadata.contains("sensor_channels"));
+}
+
+TEST(PolarisationOfFilms, HasNeitherLayersNorFeatures) {
+  Image film = colours();
+  film.metadata.insert({{kLayersKey, "light.key"}, {kFeaturesKey, "id"}, {kShapeNamesKey, R"(["ball"])"}});
+  const Image told = polarisation_image(film);
+  for (const char* key : {kLayersKey, kFeaturesKey, kShapeNamesKey})
+    EXPECT_FALSE(told.metadata.contains(key)) << key;
 }
 
 TEST(PolarisationOfFilms, WeighsChannelsAsTheEyeDoes) {

@@ -91,6 +91,22 @@ TEST(Features, APlaneIsToldWhereItStands) {
   }
 }
 
+// Where `focus_distance` counts from, wherever rays leave the lens.
+TEST(Features, DepthCountsFromTheFirstVertexOfALens) {
+  const std::string wall = fmt::format(
+      R"({{"quad": {{"corner": {}, "edge_u": [400, 0, 0], "edge_v": [0, 0, 400]}}, "material": "ramp"}})",
+      at({-200, 0, -200}));
+  const std::string camera = fmt::format(
+      R"({{"lens_system": {{"prescription": "double_gauss", "focus_distance": 400}}, "from": {}, "to": {},
+           "up": [0, 0, 1]}})",
+      at({0, -400, 0}), at({0, 0, 0}));
+  const Image image =
+      seen(test::load_text(scene_of(wall, kRamp), {{"/camera", camera}, {"/sensor/pixel_pitch_um", "1000"}}),
+           {Feature::depth});
+  for (std::size_t pixel = 0; pixel < 400; ++pixel)
+    EXPECT_NEAR(value(image, "depth.Z", pixel), 400, 0.004) << pixel;
+}
+
 // A disc that pixels see parts of, the rest being sky: lengths are those of the part, directions and albedo
 // count the rest as 0.
 TEST(Features, WhatIsHalfCoveredIsToldByItsCover) {

@@ -186,6 +186,8 @@ TEST(Time, EndsASmallFilmAfterASampleThatTakesLonger) {
   RenderOptions soon;
   soon.time_limit_s = 1e-9;
   EXPECT_EQ(render(small_scene("cornell.json"), soon).stats.samples_per_pixel, 1U);
+  soon.target_error = 1e-9;
+  EXPECT_EQ(render(small_scene("cornell.json"), soon).stats.samples_per_pixel, 1U);
 }
 
 // Amid a sample, the photons of which are traced again and not counted twice.

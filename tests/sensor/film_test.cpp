@@ -1,4 +1,6 @@
 #include "sensor/film/film.h"
+#include "sensor/film/patch.h"
+#include "sensor/film/recorded_crop.h"
 #include "sensor/film/relative_error.h"
 
 #include <gtest/gtest.h>
@@ -183,6 +185,33 @@ TEST(Film, BytesMakeTheSameFilm) {
   EXPECT_FALSE(Film::from_bytes(film.shape(), film.bytes().substr(1)));
   EXPECT_FALSE(Film::from_bytes(film.shape(), film.bytes().substr(16)));
   EXPECT_FALSE(Film::from_bytes(film.shape(), std::string(film.bytes()) + "x"));
+}
+
+TEST(RecordedAreas, AreThoseOfTheFilmOrAllOfItsCrop) {
+  Image film{8, 4, {}, {}};
+  EXPECT_EQ(recorded_areas(film), (std::vector<Crop>{{0, 0, 8, 4}}));
+  film.metadata[kCropKey] = "0,0,6,4";
+  for (const char* nonsense : {"", "0,0,2=0:8", "0,0,7,4=0:8", "0,0,2,2=0:8 x"}) {
+    film.metadata[kAreasKey] = nonsense;
+    EXPECT_EQ(recorded_areas(film), (std::vector<Crop>{{0, 0, 6, 4}})) << nonsense;
+  }
+  film.metadata[kAreasKey] = "0,0,2,2=0:8 3,2,6,4=0:4,5:8";
+  EXPECT_EQ(recorded_areas(film), (std::vector<Crop>{{0, 0, 2, 2}, {3, 2, 6, 4}}));
+}
+
+TEST(Patches, ReachOverAreasThatTouchAndOverNoGap) {
+  const ImageChannel plane{"Y", std::vector<float>(32, 3)};
+  const Image film{8, 4, {plane}, {}};
+  const std::vector<PatchOutline> patch{{"patch", {{{1, 1}, {6.5, 1}, {6.5, 3}, {1, 3}}}}};
+  const auto measured = [&](const std::vector<Crop>& rendered) {
+    return measure_patches(film, {{&plane}, {"Y"}, {}, {}, rendered}, patch);
+  };
+  for (const std::vector<Crop>& held :
+       {std::vector<Crop>{}, {{0, 0, 7, 4}}, {{0, 0, 8, 2}, {0, 2, 4, 4}, {4, 2, 8, 4}}})
+    EXPECT_EQ(measured(held)[0].channels[0].pixels, 10U);
+  for (const std::vector<Crop>& gaps :
+       {std::vector<Crop>{{0, 0, 6, 4}}, {{0, 0, 8, 2}, {0, 2, 4, 4}, {5, 2, 8, 4}}})
+    EXPECT_THROW((void)measured(gaps), Error);
 }
 
 }  // namespace

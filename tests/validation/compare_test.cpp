@@ -66,6 +66,40 @@ TEST(Compare, LooksAtPixelsThatBothFilmsHave) {
             ErrorCode::input);
 }
 
+// Of films that were merged of some parts.
+TEST(Compare, LooksAtPixelsOfAllAreasThatBothFilmsHave) {
+  Image gaps = grey({1, 0, 2, 0});
+  gaps.metadata[kAreasKey] = "0,0,1,1=0:8 2,0,3,1=0:4";
+  const auto image = saved("gaps.exr", gaps);
+  const auto whole = saved("whole.exr", grey({2, 9, 2, 9}));
+  json found = json_output(cli::compare, {image, whole});
+  EXPECT_EQ(found["areas"], json::parse("[[0, 0, 1, 1], [2, 0, 3, 1]]"));
+  found.erase("areas");
+  EXPECT_EQ(found, json_output(cli::compare, {saved("a.exr", grey({1, 2})), saved("b.exr", grey({2, 2}))}));
+  EXPECT_EQ(fault(
+                [&] {
+                  cli::compare({image, whole, DeltaE::cie2000, {}, scratch() / "m"});
+                },
+                "--maps: needs films that have a rectangle of pixels in common (got areas 0,0,1,1 2,0,3,1)"),
+            ErrorCode::usage);
+}
+
+TEST(Compare, AUnitThatOneImageTellsIsWarnedOf) {
+  Image film = grey({1, 2});
+  film.metadata["channel.G"] = "energy, response-weighted J per m^2";
+  const auto told = saved("told.exr", film);
+  const auto untold = saved("untold.exr", grey({1, 2}));
+  const auto said = [](const cli::CompareOptions& options) {
+    testing::internal::CaptureStderr();
+    (void)json_output(cli::compare, options);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_NE(said({told, untold}).find("only one of the images tells the unit of channel G"),
+            std::string::npos);
+  EXPECT_EQ(said({told, told}), "");
+  EXPECT_EQ(said({untold, untold}), "");
+}
+
 TEST(RelativeErrors, TheirMeanSquareIsTheRelMse) {
   const Image a = grey({1, 2, 4, 0});
   const Image b = grey({1, 3, 3, 1});

@@ -1,7 +1,9 @@
 #include "validation/statistics/image_difference.h"
 
 #include <cmath>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace abbe {
@@ -89,6 +91,56 @@ TEST(RelMse, RefusesAReferenceWithoutVariance) {
   EXPECT_THROW(
       static_cast<void>(rel_mse(image({{"Y", {1}}}), image({{"Y", {1}}}), {.subtract_variance = true})),
       Error);
+}
+
+TEST(Compare, RefusesValuesOfDifferentUnits) {
+  const auto in = [](const char* key, const char* unit) {
+    Image film = image({{"R", {1, 2}}, {"raw", {1, 2}}});
+    if (*unit != 0) film.metadata[key] = unit;
+    return film;
+  };
+  const Image joules = in("channel.R", "energy, response-weighted J per m^2");
+  const Image electrons = in("channel.R", "quantum, electrons per m^2");
+  const Image spectral = image({{"S0.500,000000nm", {1, 2}}, {"S0.600,000000nm", {1, 2}}, {"R", {1, 2}}});
+  const auto compared = [](const Image& a, const Image& b) {
+    try {
+      return fmt::format("{}", compare_images(a, b).rmse);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(compared(joules, electrons),
+            "the images differ in the unit of channel R (got \"energy, response-weighted J per m^2\" and "
+            "\"quantum, electrons per m^2\")");
+  EXPECT_NE(compared(spectral, joules).find("(got \"preview, cd per m^2\" and \"energy"), std::string::npos);
+  EXPECT_EQ(compared(joules, joules), "0");
+  EXPECT_EQ(compared(spectral, spectral), "0");
+  EXPECT_EQ(compared(in("", ""), electrons), "0") << "of a renderer that tells none";
+}
+
+TEST(Compare, RefusesMosaicsThatCountDifferentUnits) {
+  const auto mosaic = [](const char* unit) {
+    Image film = image({{"raw", {1, 2}}});
+    film.metadata = {{"mosaic", "R,G"},
+                     {"mosaic_channels", "R,G"},
+                     {"sensor_channels", "raw"},
+                     {"channel.R", "quantum, electrons per m^2"},
+                     {"channel.G", unit}};
+    return film;
+  };
+  const Image electrons = mosaic("quantum, electrons per m^2");
+  EXPECT_EQ(compare_images(electrons, electrons).rmse, 0);
+  EXPECT_THROW((void)compare_images(mosaic("energy, response-weighted J per m^2"), electrons), Error);
+}
+
+TEST(Compare, AUnitThatOneImageTellsIsNamed) {
+  const Image plain = image({{"QE", {1}}});
+  Image film = plain;
+  film.metadata["channel.QE"] = "quantum, electrons per m^2";
+  EXPECT_EQ(channel_of_untold_unit(film, plain), "QE");
+  EXPECT_EQ(channel_of_untold_unit(plain, film), "QE");
+  EXPECT_FALSE(channel_of_untold_unit(film, film));
+  EXPECT_FALSE(channel_of_untold_unit(plain, plain));
 }
 
 TEST(Compare, RefusesWhatCannotBeCompared) {

@@ -27,8 +27,7 @@ namespace fs = std::filesystem;
 
 // Keys of the header that belong to the sums; all others are the identity.
 constexpr const char* kShape = "film";
-constexpr const char* kSamples = "samples";
-constexpr const char* kAreas = "areas";  // in place of samples, where the pixels do not all have the same
+constexpr const char* kSamples = "samples";  // or `kAreasKey`, where the pixels do not all have the same
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
 constexpr std::array<std::string_view, 7> kTellNothing{
@@ -81,7 +80,7 @@ struct ParsedHeader {
 
 // Of a film that crops were joined to. False for areas beyond it.
 bool take_areas(FilmIdentity& header, ParsedHeader& parsed) {
-  auto areas = parse_sampled_areas(take(header, kAreas));
+  auto areas = parse_sampled_areas(take(header, kAreasKey));
   if (!areas || bounds(*areas) != pixels_of(parsed.header.shape)) return false;
   parsed.header.areas = *std::move(areas);
   return true;
@@ -89,7 +88,7 @@ bool take_areas(FilmIdentity& header, ParsedHeader& parsed) {
 
 // Takes the samples of a film, and those of a pass that are not among them. False for what cannot be.
 bool take_samples(FilmIdentity& header, ParsedHeader& parsed) {
-  if (header.contains(kAreas)) return take_areas(header, parsed);
+  if (header.contains(kAreasKey)) return take_areas(header, parsed);
   const std::string samples = take(header, kSamples);
   const std::string unfinished = take(header, kUnfinished);
   if (!samples.empty() || unfinished.empty()) {
@@ -224,6 +223,13 @@ ParsedPart read_sums(const fs::path& path) {
   return {*std::move(parsed), *std::move(films)};
 }
 
+// Whether pixels within the film's crop have no samples.
+bool has_gaps(const RenderPart& part) {
+  std::size_t held = 0;
+  for (const SampledArea& area : part.areas) held += pixel_count(area.pixels);
+  return !part.areas.empty() && held < pixel_count(part.result.film.crop());
+}
+
 // A film of the part's, each pixel by the samples it has.
 Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part) {
   Image image = film.image(names);
@@ -232,6 +238,9 @@ Image developed(const Film& film, std::span<const std::string> names, const Rend
       film.develop(image, area.pixels, count_per_replicate(area.samples, film.replicates()));
   image.metadata = part.identity;
   for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
+  if (!has_gaps(part)) return image;
+  image.metadata[kAreasKey] = to_text(part.areas);
+  image.metadata.erase(kStatedSamplesKey);
   return image;
 }
 
@@ -247,7 +256,7 @@ void write_part(const fs::path& path, const FilmIdentity& identity, const Render
   const FilmShape& s = result.film.shape();
   header[kShape] = fmt::format("{} {} {} {} {} {} {}", s.width, s.height, s.channels, s.replicates,
                                s.unit_exponent, s.photons, s.path_interval);
-  header[areas.empty() ? kSamples : kAreas] = areas.empty() ? to_text(result.samples) : to_text(areas);
+  header[areas.empty() ? kSamples : kAreasKey] = areas.empty() ? to_text(result.samples) : to_text(areas);
   if (const auto& pass = result.unfinished)
     header[kUnfinished] = fmt::format("{} {} {}", pass->samples.first, pass->samples.last, pass->items);
   const RenderStats& stats = result.stats;
@@ -367,7 +376,8 @@ Image image_of(const RenderPart& part) {
   Image image = developed(result.film, film_planes(part.identity), part);
   image.metadata["renderer"] = "Abbe";
   if (result.samples.empty()) return image;
-  image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
+  if (!image.metadata.contains(kAreasKey))
+    image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
   image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));
   return image;
 }

@@ -48,7 +48,8 @@ std::optional<std::size_t> bytes_of_films(const FilmIdentity& identity, const Fi
   const auto features = features_of(identity);
   if (!features) return std::nullopt;
   const auto layers = shape_of_layers(identity, shape);
-  return bytes_of_sums(shape) + (layers ? bytes_of_sums(*layers) : 0) + bytes_of_features(*features, shape);
+  return bytes_of_sums(shape) + (layers ? bytes_of_sums(*layers) : 0) +
+         bytes_of_features(*features, shape, film_planes(identity));
 }
 
 RenderResult dark_films(const FilmIdentity& identity, const FilmShape& shape) {

@@ -89,6 +89,8 @@ class Rendering {
     stats.processes = options_.crew.size;
     if (!leads()) forget();
     if (leads() && !result_.unfinished && look_is_due() && asks_for_error()) look_at_error();
+    started_with_ = samples();
+    planned_s_ = elapsed();
   }
 
   RenderResult run() {
@@ -131,12 +133,23 @@ class Rendering {
     return round;
   }
 
-  // Of a pass that begins with that sample. What a path costs is not known, so where time alone decides the
-  // first passes are of one sample, one, two, four and so on; an error of so few would be none to stop by.
+  // Of a pass that begins with that sample. What a path costs is not known before, so where time is limited
+  // the first passes are of one sample, one, two, four and so on, and none longer than the time allows.
   [[nodiscard]] std::uint64_t end_of_pass(std::uint64_t first) const {
     const std::uint64_t end = (first / step_ + 1) * step_;
-    if (!options_.time_limit_s || options_.target_error) return end;
-    return std::min(end, first + std::max<std::uint64_t>(1, first - wanted_.first));
+    if (!options_.time_limit_s) return end;
+    const std::uint64_t traced = samples() - started_with_;
+    const std::uint64_t most = alone() ? std::min(traced, affordable(traced)) : traced;
+    return std::min(end, first + std::max<std::uint64_t>(1, most));
+  }
+
+  // So many samples as the time that is left should be enough for, by what those traced have taken; not for
+  // processes of a crew, which have clocks of their own and must agree.
+  [[nodiscard]] std::uint64_t affordable(std::uint64_t traced) const {
+    const double left = *options_.time_limit_s - elapsed();
+    const double each = (elapsed() - planned_s_) / static_cast<double>(traced);
+    if (!(left > 0 && each > 0)) return 0;
+    return static_cast<std::uint64_t>(std::min(left / each, static_cast<double>(kMaxSamples)));
   }
 
   void run_round(const std::vector<SampleRange>& round) {
@@ -216,8 +229,9 @@ class Rendering {
 
   // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
   // and known once every replicate has some. When depends on nothing but the number of samples, so that a
-  // render goes on after an interruption as it would have without.
+  // render goes on after an interruption as it would have without, and with a limit of time as without one.
   [[nodiscard]] bool look_is_due(std::uint64_t samples) const {
+    if (options_.target_error && samples % step_ != 0) return false;
     if (samples < static_cast<std::uint64_t>(result_.film.replicates())) return false;
     const auto stage = [](std::uint64_t n) {
       return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
@@ -297,6 +311,8 @@ class Rendering {
   RenderResult result_;
   std::optional<std::vector<std::size_t>> lit_;  // once asked for
   std::uint64_t looked_at_ = 0;                  // samples of the film whose error was worked out last
+  std::uint64_t started_with_ = 0;               // of an earlier run
+  double planned_s_ = 0;                         // when the first of this one was begun
   double last_save_s_ = 0;
   double saving_s_ = 0;
   bool saved_at_stop_ = false;

@@ -39,7 +39,7 @@ struct UnfinishedPass {
 /// When to stop, and with what.
 struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
-  std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends later.
+  std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends then.
   /// Stops after a pass whose relative error is no larger: the median, or that of the means of the first so
   /// many planes over the whole film.
   std::optional<double> target_error = {};

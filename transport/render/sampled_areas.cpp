@@ -9,11 +9,6 @@
 namespace abbe {
 namespace {
 
-std::optional<Crop> common(const Crop& a, const Crop& b) {
-  const Crop both{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-  return both.x0 < both.x1 && both.y0 < both.y1 ? std::optional(both) : std::nullopt;
-}
-
 // What is left of a rectangle without another that lies within it: above, below, left and right.
 std::vector<Crop> around(const Crop& whole, const Crop& hole) {
   std::vector<Crop> rest;
@@ -30,7 +25,7 @@ std::vector<Crop> without(const Crop& whole, const SampledAreas& areas) {
   for (const SampledArea& area : areas) {
     std::vector<Crop> next;
     for (const Crop& piece : rest)
-      if (const auto hole = common(piece, area.pixels)) {
+      if (const auto hole = common_pixels(piece, area.pixels)) {
         const std::vector<Crop> pieces = around(piece, *hole);
         next.insert(next.end(), pieces.begin(), pieces.end());
       } else {
@@ -98,7 +93,7 @@ std::optional<SampledArea> add(SampledAreas& areas, const SampledArea& more) {
   SampledAreas pieces;
   for (const Crop& pixels : without(more.pixels, areas)) pieces.push_back({pixels, more.samples});
   for (const SampledArea& area : areas) {
-    const auto both = common(area.pixels, more.pixels);
+    const auto both = common_pixels(area.pixels, more.pixels);
     if (!both) {
       pieces.push_back(area);
       continue;
@@ -117,7 +112,7 @@ SampledAreas missing(const SampledAreas& areas, const SampledArea& wanted) {
   SampledAreas gaps;
   for (const Crop& pixels : without(wanted.pixels, areas)) gaps.push_back({pixels, wanted.samples});
   for (const SampledArea& area : areas) {
-    const auto both = common(area.pixels, wanted.pixels);
+    const auto both = common_pixels(area.pixels, wanted.pixels);
     if (!both) continue;
     SampleRanges samples;
     for (const SampleRange& range : wanted.samples) {
@@ -137,7 +132,7 @@ Crop bounds(const SampledAreas& areas) {
 }
 
 bool contains(const Crop& outer, const Crop& inner) {
-  return common(outer, inner) == inner;
+  return common_pixels(outer, inner) == inner;
 }
 
 std::string to_text(const SampledAreas& areas) {

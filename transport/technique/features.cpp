@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "sampling/discrete.h"
+#include "sensor/response/stokes_channels.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
@@ -56,7 +57,7 @@ FeatureTracer::FeatureTracer(const Plan& plan, std::span<const Feature> features
       features_(features.begin(), features.end()),
       planes_(feature_planes(features, plan.scene.film_planes()).size()) {
   if (std::find(features_.begin(), features_.end(), Feature::albedo) == features_.end()) return;
-  for (const Channel& channel : scene_.channels) responses_.push_back(response_cdf(channel));
+  for (const Channel& channel : intensities(scene_.channels)) responses_.push_back(response_cdf(channel));
 }
 
 void FeatureTracer::trace(std::span<const PixelSample> samples, bool first, const FeatureDeposit& deposit) {
@@ -110,18 +111,24 @@ bool FeatureTracer::pass_boundary(Walk& walk, SurfaceHit& hit, std::optional<Int
   return true;
 }
 
+// Of a camera from its position along its axis, wherever its rays begin; of others from where the ray does.
+double FeatureTracer::depth(const SurfaceHit& hit, const Ray& ray) const {
+  if (camera_.axis) {
+    const Ray at_rest = seen_at_rest(scene_.camera, ray_at(hit.point, ray.direction, ray.time));
+    return (Imath::V3d(at_rest.origin) - position(scene_.camera)).dot(*camera_.axis);
+  }
+  const Imath::V3f along =
+      is_meter(scene_.camera) ? meter_normal(scene_.camera, Imath::V3f(lens_point_)) : ray.direction;
+  return (Imath::V3d(hit.point) - lens_point_).dot(Imath::V3d(along));
+}
+
 void FeatureTracer::look(const PixelSample& sample, bool first, const SurfaceHit& hit,
                          const std::optional<Interface>& met, Walk& walk) {
   const SurfaceVertex vertex(scene_, hit, met, walk);
   const Imath::V3f back = -walk.ray.direction;
-  const Imath::V3d axis =
-      camera_.axis ? direction_at(scene_.camera, *camera_.axis, walk.ray.time)
-                   : Imath::V3d(is_meter(scene_.camera) ? meter_normal(scene_.camera, Imath::V3f(lens_point_))
-                                                        : walk.ray.direction);
   values_.push_back(1);
   for (const Feature feature : features_) {
-    if (feature == Feature::depth)
-      values_.push_back((Imath::V3d(hit.point) - lens_point_).dot(axis) / scene_.unit_m);
+    if (feature == Feature::depth) values_.push_back(depth(hit, walk.ray) / scene_.unit_m);
     if (feature == Feature::position) add((Imath::V3d(hit.point) + scene_.origin_m) / scene_.unit_m);
     if (feature == Feature::normal) add(towards(hit.normal, back));
     if (feature == Feature::shading_normal) add(towards(vertex.frame.to_world({0, 0, 1}), back));

@@ -40,6 +40,7 @@ class FeatureTracer {
   [[nodiscard]] bool pass_boundary(Walk& walk, SurfaceHit& hit, std::optional<Interface>& met) const;
   void look(const PixelSample& sample, bool first, const SurfaceHit& hit, const std::optional<Interface>& met,
             Walk& walk);
+  [[nodiscard]] double depth(const SurfaceHit& hit, const Ray& ray) const;
   void add_albedo(const PixelSample& sample, const SurfaceHit& hit, const std::optional<Interface>& met,
                   Walk& walk);
   void add(const Imath::V3d& v) { values_.insert(values_.end(), {v.x, v.y, v.z}); }

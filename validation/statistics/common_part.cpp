@@ -1,7 +1,5 @@
 #include "validation/statistics/common_part.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "sensor/film/recorded_crop.h"
@@ -15,29 +13,37 @@ void require_same_size(const Image& image, const Image& reference) {
                             reference.width, reference.height));
 }
 
-Crop common_part(const Image& image, const Image& reference) {
+std::vector<Crop> common_part(const Image& image, const Image& reference) {
   require_same_size(image, reference);
-  const Crop all{0, 0, image.width, image.height};
-  const Crop a = recorded_crop(image).value_or(all);
-  const Crop b = recorded_crop(reference).value_or(all);
-  const Crop both{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-  if (both.x0 >= both.x1 || both.y0 >= both.y1)
+  const std::vector<Crop> a = recorded_areas(image);
+  const std::vector<Crop> b = recorded_areas(reference);
+  std::vector<Crop> both;
+  for (const Crop& of_image : a)
+    for (const Crop& of_reference : b)
+      if (const auto common = common_pixels(of_image, of_reference)) both.push_back(*common);
+  if (both.empty())
     throw Error(
         ErrorCode::input, "",
         fmt::format("the images have no pixel in common (got crops {} and {})", to_text(a), to_text(b)));
   return both;
 }
 
-Image part_of(const Image& image, const Crop& part) {
-  Image cut{part.x1 - part.x0, part.y1 - part.y0, {}, image.metadata};
-  cut.metadata.erase(kCropKey);
+Image part_of(const Image& image, std::span<const Crop> part) {
+  Image cut{part.front().x1 - part.front().x0, part.front().y1 - part.front().y0, {}, image.metadata};
+  if (part.size() > 1) {
+    cut.height = 1;
+    cut.width = 0;
+    for (const Crop& area : part) cut.width += static_cast<int>(pixel_count(area));
+  }
+  for (const char* key : {kCropKey, kAreasKey}) cut.metadata.erase(key);
   for (const ImageChannel& channel : image.channels) {
-    ImageChannel& values = cut.channels.emplace_back(ImageChannel{channel.name, {}});
-    values.values.reserve(cut.pixels());
-    for (int y = part.y0; y < part.y1; ++y) {
-      const auto row = channel.values.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
-      values.values.insert(values.values.end(), row + part.x0, row + part.x1);
-    }
+    std::vector<float>& values = cut.channels.emplace_back(ImageChannel{channel.name, {}}).values;
+    values.reserve(cut.pixels());
+    for (const Crop& area : part)
+      for (int y = area.y0; y < area.y1; ++y) {
+        const auto row = channel.values.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
+        values.insert(values.end(), row + area.x0, row + area.x1);
+      }
   }
   return cut;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,9 @@
 #include "calibration/judge/appearance.h"
 #include "calibration/judge/itp.h"
 #include "calibration/output/display.h"
+#include "io/spectral_exr.h"
 #include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_mosaic.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/response/stokes_channels.h"
 #include "spectral/colorimetry.h"
@@ -28,14 +31,47 @@ struct Pair {
   const ImageChannel* variance;  // of the reference, if it has one
 };
 
+// The unit of a channel as its image tells it: a film by an attribute, and of a spectral film what stands
+// beside its bands is the preview. Nothing where it is not told, and of bands, which all have one unit.
+std::optional<std::string> unit_of(const Image& image, const std::string& channel) {
+  if (parse_spectral_channel(channel, "image")) return std::nullopt;
+  const auto told = image.metadata.find("channel." + channel);
+  if (told != image.metadata.end()) return told->second;
+  return is_spectral(image) ? std::optional<std::string>("preview, cd per m^2") : std::nullopt;
+}
+
+// The channels that a plane has pixels of: itself, or those of a mosaic.
+std::vector<std::string> channels_in(const std::string& plane, const Image& image) {
+  const auto mosaic = recorded_mosaic(image.metadata);
+  return mosaic && plane == kRawPlane ? mosaic->channels : std::vector{plane};
+}
+
+std::vector<std::string> common_planes(const Image& image, const Image& reference) {
+  std::vector<std::string> planes = intensities(plane_names(reference));
+  std::erase_if(planes, [&](const std::string& plane) {
+    return image.find(plane) == nullptr || reference.find(plane) == nullptr;
+  });
+  return planes;
+}
+
+void require_same_unit(const Image& image, const Image& reference, const std::string& plane) {
+  for (const std::string& channel : channels_in(plane, reference)) {
+    const auto a = unit_of(image, channel);
+    const auto b = unit_of(reference, channel);
+    if (a && b && *a != *b)
+      throw Error(ErrorCode::input, "",
+                  fmt::format("the images differ in the unit of channel {} (got \"{}\" and \"{}\")", channel,
+                              *a, *b));
+  }
+}
+
 std::vector<Pair> common_channels(const Image& image, const Image& reference) {
   require_same_size(image, reference);
   std::vector<Pair> pairs;
-  for (const std::string& plane : intensities(plane_names(reference))) {
-    const ImageChannel* own = reference.find(plane);
-    const ImageChannel* other = image.find(plane);
-    if (own != nullptr && other != nullptr)
-      pairs.push_back({other->values, own->values, reference.find(variance_of(plane))});
+  for (const std::string& plane : common_planes(image, reference)) {
+    require_same_unit(image, reference, plane);
+    pairs.push_back(
+        {image.find(plane)->values, reference.find(plane)->values, reference.find(variance_of(plane))});
   }
   if (pairs.empty()) throw Error(ErrorCode::input, "", "the images have no channel in common");
   return pairs;
@@ -124,6 +160,13 @@ double percentile(std::vector<double> values, double quantile) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
   std::nth_element(values.begin(), at, values.end());
   return *at;
+}
+
+std::optional<std::string> channel_of_untold_unit(const Image& image, const Image& reference) {
+  for (const std::string& plane : common_planes(image, reference))
+    for (const std::string& channel : channels_in(plane, reference))
+      if (unit_of(image, channel).has_value() != unit_of(reference, channel).has_value()) return channel;
+  return std::nullopt;
 }
 
 std::vector<XYZ> tristimuli(const Image& image) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/image.h"
@@ -31,9 +32,13 @@ struct Comparison {
 };
 
 /// Colours as by `color_difference`. Throws Error{input} for images of different size, without a common
-/// channel, or with a value that is not finite.
+/// channel, with one of which they tell different units, or with a value that is not finite.
 [[nodiscard]] Comparison compare_images(const Image& image, const Image& reference,
                                         std::optional<Chromaticity> white = {});
+
+/// The first common channel whose unit only one of the images tells, so that their values may be of
+/// different ones; files of other renderers tell none.
+[[nodiscard]] std::optional<std::string> channel_of_untold_unit(const Image& image, const Image& reference);
 
 /// Colour differences of images with X, Y, Z or R, G, B, each read as `film_colors` has it: both scaled so
 /// that the 99th percentile of the reference's Y is 100, and seen against a D65 white of Y = 100, to which
