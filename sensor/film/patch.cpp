@@ -12,7 +12,7 @@ namespace abbe {
 namespace {
 
 // Whether a point is on the inner side of every edge.
-bool contains(const PatchOutline& outline, Imath::V2d point) {
+bool contains(const PatchOutline& outline, const Imath::V2d& point) {
   int left = 0;
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
     const Imath::V2d edge = outline.corners[(i + 1) % outline.corners.size()] - outline.corners[i];

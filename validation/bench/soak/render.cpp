@@ -67,7 +67,7 @@ void draw_render(Drawing& drawing) {
     render["max_depth"] = static_cast<int>(decades(random, 1, plays && !joins ? 1000 : 60));
   render["roulette_depth"] = plays ? integer(random, 0, 12) : -1;
   const int paths = std::max(pixels, photons);
-  double most = std::min<double>(kMostSamples, kMostPaths / paths);
+  double most = std::min(kMostSamples, kMostPaths / paths);
   most = std::min(most, kMostVertices / (paths * depth_of(render)));
   if (joins || gathers) most = std::min(most, kMostPairs / pairs_of_sample(render, pixels, photons));
   render["samples"] = static_cast<int>(most * part_of_most + 1);
