@@ -27,14 +27,9 @@ std::optional<JsonValue> said_of(const FilmSensor& sensor) {
   return parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
 }
 
-void set_number(JsonValue* said, const char* key, double value) {
-  if (JsonValue* member = said != nullptr ? said->find(key) : nullptr; member != nullptr)
-    if (auto* number = std::get_if<double>(&member->value)) *number = value;
-}
-
-void scale_number(JsonValue* said, const char* key, double factor) {
-  if (const JsonValue* member = said != nullptr ? said->find(key) : nullptr; member != nullptr)
-    if (const auto* number = std::get_if<double>(&member->value)) set_number(said, key, *number * factor);
+double* number_in(JsonValue* said, const char* key) {
+  JsonValue* member = said != nullptr ? said->find(key) : nullptr;
+  return member != nullptr ? std::get_if<double>(&member->value) : nullptr;
 }
 
 // The description says the sensor's exposure and what channels have of their own; the shutter's times keep
@@ -46,9 +41,10 @@ void describe_exposure(FilmSensor& sensor, double factor) {
   set_json(*said, "/exposure_s", fmt::format("{}", sensor.shared_exposure_s), none);
   if (JsonValue* channels = said->find("channels"); channels != nullptr)
     for (std::size_t k = 0; k < sensor.channels.size(); ++k)
-      set_number(channels->find(sensor.channels[k]), "exposure_s", sensor.exposure_s[k]);
+      if (double* seconds = number_in(channels->find(sensor.channels[k]), "exposure_s"))
+        *seconds = sensor.exposure_s[k];
   for (const char* key : {"rise_s", "fall_s", "row_delay_s"})
-    scale_number(said->find("shutter"), key, factor);
+    if (double* seconds = number_in(said->find("shutter"), key)) *seconds *= factor;
   sensor.description = to_text(*said);
 }
 

@@ -1,6 +1,5 @@
 #include "film/white.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

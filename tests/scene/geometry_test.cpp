@@ -94,9 +94,7 @@ TYPED_TEST(ShapeTest, FlatShapesAreMetWhereTheyAre) {
 TYPED_TEST(ShapeTest, NothingIsMetAlongAFlatShapeNorWhereThereIsNone) {
   using V = typename TestFixture::V;
   using Ray = typename TestFixture::Ray;
-  const V a(0, 0, 0);
-  const V b(1, 0, 0);
-  const V c(0, 1, 0);
+  const V a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   std::feclearexcept(FE_ALL_EXCEPT);
   for (const TypeParam height : {TypeParam(-1), TypeParam(0), TypeParam(1)}) {
     const Ray along{V(-1, TypeParam(0.25), height), V(1, 0, 0)};
