@@ -223,27 +223,6 @@ ParsedPart read_sums(const fs::path& path) {
   return {*std::move(parsed), *std::move(films)};
 }
 
-// Whether pixels within the film's crop have no samples.
-bool has_gaps(const RenderPart& part) {
-  std::size_t held = 0;
-  for (const SampledArea& area : part.areas) held += pixel_count(area.pixels);
-  return !part.areas.empty() && held < pixel_count(part.result.film.crop());
-}
-
-// A film of the part's, each pixel by the samples it has.
-Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part) {
-  Image image = film.image(names);
-  if (part.result.samples.empty())
-    for (const SampledArea& area : part.areas)
-      film.develop(image, area.pixels, count_per_replicate(area.samples, film.replicates()));
-  image.metadata = part.identity;
-  for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
-  if (!has_gaps(part)) return image;
-  image.metadata[kAreasKey] = to_text(part.areas);
-  image.metadata.erase(kStatedSamplesKey);
-  return image;
-}
-
 }  // namespace
 
 PartHeader header_of(const RenderPart& part) {

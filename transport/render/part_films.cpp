@@ -38,6 +38,13 @@ std::vector<int> touched(const SampleRange& samples, const Film& film) {
   return some;
 }
 
+// Whether pixels within the film's crop have no samples.
+bool has_gaps(const RenderPart& part) {
+  std::size_t held = 0;
+  for (const SampledArea& area : part.areas) held += pixel_count(area.pixels);
+  return !part.areas.empty() && held < pixel_count(part.result.film.crop());
+}
+
 }  // namespace
 
 std::vector<std::string> film_planes(const FilmIdentity& identity) {
@@ -128,6 +135,19 @@ void set_samples(RenderResult& films, const SampleRanges& samples) {
   const std::vector<std::uint64_t> counts = count_per_replicate(samples, films.film.replicates());
   films.film.set_samples(counts);
   if (films.layers) films.layers->set_samples(counts);
+}
+
+Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part) {
+  Image image = film.image(names);
+  if (part.result.samples.empty())
+    for (const SampledArea& area : part.areas)
+      film.develop(image, area.pixels, count_per_replicate(area.samples, film.replicates()));
+  image.metadata = part.identity;
+  for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
+  if (!has_gaps(part)) return image;
+  image.metadata[kAreasKey] = to_text(part.areas);
+  image.metadata.erase(kStatedSamplesKey);
+  return image;
 }
 
 }  // namespace abbe
