@@ -10,6 +10,7 @@
 
 #include "io/image.h"
 #include "io/text.h"
+#include "sensor/film/recorded_crop.h"
 
 namespace abbe::cli {
 namespace {
@@ -120,6 +121,20 @@ LightFactor parse_light_factor(const std::string& option, const std::string& tex
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos || sign == 0) refuse(option, "\"" + text + "\"", "NAME=FACTOR");
   return {text.substr(0, sign), parse_numbers(option, text.substr(sign + 1), -kMost, kMost)};
+}
+
+Crop asked_pixels(const Image& film, const std::optional<Crop>& asked) {
+  const std::vector<Crop> areas = recorded_areas(film);
+  const std::string allowed = "within " + to_text(areas);
+  if (!asked) {
+    if (areas.size() > 1) refuse("--crop", "none, though the film has gaps", allowed);
+    return areas.front();
+  }
+  std::size_t held = 0;
+  for (const Crop& area : areas)
+    if (const auto common = common_pixels(area, *asked)) held += pixel_count(*common);
+  if (held < pixel_count(*asked)) refuse("--crop", to_text(*asked), allowed);
+  return *asked;
 }
 
 LayerChoice parse_layer_choice(const std::string& option, const std::string& text) {

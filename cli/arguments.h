@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "description/load.h"
 #include "develop/film_sensor.h"
 #include "develop/relight.h"
+#include "io/image.h"
 #include "preview/page_server.h"
 #include "transport/render/render.h"
 #include "transport/render/sampled_areas.h"
@@ -42,6 +44,8 @@ namespace abbe::cli {
 [[nodiscard]] CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1" in pixels, x0 < x1 and y0 < y1.
 [[nodiscard]] Crop parse_crop(const std::string& option, const std::string& text);
+/// The pixels of a film to look at: those asked for by `--crop`, which it must have, or the rectangle it has.
+[[nodiscard]] Crop asked_pixels(const Image& film, const std::optional<Crop>& asked);
 /// "lights", perhaps with names as "lights:key,fill", or "bounces", perhaps up to a number as "bounces:4".
 [[nodiscard]] LayerChoice parse_layer_choice(const std::string& option, const std::string& text);
 /// Names of features, separated by commas.

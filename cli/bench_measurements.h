@@ -25,7 +25,7 @@ int transfer(const TransferOptions& options);
 /// What `abbe mtf` was asked for.
 struct MtfOptions {
   std::filesystem::path image;
-  std::optional<Crop> crop{};  ///< Pixels around the edge; all without it.
+  std::optional<Crop> crop{};  ///< Pixels around the edge; all the film has without it.
   std::string channel{};       ///< G, Y or the first when empty.
   std::filesystem::path plot{};
   std::size_t max_memory_bytes = default_memory_limit();

@@ -6,6 +6,7 @@
 #include "calibration/chart/raw_scale.h"
 #include "calibration/judge/slanted_edge.h"
 #include "cli/answer.h"
+#include "cli/arguments.h"
 #include "cli/bench_measurements.h"
 #include "cli/bench_plots.h"
 #include "cli/output_files.h"
@@ -36,10 +37,7 @@ EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   if (told && told->mosaic && image.channels.size() == 1)
     throw Error(ErrorCode::input, options.image.string(),
                 "is a mosaic, whose neighbours are of other channels: take the film, or a file of its parts");
-  const Crop crop = options.crop.value_or(Crop{0, 0, image.width, image.height});
-  if (crop.x1 > image.width || crop.y1 > image.height)
-    throw Error(ErrorCode::usage, "--crop",
-                fmt::format("lies beyond the {} x {} pixels of the image", image.width, image.height));
+  const Crop crop = asked_pixels(image, options.crop);
   const ImageChannel& channel = channel_of(image, options.channel);
   std::vector<double> values;
   for (int y = crop.y0; y < crop.y1; ++y)

@@ -86,7 +86,7 @@ struct LightOptions {
   std::string name;          ///< An illuminant, or a spectral EXR.
   std::string filters = {};  ///< Of `data/filter` or files, with commas between them.
   std::string reflectance = {};
-  std::optional<Crop> crop = {};    ///< Of an image: these pixels, all without it.
+  std::optional<Crop> crop = {};    ///< Of an image: these pixels, all it has without it.
   std::filesystem::path plot = {};  ///< SVG of the colour vector graphic; empty: none.
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;

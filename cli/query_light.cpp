@@ -5,6 +5,7 @@
 #include "calibration/judge/color_rendering.h"
 #include "calibration/judge/metamerism.h"
 #include "cli/answer.h"
+#include "cli/arguments.h"
 #include "cli/output_files.h"
 #include "cli/query.h"
 #include "develop/radiance.h"
@@ -25,13 +26,11 @@ namespace {
 // share would see light beyond them.
 Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& diagnostics) {
   Inputs inputs(options.max_memory_bytes);
-  const SpectralImage image = spectral_image(read_exr(options.name, &inputs), options.name);
+  Image film = read_exr(options.name, &inputs);
+  const Crop crop = asked_pixels(film, options.crop);
+  const SpectralImage image = spectral_image(std::move(film), options.name);
   for (const Channel& channel : observer_channels(Observer::cie1931))
     check_coverage(image, behind(channel, FilterStack{passed}), options.name, diagnostics);
-  const Crop crop = options.crop.value_or(Crop{0, 0, image.width, image.height});
-  if (crop.x1 > image.width || crop.y1 > image.height)
-    throw Error(ErrorCode::usage, "--crop",
-                fmt::format("lies beyond the {} x {} pixels of the image", image.width, image.height));
   const std::vector<double> edges = band_edges(image.bands);
   std::vector<Knot> knots{{edges.front(), 0}};
   for (std::size_t b = 0; b < image.bands.size(); ++b) {

@@ -23,6 +23,8 @@ py::dict compare(const FilmHandle& film, const FilmHandle& reference, const py::
     asked = asked_white(to_text(to_json(white, kWhitePointer)),
                         recorded_white(reference.image()) ? reference.image() : film.image())
                 .xy;
+  if (const auto untold = channel_of_untold_unit(film.image(), reference.image()))
+    warn(fmt::format("only one of the films tells the unit of channel {}", *untold));
   const std::vector<Crop> part = common_part(film.image(), reference.image());
   const Comparison found =
       part.front() == Crop{0, 0, film.image().width, film.image().height}
@@ -64,7 +66,8 @@ void add_compare(py::module_& module) {
       "Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: "
       "relative "
       "and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not "
-      "known. Raises InputError for films of different size.");
+      "known. Warns where one film alone tells its unit. Raises InputError for films of different size or "
+      "unit.");
   module.def("measure", measure, py::arg("scene"), py::arg("film"), py::arg("reference") = py::none(),
              "Reads the first chart of a scene out of a film of it: a dict for each patch, with its L*a*b*, "
              "that of the "

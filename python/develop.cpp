@@ -99,6 +99,8 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
                        std::optional<std::uint64_t> seed, SceneHandle* scene) {
   const auto asked = white.is_none() ? std::nullopt : std::optional(to_text(to_json(white, kWhitePointer)));
   ExposedFilm source = exposed(film, scene, readout, asked);
+  if (seed && !source.sensor.readout)
+    throw Error(ErrorCode::usage, "seed", "the film has no read-out whose noise it could draw");
   const std::uint64_t noise = seed.value_or(render_seed(source.film));
   const py::gil_scoped_release released;
   DevelopedFilm planes = develop(source, noise);
@@ -185,7 +187,8 @@ void add_develop(py::module_& module) {
              "replaces the "
              "sensor's, as a dict with the keys of `help(\"sensor/readout\")`; `white` is what pictures show "
              "as white, "
-             "as `output/white` of a scene; `seed` is that of the noise, by default the render's. At a "
+             "as `output/white` of a scene; `seed` is that of the noise of a read-out, by default the "
+             "render's. At a "
              "spectral film the "
              "sensor of `scene` may look.");
 }

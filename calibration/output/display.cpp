@@ -15,6 +15,7 @@
 #include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
+#include "sensor/film/recorded_crop.h"
 
 namespace abbe {
 namespace {
@@ -200,7 +201,7 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   }
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < film.pixels(); ++i) clipped += clip(&packed[3 * i]) || too_bright[i] ? 1U : 0U;
-  const double count = static_cast<double>(film.pixels());
+  const auto count = static_cast<double>(recorded_pixels(film).size());
   picture.clipped_share = static_cast<double>(clipped) / count;
   picture.outside_share = std::accumulate(outside.values.begin(), outside.values.end(), 0.0) / count;
   picture.outside = {film.width, film.height, {std::move(outside)}, film.metadata};
@@ -214,7 +215,7 @@ double DisplayTransform::automatic_scale(const Image& film) const {
   gamut.top = std::numeric_limits<double>::infinity();
   const Matrix3 to_gamut = gamut.from_xyz_d65 * to_xyz_d65_;
   std::vector<double> brightness;
-  for (std::size_t i = 0; i < film.pixels(); ++i) {
+  for (const std::size_t i : recorded_pixels(film)) {
     const std::array<double, 3> rgb = multiply(to_gamut, film_values(film_planes, i));
     if (!std::all_of(rgb.begin(), rgb.end(), [](double v) { return std::isfinite(v); })) continue;
     const MappedColor mapped = map_into(gamut, rgb);

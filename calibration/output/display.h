@@ -56,9 +56,9 @@ class DisplayTransform {
   /// is not a number becomes black and counts as clipped. Throws Error{input} when the film lacks a channel.
   [[nodiscard]] DisplayPicture operator()(const Image& film, std::optional<double> scale = {}) const;
 
-  /// The scale that brings the 99th percentile, over all pixels, of the brightest primary to 1, colours
-  /// having been brought into the gamut; where that is not positive, the brightest pixel; 1 for a film
-  /// without any light.
+  /// The scale that brings the 99th percentile, over the pixels that the film has (`recorded_areas`), of the
+  /// brightest primary to 1, colours having been brought into the gamut; where that is not positive, the
+  /// brightest pixel; 1 for a film without any light.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
   /// Film values to XYZ relative to D65.

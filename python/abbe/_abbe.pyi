@@ -190,7 +190,7 @@ def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str 
 
 
 def compare(film: Film, reference: Film, *, white: typing.Any = None) -> dict:
-    """Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: relative and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not known. Raises InputError for films of different size."""
+    """Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: relative and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not known. Warns where one film alone tells its unit. Raises InputError for films of different size or unit."""
 
 
 def curve(kind: str, name: str, wavelengths_nm: ArrayLike) -> typing.Any:
@@ -204,7 +204,7 @@ def delta_e(lab1: ArrayLike, lab2: ArrayLike, formula: str = '2000') -> typing.A
 def develop(film: Film, *, readout: typing.Any = None, white: typing.Any = None, seed: typing.Optional[int] = None, scene: Scene | None = None) -> Developed:
     """Reads a film out without rendering: noise, digital numbers, and what these say.
 
-    `readout` replaces the sensor's, as a dict with the keys of `help("sensor/readout")`; `white` is what pictures show as white, as `output/white` of a scene; `seed` is that of the noise, by default the render's. At a spectral film the sensor of `scene` may look."""
+    `readout` replaces the sensor's, as a dict with the keys of `help("sensor/readout")`; `white` is what pictures show as white, as `output/white` of a scene; `seed` is that of the noise of a read-out, by default the render's. At a spectral film the sensor of `scene` may look."""
 
 
 def extinction(name: str, wavelengths_nm: ArrayLike) -> typing.Any:

@@ -26,4 +26,14 @@ std::vector<Crop> recorded_areas(const Image& film) {
   return areas;
 }
 
+std::vector<std::size_t> recorded_pixels(const Image& film) {
+  std::vector<std::size_t> pixels;
+  for (const Crop& area : recorded_areas(film))
+    for (int y = area.y0; y < area.y1; ++y) {
+      const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width);
+      for (int x = area.x0; x < area.x1; ++x) pixels.push_back(row + static_cast<std::size_t>(x));
+    }
+  return pixels;
+}
+
 }  // namespace abbe

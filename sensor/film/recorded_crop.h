@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,5 +15,8 @@ namespace abbe {
 /// The same as disjoint rectangles, of which a film that is merged of some parts may tell several: one of all
 /// pixels where it has all.
 [[nodiscard]] std::vector<Crop> recorded_areas(const Image& film);
+
+/// The same as numbers of pixels, area by area and row by row.
+[[nodiscard]] std::vector<std::size_t> recorded_pixels(const Image& film);
 
 }  // namespace abbe

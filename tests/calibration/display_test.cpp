@@ -14,6 +14,7 @@
 #include "calibration/output/color_spaces.h"
 #include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
+#include "sensor/film/recorded_crop.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"
@@ -154,6 +155,20 @@ TEST(Display, ScalesTheNinetyNinthPercentileToOne) {
   EXPECT_EQ(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 1);
   spark[3] = {4 * white[0], 4 * white[1], 4 * white[2]};
   EXPECT_NEAR(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 0.25, 1e-7);
+}
+
+TEST(Display, WhatAFilmHasNotIsNeitherExposedForNorCounted) {
+  const XYZ white = unit_xyz(kD65);
+  Image film = film_of({"X", "Y", "Z"}, std::vector<std::array<double, 3>>(1000, {0, 0, 0}));
+  for (const std::size_t lit : {3U, 4U, 900U})
+    for (std::size_t k = 0; k < 3; ++k) film.channels[k].values[lit] = static_cast<float>(4 * white.at(k));
+  film.channels[0].values[4] *= 2;
+  const DisplayTransform display({"X", "Y", "Z"}, Matrix3());
+  film.metadata[kCropKey] = "3,0,901,1";
+  film.metadata[kAreasKey] = "3,0,5,1=0:8 900,0,901,1=0:8";
+  EXPECT_EQ(recorded_pixels(film), (std::vector<std::size_t>{3, 4, 900}));
+  EXPECT_NEAR(display.automatic_scale(film), 0.25, 1e-7);
+  EXPECT_NEAR(display(film, 1).clipped_share, 1, 1e-12);
 }
 
 TEST(Display, SaturatedColoursAreExposedSoThatTheyFit) {

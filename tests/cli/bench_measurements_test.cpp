@@ -6,6 +6,7 @@
 
 #include "io/exr.h"
 #include "io/picture.h"
+#include "sensor/film/crop.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
@@ -80,7 +81,7 @@ TEST(Transfer, FaultsAreNamed) {
 
 // An edge slanted by 5 degrees and blurred by a Gaussian; its values are those at the pixels' middles, so
 // that the Gaussian alone shows. Beside it a plane without an edge.
-std::string blurred_edge(double deviation) {
+std::string blurred_edge(double deviation, const std::string& areas = "") {
   const double angle = 5 * std::numbers::pi / 180;
   Image image{kEdge, 2 * kEdge, {{"G", {}}, {"flat", {}}}, {}};
   for (int y = 0; y < image.height; ++y)
@@ -90,6 +91,7 @@ std::string blurred_edge(double deviation) {
           static_cast<float>(0.1 + 0.4 * std::erfc(-distance / deviation / std::sqrt(2.0))));
       image.channels[1].values.push_back(0.5F);
     }
+  if (!areas.empty()) image.metadata[kAreasKey] = areas;
   write_exr(file("edge.exr"), image);
   return file("edge.exr");
 }
@@ -114,11 +116,23 @@ TEST(Mtf, IsThatOfTheBlur) {
   EXPECT_NEAR(part["mtf50"], half, 0.005);
 }
 
+// What a film has not is black, and so an edge of its own.
+TEST(Mtf, LooksAtWhatAFilmHas) {
+  const std::string within = " --crop 8,16,56,112 --json";
+  const std::string whole = abbe("mtf " + blurred_edge(0.7) + within).out;
+  EXPECT_EQ(abbe("mtf " + blurred_edge(0.7, "8,16,56,112=0:4") + " --json").out, whole);
+  const std::string gaps = blurred_edge(0.7, "8,16,56,60=0:4 0,60,64,112=0:4 0,120,4,124=0:4");
+  EXPECT_EQ(abbe("mtf " + gaps + within).out, whole);
+  const std::string allowed = "allowed within 8,16,56,60 0,60,64,112 0,120,4,124";
+  expect_fault("mtf " + gaps, 2, "--crop: got none, though the film has gaps, " + allowed);
+  expect_fault("mtf " + gaps + " --crop 8,15,56,112", 2, "--crop: got 8,15,56,112, " + allowed);
+}
+
 TEST(Mtf, FaultsAreNamed) {
   const std::string edge = blurred_edge(0.7);
   expect_fault("mtf " + edge + " --channel flat", 4, "there is no edge in these pixels");
   expect_fault("mtf " + edge + " --channel R", 2, "--channel: got \"R\", allowed G, flat");
-  expect_fault("mtf " + edge + " --crop 0,0,65,20", 2, "--crop: lies beyond the 64 x 128 pixels");
+  expect_fault("mtf " + edge + " --crop 0,0,65,20", 2, "--crop: got 0,0,65,20, allowed within 0,0,64,128");
   expect_fault("mtf " + edge + " --crop 0,0,8,8", 4, "16");
   expect_fault("mtf " + file("absent.exr"), 4, "absent.exr");
 }

@@ -6,6 +6,7 @@
 #include "cli/query.h"
 #include "io/exr.h"
 #include "io/spectral_exr.h"
+#include "sensor/film/crop.h"
 #include "spectral/library.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
@@ -71,7 +72,12 @@ TEST(QueryLight, ReadsPixelsOfASpectralImage) {
   EXPECT_NEAR(json_output(query_light, right)["CCT_K"].get<double>(), 4225.05, 0.1);
   EXPECT_NEAR(json_output(query_light, right)["Ra"].get<double>(), 64.23, 0.1);
   right.crop = Crop{1, 0, 3, 1};
-  EXPECT_EQ(fault([&] { query_light(right); }, "beyond the 2 x 1 pixels"), ErrorCode::usage);
+  EXPECT_EQ(fault([&] { query_light(right); }, "allowed within 0,0,2,1"), ErrorCode::usage);
+  image.metadata[kCropKey] = "1,0,2,1";
+  write_exr(file, spectral_layout(image));
+  right.crop.reset();
+  EXPECT_NEAR(json_output(query_light, right)["Ra"].get<double>(), 64.23, 0.1);
+  EXPECT_EQ(fault([&] { query_light(left); }, "allowed within 1,0,2,1"), ErrorCode::usage);
 }
 
 TEST(QueryLight, TellsWhatASpectralImageLacksOfTheLightAsked) {

@@ -37,6 +37,8 @@ class Develops(Test):
         self.assertIsNone(plain.codes)
         with self.assertRaisesRegex(abbe.UsageError, "no read-out"):
             plain.write(self.scratch / "c.tif")
+        with self.assertRaisesRegex(abbe.UsageError, "^seed: the film has no read-out whose noise it could draw$"):
+            abbe.develop(film, seed=7)
         with self.assertRaisesRegex(abbe.InputError, "counts no electrons"):
             abbe.develop(film, readout={"bits": 12})
         with self.assertRaises(abbe.Error) as caught:
@@ -71,6 +73,15 @@ class Develops(Test):
         self.assertEqual(len(abbe.measure(scene, films[0])), 24)
         with self.assertRaises(abbe.InputError):
             abbe.compare(films[0], abbe.render(abbe.Scene(box())))
+
+    def test_a_unit_that_one_film_tells_is_warned_of(self):
+        film = abbe.render(abbe.Scene(box()), spp=1)
+        film.write(self.scratch / "told.exr")
+        untold = OpenImageIO.ImageBuf(str(self.scratch / "told.exr"))
+        untold.specmod().erase_attribute("channel.short")
+        untold.write(str(self.scratch / "untold.exr"))
+        with self.assertWarnsRegex(abbe.SceneWarning, "only one of the films tells the unit of channel short"):
+            self.assertEqual(abbe.compare(film, abbe.Film.read(self.scratch / "untold.exr"))["mean_ratio"], 1)
 
     def test_calibrations_are_those_of_the_command(self):
         made = abbe.calibrate("Nikon_D5100", "A", bits=10)

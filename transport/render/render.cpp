@@ -228,13 +228,15 @@ class Rendering {
   }
 
   // The error costs a walk over the film, so it is looked at when the samples have grown by a quarter or so,
-  // and known once every replicate has some. When depends on nothing but the number of samples, so that a
-  // render goes on after an interruption as it would have without, and with a limit of time as without one.
+  // or doubled where it is told and ends nothing, and known once every replicate has some. When depends on
+  // nothing but the number of samples, so that a render goes on after an interruption as it would have
+  // without, and with a limit of time as without one.
   [[nodiscard]] bool look_is_due(std::uint64_t samples) const {
     if (options_.target_error && samples % step_ != 0) return false;
     if (samples < static_cast<std::uint64_t>(result_.film.replicates())) return false;
-    const auto stage = [](std::uint64_t n) {
-      return std::floor(std::log(static_cast<double>(n)) / std::log(1.25));
+    const double growth = std::log(options_.target_error ? 1.25 : 2.0);
+    const auto stage = [growth](std::uint64_t n) {
+      return std::floor(std::log(static_cast<double>(n)) / growth);
     };
     const std::uint64_t before = (samples - 1) / step_ * step_;
     return before == 0 || stage(before) != stage(samples);
