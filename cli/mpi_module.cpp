@@ -44,10 +44,9 @@ void collect(std::span<Int128> numbers, int rank) {
   if (rank != 0) std::fill(numbers.begin(), numbers.end(), Int128{0});
 }
 
-bool follow(bool said) {
-  int flag = said ? 1 : 0;
-  MPI_Bcast(&flag, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  return flag != 0;
+std::uint64_t follow(std::uint64_t said) {
+  MPI_Bcast(&said, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  return said;
 }
 
 CrewModule join() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 
@@ -16,7 +17,7 @@ struct Crew {
   /// Adds the numbers of all processes to those of the first, and sets those of the others to 0.
   std::function<void(std::span<Int128> numbers)> collect = {};
   /// What the first process says.
-  std::function<bool(bool said)> follow = {};
+  std::function<std::uint64_t(std::uint64_t said)> follow = {};
 };
 
 }  // namespace abbe

@@ -117,7 +117,10 @@ class Rendering {
 
   [[nodiscard]] bool leads() const { return options_.crew.rank == 0; }
   [[nodiscard]] bool alone() const { return options_.crew.size == 1; }
-  [[nodiscard]] bool all_follow(bool said) const { return alone() ? said : options_.crew.follow(said); }
+  [[nodiscard]] std::uint64_t all_follow(std::uint64_t said) const {
+    return alone() ? said : options_.crew.follow(said);
+  }
+  [[nodiscard]] bool all_follow(bool said) const { return all_follow(std::uint64_t{said ? 1U : 0U}) != 0; }
 
   // Passes that processes trace at the same time, one each. Where the error is to be looked at, a round ends,
   // as a process alone would look there.
@@ -139,17 +142,18 @@ class Rendering {
     const std::uint64_t end = (first / step_ + 1) * step_;
     if (!options_.time_limit_s) return end;
     const std::uint64_t traced = samples() - started_with_;
-    const std::uint64_t most = alone() ? std::min(traced, affordable(traced)) : traced;
+    const std::uint64_t most = all_follow(std::min(traced, affordable(traced)));
     return std::min(end, first + std::max<std::uint64_t>(1, most));
   }
 
-  // So many samples as the time that is left should be enough for, by what those traced have taken; not for
-  // processes of a crew, which have clocks of their own and must agree.
+  // So many samples of each process as the time that is left should be enough for, by what those traced have
+  // taken, by this process's clock.
   [[nodiscard]] std::uint64_t affordable(std::uint64_t traced) const {
     const double left = *options_.time_limit_s - elapsed();
     const double each = (elapsed() - planned_s_) / static_cast<double>(traced);
     if (!(left > 0 && each > 0)) return 0;
-    return static_cast<std::uint64_t>(std::min(left / each, static_cast<double>(kMaxSamples)));
+    const double of_one = left / each / options_.crew.size;
+    return static_cast<std::uint64_t>(std::min(of_one, static_cast<double>(kMaxSamples)));
   }
 
   void run_round(const std::vector<SampleRange>& round) {
