@@ -35,7 +35,9 @@
 // Towards a point of the scene no film point need be known: points of a disc of area B, which all light comes
 // in through, are drawn uniformly; the intensity I sends I cos dB/d^2 through one of its elements, and T_j of
 // it to the pixel at x_j. As densities of both ways are to be told in one measure, a ray counts as drawn by
-// its place on that disc, with 1/B, and by its direction from there, with p_j cos B.
+// its place on that disc, with 1/B, and by its direction from there, with p_j cos B. The disc is that of the
+// entrance pupil; where this lies within the lens, rays begin and end in the plane of the first vertex, and d
+// counts from the disc all the same.
 
 namespace abbe {
 namespace {
@@ -51,8 +53,26 @@ V2d image_of_film(const FilmGrid& grid, const V2f& film) {
   return -kMmPerM * film_plane(grid, film);
 }
 
-V3d entrance_center(const LensSystem& camera) {
-  return camera.frame.position - camera.frame.forward * (camera.optics->pupil.entrance().z / kMmPerM);
+V3d on_axis(const LensSystem& camera, double z_mm) {
+  return camera.frame.position - camera.frame.forward * (z_mm / kMmPerM);
+}
+
+// Where rays of the image begin and end: in the plane of the first vertex, as nothing of the scene is within
+// the lens, or in that of an entrance pupil before it.
+double front_z(const LensSystem& camera) {
+  return std::min(camera.optics->pupil.entrance().z, 0.0);
+}
+
+// Holds where all rays of the image cross that plane: each comes through the disc of the entrance pupil, and,
+// where this lies behind the first surface, past that one's rim.
+double front_radius(const LensSystem& camera) {
+  const auto [pupil_z, pupil_radius] = camera.optics->pupil.entrance();
+  if (pupil_z <= 0) return pupil_radius;
+  const lens::Surface& first = camera.optics->system.system().surfaces.front();
+  const double rim = camera.optics->semi_aperture_mm(0) + first.decenter_mm.length();
+  const double rim_z = camera.optics->system.point_of(0, {camera.optics->semi_aperture_mm(0), 0}).point.z;
+  const double widens = rim_z > 0 && rim_z < pupil_z ? rim_z * (rim + pupil_radius) / (pupil_z - rim_z) : 0;
+  return std::max(rim, pupil_radius) + widens;
 }
 
 // Where light comes in by some route, as light tracing draws it.
@@ -74,7 +94,8 @@ EntrancePoint draw_entrance(const LensSystem& camera, const V2f& u, LensRoute ro
   if (route > 0) return first_surface_point(camera, disc * camera.optics->semi_aperture_mm(0), route);
   const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
   const V2d on_disc = disc * radius;
-  return {entrance_center(camera) + camera.frame.right * on_disc.x + camera.frame.up * on_disc.y,
+  return {on_axis(camera, camera.optics->pupil.entrance().z) + camera.frame.right * on_disc.x +
+              camera.frame.up * on_disc.y,
           camera.frame.forward, share_of(camera, route) / disc_area(radius)};
 }
 
@@ -134,8 +155,7 @@ lens::Ray from_film(const LensSystem& camera, const V2d& image, const V2d& disc,
 // Of one that has left the lens, from where light comes in by its route.
 Ray in_scene(const LensSystem& camera, const lens::Ray& out, LensRoute route, float time) {
   const V3d& d = out.direction;
-  const double entrance_z = camera.optics->pupil.entrance().z;
-  const V3d start = route == 0 ? out.origin + (entrance_z - out.origin.z) / d.z * d : out.origin;
+  const V3d start = route == 0 ? out.origin + (front_z(camera) - out.origin.z) / d.z * d : out.origin;
   return ray_at(V3f(camera.frame.position + lens_in_scene(camera.frame, start) / kMmPerM),
                 V3f(lens_in_scene(camera.frame, d)), time);
 }
@@ -215,11 +235,12 @@ std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid,
                                                            float time) const {
   const auto [route, u] = draw_route(*this, lens);
   const EntrancePoint entrance = draw_entrance(*this, u, route);
-  const V3f lens_point(entrance.point);
-  const V3d way = V3d(point) - V3d(lens_point);
+  const V3d way = V3d(point) - entrance.point;
   const double distance = way.length();
   const double cos_theta = way.dot(entrance.normal) / distance;
-  if (!(cos_theta > 0)) return std::nullopt;
+  const double behind = route == 0 ? (optics->pupil.entrance().z - front_z(*this)) / kMmPerM : 0;
+  if (!(cos_theta > 0 && distance * cos_theta > behind)) return std::nullopt;
+  const V3f lens_point(entrance.point + way / distance * (behind / cos_theta));
   const auto lanes =
       land(*this, grid, {ray_at(lens_point, V3f(way / distance), time), wavelengths_nm}, route);
   if (!lanes) return std::nullopt;
@@ -264,13 +285,12 @@ double LensSystem::least_film_cosine(const FilmGrid& /*grid*/) const {
 }
 
 V3d LensSystem::middle() const {
-  return entrance_center(*this);
+  return on_axis(*this, front_z(*this));
 }
 
 // Of ghosts the opening holds the first surface too.
 CameraTraits LensSystem::traits() const {
-  const double radius =
-      std::max(optics->pupil.entrance().radius, ghosts ? optics->semi_aperture_mm(0) : 0.0) / kMmPerM;
+  const double radius = std::max(front_radius(*this), ghosts ? optics->semi_aperture_mm(0) : 0.0) / kMmPerM;
   return {.depth_of_field = true,
           .displaces_lanes = true,
           .ghosts = ghosts,
@@ -278,8 +298,7 @@ CameraTraits LensSystem::traits() const {
           .image_distance = optics->image_distance_mm / kMmPerM,
           .f_number = optics->speed ? std::optional(optics->speed->f_number) : std::nullopt,
           .axis = frame.forward,
-          .opening = FlatOpening{entrance_center(*this), frame.right * radius, frame.up * radius,
-                                 frame.forward, true}};
+          .opening = FlatOpening{middle(), frame.right * radius, frame.up * radius, frame.forward, true}};
 }
 
 }  // namespace abbe

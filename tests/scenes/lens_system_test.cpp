@@ -2,6 +2,9 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "lens/spot.h"
 #include "scene/camera/lens_optics.h"
@@ -86,6 +89,35 @@ TEST(LensSystemScene, EveryTechniqueMakesTheSamePicture) {
     std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
     EXPECT_LT(c.largest_z, 5.5) << integrator;  // 1e-6 over 3 channels x 16 regions x 3 techniques
     EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
+  }
+}
+
+// The entrance pupil of this lens lies 50 mm and more behind its first vertex, and a card between them.
+TEST(LensSystemScene, NothingOfTheSceneIsWithinTheLens) {
+  const auto seen = [](const char* integrator, int samples, const std::string& card) {
+    return render(test::load_text(fmt::format(R"({{
+      "abbe": 1, "units": "mm",
+      "camera": {{"lens_system": {{"prescription": "double_gauss", "focus_distance": 400}}, "from": [0, -400, 0], "to": [0, 0, 0], "up": [0, 0, 1]}},
+      "sensor": {{"resolution": [8, 8], "pixel_pitch_um": 2000, "channels": {{"g": {{"band": [500, 600]}}}}}},
+      "materials": {{"white": {{"diffuse": {{"reflectance": 0.8}}}}, "black": {{"diffuse": {{"reflectance": 0}}}}}},
+      "lights": [{{"disc": {{"center": [150, -200, 100], "normal": [-150, 200, -100], "radius": 20}}, "emission": {{"spectrum": 1}}}}],
+      "shapes": [{{"quad": {{"corner": [-200, 0, -200], "edge_u": [400, 0, 0], "edge_v": [0, 0, 400]}}, "material": "white"}}{}],
+      "render": {{"integrator": "{}", "samples": {}}}}})",
+                                              card, integrator, samples)),
+                  {})
+        .film;
+  };
+  const Film open = seen("path", 64, "");
+  EXPECT_GT(test::region(open, 0, 0, 0, 8, 8).mean, 0);
+  for (const auto& [integrator, samples] :
+       {std::pair("path", 64), {"light", 512}, {"bdpt", 64}, {"photon-brute", 64}}) {
+    const Film film = seen(
+        integrator, samples,
+        R"(, {"quad": {"corner": [-60, -410, -60], "edge_u": [120, 0, 0], "edge_v": [0, 0, 120]}, "material": "black"})");
+    const test::Comparison c = test::compare_regions(open, film, 2);
+    std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
+    EXPECT_LT(c.largest_z, 5) << integrator;
+    EXPECT_NEAR(c.ratio, 1, 0.1) << integrator;
   }
 }
 

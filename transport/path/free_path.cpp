@@ -111,9 +111,10 @@ Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V
   const Imath::V3d normal(end_normal);
   Imath::V3d point = Imath::V3d(ray.origin) + direction * static_cast<double>(distance);
   const double least = static_cast<double>(offset_length(Imath::V3f(point)));
-  const double towards = normal.dot(direction);
-  const double off = (static_cast<double>(end) - static_cast<double>(distance)) * std::abs(towards);
-  if (off < least && towards != 0) point -= normal * std::copysign(least - off, towards);
+  if (const double towards = normal.dot(direction); towards != 0) {
+    const double off = (static_cast<double>(end) - static_cast<double>(distance)) * std::abs(towards);
+    if (off < least) point -= normal * std::copysign(least - off, towards);
+  }
   return rounded_back(point, direction);
 }
 

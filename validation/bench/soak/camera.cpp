@@ -37,10 +37,12 @@ Json probe(Drawing& drawing) {
   return {{"quad", {{"corner", at}, {"edge_u", edge_u}, {"edge_v", edge_v}}}};
 }
 
-// Lenses are of the size they are, and look at what is about that far away; no spectral sensor is behind one.
+// Lenses are of the size they are, and look at what is about that far away; their rims, up to 5 cm from the
+// axis, keep within the walls, as a camera is 0.3 of the size or more from them. No spectral sensor is behind
+// one.
 bool holds_a_lens(const Drawing& drawing) {
   const double size_m = drawing.size * drawing.unit_m;
-  return size_m > 0.05 && size_m < 1e3 && !drawing.scene["sensor"].contains("spectral");
+  return size_m > 0.2 && size_m < 1e3 && !drawing.scene["sensor"].contains("spectral");
 }
 
 void add_blades(Random& random, Json& lens) {
