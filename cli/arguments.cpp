@@ -38,7 +38,8 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   for (const std::string& piece : split(text, ',')) {
     const std::optional<double> number = parse_number(piece);
     if (!number) refuse(option, "\"" + text + "\"", "numbers separated by commas");
-    if (!(*number >= low && *number <= high)) refuse(option, piece, fmt::format("[{:g}, {:g}]", low, high));
+    if (!(*number >= low && *number <= high))
+      refuse(option, piece, fmt::format("[{:.10g}, {:.10g}]", low, high));
     numbers.push_back(*number);
   }
   return numbers;

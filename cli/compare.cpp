@@ -125,10 +125,11 @@ Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
 void compare_pixels(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
   std::optional<Chromaticity> white;
   if (!options.white.empty())
-    white = asked_white(options.white, recorded_white(reference) ? reference : image).xy;
+    white = asked_white(options.white, recorded_white(reference) ? reference : image, "--white").xy;
   const Comparison c = compare_images(image, reference, white);
   if (const auto untold = channel_of_untold_unit(image, reference))
     say(fmt::format("warning: only one of the images tells the unit of channel {}", *untold));
+  if (const auto uncompared = uncompared_channels(image, reference)) say("warning: " + *uncompared);
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;

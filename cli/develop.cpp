@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -58,7 +59,37 @@ std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
   return files;
 }
 
+bool sets(const DevelopOptions& options, std::string_view pointer) {
+  return std::any_of(options.overrides.begin(), options.overrides.end(),
+                     [pointer](const Override& o) { return o.pointer == pointer; });
+}
+
+// Refuses options that others leave without effect.
+void require_effect(const DevelopOptions& options) {
+  const auto refuse = [](const char* option, std::string_view why) {
+    throw Error(ErrorCode::usage, option, std::string(why));
+  };
+  const auto one_of_two = [&](const char* option, std::string_view pointer) {
+    if (sets(options, pointer))
+      refuse(option, fmt::format("is what --set {} says too: one of them", pointer));
+  };
+  if (options.iso) one_of_two("--iso", kIsoPointer);
+  if (options.white) one_of_two("--white", kWhitePointer);
+  const char* shows = options.display_exposure       ? "--exposure"
+                      : options.white                ? "--white"
+                      : sets(options, kWhitePointer) ? kWhitePointer
+                                                     : "";
+  if (*shows != 0 && options.display.empty() && options.outputs.empty())
+    refuse(shows, "only what is written takes it (allowed with --display or -o)");
+  if (!options.frame) return;
+  if (!options.lights.empty())
+    refuse("--light", "a frame of --frame sees no scene, and no light of one (allowed without --frame)");
+  if (options.exposure_s && std::holds_alternative<BiasFrame>(*options.frame))
+    refuse("--exposure-s", "a bias frame is exposed for no time (allowed with --frame dark or flat)");
+}
+
 std::vector<fs::path> check_outputs(const DevelopOptions& options) {
+  require_effect(options);
   for (const fs::path& output : options.outputs) require_developed_extension(output);
   if (options.display.empty())
     require_no_view(options.view, "--display");
@@ -81,20 +112,25 @@ ViewOptions view_of(const DevelopOptions& options) {
   return view;
 }
 
-// The white asked for, the last of them, and what is left to ask for.
+// The white asked for, of --set the last, and what is left to ask for.
 struct Asked {
   std::optional<std::string> white;
   std::vector<Override> others;
 };
 Asked asked(const DevelopOptions& options) {
-  Asked all;
+  Asked all{options.white, {}};
   for (const Override& o : options.overrides)
     if (o.pointer == kWhitePointer)
       all.white = o.value;
     else
       all.others.push_back(o);
-  if (options.iso) all.others.push_back({kIsoPointer, fmt::format("{}", *options.iso)});
+  if (options.iso) all.others.push_back({kIsoPointer, fmt::format("{}", *options.iso), "--iso"});
   return all;
+}
+
+// The option that asks for the white.
+const char* white_option(const DevelopOptions& options) {
+  return options.white ? "--white" : "--set";
 }
 
 FilmSensor sensor_of(const Image& film, const fs::path& path, const std::vector<Override>& overrides,
@@ -116,7 +152,7 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
     Diagnostics diagnostics;
     std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics, &inputs);
     if (!scene) check(diagnostics);  // warnings are about what nobody renders here
-    settle_white(*scene, options.scene, told, white);
+    settle_white(*scene, options.scene, told, white, white_option(options));
     Diagnostics of_bands;
     Image film = seen_by(*scene, image, options.film, of_bands);
     check(of_bands);
@@ -130,7 +166,7 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
   if (*unmet != 0)
     throw Error(ErrorCode::usage, unmet, "a spectral film needs a sensor that looks at it: --scene");
   if (!white) return observed_film(image, view_of(options), recorded_white(told));
-  const White chosen = asked_white(*white, told);
+  const White chosen = asked_white(*white, told, white_option(options));
   ExposedFilm seen = observed_film(image, view_of(options), chosen.xy);
   seen.sensor.white_name = chosen.name;
   return seen;
@@ -160,7 +196,7 @@ ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
   const auto [white, others] = asked(options);
-  const auto chosen = white ? std::optional(asked_white(*white, film)) : std::nullopt;
+  const auto chosen = white ? std::optional(asked_white(*white, film, white_option(options))) : std::nullopt;
   FilmSensor sensor = sensor_of(film, options.film, others, options, chosen);
   return {std::move(film), std::move(sensor)};
 }
@@ -169,9 +205,10 @@ Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
   Json answer;
   answer["planes"] = sensor.planes;
   for (const PlaneFigures& plane : planes) {
+    const Json render_error = plane.render_error ? Json(*plane.render_error) : Json();
     if (!sensor.readout) {
       answer["mean"].push_back(plane.mean);
-      if (plane.render_error) answer["render_error"].push_back(*plane.render_error);
+      answer["render_error"].push_back(render_error);
       continue;
     }
     answer["mean_e"].push_back(plane.mean);
@@ -181,7 +218,7 @@ Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
     answer["row_noise_e"].push_back(plane.noise.row_e);
     answer["quantisation_noise_e"].push_back(plane.noise.quantisation_e);
     answer["sensor_noise_e"].push_back(plane.noise.total_e);
-    answer["render_error_e"].push_back(plane.render_error.value());
+    answer["render_error_e"].push_back(render_error);
     answer["saturated_share"].push_back(plane.saturated_share);
   }
   if (sensor.readout && sensor.electrons_per_lx_s)
@@ -202,7 +239,7 @@ void expose_anew(ExposedFilm& exposed, const DevelopOptions& options) {
 
 void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
   if (options.profile.empty()) return;
-  const auto is_dng = [](const fs::path& path) { return path.extension() == ".dng"; };
+  const auto is_dng = [](const fs::path& path) { return extension_of(path) == ".dng"; };
   if (std::none_of(options.outputs.begin(), options.outputs.end(), is_dng))
     throw Error(ErrorCode::usage, "--profile", "only a .dng takes it (allowed with -o FILE.dng)");
   if (sensor.channels.size() != 3)
@@ -210,8 +247,9 @@ void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inp
                 fmt::format("its matrices are for three channels (got {})", sensor.channels.size()));
   Diagnostics diagnostics;
   inputs.add_file(options.profile);
-  for (const RawLight& light : accepted(read_dng_profile(options.profile, diagnostics), diagnostics))
-    sensor.lights.push_back(light_for(sensor.channels, light));
+  const DngProfile profile = accepted(read_dng_profile(options.profile, diagnostics), diagnostics);
+  require_same_camera(profile, sensor, options.profile);
+  for (const RawLight& light : profile.lights) sensor.lights.push_back(light_for(sensor.channels, light));
 }
 
 // The noise of a read-out is all that exposures of one film differ by.

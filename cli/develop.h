@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "description/load.h"
@@ -20,6 +21,7 @@ struct DevelopOptions {
   std::filesystem::path polarisation;          ///< Folder for maps of it; empty when none are wanted.
   std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
   std::vector<Override> overrides;             ///< Of the read-out and the white.
+  std::optional<std::string> white;            ///< What pictures show as white, as output/white of a scene.
   std::vector<LightFactor> lights;             ///< That count otherwise than in the film.
   std::optional<double> exposure_s;            ///< Of the sensor; that of the film when absent.
   std::optional<double> iso;                   ///< Speed of the sensor, in place of its gain.

@@ -9,7 +9,6 @@
 
 #include "cli/develop.h"
 #include "cli/measure.h"
-#include "sensor/film/recorded_white.h"
 
 namespace abbe::cli {
 namespace {
@@ -46,12 +45,8 @@ void add_showing(CLI::App& options, DevelopOptions& how) {
   add_parsed(options, "--exposure", how.display_exposure, number_in(1e-30, 1e30),
              "Film value shown as white (default: the scene's, else chosen from the image)", "X");
   options
-      .add_option_function<std::string>(
-          "--white",
-          [&how](const std::string& text) {
-            how.overrides.push_back({kWhitePointer, text});
-          },
-          "What pictures show as white, as output/white of a scene (default: the film's)")
+      .add_option("--white", how.white,
+                  "What pictures show as white, as output/white of a scene (default: the film's)")
       ->type_name("NAME|[X,Y]");
   options.add_option("--screen", how.view.display, "Display of the configuration (default: its first)")
       ->type_name("NAME");

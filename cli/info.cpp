@@ -12,6 +12,7 @@
 #include "description/load.h"
 #include "film/rendered_film.h"
 #include "film/white.h"
+#include "io/inputs.h"
 #include "lens/paraxial.h"
 #include "scene/camera/lens_optics.h"
 #include "scene/unreached.h"
@@ -175,7 +176,7 @@ std::string describe(const Scene& scene, const IntegratorChoice& choice) {
   if (const auto& white = scene.output.white)
     lines += fmt::format("white        {} (x {:.4f}, y {:.4f}: {})\n", white->name, white->xy[0],
                          white->xy[1], white->reason);
-  return lines + fmt::format("memory       {:.1f} MB\n", answer["memory_bytes"].get<double>() / 1e6);
+  return lines + fmt::format("memory       {}\n", bytes_text(answer["memory_bytes"].get<std::size_t>()));
 }
 
 int info(const InfoOptions& options) {

@@ -7,6 +7,7 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
+#include "cli/warnings.h"
 #include "description/load_material.h"
 #include "io/atomic_file.h"
 #include "io/picture.h"
@@ -23,6 +24,14 @@ GoniometerSettings settings_of(const LabOptions& options) {
   NamedCurve illuminant = accepted(load_illuminant(options.illuminant, {}, diagnostics), diagnostics);
   return {options.at_nm,    options.angles_deg, options.inside, std::move(illuminant.curve),
           options.observer, options.samples};
+}
+
+// What its formulas do not hold for is refused, and what its data do not reach is told.
+void check_matter(const Material& material, const std::vector<double>& at_nm) {
+  for (const double nm : at_nm)
+    if (const auto fault = clear_fault(material, nm)) throw Error(ErrorCode::scene, "", *fault);
+  for (const double nm : at_nm)
+    if (const auto held = held_index(material, nm)) return say("warning: " + *held);
 }
 
 Json means(const std::vector<Estimate>& estimates) {
@@ -105,6 +114,7 @@ int lab(const LabOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   const Material material = accepted(load_material(options.material, diagnostics, &inputs), diagnostics);
+  check_matter(material, options.at_nm);
   for (std::filesystem::path& file : files_among({options.illuminant})) inputs.add_file(std::move(file));
   require_distinct(std::array{options.plot, options.map}, inputs.files());
   const GoniometerSettings settings = settings_of(options);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "cli/arguments.h"
 #include "cli/bench_measurements.h"
 #include "cli/lab.h"
@@ -46,13 +48,17 @@ void add_material_queries(CLI::App& query, Command& command) {
       add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
   add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
              "Also tell the internal transmittance of that many millimetres", "MM");
-  add_index_query(query, "critical", "Critical angle from inside", command, query_critical);
+  add_index_query(query, "critical",
+                  "Critical angle from inside, in air or in what else the index is relative to", command,
+                  query_critical);
   add_index_query(query, "brewster",
                   "Brewster's angle from outside, or of metals the pseudo-Brewster angle, where Rp is least",
                   command, query_brewster);
 
-  const Sub<ReflectanceOptions> reflectance(query, "reflectance", "Reflectance of a polished surface in air",
-                                            command, query_reflectance);
+  const Sub<ReflectanceOptions> reflectance(
+      query, "reflectance",
+      "Reflectance of a polished surface in air, or in what else its index is relative to", command,
+      query_reflectance);
   reflectance.app->add_option("name", reflectance->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*reflectance.app, reflectance->at_nm);
   add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
@@ -63,8 +69,10 @@ void add_material_queries(CLI::App& query, Command& command) {
       ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
   add_json_with_arrays(*reflectance.app, reflectance->json, reflectance->arrays);
 
-  const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism, least or at one incidence", command,
-                                query_prism);
+  const Sub<PrismOptions> prism(
+      query, "prism",
+      "Deviation by a prism in air, or in what else its index is relative to, least or at one incidence",
+      command, query_prism);
   prism.app->add_option("name", prism->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*prism.app, prism->at_nm);
   add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
@@ -166,7 +174,12 @@ void add_query(CLI::App& app, Command& command) {
   add_color_queries(*query, command);
   add_light_queries(*query, command);
   query->callback([query, list, options, &command] {
-    if (!query->get_subcommands().empty()) return;
+    if (const auto questions = query->get_subcommands(); !questions.empty()) {
+      if (list->count() == 0) return;
+      throw Error(ErrorCode::usage, "--list",
+                  fmt::format("lists names, and answers no question beside (got {}, allowed alone)",
+                              questions.front()->get_name()));
+    }
     if (list->count() == 0) throw CLI::RequiredError("query: a question or --list");
     command = [options] { return query_list(*options); };
   });

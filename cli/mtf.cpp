@@ -13,11 +13,24 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_mosaic.h"
 
 namespace abbe::cli {
 namespace {
 
-// The channel asked for, else G, else Y, else the first.
+// A mosaic is a plane alone, or with what a film has beside it, such as its variance. Pictures that were
+// developed of one tell of it too, but have not its plane.
+void require_no_mosaic(const RawImage& read, const std::filesystem::path& path) {
+  if (!(read.scale && read.scale->mosaic) && !recorded_mosaic(read.image.metadata)) return;
+  const std::vector<std::string> planes = plane_names(read.image);
+  if (read.image.channels.size() != 1 && (planes.size() != 1 || !read.image.find(planes.front()))) return;
+  throw Error(ErrorCode::input, path.string(),
+              "is a mosaic, whose neighbours are of other channels (allowed a film of a sensor without "
+              "a mosaic, or the linear picture that a raw converter makes of a raw file)");
+}
+
+// The channel asked for, else G, else Y, else the first plane.
 const ImageChannel& channel_of(const Image& image, const std::string& asked) {
   if (!asked.empty()) {
     if (const ImageChannel* found = image.find(asked)) return *found;
@@ -28,15 +41,16 @@ const ImageChannel& channel_of(const Image& image, const std::string& asked) {
   }
   for (const char* name : {"G", "Y"})
     if (const ImageChannel* found = image.find(name)) return *found;
+  for (const std::string& plane : plane_names(image))
+    if (const ImageChannel* found = image.find(plane)) return *found;
   return image.channels.front();
 }
 
 EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   inputs.add_file(options.image);
-  const auto [image, told] = read_raw_image(options.image, &inputs);
-  if (told && told->mosaic && image.channels.size() == 1)
-    throw Error(ErrorCode::input, options.image.string(),
-                "is a mosaic, whose neighbours are of other channels: take the film, or a file of its parts");
+  const RawImage read = read_raw_image(options.image, &inputs);
+  require_no_mosaic(read, options.image);
+  const Image& image = read.image;
   const Crop crop = asked_pixels(image, options.crop);
   const ImageChannel& channel = channel_of(image, options.channel);
   std::vector<double> values;

@@ -42,6 +42,10 @@ Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& di
                                     static_cast<std::size_t>(x)]);
     const double pixels = static_cast<double>(crop.x1 - crop.x0) * (crop.y1 - crop.y0);
     const double density = total / pixels / (edges[b + 1] - edges[b]);
+    if (!(density >= 0 && std::isfinite(density)))
+      throw Error(ErrorCode::input, options.name,
+                  fmt::format("holds no radiance in the band at {:g} nm (got a mean of {})",
+                              image.bands[b].center_nm, total / pixels));
     if (b == 0) knots.push_back({edges[b], density});
     knots.push_back({image.bands[b].center_nm, density});
     if (b + 1 == image.bands.size()) knots.push_back({edges[b + 1], density});
@@ -68,7 +72,7 @@ Curve asked_light(const LightOptions& options) {
   if (!options.reflectance.empty())
     passed = product(passed, within("reflectance", options.reflectance, diagnostics));
   Curve light;
-  if (options.name.ends_with(".exr")) {
+  if (extension_of(options.name) == ".exr") {
     light = light_of(options, passed, diagnostics);
   } else if (options.crop) {
     throw Error(ErrorCode::usage, "--crop", "is for spectral images");

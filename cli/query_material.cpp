@@ -38,11 +38,17 @@ int print_material_answer(const Json& answer, const Options& options) {
   return 0;
 }
 
+// What its catalogued index is relative to, and what therefore surrounds it.
+const char* medium_of(const NamedIndex& material) {
+  return material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
+}
+
 // An angle of n and k at each wavelength.
 template <typename F>
 Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   Json answer;
   answer["name"] = material.name;
+  answer["medium"] = medium_of(material);
   answer["wavelength_nm"] = options.at_nm;
   answer["angle_deg"] = each(
       options.at_nm, [&](double nm) { return angle(material.index.catalogued_n(nm), material.index.k(nm)); });
@@ -118,7 +124,7 @@ int query_ior(const IndexOptions& options) {
   Json answer;
   answer["name"] = material.name;
   answer["source"] = material.source;
-  answer["medium"] = material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
+  answer["medium"] = medium_of(material);
   answer["wavelength_nm"] = options.at_nm;
   answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
   answer["k"] = each(options.at_nm, [&](double nm) { return material.index.k(nm); });
@@ -169,6 +175,7 @@ int query_reflectance(const ReflectanceOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
+  answer["medium"] = medium_of(material);
   answer["angle_deg"] = options.angles_deg;
   answer["wavelength_nm"] = options.at_nm;
   answer["Rs"] = rows([](const auto& f) { return f.power.Rs; });
@@ -184,6 +191,7 @@ int query_prism(const PrismOptions& options) {
   const NamedIndex material = find(options.name, options.at_nm);
   const auto column = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
+      if (material.index.k(nm) > kLargestGlassK) return Json();
       const double n = material.index.catalogued_n(nm);
       const auto passage = options.incidence_deg ? prism_passage(n, options.apex_deg, *options.incidence_deg)
                                                  : prism_minimum(n, options.apex_deg);
@@ -192,6 +200,7 @@ int query_prism(const PrismOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
+  answer["medium"] = medium_of(material);
   answer["apex_deg"] = options.apex_deg;
   answer["wavelength_nm"] = options.at_nm;
   answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });

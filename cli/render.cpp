@@ -68,7 +68,7 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
   if (outputs.film.empty()) outputs.film = scene.output.image;
   if (outputs.film.empty()) outputs.film = name_of(options.scene).stem().concat(".exr");
   // A picture of some of the samples is not the scene's, and all parts would write the same file.
-  const bool part = outputs.film.extension() == kPartExtension;
+  const bool part = extension_of(outputs.film) == kPartExtension;
   if (part && !(outputs.display.empty() && outputs.gamut.empty()))
     throw Error(ErrorCode::usage, outputs.film.string(),
                 "a part is all that its render writes: merge --display shows the film of all parts");
@@ -173,7 +173,7 @@ Scene load_together(const RenderOptions& options, Inputs& inputs, const Crew& cr
     if (crew.rank == 0) throw;
     failure = error;
   }
-  if (crew.size > 1) (void)crew.follow(true);
+  if (crew.size > 1) (void)crew.follow(0);
   if (failure) throw *failure;
   return *std::move(scene);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/warnings.h"
 #include "description/load.h"
 #include "validation/layout/lamp_rays.h"
 
@@ -116,14 +117,7 @@ void warn_beyond_data(const Scene& scene, const RayTree& tree, double wavelength
     for (const TraceEvent& event : branch.trace.events) {
       if (!event.passage) continue;
       const Material& material = scene.materials[scene.shapes[event.shape].material];
-      for (const IndexUse& use : indices(material)) {
-        const RefractiveIndex& index = *use.index;
-        if (wavelength_nm >= index.low_nm() && wavelength_nm <= index.high_nm()) continue;
-        say(fmt::format(
-            "warning: the index of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm",
-            material.name, index.low_nm(), index.high_nm()));
-        return;
-      }
+      if (const auto held = held_index(material, wavelength_nm)) return say("warning: " + *held);
     }
 }
 

@@ -27,6 +27,15 @@ void warn_of_dark_camera(const Scene& scene, bool strict) {
   if (const auto dark = dark_camera(scene)) warn(*dark, strict);
 }
 
+std::optional<std::string> held_index(const Material& material, double wavelength_nm) {
+  for (const IndexUse& use : indices(material))
+    if (const RefractiveIndex& index = *use.index;
+        wavelength_nm < index.low_nm() || wavelength_nm > index.high_nm())
+      return fmt::format("the index of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm",
+                         material.name, index.low_nm(), index.high_nm());
+  return std::nullopt;
+}
+
 void warn_of_hidden_sheet(const Scene& scene, bool strict) {
   if (const auto hidden = hidden_sheet(scene)) warn(*hidden, strict);
 }

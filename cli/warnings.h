@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "scene/scene.h"
 
 namespace abbe::cli {
@@ -10,6 +13,10 @@ void warn_of_lost_light(const Scene& scene, bool strict);
 
 /// Warns of a camera that stands within opaque matter where no light is: Error{scene} when `strict`.
 void warn_of_dark_camera(const Scene& scene, bool strict);
+
+/// What is to be said of a material an index of which is held from the end of its data at a wavelength [nm],
+/// if one is.
+[[nodiscard]] std::optional<std::string> held_index(const Material& material, double wavelength_nm);
 
 /// Warns of a thin sheet that is lost where it lies on something: Error{scene} when `strict`.
 void warn_of_hidden_sheet(const Scene& scene, bool strict);

@@ -24,7 +24,8 @@ void check_precision(const SourcePosition& camera, const LoadContext& context, c
 /// Warns at `where` if this index does not hold for all wavelengths that the sensor sees.
 void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
                     Diagnostics& diagnostics);
-/// Warns of every index of a material used beyond the wavelengths it holds for.
+/// Warns of every index of a material used beyond the wavelengths it holds for, and refuses what is taken as
+/// clear and is not (`clear_fault`) where the sensor sees.
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene);
 
 }  // namespace abbe::description

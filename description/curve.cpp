@@ -44,7 +44,7 @@ static Fields fields(Tag<Line>) {
   return describe("line", "A spectral line.",
                   {field("nm", &Line::nm, kWavelength, "Its middle."),
                    field("width_nm", &Line::width_nm, kLineWidth, "Its width."),
-                   field("power", &Line::power, kPower, "Its integral.")});
+                   field("power", &Line::power, kPower, "Its integral, of which what lies beyond 300 to 1100 nm does not count.")});
 }
 
 static Fields fields(Tag<Scaled>) {
@@ -86,6 +86,10 @@ struct CurveBuilder {
   const SourcePosition& where;
   LoadContext& context;
 
+  [[nodiscard]] std::optional<NamedCurve> named(const std::string& words) const {
+    const std::optional<std::string> name = context.table(words, where);
+    return name ? load_curve(folder, *name, where, context.diagnostics) : std::nullopt;
+  }
   [[nodiscard]] std::optional<Curve> of(const spec::Curve& curve) const {
     return std::visit(CurveBuilder{folder, curve.where, context}, curve.value);
   }
@@ -104,11 +108,9 @@ struct CurveBuilder {
 
   std::optional<Curve> operator()(double value) const { return Curve(value); }
   std::optional<Curve> operator()(const std::string& words) const {
-    const std::optional<std::string> name = context.table(words, where);
-    if (!name) return std::nullopt;
-    std::optional<NamedCurve> named = load_curve(folder, *name, where, context.diagnostics);
-    if (!named) return std::nullopt;
-    return std::move(named->curve);
+    std::optional<NamedCurve> table = named(words);
+    if (!table) return std::nullopt;
+    return std::move(table->curve);
   }
   std::optional<Curve> operator()(const spec::CurveFormula& formula) const {
     return std::visit(*this, formula.of);
@@ -128,10 +130,16 @@ struct CurveBuilder {
       return std::nullopt;
     }
     const auto step = std::adjacent_find(wavelengths.begin(), wavelengths.end(), std::greater_equal<>());
-    if (step == wavelengths.end()) return table_curve(wavelengths, table.values, table.outside);
-    context.diagnostics.error(
-        table.where, fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
-    return std::nullopt;
+    if (step != wavelengths.end()) {
+      context.diagnostics.error(
+          table.where, fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
+      return std::nullopt;
+    }
+    if (auto fault = range_fault(wavelengths.front(), wavelengths.back())) {
+      context.diagnostics.error(table.where, std::move(*fault));
+      return std::nullopt;
+    }
+    return table_curve(wavelengths, table.values, table.outside);
   }
   std::optional<Curve> operator()(const spec::Band& said) const {
     const auto [low, high] = said.ends.value;
@@ -160,6 +168,46 @@ struct CurveBuilder {
 
 }  // namespace
 
+namespace {
+
+bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+bool has_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [text](std::string_view word) { return text.find(word) != text.npos; });
+}
+
+// A unit is prose, such as "1/m" or "reflectance (0-1); wavelength in nm". What is allowed in its place where
+// it is not that of the use.
+std::optional<std::string> allowed_unit(const std::string& told, const CurveUse& use) {
+  std::string unit = told.substr(0, told.find_first_of(";,("));
+  while (unit.ends_with(' ')) unit.pop_back();
+  const bool share = use.allowed.text() == Range::unit().text();
+  if (share && is_one_of(unit, {"%", "percent", "per cent"})) return "shares of 1";
+  if (use.unit == CurveUnit::per_metre &&
+      !is_one_of(unit, {"1/m", "/m", "m^-1", "m-1", "m⁻¹", "per m", "per metre", "per meter"}))
+    return "1/m";
+  if (use.unit == CurveUnit::spectral_radiance &&
+      (has_one_of(unit.substr(0, 2), {"mW", "uW", "µ", "nW", "kW"}) ||
+       has_one_of(told, {"/um", "/µm", " um)", " µm)", "/cm", "cm2", "cm^2"})))
+    return "W/(m^2 sr nm)";
+  return std::nullopt;
+}
+
+// A table named by itself, if its unit is that of the use.
+std::optional<Curve> checked(NamedCurve table, const std::string& words, const CurveUse& use,
+                             const SourcePosition& where, Diagnostics& diagnostics) {
+  const auto allowed = allowed_unit(table.unit, use);
+  if (!allowed) return std::move(table.curve);
+  diagnostics.error(where, fmt::format("\"{0}\" is in another unit (got \"{1}\", allowed {2}; "
+                                       "{{\"scale\": S, \"of\": \"{0}\"}} converts)",
+                                       words, table.unit, *allowed));
+  return std::nullopt;
+}
+
+}  // namespace
+
 Curve build(const spec::Lines& said) {
   std::vector<SpectralLine> found;
   for (const spec::Line& line : said.value) found.push_back({line.nm, line.width_nm, line.power});
@@ -167,7 +215,14 @@ Curve build(const spec::Lines& said) {
 }
 
 std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context) {
-  std::optional<Curve> built = CurveBuilder{use.folder, curve.where, context}.of(curve);
+  const CurveBuilder builder{use.folder, curve.where, context};
+  std::optional<Curve> built;
+  if (const auto* words = std::get_if<std::string>(&curve.value)) {
+    if (auto table = builder.named(*words))
+      built = checked(*std::move(table), *words, use, curve.where, context.diagnostics);
+  } else {
+    built = builder.of(curve);
+  }
   if (!built) return std::nullopt;
   const auto fault = value_fault(*built, use.allowed);
   if (!fault) return built;

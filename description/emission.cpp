@@ -143,6 +143,7 @@ namespace {
 /// The curve of each spectrum, as it is named.
 struct SpectrumBuilder {
   LoadContext& context;
+  CurveUnit unit;  ///< Of a table: any where its values are scaled.
 
   std::optional<Curve> operator()(std::monostate) const { return std::nullopt; }
   std::optional<Curve> operator()(const spec::Illuminant& said) const {
@@ -155,7 +156,7 @@ struct SpectrumBuilder {
   std::optional<Curve> operator()(const spec::Blackbody& said) const { return planck(said.value); }
   std::optional<Curve> operator()(const spec::Daylight& said) const { return daylight(said.value); }
   std::optional<Curve> operator()(const spec::Curve& said) const {
-    return build(said, {"illuminant", spec::kPower}, context);
+    return build(said, {"illuminant", spec::kPower, unit}, context);
   }
   std::optional<Curve> operator()(const spec::Lines& said) const { return description::build(said); }
 };
@@ -172,7 +173,10 @@ LampSpectrum* build_spectrum(const spec::Emission& emission, LoadContext& contex
   const std::string words = spectrum_text(emission);
   if (const auto found = context.lamp_spectra.find(words); found != context.lamp_spectra.end())
     return &found->second;
-  std::optional<Curve> curve = std::visit(SpectrumBuilder{context}, emission.spectrum);
+  const bool absolute = std::holds_alternative<spec::Spectrum>(emission.spectrum) &&
+                        std::holds_alternative<std::monostate>(emission.scale);
+  const CurveUnit unit = absolute ? CurveUnit::spectral_radiance : CurveUnit::any;
+  std::optional<Curve> curve = std::visit(SpectrumBuilder{context, unit}, emission.spectrum);
   if (!curve) return nullptr;
   const double power = curve->integral();
   const double luminous = photometric(*curve);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -5,15 +7,19 @@
 #include <fmt/format.h>
 
 #include "description/light.h"
+#include "io/extension.h"
 #include "io/picture.h"
+#include "spectral/rgb.h"
 
 namespace abbe::description {
 namespace {
 
-// The planes of red, green and blue; one plane of luminance serves for all three.
+// The planes of red, green and blue; one plane of luminance, without others that tell colour beside it,
+// serves for all three.
 std::optional<std::array<const ImageChannel*, 3>> find_planes(const Image& image) {
   const auto plane = [&image](const char* name) { return image.find(name); };
-  if (plane("Y") && !plane("R")) return std::array{plane("Y"), plane("Y"), plane("Y")};
+  const bool coloured = plane("X") || plane("Z") || plane("RY") || plane("BY");
+  if (plane("Y") && !plane("R") && !coloured) return std::array{plane("Y"), plane("Y"), plane("Y")};
   const std::array planes{plane("R"), plane("G"), plane("B")};
   if (!planes[0] || !planes[1] || !planes[2]) return std::nullopt;
   return planes;
@@ -32,13 +38,15 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
     context.diagnostics.error(where, fmt::format("environment \"{}\": {}", name, what), ErrorCode::input);
     return std::nullopt;
   };
-  const std::string extension = path->extension().string();
+  const std::string extension = extension_of(*path);
   if (extension != ".exr" && extension != ".hdr")
-    return refuse(fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", extension));
+    return refuse(
+        fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", path->extension().string()));
   const Image image = read_image(*path, context.inputs);
   const HeldMemory held(context.inputs, image.memory_bytes());
   const auto planes = find_planes(image);
-  if (!planes) return refuse("no channels R, G, B or Y");
+  if (!planes) return refuse("no channels R, G, B, or Y alone");
+  if (const auto fault = rec709_fault(image)) return refuse(*fault);
   // Texels, and the cumulative distribution by which they are drawn.
   context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
@@ -54,6 +62,9 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
       negative += value < 0;
       sky.texels[i][c] = std::max(value, 0.0F);
     }
+  if (std::all_of(sky.texels.begin(), sky.texels.end(),
+                  [](const std::array<float, 3>& texel) { return texel == std::array<float, 3>{}; }))
+    context.diagnostics.error_if_strict(where, fmt::format("environment \"{}\" is black everywhere", name));
   if (negative > 0)
     context.diagnostics.warning(
         where, fmt::format("environment \"{}\": negative values taken as 0: {}", name, negative));

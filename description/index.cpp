@@ -160,7 +160,7 @@ std::optional<Ior> build(const spec::TintedIor& said, LoadContext& context) {
                               "absorption_per_m goes with a constant real index; this one brings its own k");
     return std::nullopt;
   }
-  const auto alpha = build(*said.absorption_per_m, {"filter", spec::kPower}, context);
+  const auto alpha = build(*said.absorption_per_m, {"filter", spec::kPower, CurveUnit::per_metre}, context);
   if (!alpha) return std::nullopt;
   ior->index = RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha),
                                IndexMedium::air, kMinWavelengthNm, kMaxWavelengthNm);

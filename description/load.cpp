@@ -59,7 +59,7 @@ bool read(const std::shared_ptr<const SourceText>& source, std::span<const Overr
           LoadContext& context, spec::Scene& said) {
   std::optional<JsonValue> root = parse_json(source, context.diagnostics);
   if (!root) return false;
-  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, context.diagnostics);
+  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, context.diagnostics, o.said_by);
   if (!check_version(*root, context.diagnostics)) return false;
   include_sensor_model(*root, context);
   (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said, context.diagnostics);

@@ -7,6 +7,7 @@
 #include "description/pbrt_table.h"
 #include "description/zemax.h"
 #include "io/data_directory.h"
+#include "io/extension.h"
 #include "io/schema/read.h"
 #include "io/text.h"
 
@@ -24,9 +25,9 @@ std::optional<spec::Lens> read_json(const fs::path& file, Diagnostics& diagnosti
 
 using Reader = std::optional<spec::Lens> (*)(const fs::path&, Diagnostics&);
 
-// By the extension, in any case.
+// By the extension.
 Reader reader_of(const fs::path& file) {
-  const std::string extension = lower_case(file.extension().string());
+  const std::string extension = extension_of(file);
   if (extension == ".json") return read_json;
   if (extension == ".zmx") return description::read_zemax;
   if (extension == ".dat") return description::read_pbrt_table;

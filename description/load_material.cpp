@@ -1,6 +1,7 @@
 #include "description/load_material.h"
 
 #include "description/material.h"
+#include "description/scene.h"
 
 #include <algorithm>
 
@@ -57,9 +58,12 @@ std::optional<Material> load_material(const std::string& words, Diagnostics& dia
   if (!source) return std::nullopt;
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
+  spec::Unit unit{};
+  if (const JsonValue* units = root->find("units"))
+    (void)schema::read(*units, spec::units(), &unit, diagnostics);
   const JsonValue materials = materials_of(*std::move(root));
   if (inputs && !in_place) inputs->add_file(place.path);
-  description::LoadContext context{diagnostics, place.path.parent_path(), inputs};
+  description::LoadContext context{diagnostics, place.path.parent_path(), inputs, spec::metres(unit)};
   Scene scene{};
   spec::Materials said;
   (void)schema::read(materials, spec::materials(), &said, diagnostics);

@@ -15,8 +15,8 @@ Material build_material(const schema::Named<spec::Material>& said, LoadContext& 
   if (auto model = build_model(said.value, context)) material.model = *std::move(model);
   if (const auto& priority = said.value.priority) {
     if (!encloses_medium(material))
-      context.diagnostics.error(
-          priority->where, "a priority goes with matter within a shape: a dielectric, a film or a medium");
+      context.diagnostics.error(priority->where,
+                                "a priority goes with matter within a shape: a dielectric or a medium");
     material.priority = priority->value;
   }
   if (const auto* normals = std::get_if<spec::NormalMap>(&said.value.relief))

@@ -86,7 +86,7 @@ static Fields fields(Tag<Conductor>) {
 }
 
 static Fields fields(Tag<Film>) {
-  return describe("film", "Thin films with air on both sides, such as a soap bubble's.",
+  return describe("film", "Thin films with the same matter on both sides, such as a soap bubble's.",
                   {field("layers", &Film::layers, "The films.")});
 }
 
@@ -204,16 +204,14 @@ Kind materials() {
 namespace abbe::description {
 namespace {
 
-constexpr double kClear = 1e-3;  // more k than any glass or varnish has, less than any metal
-
 // Why `index` cannot be a coat's, if it cannot.
 std::optional<std::string> coat_fault(const RefractiveIndex& index) {
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) {
     if (index.n(nm) < 1)
       return fmt::format("a coat is denser than air (got n = {:g} at {} nm)", index.n(nm), nm);
-    if (index.k(nm) > kClear)
+    if (index.k(nm) > kLargestGlassK)
       return fmt::format("a coat is clear (got k = {:g} at {} nm, allowed [0, {:g}])", index.k(nm), nm,
-                         kClear);
+                         kLargestGlassK);
   }
   return std::nullopt;
 }
@@ -264,9 +262,7 @@ struct ModelBuilder {
     if (facets) return RoughConductorMaterial(std::move(ior->name), std::move(ior->index), *facets);
     return ConductorMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
   }
-  Model operator()(const spec::Film& said) const {
-    return DielectricMaterial{"air", RefractiveIndex(1), build(said.layers, context)};
-  }
+  Model operator()(const spec::Film& said) const { return FilmMaterial{build(said.layers, context)}; }
   Model operator()(const spec::Medium& said) const {
     auto filling = build(said.scattering, said.absorption_per_m, context);
     if (!filling) return std::nullopt;

@@ -19,7 +19,7 @@ PhaseFunction build_phase(const spec::Scattering& said) {
 // Per metre; that of nothing where the key is absent.
 std::optional<Curve> build_coefficient(const std::optional<spec::Curve>& said, LoadContext& context) {
   if (!said) return Curve(0.0);
-  return build(*said, {"filter", spec::kPower}, context);
+  return build(*said, {"filter", spec::kPower, CurveUnit::per_metre}, context);
 }
 
 std::optional<DensityGrid> build_densities(const schema::Located<std::string>& said, LoadContext& context) {

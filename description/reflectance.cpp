@@ -89,6 +89,10 @@ std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, Loa
     context.diagnostics.error(said.where, "an image that is not rgb needs weights (got false, allowed true)");
     return std::nullopt;
   }
+  if (const auto fault = rec709_fault(file.image)) {
+    file.refuse(*fault, ErrorCode::input, context);
+    return std::nullopt;
+  }
   context.diagnostics.warning(
       file.where, fmt::format("texture \"{}\": red, green and blue have no spectrum: the smooth one that "
                               "looks so under D65 stands in for what was there",

@@ -26,14 +26,21 @@ static Fields fields(Tag<Output>) {
              "chromaticity coordinates [x, y]; the light that exposes the film most when absent.")});
 }
 
+Kind units() {
+  return word<Unit>("unit of length", {"m", "cm", "mm", "um", "in"});
+}
+
+double metres(Unit unit) {
+  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
+  return kMetres.at(static_cast<std::size_t>(unit));
+}
+
 Fields fields(Tag<Scene>) {
   return describe(
       "Abbe scene", "Lengths are in `units`, wavelengths in nm.",
       {field("$schema", &Scene::schema, "Where editors find this schema."),
        field("abbe", &Scene::version, {kFormatVersion, kFormatVersion}, "Version of the scene format."),
-       defaulted("units", &Scene::units, word<Unit>("unit of length", {"m", "cm", "mm", "um", "in"}),
-                 "Unit of length."),
-       field("camera", &Scene::camera),
+       defaulted("units", &Scene::units, units(), "Unit of length."), field("camera", &Scene::camera),
        field("sensor", &Scene::sensor, "The pixels, and what they count; required with a camera."),
        defaulted("meters", &Scene::meters, by_name<Meter>("an object of meters by name", 0),
                  "What measures light, by name, for `abbe meter`."),
@@ -141,21 +148,16 @@ void recentre(Scene& scene, const LoadContext& context) {
   translate(scene.camera, -scene.origin_m);
 }
 
-double unit_m(const spec::Scene& said) {
-  constexpr std::array kMetres{1.0, 1e-2, 1e-3, 1e-6, 0.0254};
-  return kMetres.at(static_cast<std::size_t>(said.units));
-}
-
 }  // namespace
 
 std::vector<Meter> build_meters(const spec::Scene& said, LoadContext& context) {
-  context.unit_m = unit_m(said);
+  context.unit_m = spec::metres(said.units);
   return build(said.meters, context);
 }
 
 Scene build(const spec::Scene& said, LoadContext& context, const Meter* meter) {
   Scene scene{};
-  scene.unit_m = context.unit_m = unit_m(said);
+  scene.unit_m = context.unit_m = spec::metres(said.units);
   // Before the lights, which may be sampled by what they expose.
   if (meter != nullptr)
     set_meter(said, *meter, context, scene);

@@ -18,6 +18,9 @@ namespace abbe::spec {
 inline constexpr double kFormatVersion = 1;
 
 enum class Unit { m, cm, mm, um, in };
+[[nodiscard]] schema::Kind units();
+/// The length of one [m].
+[[nodiscard]] double metres(Unit unit);
 
 /// What is written, and how.
 struct Output {

@@ -27,6 +27,16 @@ void check_validity(const IndexUse& use, const Support& sensor, const SourcePosi
                   *use.name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
 }
 
+namespace {
+
+void check_clear(const Material& material, const Support& sensor, const SourcePosition& where,
+                 Diagnostics& diagnostics) {
+  for (double nm = sensor.low; nm <= sensor.high; ++nm)
+    if (const auto fault = clear_fault(material, nm)) return diagnostics.error(where, *fault);
+}
+
+}  // namespace
+
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene) {
   Support sensor;
   for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
@@ -35,6 +45,7 @@ void check_validity(const spec::Materials& materials, const LoadContext& context
                                    [&](const auto& named) { return named.name == material.name; });
     const SourcePosition where = said != materials.end() ? said->where : SourcePosition{};
     for (const IndexUse& use : indices(material)) check_validity(use, sensor, where, context.diagnostics);
+    check_clear(material, sensor, where, context.diagnostics);
   }
 }
 

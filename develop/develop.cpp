@@ -8,6 +8,7 @@
 #include "develop/radiance.h"
 #include "io/text.h"
 #include "sensor/film/recorded_crop.h"
+#include "sensor/film/recorded_error.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
@@ -24,12 +25,23 @@ void tell_showing(const FilmSensor& sensor, std::map<std::string, std::string>& 
   told["to_xyz_d65"] = to_text(sensor.display->to_xyz_d65());
 }
 
+// An even frame tells what share of saturation it has by the exposure and the read-out that it has now.
+void tell_frame(const ExposedFilm& exposed, std::map<std::string, std::string>& told) {
+  const FilmSensor& sensor = exposed.sensor;
+  const auto frame = told.find(kFrameKey);
+  if (frame == told.end() || !frame->second.starts_with(kFlatFrame) || !sensor.readout) return;
+  const auto light = static_cast<double>(exposed.film.find(sensor.planes.front())->values.front());
+  frame->second = fmt::format("{}, {:.6g} of saturation", kFlatFrame,
+                              light * sensor.gathering_area_m2 / saturation_electrons(*sensor.readout));
+}
+
 // What the film tells, of the sensor as it is read out.
 std::map<std::string, std::string> told_of(const ExposedFilm& exposed) {
   const FilmSensor& sensor = exposed.sensor;
   std::map<std::string, std::string> told = exposed.film.metadata;
   forget_layers_and_features(told);
   tell_showing(sensor, told);
+  tell_frame(exposed, told);
   if (!sensor.description.empty()) told["sensor"] = sensor.description;
   if (sensor.readout && sensor.electrons_per_lx_s)
     told[kIsoSpeedKey] =
@@ -154,12 +166,13 @@ std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const Develope
   const std::vector<Crop> rendered = recorded_areas(developed.exposure);
   const auto over_film = [&](const auto& values) { return mean(developed.exposure, rendered, values); };
   const std::vector<double> own_seconds = pixel_exposures(sensor, developed.exposure);
+  const bool is_known = !has_unknown_error(developed.exposure.metadata);
   std::vector<PlaneFigures> all;
   for (std::size_t plane = 0; plane < sensor.planes.size(); ++plane) {
     PlaneFigures& figures = all.emplace_back();
     figures.mean = over_film(counted.channels[plane].values);
-    if (const ImageChannel* variance = developed.variance.find(variance_of(sensor.planes[plane])))
-      figures.render_error = std::sqrt(over_film(variance->values)) * unit;
+    const ImageChannel* variance = developed.variance.find(variance_of(sensor.planes[plane]));
+    if (variance != nullptr && is_known) figures.render_error = std::sqrt(over_film(variance->values)) * unit;
     if (!sensor.readout) continue;
     const double seconds = own_seconds.empty() ? sensor.exposure_s[plane] : over_film(own_seconds);
     figures.noise = temporal_noise(*sensor.readout, figures.mean, seconds);

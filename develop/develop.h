@@ -38,7 +38,7 @@ struct DevelopedFilm {
 /// electrons with a read-out, else in film values.
 struct PlaneFigures {
   double mean = 0;
-  std::optional<double> render_error;  ///< Nothing for planes without variance.
+  std::optional<double> render_error;  ///< Nothing where the film does not know it.
   TemporalNoise noise{};               ///< The sensor's noise at the mean; none without a read-out.
   double saturated_share = 0;
 };

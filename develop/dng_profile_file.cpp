@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "io/error.h"
 #include "io/json.h"
 #include "io/json_values.h"
+#include "io/table.h"
 #include "io/text.h"
 
 namespace abbe {
@@ -51,30 +53,57 @@ RawLight read_light(const JsonValue& light, Diagnostics& diagnostics) {
   return read;
 }
 
-std::vector<RawLight> read_lights(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
-  std::vector<RawLight> lights;
+DngProfile read_profile(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
+  DngProfile profile;
   const std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (const JsonValue* const camera = root ? root->find("camera") : nullptr)
+    profile.camera = read_string(*camera, diagnostics).value_or("");
   const JsonValue* const list = root ? member(*root, "lights", diagnostics) : nullptr;
   const JsonValue::Array* const all = list != nullptr ? read_array(*list, "lights", 2, diagnostics) : nullptr;
-  if (all == nullptr) return lights;
+  if (all == nullptr) return profile;
   if (all->size() != 2)
     diagnostics.error(list->where, fmt::format("expected 2 lights (got {})", all->size()));
-  for (const JsonValue& light : *all) lights.push_back(read_light(light, diagnostics));
-  return lights;
+  for (const JsonValue& light : *all) profile.lights.push_back(read_light(light, diagnostics));
+  return profile;
+}
+
+// Whether both name one camera: a file of curves wherever it lies.
+bool is_same_camera(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return a.filename() == b.filename();
+}
+
+bool is_shipped_camera(const std::string& camera) {
+  const std::vector<std::string> names = table_names("camera");
+  return std::find(names.begin(), names.end(), camera) != names.end();
 }
 
 }  // namespace
 
-std::optional<std::vector<RawLight>> read_dng_profile(const std::filesystem::path& path,
-                                                      Diagnostics& diagnostics) {
+std::optional<DngProfile> read_dng_profile(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
   Diagnostics faults;  // of an input, not of a scene
-  std::vector<RawLight> lights = read_lights(source, faults);
+  DngProfile profile = read_profile(source, faults);
   for (const Diagnostic& fault : faults.all())
     diagnostics.error(fault.where, fault.message, ErrorCode::input);
   if (faults.has_errors()) return std::nullopt;
-  return lights;
+  return profile;
+}
+
+void require_same_camera(const DngProfile& profile, const FilmSensor& sensor,
+                         const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& allowed) {
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("has the matrices of another camera than the film's (got {}, allowed {})",
+                            profile.camera, allowed));
+  };
+  if (profile.camera.empty()) return;
+  if (!sensor.measured_camera.empty()) {
+    if (!is_same_camera(profile.camera, sensor.measured_camera)) refuse(sensor.measured_camera);
+  } else if (is_shipped_camera(profile.camera) &&
+             sensor.description.find(profile.camera) == std::string::npos) {
+    refuse("those of its own channels");
+  }
 }
 
 }  // namespace abbe

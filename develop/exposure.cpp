@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "io/json.h"
 #include "io/text.h"
+#include "sensor/film/recorded_error.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/speed.h"
 
@@ -113,6 +114,9 @@ void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics) 
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.exposure_s.empty())
     throw Error(ErrorCode::usage, "--exposure-s", "the film tells of no exposure: radiances have none");
+  if (stated_exposure(sensor) == 0)
+    throw Error(ErrorCode::usage, "--exposure-s",
+                "a bias frame is exposed for no time (allowed with the film that it was made of)");
   const double factor = seconds / stated_exposure(sensor);
   if (factor != 1) warn_of_shutter(sensor, diagnostics);
   for (const std::string& plane : sensor.planes) {
@@ -134,10 +138,10 @@ void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame) {
     fill_plane(exposed.film, plane, light);
     fill_plane(exposed.film, variance_of(plane), 0);
   }
-  exposed.film.metadata["frame"] = flat ? fmt::format("flat, {} of saturation", flat->share)
-                                   : std::holds_alternative<DarkFrame>(frame) ? "dark"
-                                                                              : "bias";
-  exposed.film.metadata.erase("frame_mean_error");
+  exposed.film.metadata[kFrameKey] = flat                                       ? kFlatFrame
+                                     : std::holds_alternative<DarkFrame>(frame) ? "dark"
+                                                                                : kBiasFrame;
+  exposed.film.metadata.erase(kFrameMeanErrorKey);
   if (std::holds_alternative<BiasFrame>(frame)) set_exposure(exposed, 0);
 }
 

@@ -12,6 +12,7 @@
 #include "io/exr.h"
 #include "io/extension.h"
 #include "io/picture.h"
+#include "io/raw_picture.h"
 #include "sensor/film/variance_name.h"
 
 namespace abbe {
@@ -89,13 +90,12 @@ void require_developed_extension(const std::filesystem::path& path) {
 }
 
 bool is_raw_file(const std::filesystem::path& path) {
-  return path.extension() != ".exr";
+  return extension_of(path) != ".exr";
 }
 
 void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed, const FilmSensor& sensor) {
-  if (path.extension() == ".dng") return write_dng(path, raw_picture(developed, sensor));
-  if (path.extension() == ".fits" || path.extension() == ".fit")
-    return write_fits(path, raw_picture(developed, sensor));
+  if (extension_of(path) == ".dng") return write_dng(path, raw_picture(developed, sensor));
+  if (is_raw_picture(path)) return write_fits(path, raw_picture(developed, sensor));
   Image raw{developed.codes.width, developed.codes.height, {}, developed.codes.metadata};
   for (const std::string& plane : sensor.planes) raw.channels.push_back(*developed.codes.find(plane));
   write_raw_picture(path, raw);

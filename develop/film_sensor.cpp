@@ -31,16 +31,16 @@ struct Metadata {
     throw Error(ErrorCode::input, path.string(),
                 fmt::format("no attribute \"{}\": no film of a render, or one of an older version", key));
   }
-  [[nodiscard]] std::optional<double> find_number(const std::string& key) const {
+  [[nodiscard]] std::optional<double> find_number(const std::string& key, bool may_be_0 = false) const {
     const auto found = find(key);
     if (!found) return std::nullopt;
     const auto number = parse_number(*found);
-    if (!number || *number <= 0) refuse(key);
+    if (!number || *number < 0 || (*number == 0 && !may_be_0)) refuse(key);
     return number;
   }
-  [[nodiscard]] double number(const std::string& key) const {
+  [[nodiscard]] double number(const std::string& key, bool may_be_0 = false) const {
     (void)text(key);
-    return *find_number(key);
+    return *find_number(key, may_be_0);
   }
   [[noreturn]] void refuse(const std::string& key) const {
     throw Error(ErrorCode::input, path.string(),
@@ -51,14 +51,15 @@ struct Metadata {
 void read_planes(const Metadata& data, FilmSensor& sensor) {
   sensor.planes = split(data.text("sensor_channels"), ',');
   sensor.channels = intensities(sensor.planes);
-  const double exposure_s = sensor.shared_exposure_s = data.number("exposure_s");
+  const bool is_bias = data.find(kFrameKey) == kBiasFrame;
+  const double exposure_s = sensor.shared_exposure_s = data.number("exposure_s", is_bias);
   if (data.find("mosaic")) {
     sensor.channels = split(data.text("mosaic_channels"), ',');
     sensor.mosaic = parse_mosaic(data.text("mosaic"), sensor.channels);
     if (!sensor.mosaic || sensor.planes.size() != 1) data.refuse("mosaic");
   }
   for (const std::string& channel : sensor.channels)
-    sensor.exposure_s.push_back(data.find_number("exposure_s." + channel).value_or(exposure_s));
+    sensor.exposure_s.push_back(data.find_number("exposure_s." + channel, is_bias).value_or(exposure_s));
 }
 
 // A gain takes the place of a speed, and a speed that of a gain.
@@ -70,6 +71,13 @@ void replace_conversion(JsonValue& sensor, const std::string& pointer) {
   if (readout != nullptr)
     if (auto* members = std::get_if<JsonValue::Object>(&readout->value))
       std::erase_if(*members, [old](const JsonValue::Member& member) { return member.first == old; });
+}
+
+// The text under a key of an object; empty where there is none.
+std::string text_in(const JsonValue& object, const char* key) {
+  const JsonValue* member = object.find(key);
+  const auto* text = member != nullptr ? std::get_if<std::string>(&member->value) : nullptr;
+  return text != nullptr ? *text : "";
 }
 
 void require_one_conversion(std::span<const Override> overrides) {
@@ -95,12 +103,12 @@ std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
                   fmt::format("the film was rendered with it (got {}, allowed /readout and below, {})",
                               o.pointer, kWhitePointer));
     replace_conversion(*json, o.pointer);
-    set_json(*json, o.pointer, o.value, diagnostics);
+    set_json(*json, o.pointer, o.value, diagnostics, o.said_by);
   }
   sensor.description = overrides.empty() ? data.text("sensor") : to_text(*json);
-  for (const char* key : {"model", "camera"})
-    if (const JsonValue* name = json->find(key); name != nullptr && sensor.camera.empty())
-      if (const auto* text = std::get_if<std::string>(&name->value)) sensor.camera = *text;
+  sensor.measured_camera = text_in(*json, "camera");
+  sensor.camera = text_in(*json, "model");
+  if (sensor.camera.empty()) sensor.camera = sensor.measured_camera;
   const JsonValue* readout = json->find("readout");
   if (readout == nullptr || diagnostics.has_errors()) return std::nullopt;
   if (sensor.planes.size() > sensor.channels.size() && !sensor.mosaic)

@@ -17,6 +17,11 @@
 
 namespace abbe {
 
+/// The attribute of a film of no scene: what its camera saw, "bias", "dark" or "flat", in what is developed
+/// of it with the share of saturation.
+inline constexpr const char* kFrameKey = "frame";
+inline constexpr const char* kBiasFrame = "bias";
+inline constexpr const char* kFlatFrame = "flat";
 /// Where a film's description has the ISO speed.
 inline constexpr const char* kIsoPointer = "/readout/iso";
 
@@ -33,6 +38,7 @@ struct FilmSensor {
   std::optional<double> f_number;
   std::string description;  ///< What a scene would say of it, overrides included; empty where none is known.
   std::string camera;       ///< Name of its model, else of the measured camera; empty where it has none.
+  std::string measured_camera;  ///< That whose curves it has; empty where its channels are of its own.
   std::optional<DisplayTransform> display;
   std::optional<double> display_exposure;  ///< Film value shown as white.
   std::optional<Chromaticity> white;       ///< Shown as white: what was asked for, else the film's own.
@@ -63,7 +69,7 @@ struct ExposedFilm {
 /// the time. That is the time of all channels, or where they differ the sensor's, to which theirs keep their
 /// ratio. What moved stays blurred as it is: films do not tell that something did, but where their shutter
 /// takes its time, they warn of it. Throws Error{usage} for a film that tells no exposure, such as what the
-/// eye sees of a spectral one.
+/// eye sees of a spectral one, and for a bias frame, which has none.
 void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics);
 
 /// What a camera sees without a scene: nothing, in no time, for its read-out alone; nothing in the film's own

@@ -10,6 +10,7 @@
 #include "develop/develop.h"
 #include "develop/film_file.h"
 #include "io/error.h"
+#include "io/extension.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "io/spectral_exr.h"
@@ -97,13 +98,19 @@ void require_codes(const Image& image, const std::filesystem::path& path) {
 }
 
 LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
-  LinearImage read{read_picture(path, inputs), {}, {}, 1.0, "code values in [0, 1], as the file has them"};
-  std::erase_if(read.image.channels, [](const ImageChannel& channel) { return channel.name == "A"; });
-  require_finite(read.image, path);
+  LinearImage read{read_picture(path, inputs, AlphaReading::as_stored),
+                   {},
+                   {},
+                   1.0,
+                   "code values in [0, 1], as the file has them"};
   tell_lines(read.image);
   const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
   const auto white = parse_number(told(read.image, kWhiteLevelKey).value_or(""));
-  if (black && white) name_planes(read.image);
+  if (black && white)
+    name_planes(read.image);
+  else
+    drop_alpha(read.image);
+  require_finite(read.image, path);
   for (const ImageChannel& channel : read.image.channels) read.channels.push_back(channel.name);
   if (!black || !white) return read;
   require_codes(read.image, path);
@@ -164,7 +171,7 @@ MeasuredPlanes LinearImage::planes() const {
 }
 
 LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs) {
-  if (path.extension() == ".exr") return of_film(path, inputs);
+  if (extension_of(path) == ".exr") return of_film(path, inputs);
   if (is_raw_picture(path)) return of_raw(path, inputs);
   return of_picture(path, inputs);
 }

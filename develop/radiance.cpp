@@ -9,9 +9,11 @@
 #include "calibration/output/color_spaces.h"
 #include "io/error.h"
 #include "sensor/film/feature_film.h"
+#include "sensor/film/recorded_error.h"
 #include "sensor/film/recorded_layers.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/film/spectral_film.h"
+#include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/response/polariser_group.h"
 #include "spectral/rgb.h"
@@ -25,6 +27,11 @@ std::vector<std::string> names_of(const std::vector<Channel>& channels) {
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   return names;
+}
+
+bool tells_variance(const SpectralImage& image) {
+  return std::any_of(image.others.begin(), image.others.end(),
+                     [](const ImageChannel& channel) { return channel.name.starts_with(variance_of("")); });
 }
 
 }  // namespace
@@ -65,6 +72,7 @@ Image observed(const SpectralImage& image) {
   const SpectralImage bands{image.width, image.height, image.bands, {}, {}};
   Image xyz = expose(bands, observer_channels(Observer::cie1931), std::vector<double>(pixels, 1.0));
   xyz.metadata = image.metadata;
+  forget_error(xyz.metadata);
   return rec709_image(xyz, Matrix3());
 }
 
@@ -115,6 +123,10 @@ Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
   film.metadata = image.metadata;
   forget_channels(film.metadata);
   forget_layout(film.metadata);
+  if (tells_variance(image))
+    forget_error(film.metadata);
+  else
+    tell_unknown_error(film.metadata);
   for (const auto& [key, value] : sensor.metadata) film.metadata[key] = value;
   return film;
 }

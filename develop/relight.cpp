@@ -11,6 +11,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_error.h"
 #include "sensor/film/recorded_layers.h"
 #include "sensor/film/variance_name.h"
 
@@ -122,7 +123,7 @@ void drop_layers(Image& film) {
     return channel.name.starts_with(kLightLayer) || channel.name.starts_with(variance_of(kLightLayer));
   });
   film.metadata.erase(kLayersKey);
-  film.metadata.erase("frame_mean_error");
+  forget_error(film.metadata);
 }
 
 // What else has layers is the preview of a spectral film: it follows lights that are dimmed, and not those

@@ -11,6 +11,7 @@
 #include "film/sensor_identity.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
+#include "io/extension.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {
@@ -70,7 +71,7 @@ std::size_t film_bytes(const Scene& scene, const RenderOptions& how) {
 }
 
 void write_film(const std::filesystem::path& path, const RenderPart& part) {
-  if (path.extension() == kPartExtension)
+  if (extension_of(path) == kPartExtension)
     write_part(path, part.identity, part.result, part.areas);
   else
     write_exr(path, film_image(part));

@@ -27,9 +27,10 @@ void require_adaptable(const White& white, ErrorCode code, const std::string& wh
                           white.xy[0], white.xy[1]));
 }
 
-White read_asked(const std::string& text, const WhiteNames& names, Diagnostics& diagnostics) {
+White read_asked(const std::string& text, const WhiteNames& names, std::string_view said_by,
+                 Diagnostics& diagnostics) {
   JsonValue root{JsonValue::Object{}, {}, 0};
-  set_json(root, kWhitePointer, text, diagnostics);
+  set_json(root, kWhitePointer, text, diagnostics, said_by);
   const JsonValue* output = root.find("output");
   const JsonValue* json = output != nullptr ? output->find("white") : nullptr;
   std::optional<White> white = json != nullptr ? read_white(*json, names, diagnostics) : std::nullopt;
@@ -62,9 +63,9 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads,
 }
 
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
-                  const std::optional<std::string>& asked) {
+                  const std::optional<std::string>& asked, std::string_view said_by) {
   Diagnostics diagnostics;
-  if (asked) scene.output.white = read_asked(*asked, white_names(scene.lights), diagnostics);
+  if (asked) scene.output.white = read_asked(*asked, white_names(scene.lights), said_by, diagnostics);
   if (!scene.output.white) scene.output.white = white_of_film(scene, film);
   settle_white(scene, path);
 }
@@ -85,7 +86,7 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
 }
 
-White asked_white(const std::string& text, const Image& film) {
+White asked_white(const std::string& text, const Image& film, std::string_view said_by) {
   Diagnostics diagnostics;
   const auto recorded = film.metadata.find(kLightsXyKey);
   Json lights = Json::object();
@@ -100,7 +101,7 @@ White asked_white(const std::string& text, const Image& film) {
   names.white_of_light = [&](std::size_t i) {
     return White{names.lights[i], "", lights[names.lights[i]].get<Chromaticity>()};
   };
-  White white = read_asked(text, names, diagnostics);
+  White white = read_asked(text, names, said_by, diagnostics);
   require_adaptable(white, ErrorCode::usage, kWhitePointer);
   return white;
 }

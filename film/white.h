@@ -22,12 +22,12 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads =
 void add_white(const Scene& scene, FilmIdentity& identity);
 
 /// The white of the sensor of a scene that looks at a spectral film: the one it asks for, else the film's,
-/// else that of its own lights.
+/// else that of its own lights. `said_by` is the option or the keyword that asks.
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
-                  const std::optional<std::string>& asked);
+                  const std::optional<std::string>& asked, std::string_view said_by);
 
-/// The white asked for as `output/white` has it, lights being those a film tells of. Throws Error{usage} for
-/// an unknown one, and for one to which no eye adapts.
-[[nodiscard]] White asked_white(const std::string& text, const Image& film);
+/// The white asked for as `output/white` has it, lights being those a film tells of; by the option or the
+/// keyword `said_by`. Throws Error{usage} for an unknown one, and for one to which no eye adapts.
+[[nodiscard]] White asked_white(const std::string& text, const Image& film, std::string_view said_by);
 
 }  // namespace abbe

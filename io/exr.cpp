@@ -9,6 +9,7 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -110,6 +111,11 @@ Image announced(const Imf::Header& header, const Imath::Box2i& window, const std
     // What says how the file is laid out is no metadata.
     if (text && key != "type" && key != "name") image.metadata[key] = text->value();
     if (number && is_number(key)) image.metadata[key] = number_text(number->value());
+  }
+  if (Imf::hasChromaticities(header)) {
+    const auto& [red, green, blue, white] = Imf::chromaticities(header);
+    image.metadata[kPrimariesKey] = fmt::format("{} {} {} {} {} {} {} {}", red.x, red.y, green.x, green.y,
+                                                blue.x, blue.y, white.x, white.y);
   }
   return image;
 }

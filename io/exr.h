@@ -24,9 +24,14 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 /// writes one. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, std::span<const ExrPart> parts);
 
-/// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes and those numbers as
-/// metadata. Throws Error{input} for a missing, truncated or malformed file and Error{resource} for one
-/// beyond the limits of `io/image.h`, or beyond the memory that `inputs` has left, told by its header.
+/// The attribute of an image read from an EXR with `chromaticities`: x and y of its red, green, blue and
+/// white, with blanks between them.
+inline constexpr const char* kPrimariesKey = "primaries_xy";
+
+/// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes, those numbers and
+/// chromaticities (`kPrimariesKey`) as metadata. Throws Error{input} for a missing, truncated or malformed
+/// file and Error{resource} for one beyond the limits of `io/image.h`, or beyond the memory that `inputs` has
+/// left, told by its header.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// Reads an EXR of one part or more, which together keep within the limits that `read_exr` has for one, with
 /// the same errors; a single part may have no name.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -58,14 +59,21 @@ std::size_t default_memory_limit() {
   return static_cast<std::size_t>(kShare * static_cast<double>(bytes));
 }
 
+std::string bytes_text(std::size_t bytes) {
+  constexpr std::array kUnits{"kB", "MB", "GB", "TB"};
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  double count = static_cast<double>(bytes) / 1000;
+  std::size_t unit = 0;
+  for (; count >= 999.95 && unit + 1 < kUnits.size(); ++unit) count /= 1000;
+  return fmt::format("{:.1f} {}", count, kUnits.at(unit));
+}
+
 void Inputs::take_memory(const std::string& what, std::size_t bytes) {
   const std::size_t left = limit_ - std::min(taken_, limit_);
   if (bytes > left)
     throw Error(ErrorCode::resource, what,
-                fmt::format("needs {:.1f} MB of memory (allowed {:.1f} MB, of {:.1f} in all; --max-memory "
-                            "allows more)",
-                            static_cast<double>(bytes) / 1e6, static_cast<double>(left) / 1e6,
-                            static_cast<double>(limit_) / 1e6));
+                fmt::format("needs {} of memory (allowed {}, of {} in all; --max-memory allows more)",
+                            bytes_text(bytes), bytes_text(left), bytes_text(limit_)));
   taken_ += bytes;
 }
 

@@ -8,6 +8,9 @@
 
 namespace abbe {
 
+/// An amount of memory as messages tell it: "512 B", "1.0 kB", "84.3 MB", in powers of 1000.
+[[nodiscard]] std::string bytes_text(std::size_t bytes);
+
 /// Memory that a command takes unless told otherwise [bytes]: 80 % of the machine's, or of what the process's
 /// control group or address space is limited to, whichever is least.
 [[nodiscard]] std::size_t default_memory_limit();

@@ -310,11 +310,12 @@ std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& sou
   return parse(source, "", diagnostics);
 }
 
-void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics) {
-  const auto source = std::make_shared<const SourceText>(SourceText{"--set", std::string(text)});
+void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,
+              std::string_view said_by) {
+  const auto source = std::make_shared<const SourceText>(SourceText{std::string(said_by), std::string(text)});
   const SourcePosition where{source, 0, std::string(pointer)};
   if (valid_prefix(text) < text.size() || valid_prefix(pointer) < pointer.size())
-    return diagnostics.error({}, "--set: invalid UTF-8", ErrorCode::usage);
+    return diagnostics.error({}, std::string(said_by) + ": invalid UTF-8", ErrorCode::usage);
   Diagnostics complaints;
   std::optional<JsonValue> value = parse(source, where.pointer, complaints);
   if (!value && text.find_first_of("[{\"") == 0) {

@@ -52,13 +52,15 @@ struct JsonValue::Member {
 /// Replaces or creates the value at a JSON pointer ("/render/samples") by `text`, which is JSON, or a bare
 /// word or path taken as a string. Objects on the way are created; the index after an array's last, or "-",
 /// appends. Reports, as usage errors, a pointer that passes through something that is no object or array, and
-/// text that opens like a JSON array, object or string but is none.
-void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics);
+/// text that opens like a JSON array, object or string but is none; `said_by` is what they call the text.
+void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,
+              std::string_view said_by = "--set");
 
 /// One `--set /pointer=value` of the command line: what `set_json` takes.
 struct Override {
   std::string pointer;
   std::string value;
+  std::string said_by = "--set";  ///< Of another option, or of a keyword of Python, its name.
 };
 
 }  // namespace abbe

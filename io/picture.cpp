@@ -7,9 +7,8 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/exr.h"
-#include "io/picture_codec.h"
+#include "io/extension.h"
 #include "io/png.h"
-#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -35,11 +34,12 @@ std::vector<Code> interleaved(const Image& image, std::size_t channels, Code (*c
 }
 
 bool is_tiff(const std::filesystem::path& path) {
-  return path.extension() == ".tif" || path.extension() == ".tiff";
+  const std::string extension = extension_of(path);
+  return extension == ".tif" || extension == ".tiff";
 }
 
 bool is_exr(const std::filesystem::path& path) {
-  return lower_case(path.extension().string()) == ".exr";
+  return extension_of(path) == ".exr";
 }
 
 PictureHeader described(const std::filesystem::path& path, const Image& image, std::size_t channels) {
@@ -57,8 +57,8 @@ PictureHeader described(const std::filesystem::path& path, const Image& image, s
 // Almost every picture is a PNG, which needs no module.
 std::string encode(const std::filesystem::path& path, const PictureHeader& header,
                    const PictureCodes& codes) {
-  return path.extension() == ".png" ? encode_png(path.string(), header, codes)
-                                    : picture_codec().encode(path.string(), header, codes);
+  return extension_of(path) == ".png" ? encode_png(path.string(), header, codes)
+                                      : picture_codec().encode(path.string(), header, codes);
 }
 
 std::string display_bytes(const std::filesystem::path& path, const Image& image) {
@@ -103,14 +103,14 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
   write_atomically(path, encode(path, header, interleaved(image, channels, whole_number)));
 }
 
-Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
+Image read_picture(const std::filesystem::path& path, Inputs* inputs, AlphaReading alpha) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     throw Error(ErrorCode::input, path.string(), "no such regular file");
   PictureHeader header;
   std::vector<float> values;
   HeldMemory held(inputs, 0);
-  picture_codec().read(path.string(), [&](const PictureHeader& found) {
+  picture_codec().read(path.string(), alpha, [&](const PictureHeader& found) {
     header = found;
     const std::size_t channels = header.channels.size();
     require_image_size(path.string(), header.width, header.height, channels);
@@ -123,8 +123,8 @@ Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
   return planes(header, values);
 }
 
-Image read_image(const std::filesystem::path& path, Inputs* inputs) {
-  if (!is_exr(path)) return read_picture(path, inputs);
+Image read_image(const std::filesystem::path& path, Inputs* inputs, AlphaReading alpha) {
+  if (!is_exr(path)) return read_picture(path, inputs, alpha);
   Image image = read_exr(path, inputs);
   image.metadata[kColorSpace] = kLinear;
   return image;

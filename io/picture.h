@@ -5,6 +5,7 @@
 
 #include "io/image.h"
 #include "io/inputs.h"
+#include "io/picture_codec.h"
 
 namespace abbe {
 
@@ -20,13 +21,15 @@ void write_picture(const std::filesystem::path& path, const Image& image);
 /// or three as .png, any number as .tif. Throws Error{output}, Error{internal} for other values.
 void write_raw_picture(const std::filesystem::path& path, const Image& image);
 
-/// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files. Throws
-/// Error{input}, or Error{resource} for one beyond the limits of `io/image.h` or beyond the memory that
-/// `inputs` has left, told by its header.
-[[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
+/// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files, of which an
+/// alpha channel is "A". Throws Error{input}, or Error{resource} for one beyond the limits of `io/image.h` or
+/// beyond the memory that `inputs` has left, told by its header.
+[[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr,
+                                 AlphaReading alpha = AlphaReading::multiplied);
 
 /// Any image file: .exr by `read_exr`, others by `read_picture`. Its attribute `kColorSpace` is "Linear"
 /// where the file holds floats, or says so.
-[[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
+[[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr,
+                               AlphaReading alpha = AlphaReading::multiplied);
 
 }  // namespace abbe

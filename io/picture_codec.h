@@ -31,6 +31,10 @@ inline constexpr const char* kLinear = "Linear";
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;
 
+/// How colours are read that a file holds beside an alpha channel and not multiplied by it: multiplied, as
+/// OpenImageIO has it, or as stored.
+enum class AlphaReading { multiplied, as_stored };
+
 /// What the module of pictures offers: OpenImageIO, libtiff and cfitsio, of which the first brings some 250
 /// shared libraries and with them a fifth of a second at every start, is loaded with it when a picture is
 /// first read, or written as anything but a PNG. The module holds no state of the program's rooms: all it
@@ -42,7 +46,8 @@ struct PictureCodec {
 
   /// Reads the file into the place that `room` gives for its header: width * height * channels floats, pixel
   /// by pixel, scaled to [0, 1] for integer files. `room` may throw. Throws Error{input}.
-  void (*read)(const std::string& path, const std::function<float*(const PictureHeader&)>& room);
+  void (*read)(const std::string& path, AlphaReading alpha,
+               const std::function<float*(const PictureHeader&)>& room);
 
   /// The bytes of a DNG (libtiff) and of a FITS file (cfitsio), checked to read back. Throw Error{output}.
   std::string (*encode_dng)(const std::string& path, const RawPicture& raw);

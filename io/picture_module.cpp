@@ -12,6 +12,7 @@ namespace {
 OIIO::ImageSpec spec_of(const PictureHeader& header, const OIIO::TypeDesc& format) {
   OIIO::ImageSpec spec(static_cast<int>(header.width), static_cast<int>(header.height),
                        static_cast<int>(header.channels.size()), format);
+  spec.alpha_channel = -1;  // which the library takes a fourth plane for
   for (const auto& [key, value] : header.metadata) spec.attribute(key, value);
   return spec;
 }
@@ -49,10 +50,13 @@ std::string encode(const std::string& path, const PictureHeader& header, const P
   return std::visit([&](const auto& values) { return encode_spec(path, spec, values.data()); }, codes);
 }
 
-void read(const std::string& path, const std::function<float*(const PictureHeader&)>& room) {
+void read(const std::string& path, AlphaReading alpha,
+          const std::function<float*(const PictureHeader&)>& room) {
   constexpr const char* kDamaged = "truncated or corrupt";
   if (picture_module::is_damaged_png(path)) throw Error(ErrorCode::input, path, kDamaged);
-  const auto input = OIIO::ImageInput::open(path);
+  OIIO::ImageSpec how;
+  how.attribute("oiio:UnassociatedAlpha", alpha == AlphaReading::as_stored ? 1 : 0);
+  const auto input = OIIO::ImageInput::open(path, &how);
   if (!input) throw Error(ErrorCode::input, path, OIIO::geterror());
   const OIIO::ImageSpec spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)

@@ -275,12 +275,26 @@ void read_layout(TIFF* tiff, RawPicture& raw) {
   raw.channels = raw.planes;
 }
 
-void read_levels(TIFF* tiff, RawPicture& raw) {
+// The level that a tag tells of each filter or plane, in place of `level` where the file has the tag.
+template <typename Number>
+void read_level(TIFF* tiff, std::uint32_t tag, const char* name, double& level) {
   std::uint16_t count = 0;
-  float* black = nullptr;
-  if (TIFFGetField(tiff, TIFFTAG_BLACKLEVEL, &count, &black) == 1 && count > 0) raw.black_level_dn = *black;
-  std::uint32_t* white = nullptr;
-  if (TIFFGetField(tiff, TIFFTAG_WHITELEVEL, &count, &white) == 1 && count > 0) raw.white_level_dn = *white;
+  Number* told = nullptr;
+  if (TIFFGetField(tiff, tag, &count, &told) != 1 || count == 0) return;
+  const auto [least, greatest] = std::minmax_element(told, told + count);
+  if (*least != *greatest) {
+    std::ostringstream differs;
+    differs << "filters or planes have a " << name << " of their own (got from " << *least << " to "
+            << *greatest << ", allowed one for all)";
+    throw Error(ErrorCode::input, TIFFFileName(tiff), differs.str());
+  }
+  level = static_cast<double>(*told);
+}
+
+void read_levels(TIFF* tiff, RawPicture& raw) {
+  read_level<float>(tiff, TIFFTAG_BLACKLEVEL, "black level", raw.black_level_dn);
+  read_level<std::uint32_t>(tiff, TIFFTAG_WHITELEVEL, "white level", raw.white_level_dn);
+  std::uint16_t count = 0;
   std::uint16_t* table = nullptr;
   if (TIFFGetField(tiff, TIFFTAG_LINEARIZATIONTABLE, &count, &table) == 1 && count > 0) {
     raw.is_linearised = true;
@@ -297,6 +311,21 @@ void read_exposure(TIFF* tiff, RawPicture& raw) {
     raw.exposure_s = static_cast<double>(seconds);
 }
 
+void require_codes(TIFF* tiff) {
+  std::uint16_t bits = 0;
+  std::uint16_t format = 0;
+  TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  if (bits != 16 || TIFFIsTiled(tiff) != 0)
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its first image has no strips of 16-bit numbers (got " + std::to_string(bits) +
+                    " bits); a raw converter can make an uncompressed DNG of it");
+  if (format != SAMPLEFORMAT_UINT)
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its first image has no whole numbers without sign (got SampleFormat " +
+                    std::to_string(format) + ", allowed 1)");
+}
+
 // Strip by strip, or nothing where libtiff cannot undo the compression.
 bool read_codes(TIFF* tiff, RawPicture& raw) {
   const std::uint32_t strips = TIFFNumberOfStrips(tiff);
@@ -308,6 +337,9 @@ bool read_codes(TIFF* tiff, RawPicture& raw) {
     if (got <= 0) return false;
     at += static_cast<std::size_t>(got) / sizeof(std::uint16_t);
   }
+  std::uint16_t layout = PLANARCONFIG_CONTIG;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &layout);
+  if (layout == PLANARCONFIG_SEPARATE) raw.codes = pixel_by_pixel(raw.codes, raw.planes.size());
   return at == raw.codes.size();
 }
 
@@ -319,17 +351,12 @@ RawPicture read_dng(const std::string& path) {
   if (!tiff) throw Error(ErrorCode::input, path, "no DNG, or a damaged one");
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint16_t bits = 0;
   std::uint16_t samples = 1;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-  TIFFGetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, &samples);
   require_image_size(path, width, height, samples);
-  if (bits != 16 || TIFFIsTiled(tiff.get()) != 0)
-    throw Error(ErrorCode::input, path,
-                "its first image has no strips of 16-bit numbers (got " + std::to_string(bits) +
-                    " bits); a raw converter can make an uncompressed DNG of it");
+  require_codes(tiff.get());
   RawPicture raw;
   raw.width = width;
   raw.height = height;

@@ -1,7 +1,9 @@
 // Raw files for astronomers: FITS through cfitsio.
 #include <fitsio.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <regex>
@@ -50,11 +52,12 @@ struct Header {
   }
 };
 
-// "RGGB": the channels of a pattern of two by two, as capturing programs write it.
+// "RGGB": the channels of a pattern of two by two, as capturing programs write it and readers take it for; ""
+// of any other, or of names that are no letters.
 std::string bayer_pattern(const RawPicture& raw) {
   std::string letters;
   for (const std::uint8_t channel : raw.mosaic) letters += raw.channels[channel];
-  return letters;
+  return raw.mosaic_width == 2 && raw.mosaic.size() == 4 && letters.size() == 4 ? letters : "";
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -80,8 +83,8 @@ void write_header(Header header, const RawPicture& raw) {
   if (raw.full_well_e > 0) header.number("FULLWELL", raw.full_well_e, "[electron] full well");
   if (raw.f_number) header.number("FNUMBER", *raw.f_number, "f-number");
   if (raw.iso_speed) header.number("ISOSPEED", *raw.iso_speed, "saturation-based ISO speed");
-  if (raw.mosaic_width > 0)
-    header.text("BAYERPAT", bayer_pattern(raw), "channels of the pattern, row by row");
+  if (const std::string pattern = bayer_pattern(raw); !pattern.empty())
+    header.text("BAYERPAT", pattern, "channels of the pattern, row by row");
   for (const auto& [key, value] : raw.metadata)
     fits_write_history(header.fits, (key + ": " + value).c_str(), &header.status);
 }
@@ -120,15 +123,24 @@ std::string text_of(fitsfile* fits, const char* key) {
   return fits_read_key(fits, TSTRING, key, value.data(), nullptr, &status) == 0 ? value.data() : "";
 }
 
-// A pattern of two by two, as "RGGB"; other words are no pattern that is known.
-void read_pattern(const std::string& pattern, RawPicture& raw) {
+std::size_t shift_of(fitsfile* fits, const char* key) {
+  return std::fmod(std::round(number_of(fits, key, 0)), 2) == 0 ? 0 : 1;
+}
+
+// A pattern of two by two, as "RGGB", told from the top and shifted as an area of a larger sensor has it;
+// other words are no pattern that is known.
+void read_pattern(fitsfile* fits, RawPicture& raw) {
   constexpr std::string_view kLetters = "RGB";
+  const std::string pattern = text_of(fits, "BAYERPAT");
   if (pattern.size() != 4 || raw.planes.size() != 1 ||
       pattern.find_first_not_of(kLetters) != std::string::npos)
     return;
   raw.mosaic_width = 2;
   raw.channels = {"R", "G", "B"};
-  for (const char letter : pattern) raw.mosaic.push_back(static_cast<std::uint8_t>(kLetters.find(letter)));
+  const std::size_t right = shift_of(fits, "XBAYROFF");
+  const std::size_t down = shift_of(fits, "YBAYROFF");
+  for (std::size_t i = 0; i < 4; ++i)
+    raw.mosaic.push_back(static_cast<std::uint8_t>(kLetters.find(pattern[i ^ right ^ (2 * down)])));
 }
 
 std::vector<std::string> plane_names(const std::string& told, std::size_t count) {
@@ -171,7 +183,36 @@ void read_history(fitsfile* fits, RawPicture& raw) {
   }
 }
 
+// The numbers of all planes, one after the other.
+std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, std::size_t count) {
+  std::vector<int> numbers(count);
+  int status = 0;
+  fits_read_img(fits, TINT, 1, static_cast<LONGLONG>(count), nullptr, numbers.data(), nullptr, &status);
+  if (status != 0) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  if (const auto least = std::min_element(numbers.begin(), numbers.end()); *least < 0)
+    throw Error(ErrorCode::input, path,
+                "a pixel is below 0 (got " + std::to_string(*least) + ", allowed 0 to 65535)");
+  return {numbers.begin(), numbers.end()};
+}
+
+// Turns the picture upside down.
+void flip(RawPicture& raw) {
+  const auto row = static_cast<std::ptrdiff_t>(raw.planes.size()) * raw.width;
+  for (std::ptrdiff_t y = 0; y < raw.height / 2; ++y)
+    std::swap_ranges(raw.codes.begin() + y * row, raw.codes.begin() + (y + 1) * row,
+                     raw.codes.begin() + (raw.height - 1 - y) * row);
+}
+
 }  // namespace
+
+std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& codes, std::size_t planes) {
+  const std::size_t pixels = codes.size() / planes;
+  std::vector<std::uint16_t> interleaved;
+  interleaved.reserve(codes.size());
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t plane = 0; plane < planes; ++plane) interleaved.push_back(codes[plane * pixels + i]);
+  return interleaved;
+}
 
 RawPicture read_fits(const std::string& path) {
   int status = 0;
@@ -193,13 +234,9 @@ RawPicture read_fits(const std::string& path) {
   require_image_size(path, raw.width, raw.height, planes);
   raw.planes = raw.channels = plane_names(text_of(file.fits, "PLANES"), planes);
   const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
-  std::vector<std::uint16_t> codes(pixels * planes);
-  fits_read_img(file.fits, TUSHORT, 1, static_cast<LONGLONG>(codes.size()), nullptr, codes.data(), nullptr,
-                &status);
-  if (status != 0) throw Error(ErrorCode::input, path, "truncated or corrupt");
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t plane = 0; plane < planes; ++plane) raw.codes.push_back(codes[plane * pixels + i]);
-  read_pattern(text_of(file.fits, "BAYERPAT"), raw);
+  raw.codes = pixel_by_pixel(read_codes(file.fits, path, pixels * planes), planes);
+  if (text_of(file.fits, "ROWORDER") == "BOTTOM-UP") flip(raw);
+  read_pattern(file.fits, raw);
   raw.black_level_dn = number_of(file.fits, "PEDESTAL", 0);
   raw.white_level_dn = number_of(file.fits, "SATURATE", 65535);
   raw.gain_e_per_dn = number_of(file.fits, "GAIN", 1);

@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/extension.h"
 #include "io/picture_codec.h"
 
 namespace abbe {
@@ -21,15 +22,16 @@ void write_fits(const std::filesystem::path& path, const RawPicture& raw) {
 }
 
 bool is_raw_picture(const std::filesystem::path& path) {
-  return path.extension() == ".dng" || path.extension() == ".fits" || path.extension() == ".fit";
+  const std::string extension = extension_of(path);
+  return extension == ".dng" || extension == ".fits" || extension == ".fit";
 }
 
 RawPicture read_raw_picture(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     throw Error(ErrorCode::input, path.string(), "no such regular file");
-  return path.extension() == ".dng" ? picture_codec().read_dng(path.string())
-                                    : picture_codec().read_fits(path.string());
+  return extension_of(path) == ".dng" ? picture_codec().read_dng(path.string())
+                                      : picture_codec().read_fits(path.string());
 }
 
 }  // namespace abbe

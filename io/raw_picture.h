@@ -51,14 +51,15 @@ void write_dng(const std::filesystem::path& path, const RawPicture& raw);
 /// (`ROWORDER`). Throws Error{output}.
 void write_fits(const std::filesystem::path& path, const RawPicture& raw);
 
-/// Reads a DNG whose codes are stored as 16-bit numbers, uncompressed or as TIFF compresses, or a FITS image
-/// of whole numbers: codes, mosaic, black and white level, exposure, gain and, of a file that Abbe wrote,
-/// what the film told, as far as the file tells them; of a DNG with a linearisation table what that makes of
-/// the codes. Channels of a mosaic are R, G and B, or those that a DNG of ours names. Throws Error{input}, or
-/// Error{resource} for one beyond the limits of `io/image.h`.
+/// Reads a DNG whose codes are stored as 16-bit numbers without sign, uncompressed or as TIFF compresses,
+/// with one black and one white level, or a FITS image of whole numbers from 0 to 65535, the first row first
+/// unless its `ROWORDER` is BOTTOM-UP: codes, mosaic, black and white level, exposure, gain and, of a file
+/// that Abbe wrote, what the film told, as far as the file tells them; of a DNG with a linearisation table
+/// what that makes of the codes. Channels of a mosaic are R, G and B, or those that a DNG of ours names.
+/// Throws Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
 [[nodiscard]] RawPicture read_raw_picture(const std::filesystem::path& path);
 
-/// Whether a file is one for `read_raw_picture`, by its extension: .dng, .fits or .fit.
+/// Whether a file is one for `read_raw_picture`, by its extension: .dng, .fits or .fit, in either case.
 [[nodiscard]] bool is_raw_picture(const std::filesystem::path& path);
 
 }  // namespace abbe

@@ -1,5 +1,11 @@
 #include "materials/material.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "materials/interface/fresnel.h"
+
 namespace abbe {
 
 Bsdf make_bsdf(const Material& material, const SurfaceLookup& at) {
@@ -34,6 +40,23 @@ const RefractiveIndex* interior(const Material& material) {
 
 const Medium* medium(const Material& material) {
   return std::visit([](const auto& model) { return model.medium(); }, material.model);
+}
+
+std::optional<std::string> clear_fault(const Material& material, double wavelength_nm) {
+  constexpr double kLeastTold = 1e-4;
+  const auto* pane = std::get_if<ThinGlassMaterial>(&material.model);
+  const RefractiveIndex* index = pane != nullptr ? &pane->index : interior(material);
+  if (index == nullptr) return std::nullopt;
+  const double n = index->n(wavelength_nm);
+  const double k = index->k(wavelength_nm);
+  const double clear = fresnel_conductor(1.0, n, 0.0).R();
+  const double true_one = fresnel_conductor(1.0, n, k).R();
+  if (std::abs(true_one - clear) <= kLeastTold) return std::nullopt;
+  return fmt::format(
+      "\"{}\" is not clear: with n = {:.4g} and k = {:.4g} at {:g} nm it reflects {:.4f} along the normal, "
+      "where "
+      "dielectrics and panes reflect {:.4f} by n alone (a conductor reflects by both)",
+      material.name, n, k, wavelength_nm, true_one, clear);
 }
 
 std::vector<IndexUse> indices(const Material& material) {

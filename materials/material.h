@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,11 +39,11 @@ concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
 
 /// The closed list of what surfaces are made of.
 using MaterialModel =
-    std::variant<DiffuseMaterial, DielectricMaterial, ConductorMaterial, RoughDielectricMaterial,
-                 RoughConductorMaterial, MediumMaterial, CoatedDiffuseMaterial, ThinGlassMaterial,
-                 MixtureMaterial, MirrorMaterial, SchlickMaterial, OrenNayarMaterial, PrincipledMaterial,
-                 CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial, PolariserMaterial,
-                 WavePlateMaterial, DepolariserMaterial>;
+    std::variant<DiffuseMaterial, DielectricMaterial, FilmMaterial, ConductorMaterial,
+                 RoughDielectricMaterial, RoughConductorMaterial, MediumMaterial, CoatedDiffuseMaterial,
+                 ThinGlassMaterial, MixtureMaterial, MirrorMaterial, SchlickMaterial, OrenNayarMaterial,
+                 PrincipledMaterial, CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial,
+                 PolariserMaterial, WavePlateMaterial, DepolariserMaterial>;
 
 template <typename List>
 inline constexpr bool kAllSurfaceModels = false;
@@ -76,6 +77,10 @@ struct Material {
 [[nodiscard]] const RefractiveIndex* interior(const Material& material);
 /// What light meets inside besides the absorption of that index, or nullptr.
 [[nodiscard]] const Medium* medium(const Material& material);
+/// Why a dielectric or a pane may not be taken as clear at a wavelength [nm], where its reflectance is that
+/// of n alone: with its k it reflects along the normal what differs by more than 1e-4. Nothing of other
+/// matter.
+[[nodiscard]] std::optional<std::string> clear_fault(const Material& material, double wavelength_nm);
 /// Whether no light passes through its surfaces.
 [[nodiscard]] bool opaque(const Material& material);
 /// The refractive indices it uses, those of coatings too; of a mixture none, as the scene has its components

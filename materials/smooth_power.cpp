@@ -25,6 +25,9 @@ struct PowerOf {
     return coated_power(glass.coating, at.wavelength_nm, glass.index.n(at.wavelength_nm), 0, at.cos_i,
                         at.inside, at.outside);
   }
+  Power operator()(const FilmMaterial& film) const {
+    return coated_power(film.layers, at.wavelength_nm, at.outside, 0, at.cos_i, at.inside, at.outside);
+  }
   Power operator()(const ConductorMaterial& metal) const {
     const auto power = coated_power(metal.coating, at.wavelength_nm, metal.index.n(at.wavelength_nm),
                                     metal.index.k(at.wavelength_nm), at.cos_i, false, at.outside);
@@ -89,6 +92,9 @@ struct SmoothMuellerOf {
   SmoothMueller operator()(const DielectricMaterial& glass) const {
     return {coated_mueller(glass.coating, at.wavelength_nm, glass.index.n(at.wavelength_nm), 0, at.cos_i,
                            at.inside, at.outside)};
+  }
+  SmoothMueller operator()(const FilmMaterial& film) const {
+    return {coated_mueller(film.layers, at.wavelength_nm, at.outside, 0, at.cos_i, at.inside, at.outside)};
   }
   SmoothMueller operator()(const ConductorMaterial& metal) const {
     return {coated_mueller(metal.coating, at.wavelength_nm, metal.index.n(at.wavelength_nm),

@@ -1,8 +1,13 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <utility>
 
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
+
+#include "io/error.h"
 
 namespace abbe::python {
 
@@ -31,11 +36,20 @@ template <typename F>
   return results[pybind11::tuple()];  // of an array without axes, its number
 }
 
-/// Two arrays of one shape, by the rules of numpy.
-[[nodiscard]] inline std::pair<Numbers, Numbers> broadcast(const Numbers& a, const Numbers& b) {
-  const auto both =
-      pybind11::module_::import("numpy").attr("broadcast_arrays")(a, b).cast<pybind11::sequence>();
-  return {both[0].cast<Numbers>(), both[1].cast<Numbers>()};
+/// The arrays of the arguments `a_name` and `b_name` as two of one shape, by the rules of numpy. Throws
+/// Error{usage} where these give them none.
+[[nodiscard]] inline std::pair<Numbers, Numbers> broadcast(const Numbers& a, const Numbers& b,
+                                                           const char* a_name, const char* b_name) {
+  try {
+    const auto both =
+        pybind11::module_::import("numpy").attr("broadcast_arrays")(a, b).cast<pybind11::sequence>();
+    return {both[0].cast<Numbers>(), both[1].cast<Numbers>()};
+  } catch (const pybind11::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    const auto shape = [](const Numbers& array) { return std::string(pybind11::str(array.attr("shape"))); };
+    throw Error(ErrorCode::usage, a_name,
+                fmt::format("has no shape in common with {} (got {} and {})", b_name, shape(a), shape(b)));
+  }
 }
 
 }  // namespace abbe::python

@@ -66,16 +66,17 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
                    const std::optional<fs::path>& series, const std::string& training,
                    const std::string& correction) {
   if (measured && !response.empty())
-    throw py::value_error("response: is planted into a simulated camera, not into a measured one");
+    throw Error(ErrorCode::usage, "response", "is planted into a simulated camera, not into a measured one");
   if (series && !measured)
-    throw py::value_error("series: needs measured (its curves alone are those of recover_response)");
+    throw Error(ErrorCode::usage, "series",
+                "needs measured (its curves alone are those of recover_response)");
   if (camera.empty() && (!measured || !training.empty()))
-    throw py::value_error("camera: is needed, unless measured is given without training");
+    throw Error(ErrorCode::usage, "camera", "is needed, unless measured is given without training");
   CalibrationSource source{
       camera, measured.value_or(""), series.value_or(""), chart, "", training, response, bits, {}};
   if (!choose_correction(source.how, correction))
-    throw py::value_error(fmt::format("correction: expected {} or auto (got {})",
-                                      fmt::join(kCorrectionNames, ", "), correction));
+    throw Error(ErrorCode::usage, "correction",
+                fmt::format("expected {} or auto (got {})", fmt::join(kCorrectionNames, ", "), correction));
   std::optional<CalibrationCase> made;
   Diagnostics diagnostics;
   {

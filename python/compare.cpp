@@ -1,3 +1,6 @@
+#include <array>
+#include <vector>
+
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -17,20 +20,32 @@ namespace {
 
 namespace py = pybind11;
 
+// The pixels that films with crops or gaps have in common.
+void tell_part(const std::vector<Crop>& part, py::dict& told) {
+  std::vector<std::array<int, 4>> areas;
+  for (const Crop& area : part) areas.push_back({area.x0, area.y0, area.x1, area.y1});
+  if (areas.size() == 1)
+    told["crop"] = areas.front();
+  else
+    told["areas"] = areas;
+}
+
 py::dict compare(const FilmHandle& film, const FilmHandle& reference, const py::object& white) {
   std::optional<Chromaticity> asked;
   if (!white.is_none())
     asked = asked_white(to_text(to_json(white, kWhitePointer)),
-                        recorded_white(reference.image()) ? reference.image() : film.image())
+                        recorded_white(reference.image()) ? reference.image() : film.image(), "white")
                 .xy;
+  const std::vector<Crop> part = common_part(film.image(), reference.image());
+  const bool is_whole = part.front() == Crop{0, 0, film.image().width, film.image().height};
+  const Comparison found =
+      is_whole ? compare_images(film.image(), reference.image(), asked)
+               : compare_images(part_of(film.image(), part), part_of(reference.image(), part), asked);
   if (const auto untold = channel_of_untold_unit(film.image(), reference.image()))
     warn(fmt::format("only one of the films tells the unit of channel {}", *untold));
-  const std::vector<Crop> part = common_part(film.image(), reference.image());
-  const Comparison found =
-      part.front() == Crop{0, 0, film.image().width, film.image().height}
-          ? compare_images(film.image(), reference.image(), asked)
-          : compare_images(part_of(film.image(), part), part_of(reference.image(), part), asked);
+  if (const auto uncompared = uncompared_channels(film.image(), reference.image())) warn(*uncompared);
   py::dict told;
+  if (!is_whole) tell_part(part, told);
   told["relMSE"] = found.rel_mse;
   told["rmse"] = found.rmse;
   told["mean_ratio"] = found.mean_ratio;
@@ -66,7 +81,9 @@ void add_compare(py::module_& module) {
       "Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: "
       "relative "
       "and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not "
-      "known. Warns where one film alone tells its unit. Raises InputError for films of different size or "
+      "known; of films with crops or gaps, `crop` or `areas` are the pixels that both have. Warns where one "
+      "film alone tells its unit, and of channels that one film alone has, which are not compared. Raises "
+      "InputError for films of different size or "
       "unit.");
   module.def("measure", measure, py::arg("scene"), py::arg("film"), py::arg("reference") = py::none(),
              "Reads the first chart of a scene out of a film of it: a dict for each patch, with its L*a*b*, "

@@ -116,7 +116,7 @@ py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::s
     throw Error(ErrorCode::usage, "formula",
                 fmt::format("got \"{}\", allowed {}", formula, fmt::join(kFormulas, ", ")));
   const auto how = static_cast<DeltaE>(found - kFormulas.begin());
-  const auto [standard, sample] = broadcast(lab1, lab2);
+  const auto [standard, sample] = broadcast(lab1, lab2, "lab1", "lab2");
   const py::ssize_t axes = standard.ndim();
   if (axes == 0 || standard.shape(axes - 1) != 3)
     throw Error(ErrorCode::usage, "lab1", "expected arrays whose last axis is L*, a*, b*");

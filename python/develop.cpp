@@ -56,7 +56,7 @@ py::object array_of(const Image& image, std::vector<std::string> planes, const s
 
 FilmSensor sensor_of(const Image& film, const py::object& readout, const std::optional<White>& white) {
   std::vector<Override> overrides;
-  if (!readout.is_none()) overrides.push_back({kReadout, to_text(to_json(readout, kReadout))});
+  if (!readout.is_none()) overrides.push_back({kReadout, to_text(to_json(readout, kReadout)), "readout"});
   Diagnostics diagnostics;
   const auto xy = white ? std::optional(white->xy) : std::nullopt;
   FilmSensor sensor = accepted(film_sensor(film, kWhere, overrides, {}, xy, diagnostics), diagnostics);
@@ -70,7 +70,7 @@ ExposedFilm seen(const FilmHandle& film, SceneHandle& looker, const py::object& 
                  const std::optional<std::string>& white) {
   abbe::Scene scene = looker.scene();
   const Image told{0, 0, {}, film.metadata()};
-  settle_white(scene, looker.name(), told, white);
+  settle_white(scene, looker.name(), told, white, "white");
   Diagnostics diagnostics;
   Image image = seen_by(scene, spectral_image(film.image(), kWhere), kWhere, diagnostics);
   check(diagnostics);
@@ -84,7 +84,7 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
   if (is_spectral(image) && looker != nullptr) return seen(film, *looker, readout, white);
   if (looker != nullptr)
     throw Error(ErrorCode::usage, "scene", "only a spectral film takes a sensor: this one has its own");
-  const auto asked = white ? std::optional(asked_white(*white, image)) : std::nullopt;
+  const auto asked = white ? std::optional(asked_white(*white, image, "white")) : std::nullopt;
   if (is_spectral(image) && !readout.is_none())
     throw Error(ErrorCode::usage, "readout",
                 "a spectral film has no sensor to read out: `scene` gives it one");
@@ -109,7 +109,7 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
 
 void write_developed(const Developed& developed, const fs::path& path) {
   require_developed_extension(path);
-  if (path.extension() == ".exr")
+  if (extension_of(path) == ".exr")
     return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
   if (!developed.sensor.readout)
     throw Error(ErrorCode::usage, path.string(), "the film has no read-out to make codes with");
@@ -174,8 +174,8 @@ void add_develop(py::module_& module) {
           "What the digital numbers say of the exposure; without a read-out the exposure itself.")
       .def_property_readonly(
           "figures", figures,
-          "For each plane a dict of its mean, the error of the render and the noise of the sensor, "
-          "in electrons where there is a read-out.")
+          "For each plane a dict of its mean, the error of the render, None where it is not known, and the "
+          "noise of the sensor, in electrons where there is a read-out.")
       .def("picture", picture_array, "Returns the result as an sRGB display shows it, code values in [0, 1].")
       .def(
           "write", write_developed, py::arg("path"),

@@ -18,6 +18,7 @@
 #include "python/errors.h"
 #include "python/picture.h"
 #include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_error.h"
 #include "sensor/film/variance_name.h"
 
 namespace abbe::python {
@@ -66,17 +67,17 @@ py::object spectrum(const FilmHandle& film, int x, int y) {
 
 FilmHandle film_of_file(const fs::path& path) {
   const py::gil_scoped_release released;
-  if (path.extension() == kPartExtension) return FilmHandle(read_part(path));
+  if (extension_of(path) == kPartExtension) return FilmHandle(read_part(path));
   return FilmHandle(read_film(path));
 }
 
 void write_film(const FilmHandle& film, const fs::path& path) {
   require_extension(path, {".exr", kPartExtension, ".png", ".jpg", ".tif"});
-  const bool is_part = path.extension() == kPartExtension;
+  const bool is_part = extension_of(path) == kPartExtension;
   if (is_part && !film.part())
     throw Error(ErrorCode::usage, path.string(),
                 "the film was read from an image: only a film with its exact sums can be written as a part");
-  if (!is_part && path.extension() != ".exr") return write_picture(path, shown(film).image);
+  if (!is_part && extension_of(path) != ".exr") return write_picture(path, shown(film).image);
   const Image* const image = is_part ? nullptr : &film.image();
   const py::gil_scoped_release released;
   if (is_part)
@@ -171,7 +172,7 @@ void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
       .def_property_readonly(
           "variance", &FilmHandle::variance,
           "The variance of each of these values, of the same shape; None for an image that does "
-          "not tell it.")
+          "not tell it, and where samples are in fewer than two replicates, so that nothing is known of it.")
       .def_property_readonly("channels", &FilmHandle::channels,
                              "The names of the channels, in the order of `array`.")
       .def_property_readonly(
@@ -205,6 +206,7 @@ py::object FilmHandle::array() const {
 }
 
 py::object FilmHandle::variance() const {
+  if (has_unknown_error(metadata())) return py::none();
   std::vector<std::string> names = channels();
   for (std::string& name : names) name = variance_of(name);
   if (!variance_) variance_ = planes_of(image(), names);

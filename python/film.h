@@ -29,7 +29,7 @@ class FilmHandle {
   [[nodiscard]] std::vector<std::string> channels() const;
   /// Rows, columns, channels; made once, read-only.
   [[nodiscard]] pybind11::object array() const;
-  /// The same of variances of pixel means; None for a film that does not tell them.
+  /// The same of variances of pixel means; None for a film that does not tell them or does not know.
   [[nodiscard]] pybind11::object variance() const;
 
  private:

@@ -72,7 +72,7 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
   for (const double angle : all(angles_deg))
     if (!(angle >= 0 && angle <= 90))
       throw Error(ErrorCode::usage, "angle_deg", fmt::format("got {}, allowed [0, 90]", angle));
-  const auto [nm, angle] = broadcast(wavelengths_nm, angles_deg);
+  const auto [nm, angle] = broadcast(wavelengths_nm, angles_deg, "wavelengths_nm", "angle_deg");
   Numbers rs = alike(nm);
   Numbers rp = alike(nm);
   double* const s = rs.mutable_data();
@@ -99,6 +99,7 @@ py::object prism_deviation(const std::string& name, const Numbers& wavelengths_n
     throw Error(ErrorCode::usage, "incidence_deg", fmt::format("got {}, allowed (-90, 90)", *incidence_deg));
   const NamedIndex matter = find(name, wavelengths_nm);
   return each(wavelengths_nm, [&](double nm) {
+    if (matter.index.k(nm) > kLargestGlassK) return kNan;
     const double n = matter.index.catalogued_n(nm);
     const auto passage =
         incidence_deg ? prism_passage(n, apex_deg, *incidence_deg) : prism_minimum(n, apex_deg);
@@ -127,16 +128,17 @@ void add_matter(py::module_& module) {
   module.def(
       "reflectance", reflectance, py::arg("name"), py::arg("wavelengths_nm"), py::arg("angle_deg") = 0.0,
       py::arg("coating") = std::vector<std::pair<std::string, double>>(),
-      "Returns (Rs, Rp), the reflectance of a smooth surface for light from air polarised across and in the "
-      "plane of incidence, by Fresnel's formulas.\n\nWavelengths and angles of incidence are broadcast "
+      "Returns (Rs, Rp), the reflectance of a smooth surface for light from air, or from vacuum where the "
+      "index is relative to that as `material(name)` tells, polarised across and in the plane of incidence, "
+      "by Fresnel's formulas.\n\nWavelengths and angles of incidence are broadcast "
       "against "
       "one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises as `ior` "
       "does.");
   module.def("prism_deviation", prism_deviation, py::arg("name"), py::arg("wavelengths_nm"),
              py::arg("apex_deg") = 60.0, py::arg("incidence_deg") = py::none(),
-             "Returns by how many degrees a prism in air deviates light: the least deviation, or that at one "
-             "angle of "
-             "incidence; NaN where the light is totally reflected. Raises as `ior` does.");
+             "Returns by how many degrees a prism in air, or in vacuum where its index is relative to that, "
+             "deviates light: the least deviation, or that at one angle of incidence; NaN where the light is "
+             "totally reflected or the matter lets none through (k above 1e-3). Raises as `ior` does.");
 }
 
 }  // namespace abbe::python

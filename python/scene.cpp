@@ -35,8 +35,9 @@ const schema::Fields& scene_fields() {
 std::vector<Override> overrides_of(const py::dict& keywords) {
   std::vector<Override> overrides;
   for (const auto& [key, value] : keywords) {
-    const std::string pointer = "/" + escaped(key.cast<std::string>());
-    overrides.push_back({pointer, to_text(to_json(value, pointer))});
+    const auto name = key.cast<std::string>();
+    const std::string pointer = "/" + escaped(name);
+    overrides.push_back({pointer, to_text(to_json(value, pointer)), name});
   }
   return overrides;
 }

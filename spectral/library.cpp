@@ -102,7 +102,8 @@ std::optional<KeyLine> key_line(const Table& table, const std::string& key) {
 
 // A key that is nearly one that says how the table is read would be taken for a remark.
 bool check_keys(const Table& table, Diagnostics& diagnostics) {
-  const std::vector<std::string> known{"unit", "outside", "interpolation", "value_range"};
+  const std::vector<std::string> known{"unit", "outside", "interpolation", "value_range",
+                                       "index_relative_to"};
   for (const auto& [key, value] : table.keys) {
     if (std::find(known.begin(), known.end(), key) != known.end() || !nearest_name(key, known)) continue;
     diagnostics.error(key_line(table, key)->where, unknown_name("key", key, known), ErrorCode::input);
@@ -292,7 +293,12 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
                       830,
                       daylight(*kelvin)};
   }
+  constexpr Range kPower{0, 1e30};
   auto illuminant = load_curve("illuminant", name, where, diagnostics, needed);
+  if (const auto fault = illuminant ? value_fault(illuminant->curve, kPower) : std::nullopt) {
+    diagnostics.error(where, fmt::format("\"{}\": {}", name, *fault), ErrorCode::input);
+    return std::nullopt;
+  }
   if (illuminant && (name == "A" || name == "cie_A")) extend_by_definition(*illuminant);
   return illuminant;
 }

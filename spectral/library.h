@@ -64,7 +64,7 @@ struct TableSamples {
 [[nodiscard]] std::optional<std::string> value_fault(const Curve& curve, const Range& allowed);
 
 /// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminant A beyond
-/// its table follows its definition.
+/// its table follows its definition. Reports a table with negative power.
 [[nodiscard]] std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
                                                         Diagnostics& diagnostics, NeededRange needed = {});
 

@@ -11,6 +11,8 @@
 #include <unsupported/Eigen/NumericalDiff>
 
 #include "io/error.h"
+#include "io/exr.h"
+#include "io/text.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -115,6 +117,33 @@ RgbBasis make_basis() {
 
 XYZ unit_xyz(const Chromaticity& xy) {
   return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};
+}
+
+std::optional<RgbSpace> recorded_primaries(const Image& image) {
+  const auto told = image.metadata.find(kPrimariesKey);
+  if (told == image.metadata.end()) return std::nullopt;
+  std::array<Chromaticity, 4> xy{};
+  const std::vector<std::string> words = split(told->second, ' ');
+  if (words.size() != 2 * xy.size()) return std::nullopt;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto number = parse_number(words[i]);
+    if (!number) return std::nullopt;
+    xy.at(i / 2).at(i % 2) = *number;
+  }
+  return RgbSpace{xy[0], xy[1], xy[2], xy[3]};
+}
+
+std::optional<std::string> rec709_fault(const Image& image) {
+  constexpr double kRounding = 5e-3;
+  const auto told = recorded_primaries(image);
+  if (!told) return std::nullopt;
+  const auto near = [](const Chromaticity& a, const Chromaticity& b) {
+    return std::abs(a[0] - b[0]) < kRounding && std::abs(a[1] - b[1]) < kRounding;
+  };
+  if (near(told->red, kRec709.red) && near(told->green, kRec709.green) && near(told->blue, kRec709.blue) &&
+      near(told->white, kRec709.white))
+    return std::nullopt;
+  return "its chromaticities are not those of Rec.709 (got " + image.metadata.at(kPrimariesKey) + ")";
 }
 
 Matrix3 rgb_to_xyz(const RgbSpace& space) {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 
+#include "io/image.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
 #include "spectral/matrix3.h"
@@ -30,6 +33,12 @@ struct RgbSpace {
 };
 inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
                                   kD65};  ///< [BT709]
+
+/// The space of the R, G and B of an image by its attribute `kPrimariesKey`; nothing where it tells none.
+[[nodiscard]] std::optional<RgbSpace> recorded_primaries(const Image& image);
+/// Why R, G and B of an image cannot be taken as those of Rec.709, by what it tells of its primaries; nothing
+/// where it tells none, or these to two digits.
+[[nodiscard]] std::optional<std::string> rec709_fault(const Image& image);
 
 /// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
 [[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);

@@ -112,9 +112,14 @@ void tell_lines(Image& image) {
   image.metadata.merge(lines_of(image));
 }
 
+void drop_alpha(Image& image) {
+  std::erase_if(image.channels, [](const ImageChannel& channel) { return channel.name == "A"; });
+}
+
 void name_planes(Image& image) {
-  const std::vector<std::string> names =
-      split(attribute(all_told(image), "sensor_channels").value_or(""), ',');
+  const auto told = attribute(all_told(image), "sensor_channels");
+  const std::vector<std::string> names = told ? split(*told, ',') : std::vector<std::string>{};
+  if (names.size() != image.channels.size()) drop_alpha(image);
   for (std::size_t k = 0; k < image.channels.size() && names.size() == image.channels.size(); ++k)
     image.channels[k].name = names[k];
 }
@@ -146,7 +151,7 @@ std::optional<RawScale> raw_scale(const Image& image) {
 
 RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_raw_picture(path)) {
-    Image image = read_image(path, inputs);
+    Image image = read_image(path, inputs, AlphaReading::as_stored);
     auto scale = raw_scale(image);
     if (scale && holds_codes(all_told(image))) name_planes(image);
     if (scale && !scale->linear_codes.empty()) straighten(image, *scale);

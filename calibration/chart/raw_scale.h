@@ -59,7 +59,11 @@ struct RawScale {
 /// those that it has besides stay.
 void tell_lines(Image& image);
 
-/// Calls the planes of a raw TIFF or PNG, which these call R, G and B, as the file tells the sensor's.
+/// Leaves out the alpha channel of a picture, which tells how opaque its pixels are.
+void drop_alpha(Image& image);
+
+/// Calls the planes of a raw TIFF or PNG, which these call R, G and B, as the file tells the sensor's. Where
+/// it tells of other numbers of planes, an alpha channel that another program has put beside them is dropped.
 void name_planes(Image& image);
 
 /// An image whose 16-bit codes are shares of 65535, and what is told of them.
@@ -69,9 +73,9 @@ struct RawImage {
 };
 
 /// Reads a DNG or FITS by `read_raw_picture`, its codes as they are and not as a raw converter shows them,
-/// and any other image by `read_image`; codes by a response curve that the file tells are those of a straight
-/// line, as the table of a DNG makes them. What a DNG or FITS of another program tells of its levels, pattern
-/// and exposure counts too. Throws Error{input} and Error{resource}.
+/// and any other image by `read_image`, as stored beside an alpha channel; codes by a response curve that the
+/// file tells are those of a straight line, as the table of a DNG makes them. What a DNG or FITS of another
+/// program tells of its levels, pattern and exposure counts too. Throws Error{input} and Error{resource}.
 [[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The 16-bit code that a value of an image from `read_image` stands for.
 [[nodiscard]] double code_of(float value);

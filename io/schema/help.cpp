@@ -37,10 +37,12 @@ std::string entry(const std::string& path, const Key& key) {
   throw Error(ErrorCode::usage, "", unknown_name("key", key, known));
 }
 
-// Whether values of these kinds hold others by number or by a name that the user chose.
-bool holds_elements(const Key& key) {
-  return std::any_of(key.kinds.begin(), key.kinds.end(), [](const Kind* kind) {
-    return std::holds_alternative<List>(kind->of) || std::holds_alternative<ByName>(kind->of);
+// Whether values of these kinds hold an element that goes by this: a number in lists, or else a name that the
+// user chose.
+bool hold_element(const std::vector<const Kind*>& kinds, const std::string& step) {
+  const bool is_number = step.find_first_not_of("0123456789") == std::string::npos;
+  return std::any_of(kinds.begin(), kinds.end(), [is_number](const Kind* kind) {
+    return std::holds_alternative<ByName>(kind->of) || (is_number && std::holds_alternative<List>(kind->of));
   });
 }
 
@@ -51,22 +53,22 @@ std::string entry_at(const Fields& root, const std::string& path) {
   std::erase(steps, "");
   std::string text;
   std::string keys;
-  bool element = false;
+  std::vector<const Kind*> holders;
   for (const std::string& step : steps) {
     std::vector<std::string> known;
     std::string found;
     std::vector<const Fields*> below;
-    bool elements = false;
+    std::vector<const Kind*> kinds;
     for (const Key& key : keys_of(things)) {
       known.emplace_back(key.name);
       if (key.name != step) continue;
       found += entry(joined(keys, step), key);
-      elements = elements || holds_elements(key);
+      kinds.insert(kinds.end(), key.kinds.begin(), key.kinds.end());
       for (const Fields* thing : things_in(key.kinds)) below.push_back(thing);
     }
-    if (found.empty() && !std::exchange(element, false)) refuse(step, known);
+    if (found.empty() && !hold_element(holders, step)) refuse(step, known);
+    holders = std::move(kinds);
     if (found.empty()) continue;
-    element = elements;
     text = std::move(found);
     keys = joined(keys, step);
     things = std::move(below);

@@ -44,8 +44,19 @@ std::optional<NamedIndex> load_tables(const char* folder, const std::string& nam
   }
   const auto table = read_table(path, TableOrigin::user, diagnostics);
   if (!table) return std::nullopt;
-  const auto medium = table->keys.find("index_relative_to");
-  const bool absolute = medium != table->keys.end() && medium->second == "vacuum";
+  const std::vector<std::string> media{"air", "vacuum"};
+  const auto said = table->keys.find("index_relative_to");
+  const std::string medium = said != table->keys.end() ? said->second : media.front();
+  if (std::find(media.begin(), media.end(), medium) == media.end()) {
+    diagnostics.error(table->where, unknown_name("index_relative_to", medium, media), ErrorCode::input);
+    return std::nullopt;
+  }
+  for (const std::string& column : table->columns)
+    if (const std::string word = lower_case(column); column != "k" && (word == "k" || word == "kappa")) {
+      diagnostics.error(table->where, fmt::format("column \"{}\" (k is called k)", column), ErrorCode::input);
+      return std::nullopt;
+    }
+  const bool absolute = medium == "vacuum";
   return NamedIndex{
       path.stem().string(), n->source,
       RefractiveIndex(n->curve, k, absolute ? IndexMedium::vacuum : IndexMedium::air, n->low_nm, n->high_nm)};

@@ -9,6 +9,9 @@
 
 namespace abbe {
 
+/// More k than any glass or varnish has, and less than any metal.
+inline constexpr double kLargestGlassK = 1e-3;
+
 /// What a catalogued index is relative to.
 enum class IndexMedium { air, vacuum };
 

@@ -91,11 +91,15 @@ class EntryReader {
   }
 
   // Editions of the database differ in where they say it.
-  bool says(const JsonValue& root, std::string_view what) const {
-    for (const char* section : {"SPECS", "CONDITIONS"}) {
+  bool says(const JsonValue& root, std::string_view what) {
+    for (const char* section : {"SPECS", "CONDITIONS", "PROPERTIES"}) {
       const JsonValue* specs = root.find(section);
       const std::string* value = specs ? scalar(*specs, what) : nullptr;
-      if (value && *value == "true") return true;
+      if (value == nullptr) continue;
+      const std::string word = lower_case(*value);
+      if (word == "true") return true;
+      if (word != "false")
+        complain(specs->find(what)->where, fmt::format("{} (got \"{}\", allowed true, false)", what, *value));
     }
     return false;
   }

@@ -32,6 +32,20 @@ struct DielectricMaterial {
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(index_name, index, coating); }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
+/// Thin films with the same matter on both sides, such as a soap bubble's, which light crosses straight on.
+struct FilmMaterial {
+  Coating layers;
+
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return false; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(layers); }
+  [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
+};
 /// A smooth metal, perhaps under thin films.
 struct ConductorMaterial {
   std::string index_name;

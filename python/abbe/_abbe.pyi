@@ -39,7 +39,7 @@ class Developed:
 
     @property
     def figures(self) -> list:
-        """For each plane a dict of its mean, the error of the render and the noise of the sensor, in electrons where there is a read-out."""
+        """For each plane a dict of its mean, the error of the render, None where it is not known, and the noise of the sensor, in electrons where there is a read-out."""
 
     def picture(self: Developed) -> NDArray[numpy.float32]:
         """Returns the result as an sRGB display shows it, code values in [0, 1]."""
@@ -79,7 +79,7 @@ class Film:
 
     @property
     def variance(self) -> NDArray[numpy.float32] | None:
-        """The variance of each of these values, of the same shape; None for an image that does not tell it."""
+        """The variance of each of these values, of the same shape; None for an image that does not tell it, and where samples are in fewer than two replicates, so that nothing is known of it."""
 
     @property
     def channels(self) -> typing.List[str]:
@@ -190,7 +190,7 @@ def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str 
 
 
 def compare(film: Film, reference: Film, *, white: typing.Any = None) -> dict:
-    """Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: relative and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not known. Warns where one film alone tells its unit. Raises InputError for films of different size or unit."""
+    """Returns how far a film is from a reference, as a dict with the keys of `abbe compare --json`: relative and absolute errors, the ratio of means, and CIEDE2000 over the pixels, None where colours are not known; of films with crops or gaps, `crop` or `areas` are the pixels that both have. Warns where one film alone tells its unit, and of channels that one film alone has, which are not compared. Raises InputError for films of different size or unit."""
 
 
 def curve(kind: str, name: str, wavelengths_nm: ArrayLike) -> typing.Any:
@@ -252,7 +252,7 @@ def observer(name: str = '1931', *, wavelengths_nm: ArrayLike) -> dict:
 
 
 def prism_deviation(name: str, wavelengths_nm: ArrayLike, apex_deg: float = 60.0, incidence_deg: typing.Optional[float] = None) -> typing.Any:
-    """Returns by how many degrees a prism in air deviates light: the least deviation, or that at one angle of incidence; NaN where the light is totally reflected. Raises as `ior` does."""
+    """Returns by how many degrees a prism in air, or in vacuum where its index is relative to that, deviates light: the least deviation, or that at one angle of incidence; NaN where the light is totally reflected or the matter lets none through (k above 1e-3). Raises as `ior` does."""
 
 
 def recover_response(series: str | os.PathLike[str]) -> dict:
@@ -262,7 +262,7 @@ def recover_response(series: str | os.PathLike[str]) -> dict:
 
 
 def reflectance(name: str, wavelengths_nm: ArrayLike, angle_deg: ArrayLike = 0.0, coating: typing.List[typing.Tuple[str, float]] = []) -> tuple:
-    """Returns (Rs, Rp), the reflectance of a smooth surface for light from air polarised across and in the plane of incidence, by Fresnel's formulas.
+    """Returns (Rs, Rp), the reflectance of a smooth surface for light from air, or from vacuum where the index is relative to that as `material(name)` tells, polarised across and in the plane of incidence, by Fresnel's formulas.
 
     Wavelengths and angles of incidence are broadcast against one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises as `ior` does."""
 

@@ -8,7 +8,7 @@
 #include "io/picture.h"
 #include "sensor/film/crop.h"
 #include "tests/cli/program.h"
-#include "tests/cli/scenes.h"
+#include "tests/cli/runs.h"
 
 // Sensors and lenses measured from images of which all is known.
 
@@ -126,6 +126,55 @@ TEST(Mtf, LooksAtWhatAFilmHas) {
   const std::string allowed = "allowed within 8,16,56,60 0,60,64,112 0,120,4,124";
   expect_fault("mtf " + gaps, 2, "--crop: got none, though the film has gaps, " + allowed);
   expect_fault("mtf " + gaps + " --crop 8,15,56,112", 2, "--crop: got 8,15,56,112, " + allowed);
+}
+
+// The film of the edge of a lamp, slanted by 5 degrees, before a sensor of three channels.
+std::string film_of_edge(const std::string& name, const std::string& mosaic) {
+  const std::string scene = R"({"abbe": 1,
+      "camera": {"pinhole": {"fov_deg": 20}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+      "sensor": {"resolution": [64, 64], "pixel_pitch_um": 10, "quantum_efficiency": 0.5,
+                 "channels": {"R": {"band": [600, 680]}, "G": {"band": [500, 590]},
+                              "B": {"band": [400, 500]}},
+                 "readout": {"gain_e_per_dn": 2, "bits": 14}, "exposure_s": 0.01)" +
+                            mosaic + R"(},
+      "lights": [{"quad": {"corner": [-0.1743, 0, -1.9924], "edge_u": [1.9924, 0, -0.1743],
+                           "edge_v": [0.3486, 0, 3.9848]},
+                  "emission": {"illuminant": "E", "luminance": 100}}],
+      "render": {"samples": 64}})";
+  return film_of(scratch().write(name + ".json", scene).string(), name);
+}
+
+TEST(Mtf, OfAMosaicTheAdviceHelps) {
+  const std::string mosaic = film_of_edge("mosaic", R"(, "mosaic": [["R", "G"], ["G", "B"]])");
+  developed(mosaic + " -o " + file("mosaic.dng") + " -o " + file("mosaic.tif"));
+  const std::string advice =
+      "is a mosaic, whose neighbours are of other channels (allowed a film of a sensor without a mosaic, or "
+      "the linear picture that a raw converter makes of a raw file)";
+  for (const std::string& path : {mosaic, file("mosaic.dng"), file("mosaic.tif")})
+    expect_fault("mtf " + path, 4, path + ": " + advice);
+  const Outcome film = abbe("mtf " + film_of_edge("channels", "") + " --json");
+  ASSERT_EQ(film.code, 0) << film.err;
+  EXPECT_NEAR(std::abs(film.json()["angle_deg"].get<double>()), 5, 0.2);
+  Image converted = read_exr(blurred_edge(0.7));
+  for (ImageChannel& channel : converted.channels)
+    for (float& value : channel.values) value = std::round(60000 * value);
+  converted.channels.assign(3, *converted.find("G"));
+  write_raw_picture(file("converted.tif"), converted);
+  const Outcome picture = abbe("mtf " + file("converted.tif") + " --json");
+  ASSERT_EQ(picture.code, 0) << picture.err;
+  EXPECT_NEAR(std::abs(picture.json()["angle_deg"].get<double>()), 5, 0.02);
+}
+
+// Files keep channels by the alphabet, in which capitals come first.
+TEST(Mtf, LooksAtTheFirstPlaneAndNoVariance) {
+  Image film = read_exr(blurred_edge(0.7));
+  ImageChannel pan = *film.find("G");
+  pan.name = "pan";
+  film.channels = {{"Variance.pan", std::vector<float>(pan.values.size(), 1)}, pan};
+  film.metadata["sensor_channels"] = "pan";
+  write_exr(file("pan.exr"), film);
+  EXPECT_EQ(abbe("mtf " + file("pan.exr") + " --json").out,
+            abbe("mtf " + file("pan.exr") + " --channel pan --json").out);
 }
 
 TEST(Mtf, FaultsAreNamed) {

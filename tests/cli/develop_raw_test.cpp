@@ -230,6 +230,19 @@ TEST(DevelopAnew, PairsOfFramesTellGainAndReadNoiseAtEverySpeed) {
   }
 }
 
+TEST(DevelopAnew, CapitalsNameTheSameKindsOfFiles) {
+  const std::string path = ball_film("capitals", kMosaic);
+  std::string outputs;
+  for (const char* name : {"small.dng", "small.fits", "small.tif", "small.exr", "CAPITALS.DNG",
+                           "CAPITALS.FITS", "CAPITALS.TIF", "CAPITALS.EXR"})
+    outputs += " -o " + file(name);
+  developed(path + outputs);
+  EXPECT_EQ(read_file(file("CAPITALS.DNG")), read_file(file("small.dng")));
+  EXPECT_EQ(read_file(file("CAPITALS.FITS")), read_file(file("small.fits")));
+  EXPECT_EQ(codes_of(file("CAPITALS.TIF")), codes_of(file("small.tif")));
+  EXPECT_EQ(read_file(file("CAPITALS.EXR")).substr(0, 4), read_file(file("small.exr")).substr(0, 4));
+}
+
 TEST(DevelopAnew, AFileThatFailsLosesNoOther) {
   const std::string path = ball_film("failing", kTwo);
   const Outcome run = abbe("develop " + path + " -o " + file("no.png") + " -o " + file("no.dng") + " -o " +
@@ -292,6 +305,25 @@ TEST(DevelopAnew, AnOutputThatCannotBeWrittenKeepsNoOtherFromIt) {
       EXPECT_TRUE(std::filesystem::exists(file("good.tif"))) << outputs << '\n' << run.err;
     }
   EXPECT_EQ(abbe("develop " + path + " -o /nonexistent/x.tif").code, 5);
+}
+
+TEST(DevelopAnew, OptionsWithoutEffectAreRefused) {
+  const std::string path = ball_film("idle", kTwo);
+  for (const auto& [options, message] :
+       {std::pair{"--frame bias --exposure-s 10", "--exposure-s: a bias frame is exposed for no time"},
+        std::pair{"--frame dark --light key=5", "--light: a frame of --frame sees no scene"},
+        std::pair{"--frame flat --light key=5", "--light: a frame of --frame sees no scene"},
+        std::pair{"--iso 400 --set /readout/iso=300",
+                  "--iso: is what --set /readout/iso says too: one of them"},
+        std::pair{"--white A --set /output/white=D50",
+                  "--white: is what --set /output/white says too: one of them"},
+        std::pair{"--exposure 5", "--exposure: only what is written takes it (allowed with --display or -o)"},
+        std::pair{"--white A", "--white: only what is written takes it"},
+        std::pair{"--set /output/white=A", "/output/white: only what is written takes it"}}) {
+    const Outcome run = abbe("develop " + path + " " + options);
+    EXPECT_EQ(run.code, 2) << options;
+    EXPECT_NE(run.err.find(message), std::string::npos) << options << '\n' << run.err;
+  }
 }
 
 TEST(DevelopAnew, FaultsAreNamed) {

@@ -156,6 +156,15 @@ TEST(Develop, TheReportSetsTheSensorsNoiseBesideTheRenders) {
   EXPECT_EQ(developed(path + " --set /readout/full_well_e=1")["saturated_share"][0], 1);
 }
 
+TEST(Develop, OneSampleTellsNoErrorOfTheRender) {
+  const std::string sensor = kRgb + ", \"readout\": " + kReadout;
+  for (const char* options : {"--spp 1", "--spp 64 --sample-range 0:1"}) {
+    const nlohmann::json error = developed(uneven_film("one", sensor, options))["render_error_e"];
+    EXPECT_EQ(error, nlohmann::json::array({nullptr, nullptr, nullptr})) << options;
+  }
+  EXPECT_TRUE(developed(uneven_film("bare_one", kRgb, "--spp 1"))["render_error"][0].is_null());
+}
+
 TEST(Develop, TheFilmTellsWhatItIs) {
   const Image rendered = read_exr(rgb_film());
   EXPECT_EQ(rendered.metadata.at("expTime"), "0.01");

@@ -5,6 +5,7 @@
 
 #include "io/data_directory.h"
 #include "io/exr.h"
+#include "io/inputs.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
@@ -184,6 +185,16 @@ TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.abbepart").code, 0);
   refused("merge a.abbepart -o b.exr --max-memory 1k", "a.abbepart");
   refused("develop a.exr -o b.exr --max-memory 1k", "a.exr");
+}
+
+TEST(Memory, AmountsAreToldInUnitsThatTell) {
+  EXPECT_EQ(bytes_text(999), "999 B");
+  EXPECT_EQ(bytes_text(1000), "1.0 kB");
+  EXPECT_EQ(bytes_text(999'960), "1.0 MB");
+  EXPECT_EQ(bytes_text(84'300'000), "84.3 MB");
+  EXPECT_EQ(bytes_text(2'000'000'000), "2.0 GB");
+  const std::string said = abbe("render " + ball() + " --max-memory 1k -o " + file("m.exr")).err;
+  EXPECT_NE(said.find("of 1.0 kB in all"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
+
+#include <fmt/format.h>
 
 #include "calibration/chart/delta_e.h"
 #include "cli/query.h"
@@ -113,6 +117,48 @@ TEST(Lab, TakesAMaterialOutOfAScene) {
   EXPECT_NEAR(lab["energy_max"].get<double>(), 0.7, 1e-6);
   const auto one = scratch().write("one.json", R"({"diffuse": {"reflectance": 0.3}})");
   EXPECT_NEAR(json_output(cli::lab, about(one.string()))["energy_max"].get<double>(), 0.3, 1e-6);
+}
+
+TEST(Lab, TakesTheUnitsOfItsScene) {
+  const std::string pane =
+      R"("materials": {"pane": {"thin_glass": {"ior": {"n": 1.52, "k": 4e-7}, "thickness": 4}}}})";
+  const auto through = [&](const char* unit) {
+    const auto scene = scratch().write("pane.json", fmt::format(R"({{"units": "{}", )", unit) + pane);
+    cli::LabOptions options = about(scene.string() + ":pane");
+    options.at_nm = {550};
+    options.angles_deg = {0};
+    return json_output(cli::lab, options)["angles"][0]["T"][0].get<double>();
+  };
+  const double reflected = std::pow(0.52 / 2.52, 2);
+  const auto expected = [&](double metres) {
+    const double inner = std::exp(-4 * std::numbers::pi * 4e-7 / 550e-9 * 4 * metres);
+    return std::pow(1 - reflected, 2) * inner / (1 - std::pow(reflected * inner, 2));
+  };
+  EXPECT_NEAR(through("mm"), expected(1e-3), 1e-4);
+  EXPECT_NEAR(through("in"), expected(0.0254), 1e-4);
+}
+
+// Clear matter reflects by n alone: 1.5 + 0.3i has 0.0536 along the normal.
+TEST(Lab, RefusesWhatIsNotClearAndTellsOfIndicesThatAreHeld) {
+  const auto of = [](const std::string& words) {
+    return [words] {
+      cli::LabOptions options = about(words);
+      options.at_nm = {320, 550};
+      (void)cli::lab(options);
+    };
+  };
+  for (const char* model : {"dielectric", "thin_glass"})
+    EXPECT_EQ(
+        fault(of(fmt::format(R"({{"{}": {{"ior": {{"n": 1.5, "k": 0.3}}}}}})", model)),
+              "is not clear: with n = 1.5 and k = 0.3 at 320 nm it reflects 0.0536 along the normal, where "
+              "dielectrics and panes reflect 0.0400"),
+        ErrorCode::scene);
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  of(R"({"dielectric": {"ior": "N-SF66"}})")();
+  (void)testing::internal::GetCapturedStdout();
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("is held from the end of its data, [390, 2500] nm"),
+            std::string::npos);
 }
 
 TEST(Lab, SaysWhatIsWrongWithAMaterial) {

@@ -247,6 +247,26 @@ TEST(Measure, ProfilesThatNoConverterKnowsAreNamed) {
   }
 }
 
+// The film's is a Nikon D5100; one with bands of its own has no camera's colours.
+TEST(Measure, AProfileIsOfTheFilmsOwnCamera) {
+  const std::string bands =
+      R"("exposure_s": 0.4, "response": "quantum", "readout": {"gain_e_per_dn": 9, "bits": 14},
+         "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}})";
+  const std::string other = "has the matrices of another camera than the film's (got Canon_EOS_5D, allowed ";
+  for (const auto& [film, camera, message] :
+       {std::tuple{shot("own", kBayer).film, "Nikon_D5100", std::string()},
+        std::tuple{file("own.exr"), "Canon_EOS_5D", other + "Nikon_D5100)"},
+        std::tuple{shot("boxes", bands).film, "box:400-500,500-600,600-700", std::string()},
+        std::tuple{file("boxes.exr"), "Canon_EOS_5D", other + "those of its own channels)"}}) {
+    nlohmann::json profile = nlohmann::json::parse(read_file(mixing_profile("of.json", 0)));
+    profile["camera"] = camera;
+    const std::string path = scratch().write("of.json", profile.dump()).string();
+    const Outcome run = abbe("develop " + film + " --profile " + path + " -o " + file("of.dng"));
+    EXPECT_EQ(run.code, message.empty() ? 0 : 4) << camera << run.err;
+    EXPECT_NE(run.err.find(message), std::string::npos) << camera << run.err;
+  }
+}
+
 TEST(Measure, SpectralFilmsHaveAValueForEachBand) {
   const auto [scene, film] = shot("bands", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 100})");
   const nlohmann::json bands = measured(film + " --chart " + scene);

@@ -73,12 +73,22 @@ TEST(Program, UsageErrorsExitWith2) {
   }
 }
 
+TEST(Program, AListOfNamesAnswersNoQuestion) {
+  const Outcome run = abbe("query --list illuminant --json ior N-BK7 --at 550");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("--list: lists names, and answers no question beside (got ior, allowed alone)"),
+            std::string::npos)
+      << run.err;
+  EXPECT_TRUE(run.out.empty());
+}
+
 TEST(Program, UnknownNamesComeWithTheNearest) {
   for (const auto& [text, nearest] :
        {std::pair{"rendr", "command \"rendr\"; did you mean \"render\""},
         {"help rendr", "command \"rendr\"; did you mean \"render\""},
         {"help scene sensr", "key \"sensr\"; did you mean \"sensor\""},
         {"help scene sensor/readot", "key \"readot\"; did you mean \"readout\""},
+        {"help scene lights/sunn", "key \"sunn\"; did you mean \"sun\""},
         {"query brewstr N-BK7 --at 550", "command \"brewstr\"; did you mean \"brewster\""},
         {"render x.json --sppp=4", "option \"--sppp\"; did you mean \"--spp\""},
         {"--versoin", "option \"--versoin\"; did you mean \"--version\""}}) {

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,11 @@ TEST(QueryLight, ReadsPixelsOfASpectralImage) {
   EXPECT_NEAR(json_output(query_light, left)["CCT_K"].get<double>(), 2855.65, 0.1);
   EXPECT_NEAR(json_output(query_light, right)["CCT_K"].get<double>(), 4225.05, 0.1);
   EXPECT_NEAR(json_output(query_light, right)["Ra"].get<double>(), 64.23, 0.1);
+  const std::filesystem::path capitals = scratch() / "HALF.EXR";
+  std::filesystem::copy_file(file, capitals, std::filesystem::copy_options::overwrite_existing);
+  LightOptions same = right;
+  same.name = capitals.string();
+  EXPECT_EQ(json_output(query_light, same)["CCT_K"], json_output(query_light, right)["CCT_K"]);
   right.crop = Crop{1, 0, 3, 1};
   EXPECT_EQ(fault([&] { query_light(right); }, "allowed within 0,0,2,1"), ErrorCode::usage);
   image.metadata[kCropKey] = "1,0,2,1";
@@ -95,6 +101,20 @@ TEST(QueryLight, TellsWhatASpectralImageLacksOfTheLightAsked) {
   const auto filter =
       scratch().write("green.csv", "# unit: 1\n# outside: zero\nwavelength_nm,T\n510,0\n550,1\n590,0\n");
   EXPECT_EQ(warnings(LightOptions{file.string(), filter.string()}), "") << "no other light gets through";
+}
+
+TEST(QueryLight, IsOfNoPowerThatIsNegativeOrNoNumber) {
+  const auto lamp =
+      scratch().write("lamp.csv", "# unit: 1\n# outside: zero\nwavelength_nm,b\n400,-1\n700,1\n").string();
+  EXPECT_EQ(fault([&] { query_light(LightOptions{lamp + ":b"}); }, "out of range at 400 nm (got -1"),
+            ErrorCode::input);
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), -1.0F}) {
+    const std::filesystem::path file = scratch() / "odd.exr";
+    write_exr(file, spectral_layout({1, 1, {{500, {1}}, {550, {value}}, {600, {1}}}, {}, {}}));
+    EXPECT_EQ(fault([&] { query_light(LightOptions{file.string()}); },
+                    "odd.exr: holds no radiance in the band at 550 nm"),
+              ErrorCode::input);
+  }
 }
 
 TEST(QueryLight, ObjectsInSentences) {
@@ -147,7 +167,7 @@ TEST(QueryDeltaE, KnowsFormulasOfAppearanceAndDisplays) {
 TEST(QueryLight, ColoursBeyondAllColoursAreRefused) {
   const Outcome run = abbe("query delta-e 1e308,0,0 50,10,0");
   EXPECT_EQ(run.code, 2) << run.out;
-  EXPECT_NE(run.err.find("allowed [-1e+06, 1e+06]"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("allowed [-1000000, 1000000]"), std::string::npos) << run.err;
 }
 
 }  // namespace

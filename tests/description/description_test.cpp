@@ -224,6 +224,31 @@ TEST_F(DescriptionTest, MakesPrisms) {
   EXPECT_DOUBLE_EQ(std::abs(apex.y), 2.5);
 }
 
+TEST_F(DescriptionTest, TablesAreInTheUnitThatIsAskedFor) {
+  const auto complaint = [&](const std::string& fragment, const std::string& unit) {
+    write(folder_ / "t.csv", "# unit: " + unit + "\n# outside: clamp\nwavelength_nm,a\n400,0.5\n700,0.5\n");
+    const Loaded loaded = load(fragment);
+    return loaded.scene ? "" : loaded.text();
+  };
+  const std::string fog = R"({"materials": {"m": {"medium": {"absorption_per_m": "t.csv:a"}}}})";
+  const std::string paint = R"({"materials": {"m": {"diffuse": {"reflectance": "t.csv:a"}}}})";
+  const std::string lamp = R"({"lights": [{"environment": {}, "emission": {"spectrum": "t.csv:a"}}]})";
+  const std::string scaled =
+      R"({"materials": {"m": {"medium": {"absorption_per_m": {"scale": 100, "of": "t.csv:a"}}}}})";
+  for (const char* unit : {"1/cm", "mm^-1", "furlongs", "1/mm; in air"})
+    EXPECT_NE(complaint(fog, unit).find("\"t.csv:a\" is in another unit (got \"" + std::string(unit) +
+                                        "\", allowed 1/m;"),
+              std::string::npos);
+  for (const char* unit : {"1/m", "m^-1 (power)", "per metre; wavelength in nm"})
+    EXPECT_EQ(complaint(fog, unit), "");
+  EXPECT_EQ(complaint(scaled, "1/cm"), "");
+  EXPECT_NE(complaint(paint, "%").find("allowed shares of 1"), std::string::npos);
+  EXPECT_EQ(complaint(paint, "reflectance factor (0-1)"), "");
+  for (const char* unit : {"mW/(m2 sr nm)", "W/(m2 sr um)", "W/(cm2 sr nm)"})
+    EXPECT_NE(complaint(lamp, unit).find("allowed W/(m^2 sr nm)"), std::string::npos) << unit;
+  for (const char* unit : {"W/(m2 sr nm)", "relative spectrum"}) EXPECT_EQ(complaint(lamp, unit), "") << unit;
+}
+
 TEST_F(DescriptionTest, OverridesAndHashes) {
   const std::string text = R"({"materials": {"m": {"diffuse": {"reflectance": "filter.csv:T"}}},
     "shapes": [{"mesh": "bench.ply", "material": "m"}], "render": {"integrator": "path", "samples": 16, "max_depth": 12,

@@ -7,6 +7,7 @@
 
 #include "develop/film_file.h"
 #include "films.h"
+#include "io/error.h"
 #include "io/exr.h"
 #include "sensor/film/recorded_white.h"
 
@@ -48,6 +49,14 @@ TEST(Develop, FiguresAreMeansAndRootsOfMeanSquares) {
   EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22) * 1e-10, 1e-5);
   EXPECT_NEAR(figures[0].noise.photon_e, std::sqrt(650.0), 1e-3);
   EXPECT_EQ(figures[0].saturated_share, 0.5);
+}
+
+TEST(Develop, AnErrorThatTheFilmDoesNotKnowIsNotTold) {
+  ExposedFilm film = exposed();
+  film.film.metadata["frame_mean_error"] = "inf";
+  EXPECT_FALSE(plane_figures(film.sensor, develop(film, 7))[0].render_error);
+  expose_to(film, FlatFrame{});
+  EXPECT_EQ(plane_figures(film.sensor, develop(film, 7))[0].render_error, 0) << "a frame of no render";
 }
 
 TEST(Develop, FiguresAreOfTheAreasThatWereRendered) {
@@ -94,6 +103,32 @@ TEST(Develop, AFrameOfNoSceneHasNoErrorOfARender) {
   film.film.metadata["frame_mean_error"] = "0.001";
   expose_to(film, DarkFrame{});
   EXPECT_FALSE(film.film.metadata.contains("frame_mean_error"));
+}
+
+TEST(Develop, AnEvenFrameTellsTheShareOfSaturationThatItHas) {
+  ExposedFilm film = exposed();
+  expose_to(film, FlatFrame{0.25});
+  const auto told = [&film] { return develop(film, 7).codes.metadata.at("frame"); };
+  EXPECT_EQ(told(), "flat, 0.25 of saturation");
+  Diagnostics diagnostics;
+  expose_for(film, 0.02, diagnostics);
+  EXPECT_EQ(told(), "flat, 0.5 of saturation") << "of twice the light";
+  film.sensor.readout->gain_e_per_dn = 2;
+  EXPECT_EQ(told(), "flat, 0.25 of saturation") << "of twice the electrons";
+}
+
+TEST(Develop, ABiasFrameDevelopsAgainInNoTime) {
+  ExposedFilm bias = exposed();
+  expose_to(bias, BiasFrame{});
+  const DevelopedFilm developed = develop(bias, 7);
+  bias.film.metadata = developed.exposure.metadata;
+  ExposedFilm again = exposed({}, bias.film);
+  EXPECT_EQ(again.sensor.exposure_s, std::vector<double>{0});
+  EXPECT_EQ(develop(again, 7).codes.channels[0].values, developed.codes.channels[0].values);
+  Diagnostics diagnostics;
+  EXPECT_THROW(expose_for(again, 1, diagnostics), Error);
+  bias.film.metadata.erase("frame");
+  EXPECT_THROW((void)exposed({}, bias.film), Error) << "a film of a scene has a time";
 }
 
 // Within six standard deviations of the dark current.

@@ -12,6 +12,7 @@
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "sensor/readout/readout.h"
+#include "tests/io/tiff_entries.h"
 
 namespace abbe {
 namespace {
@@ -113,7 +114,10 @@ TEST(LinearImage, OfAFilmItsPlanesAlone) {
   EXPECT_EQ(mosaic.image.channels.size(), 1U);
   write_exr(path, {1, 1, {{"B", {3}}, {"G", {2}}, {"Id", {1}}, {"R", {1}}}, {{"sensor_channels", "R,G,B"}}});
   EXPECT_EQ(read_linear_image(path).channels, (std::vector<std::string>{"R", "G", "B"}));
-  fs::remove(path);
+  const fs::path capitals = fs::path(path).replace_extension(".EXR");
+  fs::rename(path, capitals);
+  EXPECT_EQ(read_linear_image(capitals).unit, "film values");
+  fs::remove(capitals);
 }
 
 // A 2 x 2 sensor whose codes a response curve bends, under filters that a FITS has no letters of its own for.
@@ -150,12 +154,14 @@ TEST(LinearImage, OfARawFileOfAnyKindIsTheSame) {
   const RawPicture raw = curved_picture();
   write_dng(folder / "a.dng", raw);
   write_fits(folder / "a.fits", raw);
-  for (const char* name : {"a.tif", "a.png"})
+  write_dng(folder / "b.DNG", raw);
+  write_fits(folder / "b.FIT", raw);
+  for (const char* name : {"a.tif", "a.png", "b.TIF", "b.PNG"})
     write_raw_picture(folder / name, {2, 2, {{"raw", {raw.codes.begin(), raw.codes.end()}}}, raw.metadata});
   std::vector<float> linear;
   for (const std::uint16_t code : raw.codes)
     linear.push_back(static_cast<float>(raw.linear_codes[code] - 100));
-  for (const char* name : {"a.dng", "a.fits", "a.tif", "a.png"}) {
+  for (const char* name : {"a.dng", "a.fits", "a.tif", "a.png", "b.DNG", "b.FIT", "b.TIF", "b.PNG"}) {
     const LinearImage read = read_linear_image(folder / name);
     EXPECT_EQ(read.channels, (std::vector<std::string>{"G", "M", "Y"})) << name;
     EXPECT_EQ(read.mosaic, (Mosaic{2, 2, {1, 0, 0, 2}})) << name;
@@ -164,6 +170,45 @@ TEST(LinearImage, OfARawFileOfAnyKindIsTheSame) {
     EXPECT_EQ(read.saturation, 3750) << name << ": the full well over the gain";
   }
   fs::remove_all(folder);
+}
+
+// A TIFF of four planes whose fourth a tag calls alpha: 1, which colours are multiplied by, or 2.
+LinearImage with_alpha(const Image& codes, std::uint16_t alpha) {
+  constexpr std::uint16_t kExtraSamples = 338;
+  const fs::path path = fs::path(testing::TempDir()) / ("abbe_alpha_" + std::to_string(::getpid()) + ".tif");
+  write_raw_picture(path, codes);
+  std::ifstream written(path, std::ios::binary);
+  test::TiffEntries file{{std::istreambuf_iterator<char>(written), {}}};
+  file.set_short(kExtraSamples, kExtraSamples, alpha);
+  std::ofstream(path, std::ios::binary) << file.bytes;
+  LinearImage read = read_linear_image(path);
+  fs::remove(path);
+  return read;
+}
+
+TEST(LinearImage, APlaneOfTheSensorIsNoAlpha) {
+  Image codes{1,
+              1,
+              {{"R", {101}}, {"G", {102}}, {"B", {103}}, {"IR", {104}}},
+              {{"sensor_channels", "R,G,B,IR"}, {"black_level_dn", "100"}, {"white_level_dn", "4095"}}};
+  const LinearImage read = with_alpha(codes, 1);
+  EXPECT_EQ(read.channels, (std::vector<std::string>{"R", "G", "B", "IR"}));
+  ASSERT_EQ(read.image.channels.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(read.image.channels[k].name, read.channels[k]);
+    EXPECT_EQ(read.image.channels[k].values[0], static_cast<float>(k + 1)) << k;
+  }
+  codes.metadata["sensor_channels"] = "B,G,R";
+  EXPECT_EQ(with_alpha(codes, 1).channels, (std::vector<std::string>{"B", "G", "R"}))
+      << "a file to which another program has given an alpha channel";
+}
+
+TEST(LinearImage, CodeValuesBesideAlphaAreThoseOfTheFile) {
+  const LinearImage read =
+      with_alpha({1, 1, {{"R", {40000}}, {"G", {30000}}, {"B", {20000}}, {"A", {32768}}}, {}}, 2);
+  EXPECT_EQ(read.channels, (std::vector<std::string>{"R", "G", "B"}));
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_FLOAT_EQ(read.image.channels[k].values[0], static_cast<float>(40000 - 10000 * k) / 65535) << k;
 }
 
 TEST(LinearImage, ASaturatedFlatIsRefused) {

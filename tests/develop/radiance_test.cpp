@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "sensor/film/recorded_error.h"
+#include "sensor/film/variance_name.h"
 
 namespace abbe {
 namespace {
@@ -29,7 +31,22 @@ TEST(Radiance, ASensorLooksThroughItsExposure) {
       exposed_film(green(), {{band("V", 510, 590)}, {}, {0.5}, {{"exposure_s", "1"}}}, "a.exr", diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
   EXPECT_NEAR(film.find("V")->values[0], 80.0 / 50 * 0.5, 1e-6);
-  EXPECT_EQ(film.metadata, (std::map<std::string, std::string>{{"exposure_s", "1"}, {"seed", "7"}}));
+  EXPECT_EQ(film.metadata, (std::map<std::string, std::string>{
+                               {"exposure_s", "1"}, {"frame_mean_error", "inf"}, {"seed", "7"}}));
+}
+
+// What the film says of its error is of its bands, and of no sensor that looks at it.
+TEST(Radiance, TheErrorOfABandIsNoSensors) {
+  SpectralImage bands = green();
+  for (const SpectralBand& of : green().bands)
+    bands.others.push_back({variance_of(spectral_channel(of.center_nm)), {0.01F}});
+  for (const auto& [told, left] : {std::pair{"0.01", false}, std::pair{"inf", true}}) {
+    bands.metadata["frame_mean_error"] = told;
+    Diagnostics diagnostics;
+    const Image film = exposed_film(bands, {{band("V", 510, 590)}, {}, {0.5}, {}}, "a.exr", diagnostics);
+    EXPECT_EQ(film.metadata.contains("frame_mean_error"), left) << told;
+    EXPECT_EQ(has_unknown_error(film.metadata), left) << told;
+  }
 }
 
 TEST(Radiance, LightThatTheImageLacksIsToldOrRefused) {

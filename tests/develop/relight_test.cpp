@@ -53,6 +53,13 @@ TEST(Relight, LightsCountAsOftenAsTheyAreAskedTo) {
   EXPECT_FALSE(image.metadata.contains("frame_mean_error"));
 }
 
+TEST(Relight, WhatIsNotKnownOfAFilmsErrorStaysSo) {
+  Image image = film_of_two_lights();
+  image.metadata["frame_mean_error"] = "inf";
+  relight(image, std::vector<LightFactor>{{"key", {0.5}}});
+  EXPECT_EQ(image.metadata.at("frame_mean_error"), "inf");
+}
+
 TEST(Relight, AllAlikeTheVarianceIsTheFilms) {
   const Image image = relit({{"key", {2}}, {"sun", {2}}});
   EXPECT_EQ(values(image, "R"), (std::vector<float>{10, 16}));

@@ -3,11 +3,13 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "io/error.h"
 #include "io/exr.h"
+#include "io/extension.h"
 #include "test_files.h"
 
 namespace abbe {
@@ -207,6 +209,7 @@ TEST(Picture, ARawTiffHoldsAnyNumberOfPlanes) {
     write_raw_picture(folder / "a.tif", raw);
     const Image read = read_picture(folder / "a.tif");
     ASSERT_EQ(read.channels.size(), planes);
+    EXPECT_EQ(OIIO::ImageInput::open((folder / "a.tif").string())->spec().alpha_channel, -1) << planes;
     for (std::size_t c = 0; c < planes; ++c)
       EXPECT_EQ(std::lround(65535 * read.channels[c].values[0]), 10 * static_cast<long>(c)) << planes;
     if (planes == 1) continue;
@@ -219,6 +222,40 @@ TEST(Picture, ARawTiffHoldsAnyNumberOfPlanes) {
     }
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST(Picture, ColoursBesideAlphaAreMultipliedUnlessAskedFor) {
+  const auto path = test_folder() / "a.png";
+  OIIO::ImageSpec spec(1, 1, 4, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  const std::array<std::uint8_t, 4> pixel{200, 100, 50, 51};
+  const auto output = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(output->open(path.string(), spec) && output->write_image(OIIO::TypeDesc::UINT8, pixel.data()) &&
+              output->close());
+  for (const auto& [alpha, factor] :
+       {std::pair(AlphaReading::multiplied, 0.2F), {AlphaReading::as_stored, 1.0F}}) {
+    const Image read = read_image(path, nullptr, alpha);
+    ASSERT_EQ(read.channels.size(), 4U);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_FLOAT_EQ(read.channels[c].values[0], factor * static_cast<float>(pixel[c]) / 255) << factor << c;
+    EXPECT_FLOAT_EQ(read.channels[3].values[0], 0.2F);
+  }
+}
+
+TEST(Picture, CapitalsNameTheSameKindOfFile) {
+  const auto folder = test_folder();
+  const Image image{2, 1, {{"raw", {7, 60000}}}, {{"seed", "7"}}};
+  for (const char* ends : {".tif", ".png"}) {
+    const std::string capitals = ends == std::string(".tif") ? ".TIF" : ".PNG";
+    write_raw_picture(folder / ("a" + std::string(ends)), image);
+    write_raw_picture(folder / ("a" + capitals), image);
+    const Image read = read_picture(folder / ("a" + capitals));
+    EXPECT_EQ(read.channels[0].values, read_picture(folder / ("a" + std::string(ends))).channels[0].values);
+    EXPECT_EQ(read.metadata.contains("ImageDescription"), capitals == ".TIF");
+  }
+  EXPECT_EQ(extension_of(folder / "a.DNG"), ".dng");
+  EXPECT_NO_THROW(require_extension("a.TIF", {".png", ".tif"}));
+  EXPECT_THROW(require_extension("a.TIF", {".png"}), Error);
 }
 
 TEST(Picture, ARawCodeThatIsNoWholeNumberIsABug) {

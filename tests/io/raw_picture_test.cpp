@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "io/error.h"
 #include "test_files.h"
+#include "tiff_entries.h"
 
 namespace abbe {
 namespace {
@@ -97,6 +99,147 @@ TEST(Dng, FiltersOfOtherNamesKeepTheirOwnOrder) {
   const RawPicture read = read_back(raw);
   EXPECT_EQ(read.channels, raw.channels);
   EXPECT_EQ(read.mosaic, raw.mosaic);
+}
+
+// Files of other programs: those of ours with tags and cards made others.
+std::string refusal_of(const std::filesystem::path& path, const std::string& bytes) {
+  put(path, bytes);
+  try {
+    (void)read_raw_picture(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::input);
+    return error.what();
+  }
+  return "accepted";
+}
+
+constexpr std::uint16_t kStripOffsets = 273;
+constexpr std::uint16_t kStripByteCounts = 279;
+constexpr std::uint16_t kPlanarConfiguration = 284;
+constexpr std::uint16_t kSoftware = 305;
+constexpr std::uint16_t kSampleFormat = 339;
+constexpr std::uint16_t kBlackLevel = 50714;
+
+TEST(Dng, PlanesOneAfterTheOtherAreThoseOfPixels) {
+  RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  raw.width = 2;
+  raw.codes = {1, 2, 3, 4, 5, 6};
+  test::TiffEntries file{bytes_of_dng(raw)};
+  const std::uint32_t at = file.value_of(kStripOffsets);
+  file.set_short(kPlanarConfiguration, kPlanarConfiguration, 2);
+  file.set_longs(kStripOffsets, {at, at + 4, at + 8});
+  file.set_longs(kStripByteCounts, {4, 4, 4});
+  const auto path = test_folder() / "a.dng";
+  put(path, file.bytes);
+  EXPECT_EQ(read_raw_picture(path).codes, (std::vector<std::uint16_t>{1, 3, 5, 2, 4, 6}));
+}
+
+TEST(Dng, BlackLevelsThatDifferAreRefused) {
+  RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  raw.black_level_dn = 64;
+  test::TiffEntries file{bytes_of_dng(raw)};
+  const auto path = test_folder() / "a.dng";
+  EXPECT_EQ(refusal_of(path, file.bytes), "accepted");
+  const std::size_t second = file.value_of(kBlackLevel) + 8;
+  file.set_number(second, 65);
+  file.set_number(second + 4, 1);
+  EXPECT_EQ(
+      refusal_of(path, file.bytes),
+      path.string() +
+          ": filters or planes have a black level of their own (got from 64 to 65, allowed one for all)");
+}
+
+TEST(Dng, CodesThatAreFloatsAreRefused) {
+  test::TiffEntries file{bytes_of_dng(under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer))};
+  file.set_short(kSoftware, kSampleFormat, 3);
+  const auto path = test_folder() / "a.dng";
+  EXPECT_EQ(
+      refusal_of(path, file.bytes),
+      path.string() + ": its first image has no whole numbers without sign (got SampleFormat 3, allowed 1)");
+}
+
+std::string bytes_of_fits(const RawPicture& raw) {
+  const auto path = test_folder() / "a.fits";
+  write_fits(path, raw);
+  return bytes_of(path);
+}
+
+// The file with another card in place of that of a key.
+std::string with_card(std::string bytes, const std::string& key, std::string card) {
+  constexpr std::size_t kCard = 80;
+  card.resize(kCard, ' ');
+  for (std::size_t at = 0; at + kCard <= bytes.size(); at += kCard)
+    if (bytes.substr(at, 9) == key + std::string(8 - key.size(), ' ') + "=")
+      return bytes.replace(at, kCard, card);
+  ADD_FAILURE() << "no card " << key;
+  return bytes;
+}
+
+RawPicture read_fits_bytes(const std::string& bytes) {
+  const auto path = test_folder() / "b.fits";
+  put(path, bytes);
+  return read_raw_picture(path);
+}
+
+// Cards tell the pattern of the picture as one sees it, whichever row is the first.
+TEST(Fits, RowsFromTheBottomAreTurned) {
+  const std::string bytes = bytes_of_fits(under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer));
+  const RawPicture read = read_fits_bytes(with_card(bytes, "ROWORDER", "ROWORDER= 'BOTTOM-UP'"));
+  EXPECT_EQ(read.codes, (std::vector<std::uint16_t>{3, 4, 1, 2}));
+  EXPECT_EQ(read.mosaic, (std::vector<std::uint8_t>{0, 1, 1, 2}));
+  RawPicture planes = one_pixel({kRed, kGreen, kBlue});
+  planes.height = 3;
+  planes.codes = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_EQ(read_fits_bytes(with_card(bytes_of_fits(planes), "ROWORDER", "ROWORDER= 'BOTTOM-UP'")).codes,
+            (std::vector<std::uint16_t>{7, 8, 9, 4, 5, 6, 1, 2, 3}));
+}
+
+TEST(Fits, OffsetsShiftThePattern) {
+  const std::string bytes = bytes_of_fits(under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer));
+  const auto shifted = [&](int x, int y) {
+    return read_fits_bytes(with_card(with_card(bytes, "EGAIN", "XBAYROFF= " + std::to_string(x)), "RDNOISE",
+                                     "YBAYROFF= " + std::to_string(y)))
+        .mosaic;
+  };
+  using Pattern = std::vector<std::uint8_t>;
+  EXPECT_EQ(shifted(0, 2), (Pattern{0, 1, 1, 2})) << "RGGB";
+  EXPECT_EQ(shifted(1, 0), (Pattern{1, 0, 2, 1})) << "GRBG";
+  EXPECT_EQ(shifted(0, -1), (Pattern{1, 2, 0, 1})) << "GBRG";
+  EXPECT_EQ(shifted(3, 1), (Pattern{2, 1, 1, 0})) << "BGGR";
+}
+
+TEST(Fits, APixelBelowZeroIsToldOf) {
+  const std::string bytes = bytes_of_fits(one_pixel({kRed, kGreen, kBlue}));
+  const auto path = test_folder() / "b.fits";
+  EXPECT_EQ(refusal_of(path, with_card(bytes, "BZERO", "BZERO   =                  0.0")),
+            path.string() + ": a pixel is below 0 (got -32668, allowed 0 to 65535)");
+}
+
+// Readers take it for two rows of two.
+TEST(Fits, ABayerPatternIsToldOfTwoByTwoFiltersWithLettersAlone) {
+  const auto tells = [](const RawPicture& raw) {
+    return bytes_of_fits(raw).find("BAYERPAT") != std::string::npos;
+  };
+  RawPicture raw = under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer);
+  EXPECT_TRUE(tells(raw));
+  raw.channels[0] = "IR";
+  EXPECT_FALSE(tells(raw));
+  raw.channels[0] = "R";
+  raw.mosaic_width = raw.width = 4;
+  raw.height = 1;
+  EXPECT_FALSE(tells(raw));
+}
+
+TEST(RawPicture, CapitalsNameTheSameKindOfFile) {
+  const RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  const auto folder = test_folder();
+  write_dng(folder / "a.DNG", raw);
+  write_fits(folder / "a.FITS", raw);
+  write_fits(folder / "a.FIT", raw);
+  for (const char* name : {"a.DNG", "a.FITS", "a.FIT"}) {
+    EXPECT_TRUE(is_raw_picture(folder / name)) << name;
+    EXPECT_EQ(read_raw_picture(folder / name).codes, raw.codes) << name;
+  }
 }
 
 TEST(RawPicture, AResponseCurveIsUndoneByTheTableOfADngAlone) {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "tests/materials/index_of.h"
 
 namespace abbe {
@@ -96,6 +98,25 @@ TEST_F(UserTable, MayAbsorbAndBeRelativeToVacuum) {
   ASSERT_TRUE(named) << diagnostics.text();
   EXPECT_DOUBLE_EQ(named->index.k(550.0), 0.15);
   EXPECT_EQ(named->index.medium(), IndexMedium::vacuum);
+}
+
+TEST_F(UserTable, IsRefusedByWhatItMayHaveMeant) {
+  const std::string rows = "wavelength_nm,n\n400,1.6\n700,1.5\n";
+  const auto complaint = [&](const std::string& text) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(load_index(write("# unit: index, nm\n" + text), {}, diagnostics)) << text;
+    return diagnostics.text();
+  };
+  for (const char* medium : {"Vacuum", "water"})
+    EXPECT_NE(complaint(fmt::format("# index_relative_to: {}\n", medium) + rows)
+                  .find(fmt::format("unknown index_relative_to \"{}\"", medium)),
+              std::string::npos);
+  EXPECT_NE(complaint("# Index_relative_to: vacuum\n" + rows).find("did you mean \"index_relative_to\"?"),
+            std::string::npos);
+  for (const char* column : {"K", "kappa"})
+    EXPECT_NE(complaint(fmt::format("wavelength_nm,n,{}\n400,1.6,0.1\n700,1.5,0.1\n", column))
+                  .find(fmt::format("column \"{}\" (k is called k)", column)),
+              std::string::npos);
 }
 
 TEST_F(UserTable, IsRefusedWithoutAnIndexOrWithAnImpossibleOne) {

@@ -136,11 +136,12 @@ TEST_F(Entry, SaysWhatItIsRelativeTo) {
   const RefractiveIndex air = good(formula + "SPECS:\n    n_is_absolute: false\n");
   EXPECT_EQ(air.medium(), IndexMedium::air);
   EXPECT_DOUBLE_EQ(air.n(500.0), n(0.5));
-  for (const char* section : {"SPECS", "CONDITIONS"}) {
+  for (const char* section : {"SPECS", "CONDITIONS", "PROPERTIES"}) {
     const RefractiveIndex absolute = good(formula + section + ":\n    n_is_absolute: true\n");
     EXPECT_EQ(absolute.medium(), IndexMedium::vacuum);
     EXPECT_NEAR(absolute.n(500.0), n(0.5) / air_index(500), 1e-14);
   }
+  EXPECT_EQ(good(formula + "SPECS:\n    n_is_absolute: True\n").medium(), IndexMedium::vacuum);
   const std::string vacuum = "SPECS:\n    wavelength_is_vacuum: true\n";
   const RefractiveIndex shifted = good(formula + vacuum);
   EXPECT_NEAR(shifted.n(500.0), n(air_to_vacuum(500) / 1e3), 1e-14);
@@ -151,6 +152,12 @@ TEST_F(Entry, SaysWhatItIsRelativeTo) {
       good("DATA:\n  - type: tabulated n\n    data: |\n      0.1 1\n      0.5 1.5\n      0.6 1.6\n" + vacuum);
   EXPECT_NEAR(table.n(vacuum_to_air(500)), 1.5, 1e-12);
   EXPECT_EQ(table.low_nm(), 100);
+}
+
+TEST_F(Entry, SaysItInWordsThatAreKnown) {
+  EXPECT_EQ(fault_of("DATA:\n  - type: tabulated n\n    data: |\n      0.4 1\n      0.5 1.5\n"
+                     "SPECS:\n  n_is_absolute: perhaps\n"),
+            "7:18: n_is_absolute (got \"perhaps\", allowed true, false)");
 }
 
 TEST_F(Entry, IsRefusedWithoutAnIndex) {

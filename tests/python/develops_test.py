@@ -21,6 +21,8 @@ class Develops(Test):
         for name in ("c16.png", "c.exr"):
             raw.write(self.scratch / ("own_" + name))
             self.assertEqual((self.scratch / name).read_bytes(), (self.scratch / ("own_" + name)).read_bytes(), name)
+        raw.write(self.scratch / "CAPITALS.EXR")
+        self.assertEqual((self.scratch / "CAPITALS.EXR").read_bytes(), (self.scratch / "c.exr").read_bytes())
         with self.assertRaisesRegex(abbe.UsageError, 'got extension ".jpg", allowed .exr, .tif, .tiff, .png, .dng, .fits, .fit$'):
             raw.write(self.scratch / "c.jpg")
         raw.write(self.scratch / "c.tiff")
@@ -82,6 +84,30 @@ class Develops(Test):
         untold.write(str(self.scratch / "untold.exr"))
         with self.assertWarnsRegex(abbe.SceneWarning, "only one of the films tells the unit of channel short"):
             self.assertEqual(abbe.compare(film, abbe.Film.read(self.scratch / "untold.exr"))["mean_ratio"], 1)
+
+    def test_the_pixels_that_films_of_crops_have_in_common_are_told_as_the_command_does(self):
+        (self.scratch / "box.json").write_text(json.dumps({"abbe": 1, **box()}))
+        crops = []
+        for name, crop in (("left", "0,0,4,4"), ("right", "2,1,8,6")):
+            self.command("render", self.scratch / "box.json", "--crop", crop, "--quiet", "-o", self.scratch / f"{name}.exr")
+            crops.append(self.scratch / f"{name}.exr")
+        found = abbe.compare(*map(abbe.Film.read, crops))
+        self.assertEqual(found["crop"], [2, 1, 4, 4])
+        self.assertEqual(found["crop"], json.loads(self.command("compare", *crops, "--json"))["crop"])
+
+    def test_channels_that_one_film_has_are_warned_of(self):
+        two = abbe.render(abbe.Scene(box()), spp=2)
+        one = abbe.render(abbe.Scene(box(sensor={**box()["sensor"], "channels": {"long": box()["sensor"]["channels"]["long"]}})), spp=2)
+        with self.assertWarnsRegex(abbe.SceneWarning, "channels that only one of the images has are not compared: short"):
+            abbe.compare(two, one)
+
+    def test_complaints_name_the_keyword_that_they_are_about(self):
+        film = abbe.render(abbe.Scene(box(sensor={**box()["sensor"], "response": "quantum"})), spp=2)
+        for call, message in ((lambda: abbe.develop(film, readout={"bits": 10}), "readout:1:1: /readout: error: missing key"),
+                              (lambda: abbe.develop(film, white="foo"), "white:1:1: /output/white: error: unknown light"),
+                              (lambda: abbe.compare(film, film, white="foo"), "white:1:1: /output/white: error: unknown light")):
+            with self.subTest(message=message), self.assertRaisesRegex(abbe.Error, message):
+                call()
 
     def test_calibrations_are_those_of_the_command(self):
         made = abbe.calibrate("Nikon_D5100", "A", bits=10)
@@ -145,7 +171,7 @@ class Develops(Test):
                                  ("response: is planted", {"measured": measured, "response": "linear"}),
                                  ("correction: expected matrix, root-polynomial-2, root-polynomial-3 or auto .got cubic",
                                   {"camera": "Nikon_D5100", "correction": "cubic"})):
-            with self.assertRaisesRegex(ValueError, words):
+            with self.assertRaisesRegex(abbe.UsageError, words):
                 abbe.calibrate(**arguments)
         with self.assertRaisesRegex(abbe.InputError, "none.json"):
             abbe.recover_response(self.scratch / "none.json")

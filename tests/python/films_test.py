@@ -55,6 +55,9 @@ class Films(Test):
         self.assertEqual(film.picture().shape, (6, 8, 3))
         film.write(self.scratch / "s.exr")
         numpy.testing.assert_array_equal(abbe.Film.read(self.scratch / "s.exr").array, film.array)
+        for name in ("S.EXR", "S.ABBEPART"):
+            film.write(self.scratch / name)
+            numpy.testing.assert_array_equal(abbe.Film.read(self.scratch / name).array, film.array)
 
     def test_threads_write_a_film_whose_image_is_not_made_yet(self):
         film = abbe.render(abbe.Scene(box(sensor={**box()["sensor"], "resolution": [500, 500]}, render={"samples": 1})))
@@ -83,6 +86,14 @@ class Films(Test):
         self.assertEqual([abbe.render(scene).stats[key] for key in ("relative_error", "frame_mean_error")], [None, None])
         measured = abbe.render(scene, progress=lambda p: None).stats
         self.assertTrue(0 < measured["relative_error"] < 1 and 0 < measured["frame_mean_error"] < 1, measured)
+
+    def test_one_sample_tells_no_variance(self):
+        film = abbe.render(abbe.Scene(box()), spp=1)
+        film.write(self.scratch / "one.exr")
+        for one in (film, abbe.Film.read(self.scratch / "one.exr")):
+            self.assertIsNone(one.variance)
+            self.assertEqual([plane["render_error"] for plane in abbe.develop(one).figures], [None, None])
+        self.assertIsNotNone(abbe.render(abbe.Scene(box()), spp=2).variance)
 
     def test_classes_make_no_object_without_their_constructor(self):
         for of in (abbe.Scene, abbe.Film, abbe.Progress, abbe.Developed, abbe.Diagnostic):

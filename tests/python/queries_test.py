@@ -78,7 +78,8 @@ class Queries(Test):
                                      (lambda: abbe.names("lens"), abbe.UsageError, "unknown kind"),
                                      (lambda: abbe.color("D65", ([400, 390], [1, 1])), abbe.UsageError, "ascending"),
                                      (lambda: abbe.color("D65", ([400], [1])), abbe.UsageError, "two or more"),
-                                     (lambda: abbe.delta_e([1, 2], [1, 2]), abbe.UsageError, "last axis")):
+                                     (lambda: abbe.delta_e([1, 2], [1, 2]), abbe.UsageError, "last axis"),
+                                     (lambda: abbe.delta_e([1, 2], [1, 2, 3]), abbe.UsageError, "lab1: has no shape in common with lab2")):
             with self.subTest(message=message), self.assertRaisesRegex(error, message):
                 call()
 

@@ -158,6 +158,8 @@ class Scenes(Test):
         self.assertEqual(abbe.help("sensor/readout/bits"), self.command("help", "scene", "sensor/readout/bits"))
         with self.assertRaisesRegex(abbe.UsageError, "did you mean"):
             abbe.help("camra")
+        with self.assertRaisesRegex(abbe.UsageError, 'key "sunn"; did you mean "sun"'):
+            abbe.help("lights/sunn")
 
 
 if __name__ == "__main__":

@@ -1,3 +1,5 @@
+#include <regex>
+
 #include <gtest/gtest.h>
 
 #include "io/exr.h"
@@ -198,6 +200,8 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
       std::string::npos);
   write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
   EXPECT_TRUE(load(text).scene) << "grey";
+  std::filesystem::rename(folder_ / "sky.exr", folder_ / "SKY.EXR");
+  EXPECT_TRUE(load(std::regex_replace(text, std::regex("sky.exr"), "SKY.EXR")).scene) << "in capitals";
 }
 
 TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {
@@ -213,7 +217,20 @@ TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {
   write_exr(folder_ / "nan.exr", {2, 1, {{"R", {1, NAN}}, {"G", {1, 1}}, {"B", {1, 1}}}, {}});
   write_exr(folder_ / "depth.exr", {2, 1, {{"Z", {1, 1}}}, {}});
   expect_refused(R"("image": "nan.exr")", ErrorCode::input, "texel (1, 0) (got nan, allowed [0, 1e+30])");
-  expect_refused(R"("image": "depth.exr")", ErrorCode::input, "no channels R, G, B or Y");
+  expect_refused(R"("image": "depth.exr")", ErrorCode::input, "no channels R, G, B, or Y alone");
+  write_exr(folder_ / "xyz.exr", {1, 1, {{"X", {1}}, {"Y", {1}}, {"Z", {1}}}, {}});
+  expect_refused(R"("image": "xyz.exr")", ErrorCode::input, "no channels R, G, B, or Y alone");
+  const std::vector<ImageChannel> rgb{{"R", {1}}, {"G", {1}}, {"B", {1}}};
+  write_exr(folder_ / "wide.exr",
+            {1, 1, rgb, {{kPrimariesKey, "0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329"}}});
+  expect_refused(R"("image": "wide.exr")", ErrorCode::input, "its chromaticities are not those of Rec.709");
+  write_exr(folder_ / "rec709.exr",
+            {1, 1, rgb, {{kPrimariesKey, "0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"}}});
+  EXPECT_TRUE(loaded_with(R"("image": "rec709.exr")").scene);
+  write_exr(folder_ / "night.exr", {1, 1, {{"Y", {0}}}, {}});
+  EXPECT_NE(
+      loaded_with(R"("image": "night.exr")").text().find("environment \"night.exr\" is black everywhere"),
+      std::string::npos);
   expect_refused(R"("image": "sky.png")", ErrorCode::input,
                  "linear values are needed (got \".png\", allowed .exr, .hdr)");
   expect_refused(R"("image": "http://x/sky.exr")", ErrorCode::input, "expected a file");

@@ -99,6 +99,26 @@ TEST(Furnace, NoMaterialIsBrighterThanTheLight) {
   }
 }
 
+// Matter goes on behind films, which are a quad or a ball within it.
+TEST(Furnace, FilmsLeaveTheMatterAroundThem) {
+  constexpr const char* kFilm = R"("film": {"layers": [{"ior": 2, "thickness_nm": 90}]})";
+  constexpr const char* kSheet =
+      R"(, {"quad": {"corner": [-0.5, -0.5, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0.2]}, "material": "other"})";
+  constexpr const char* kBall =
+      R"(, {"sphere": {"center": [0, 0, 0.1], "radius": 0.6}, "material": "other"})";
+  const auto mean = [](const Film& film) { return test::region(film, 0, 0, 0, 8, 8); };
+  const double one = mean(film_of_ball(R"("dielectric": {"ior": 1})")).mean;
+  constexpr const char* kFog = R"("medium": {"absorption_per_m": 1})";
+  const double fog = mean(film_of_ball(kFog)).mean;
+  for (const char* shape : {kSheet, kBall}) {
+    const test::Region water = mean(film_of_ball(R"("dielectric": {"ior": 1.33})", kFilm, shape));
+    EXPECT_NEAR(water.mean / one, 1, 4.9 * std::sqrt(water.variance) / one + 2e-3) << shape;
+    const test::Region clear =
+        mean(film_of_ball(kFog, R"("film": {"layers": [{"ior": 1, "thickness_nm": 90}]})", shape));
+    EXPECT_NEAR(clear.mean / fog, 1, 4.9 * std::sqrt(clear.variance) / fog + 2e-3) << shape;
+  }
+}
+
 // Fog that ends where a floor, or glass, begins; glass and fog in one place; ground glass within glass, where
 // what it scatters more than once is lost.
 TEST(Furnace, MatterMayTouchAndLieInMatter) {

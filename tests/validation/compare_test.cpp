@@ -100,6 +100,20 @@ TEST(Compare, AUnitThatOneImageTellsIsWarnedOf) {
   EXPECT_EQ(said({untold, untold}), "");
 }
 
+TEST(Compare, ChannelsThatOneImageAloneHasAreWarnedOf) {
+  Image red = grey({1, 2});
+  for (const char* channel : {"red", "Variance.red", "A"}) red.channels.push_back({channel, {1, 2}});
+  const auto more = saved("more.exr", red);
+  const auto less = saved("less.exr", grey({1, 2}));
+  for (const cli::CompareOptions& options :
+       {cli::CompareOptions{more, less}, cli::CompareOptions{less, more}}) {
+    testing::internal::CaptureStderr();
+    (void)json_output(cli::compare, options);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "abbe: warning: channels that only one of the images has are not compared: red\n");
+  }
+}
+
 TEST(RelativeErrors, TheirMeanSquareIsTheRelMse) {
   const Image a = grey({1, 2, 4, 0});
   const Image b = grey({1, 3, 3, 1});

@@ -143,6 +143,29 @@ TEST(Compare, AUnitThatOneImageTellsIsNamed) {
   EXPECT_FALSE(channel_of_untold_unit(plain, plain));
 }
 
+TEST(Compare, WhatStandsBesideFilmsIsNotMissed) {
+  Image film = image({{"QE", {1}}, {"Variance.QE", {1}}, {"depth.Z", {3}}, {"light.key.QE", {1}}});
+  film.metadata["sensor_channels"] = "QE";
+  EXPECT_FALSE(uncompared_channels(film, image({{"QE", {1}}, {"A", {1}}})));
+  EXPECT_EQ(uncompared_channels(image({{"QE", {1}}, {"B", {1}}}), image({{"QE", {1}}, {"C", {1}}})),
+            "channels that only one of the images has are not compared: B, C");
+}
+
+TEST(Compare, AValueThatIsNotFiniteIsSaidToBeWhose) {
+  const Image sound = image({{"G", {1}}, {"R", {1}}});
+  const Image faulty = image({{"G", {1}}, {"R", {NAN}}});
+  const auto compared = [](const Image& a, const Image& b) {
+    try {
+      (void)compare_images(a, b);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(compared(faulty, sound), "the image has a value that is not finite (in channel R)");
+  EXPECT_EQ(compared(sound, faulty), "the reference has a value that is not finite (in channel R)");
+}
+
 TEST(Compare, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"Y", {1, 2}}}))), Error);
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"R", {1}}}))), Error);

@@ -15,6 +15,7 @@
 
 #include "io/part_file.h"
 #include "io/text.h"
+#include "sensor/film/recorded_error.h"
 #include "sensor/film/recorded_white.h"
 #include "transport/render/layers.h"
 #include "transport/render/part_films.h"
@@ -357,7 +358,7 @@ Image image_of(const RenderPart& part) {
   if (result.samples.empty()) return image;
   if (!image.metadata.contains(kAreasKey))
     image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
-  image.metadata["frame_mean_error"] = fmt::format("{}", frame_mean_error(result.film));
+  image.metadata[kFrameMeanErrorKey] = fmt::format("{}", frame_mean_error(result.film));
   return image;
 }
 

@@ -16,7 +16,11 @@ FilmColors film_colors(const Image& image) {
                   [&](const std::string& name) { return image.find(name) != nullptr; }))
     return {observer, Matrix3(), false, white};
   const std::vector<std::string> rgb{"R", "G", "B"};
-  if (!image.metadata.contains("channel.R")) return {rgb, rgb_to_xyz(kRec709), false, white};
+  if (!image.metadata.contains("channel.R")) {
+    const auto space = recorded_primaries(image);
+    return {rgb, rgb_to_xyz(space.value_or(kRec709)), false,
+            white || !space ? white : std::optional(space->white)};
+  }
   const auto matrix = image.metadata.find("to_xyz_d65");
   const bool mosaic = image.metadata.contains("mosaic");
   const auto names = image.metadata.find(mosaic ? "mosaic_channels" : "sensor_channels");

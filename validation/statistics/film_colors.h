@@ -20,7 +20,8 @@ struct FilmColors {
 
 /// X, Y, Z are the observer. R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own
 /// matrix `to_xyz_d65`, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic; without
-/// one that can be read, nothing is known of their colours. R, G, B of any other image are linear Rec.709.
+/// one that can be read, nothing is known of their colours. R, G, B of any other image are linear, of the
+/// primaries it tells (`recorded_primaries`) or of Rec.709.
 [[nodiscard]] FilmColors film_colors(const Image& image);
 
 }  // namespace abbe

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/judge/appearance.h"
@@ -26,6 +27,7 @@ namespace abbe {
 namespace {
 
 struct Pair {
+  std::string channel;
   const std::vector<float>& image;
   const std::vector<float>& reference;
   const ImageChannel* variance;  // of the reference, if it has one
@@ -54,6 +56,14 @@ std::vector<std::string> common_planes(const Image& image, const Image& referenc
   return planes;
 }
 
+// The planes that an image has and another has not, without the alpha of pictures.
+std::vector<std::string> planes_without(const Image& image, const Image& other) {
+  std::vector<std::string> planes = intensities(plane_names(image));
+  std::erase_if(planes,
+                [&](const std::string& plane) { return plane == "A" || other.find(plane) != nullptr; });
+  return planes;
+}
+
 void require_same_unit(const Image& image, const Image& reference, const std::string& plane) {
   for (const std::string& channel : channels_in(plane, reference)) {
     const auto a = unit_of(image, channel);
@@ -70,8 +80,8 @@ std::vector<Pair> common_channels(const Image& image, const Image& reference) {
   std::vector<Pair> pairs;
   for (const std::string& plane : common_planes(image, reference)) {
     require_same_unit(image, reference, plane);
-    pairs.push_back(
-        {image.find(plane)->values, reference.find(plane)->values, reference.find(variance_of(plane))});
+    pairs.push_back({plane, image.find(plane)->values, reference.find(plane)->values,
+                     reference.find(variance_of(plane))});
   }
   if (pairs.empty()) throw Error(ErrorCode::input, "", "the images have no channel in common");
   return pairs;
@@ -82,14 +92,21 @@ struct Means {
   double reference = 0;
 };
 
+// `sum` and the values of a channel, which a message calls one of `whose`.
+double added(double sum, const std::vector<float>& values, const char* whose, const std::string& channel) {
+  sum = std::accumulate(values.begin(), values.end(), sum);
+  if (!std::isfinite(sum))
+    throw Error(ErrorCode::input, "",
+                fmt::format("{} has a value that is not finite (in channel {})", whose, channel));
+  return sum;
+}
+
 Means means(const std::vector<Pair>& pairs) {
   Means sum;
   for (const Pair& pair : pairs) {
-    sum.image = std::accumulate(pair.image.begin(), pair.image.end(), sum.image);
-    sum.reference = std::accumulate(pair.reference.begin(), pair.reference.end(), sum.reference);
+    sum.image = added(sum.image, pair.image, "the image", pair.channel);
+    sum.reference = added(sum.reference, pair.reference, "the reference", pair.channel);
   }
-  if (!std::isfinite(sum.image) || !std::isfinite(sum.reference))
-    throw Error(ErrorCode::input, "", "an image has a value that is not finite");
   const double count = static_cast<double>(pairs.size() * pairs.front().reference.size());
   return {sum.image / count, sum.reference / count};
 }
@@ -167,6 +184,14 @@ std::optional<std::string> channel_of_untold_unit(const Image& image, const Imag
     for (const std::string& channel : channels_in(plane, reference))
       if (unit_of(image, channel).has_value() != unit_of(reference, channel).has_value()) return channel;
   return std::nullopt;
+}
+
+std::optional<std::string> uncompared_channels(const Image& image, const Image& reference) {
+  std::vector<std::string> alone = planes_without(image, reference);
+  const std::vector<std::string> of_reference = planes_without(reference, image);
+  alone.insert(alone.end(), of_reference.begin(), of_reference.end());
+  if (alone.empty()) return std::nullopt;
+  return fmt::format("channels that only one of the images has are not compared: {}", fmt::join(alone, ", "));
 }
 
 std::vector<XYZ> tristimuli(const Image& image) {

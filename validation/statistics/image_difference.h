@@ -40,6 +40,10 @@ struct Comparison {
 /// different ones; files of other renderers tell none.
 [[nodiscard]] std::optional<std::string> channel_of_untold_unit(const Image& image, const Image& reference);
 
+/// That channels are not compared since only one of the images has them, as a sentence with their names;
+/// nothing where there are none. Variances, what films have beside their planes, and alpha do not count.
+[[nodiscard]] std::optional<std::string> uncompared_channels(const Image& image, const Image& reference);
+
 /// Colour differences of images with X, Y, Z or R, G, B, each read as `film_colors` has it: both scaled so
 /// that the 99th percentile of the reference's Y is 100, and seen against a D65 white of Y = 100, to which
 /// `white` is adapted: in images that tell a white the reference's or else the image's, or in both that which

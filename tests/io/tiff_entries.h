@@ -1,0 +1,61 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace abbe::test {
+
+/// The bytes of a little-endian TIFF with entries of its first folder made others, as other programs write
+/// them.
+struct TiffEntries {
+  std::string bytes;
+
+  /// Makes the entry of `tag` one of `as`, which holds a number of 16 bits.
+  void set_short(std::uint16_t tag, std::uint16_t as, std::uint16_t value) {
+    constexpr std::uint32_t kShort = 3;
+    set(entry_of(tag), {{2, as}, {2, kShort}, {4, 1}, {4, value}});
+  }
+  /// Makes the numbers of `tag` these of 32 bits, behind all else.
+  void set_longs(std::uint16_t tag, const std::vector<std::uint32_t>& values) {
+    constexpr std::uint32_t kLong = 4;
+    const auto at = static_cast<std::uint32_t>(bytes.size());
+    set(entry_of(tag), {{2, tag}, {2, kLong}, {4, static_cast<std::uint32_t>(values.size())}, {4, at}});
+    bytes.resize(at + 4 * values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) set(at + 4 * i, {{4, values[i]}});
+  }
+  /// The value of an entry, or where its values are.
+  [[nodiscard]] std::uint32_t value_of(std::uint16_t tag) const { return number(entry_of(tag) + 8, 4); }
+  /// Makes the bytes at a place those of a number of 32 bits.
+  void set_number(std::size_t at, std::uint32_t value) { set(at, {{4, value}}); }
+
+ private:
+  struct Field {
+    std::size_t size;
+    std::uint32_t value;
+  };
+
+  [[nodiscard]] std::uint32_t number(std::size_t at, std::size_t size) const {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < size; ++i)
+      value |= static_cast<std::uint32_t>(static_cast<std::uint8_t>(bytes.at(at + i))) << (8 * i);
+    return value;
+  }
+  void set(std::size_t at, const std::vector<Field>& fields) {
+    for (const Field& field : fields)
+      for (std::size_t i = 0; i < field.size; ++i, ++at)
+        bytes.at(at) = static_cast<char>(field.value >> (8 * i) & 0xFFU);
+  }
+  [[nodiscard]] std::size_t entry_of(std::uint16_t tag) const {
+    constexpr std::size_t kEntry = 12;
+    const std::size_t folder = number(4, 4);
+    for (std::size_t i = 0; i < number(folder, 2); ++i)
+      if (const std::size_t at = folder + 2 + kEntry * i; number(at, 2) == tag) return at;
+    ADD_FAILURE() << "no tag " << tag;
+    return folder + 2;
+  }
+};
+
+}  // namespace abbe::test
