@@ -14,6 +14,7 @@
 #include "description/doors/shared/materials.h"
 #include "description/load.h"
 #include "description/scene_schema.h"
+#include "io/extension.h"
 #include "io/schema/write.h"
 
 namespace abbe {
@@ -31,10 +32,7 @@ constexpr std::array<Format, 4> kFormats{{{".glb", doors::read_gltf_scene},
                                           {".xml", doors::read_mitsuba}}};
 
 const Format* format_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  const auto* found = std::ranges::find(kFormats, extension, &Format::extension);
+  const auto* found = std::ranges::find(kFormats, extension_of(path), &Format::extension);
   return found == kFormats.end() ? nullptr : found;
 }
 

@@ -12,17 +12,13 @@
 
 #include "description/meshes/gzip.h"
 #include "description/meshes/mesh_formats.h"
-#include "io/text.h"
+#include "io/extension.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe {
 namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
-
-std::string extension_of(const std::filesystem::path& path) {
-  return lower_case(path.extension().string());
-}
 
 bool is_packed_ply(const std::filesystem::path& path) {
   return extension_of(path) == ".gz" && extension_of(path.stem()) == ".ply";

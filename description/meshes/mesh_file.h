@@ -42,13 +42,14 @@ enum class FileCoordinates { ignored, wanted };
 /// Whether files of this extension may bring materials along.
 [[nodiscard]] bool brings_materials(const std::filesystem::path& path);
 
-/// Reads a PLY (ASCII or binary), OBJ, glTF or GLB file, told by its extension; convex polygons are cut into
+/// Reads a PLY (ASCII or binary), OBJ, glTF or GLB file, told by its extension; polygons are cut into
 /// triangles. A submesh whose triangles do not all have texture coordinates has none; where some have vertex
 /// normals, the others get their own normal at each corner. Warns of lights and cameras, which are not read.
 /// Reports, as input errors at `where`, a file that is missing, not regular or too large, anything malformed,
-/// a count that promises more than the file holds (before anything is allocated for it), a name of another
-/// file that leaves the folder, and whatever `check_mesh` reports. While it reads, `inputs` counts the bytes
-/// of the files and what is stored of the meshes: throws Error{resource} for what is too large.
+/// a flat polygon whose edges cross, one of more than 16384 corners that is not convex, a count that promises
+/// more than the file holds (before anything is allocated for it), a name of another file that leaves the
+/// folder, and whatever `check_mesh` reports. While it reads, `inputs` counts the bytes of the files and what
+/// is stored of the meshes: throws Error{resource} for what is too large.
 [[nodiscard]] std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path,
                                                      FileMaterials materials, const SourcePosition& where,
                                                      Diagnostics& diagnostics,

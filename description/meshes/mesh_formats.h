@@ -51,11 +51,18 @@ struct MeshReading {
 /// Bytes of a file that `reading`'s file names, which must lie beside it or below.
 [[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 
-/// Cuts a convex polygon into the fan around its first corner; each corner may be anything.
+/// Cuts a polygon of three corners or more into triangles, two fewer than it has corners, which wind as it
+/// does and name its corners by their position. They lie around the first corner where none turns back seen
+/// along the polygon's normal, as in any convex one, and where a polygon that is not flat folds over itself;
+/// else there is one for each ear. Told, as text, are a flat polygon whose edges cross and one that is not
+/// convex with more than 16384 corners.
+[[nodiscard]] std::optional<std::string> cut_polygon(const std::vector<Imath::V3d>& corners,
+                                                     std::vector<Triangle>& triangles);
+/// Adds to `list` what a polygon has at the corners of triangles that `cut_polygon` has made of it.
 template <typename Corner>
-void add_fan(const std::vector<Corner>& polygon, std::vector<std::array<Corner, 3>>& triangles) {
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+void add_corners(const std::vector<Corner>& polygon, const std::vector<Triangle>& triangles,
+                 std::vector<std::array<Corner, 3>>& list) {
+  for (const auto& [a, b, c] : triangles) list.push_back({polygon[a], polygon[b], polygon[c]});
 }
 
 /// A file's normal of unit length; zero for one that is zero or not finite.

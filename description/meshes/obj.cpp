@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -86,6 +87,26 @@ void erase_comments(std::string& bytes) {
   bytes.resize(kept);
 }
 
+// Puts lines that a "\" at the end continues into one, and as many ends of lines behind it, so that lines
+// keep their numbers.
+void join_continued_lines(std::string& bytes) {
+  std::size_t kept = 0;
+  std::size_t joined = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const std::string_view rest = std::string_view(bytes).substr(i);
+    if (rest.starts_with("\\\n") || rest.starts_with("\\\r\n")) {
+      i = bytes.find('\n', i);
+      bytes[kept++] = ' ';
+      ++joined;
+      continue;
+    }
+    bytes[kept++] = bytes[i];
+    if (bytes[i] != '\n') continue;
+    for (; joined > 0; --joined) bytes[kept++] = '\n';
+  }
+  bytes.resize(kept);
+}
+
 // Numbers at the start of a text. The library takes for 0 what is none.
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(std::string_view text) {
@@ -143,8 +164,49 @@ std::size_t position(const Obj& obj, const char* what, std::int64_t named, const
   return static_cast<std::size_t>(number - 1);
 }
 
+// The library takes the whole number at the start of a text, or 0, for what is none.
+bool is_index(std::string_view text) {
+  int index = 0;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool is_corner(std::string_view word) {
+  for (int part = 0; part < 3; ++part) {
+    const std::size_t slash = std::min(word.find('/'), word.size());
+    const std::string_view index = word.substr(0, slash);
+    if (!is_index(index) && (part == 0 || !index.empty())) return false;
+    if (slash == word.size()) return true;
+    word.remove_prefix(slash + 1);
+  }
+  return false;
+}
+
+void require_corners(const Obj& obj) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::string line = obj.rest();
+  for (std::size_t begin = 0, end = 0; begin < line.size(); begin = line.find_first_not_of(kBlanks, end)) {
+    end = std::min(line.find_first_of(kBlanks, begin), line.size());
+    const std::string word = line.substr(begin, end - begin);
+    if (!is_corner(word))
+      obj.refuse(fmt::format(
+          "a corner of a face (got \"{}\", allowed v, v/vt, v//vn and v/vt/vn of whole numbers)", word));
+  }
+}
+
+// The triangles of a face, by position of its corners.
+std::vector<Triangle> triangles_of(const Obj& obj, const std::vector<std::uint32_t>& polygon) {
+  std::vector<Imath::V3d> corners;
+  for (const std::uint32_t vertex : polygon) corners.push_back(obj.vertices[vertex]);
+  std::vector<Triangle> triangles;
+  if (const auto fault = cut_polygon(corners, triangles)) obj.refuse(*fault);
+  return triangles;
+}
+
 void take_face(void* user, tinyobj::index_t* indices, int count) {
   Obj& obj = *static_cast<Obj*>(user);
+  require_corners(obj);
   if (count < 3) obj.refuse(fmt::format("a face of {} corners (allowed 3 or more)", count));
   std::vector<std::uint32_t> polygon;
   std::vector<Imath::V2f> coordinates;
@@ -162,17 +224,17 @@ void take_face(void* user, tinyobj::index_t* indices, int count) {
     }
   }
   Faces& faces = obj.faces[obj.material];
-  const std::size_t more = polygon.size() - 2;
+  const std::vector<Triangle> cut = triangles_of(obj, polygon);
   if (normals.size() == polygon.size()) {
-    obj.reading.make_room(faces.normals, faces.triangles.size() - faces.normals.size() + more);
+    obj.reading.make_room(faces.normals, faces.triangles.size() - faces.normals.size() + cut.size());
     faces.normals.resize(faces.triangles.size());
-    add_fan(normals, faces.normals);
+    add_corners(normals, cut, faces.normals);
   }
-  obj.reading.make_room(faces.triangles, more);
-  add_fan(polygon, faces.triangles);
+  obj.reading.make_room(faces.triangles, cut.size());
+  add_corners(polygon, cut, faces.triangles);
   if (coordinates.size() != polygon.size()) return;
-  obj.reading.make_room(faces.coordinates, more);
-  add_fan(coordinates, faces.coordinates);
+  obj.reading.make_room(faces.coordinates, cut.size());
+  add_corners(coordinates, cut, faces.coordinates);
 }
 
 // A name may have blanks and "#" in it, so that a comment begins where no material would be named otherwise.
@@ -293,6 +355,7 @@ Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces, MeshReading& 
 
 bool read_obj(std::string&& bytes, MeshReading& reading) {
   erase_comments(bytes);
+  join_continued_lines(bytes);
   Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}, {}};
   MaterialFiles files(obj);
   const bool wanted = reading.materials != FileMaterials::ignored;

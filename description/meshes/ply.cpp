@@ -18,9 +18,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "description/meshes/mesh_formats.h"
 
@@ -34,7 +36,13 @@ using Polygons = std::vector<std::vector<std::uint32_t>>;
 struct Header {
   std::size_t vertices = 0;
   std::size_t faces = 0;
-  int normals = 0;  ///< How many of nx, ny and nz they have.
+  std::vector<std::pair<std::string, std::string>> numbers = {};  ///< Of each vertex: name and type.
+
+  [[nodiscard]] bool has(std::string_view name) const {
+    return std::any_of(numbers.begin(), numbers.end(),
+                       [&](const auto& number) { return number.first == name; });
+  }
+  [[nodiscard]] bool has_normals() const { return has("nx") || has("ny") || has("nz"); }
 };
 
 bool is_vertices(std::string_view element) {
@@ -42,6 +50,23 @@ bool is_vertices(std::string_view element) {
 }
 bool is_faces(std::string_view element) {
   return element == "face" || element == "faces";
+}
+
+// What is wrong with the numbers of vertices: the library reads 0 for a position that is not there, and no
+// whole numbers.
+std::optional<std::string> vertex_fault(const Header& header) {
+  constexpr std::array<std::string_view, 6> kRead{"x", "y", "z", "nx", "ny", "nz"};
+  constexpr std::array<std::string_view, 4> kFloating{"float", "float32", "double", "float64"};
+  std::vector<std::string> names;
+  for (const auto& [name, type] : header.numbers) {
+    names.push_back(name);
+    if (std::find(kRead.begin(), kRead.end(), name) != kRead.end() &&
+        std::find(kFloating.begin(), kFloating.end(), type) == kFloating.end())
+      return fmt::format("the type of {} (got {}, allowed {})", name, type, fmt::join(kFloating, ", "));
+  }
+  if (header.has("x") && header.has("y") && header.has("z")) return std::nullopt;
+  return fmt::format("a vertex needs x, y and z (got {})",
+                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
 }
 
 // Nothing unless the header has what the library takes for granted: an element before any property, known
@@ -72,13 +97,14 @@ std::optional<Header> sound_header(std::istream& stream) {
     } else if (key == "property") {
       std::string count = "char";
       std::string name;
-      if (type == "list") words >> count >> type;
+      const bool list = type == "list";
+      if (list) words >> count >> type;
       words >> name;
       if (elements == 0 || std::find(kTypes.begin(), long_types, count) == long_types ||
           std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end())
         return std::nullopt;
       ++properties;
-      if (vertices && (name == "nx" || name == "ny" || name == "nz")) ++header.normals;
+      if (vertices && !list) header.numbers.emplace_back(name, type);
     }
   }
   return std::nullopt;
@@ -133,7 +159,8 @@ bool read(std::istream& stream, const Header& header, Points& points, Polygons& 
 
 // Gives the corners of the triangles the normals of their vertices.
 bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshReading& reading) {
-  if (header.normals != 3) return reading.refuse("a normal needs nx, ny and nz");
+  if (!header.has("nx") || !header.has("ny") || !header.has("nz"))
+    return reading.refuse("a normal needs nx, ny and nz");
   take_memory(header.vertices, 0, bytes.size(), reading);
   reading.make_room(mesh.normals, mesh.triangles.size());
   call_normals_positions(bytes);
@@ -154,6 +181,21 @@ bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshRea
   return true;
 }
 
+bool cut_polygons(const Polygons& polygons, Mesh& mesh, MeshReading& reading) {
+  std::vector<Imath::V3d> corners;
+  std::vector<Triangle> cut;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (polygons[i].size() < 3) continue;
+    corners.clear();
+    for (const std::uint32_t vertex : polygons[i])  // one that does not exist is reported with the triangle
+      corners.push_back(vertex < mesh.vertices.size() ? mesh.vertices[vertex] : Imath::V3d(NAN));
+    if (const auto fault = cut_polygon(corners, cut))
+      return reading.refuse(fmt::format("face {}: {}", i, *fault));
+    add_corners(polygons[i], cut, mesh.triangles);
+  }
+  return true;
+}
+
 }  // namespace
 
 bool read_ply(std::string&& bytes, MeshReading& reading) {
@@ -161,6 +203,7 @@ bool read_ply(std::string&& bytes, MeshReading& reading) {
   stream.imbue(std::locale::classic());
   const auto header = sound_header(stream);
   if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
+  if (const auto fault = vertex_fault(*header)) return reading.refuse("malformed PLY header: " + *fault);
   take_memory(header->vertices, header->faces, stream.view().size(), reading);
   stream.seekg(0);
   Points points;
@@ -173,9 +216,9 @@ bool read_ply(std::string&& bytes, MeshReading& reading) {
   std::size_t triangles = 0;
   for (const auto& polygon : polygons) triangles += std::max(polygon.size(), std::size_t{2}) - 2;
   reading.make_room(mesh.triangles, triangles);
-  for (const auto& polygon : polygons) add_fan(polygon, mesh.triangles);
+  if (!cut_polygons(polygons, mesh, reading)) return false;
   if (mesh.triangles.empty()) return reading.refuse("no faces");
-  if (header->normals > 0 && !read_normals(std::move(stream).str(), *header, mesh, reading)) return false;
+  if (header->has_normals() && !read_normals(std::move(stream).str(), *header, mesh, reading)) return false;
   reading.file.submeshes.push_back({std::move(mesh), std::nullopt});
   return true;
 }

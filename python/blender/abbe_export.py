@@ -190,12 +190,17 @@ class Shading:
         for name in ["Subsurface", "Specular Tint", "Anisotropic", "Transmission Roughness"] + ["Sheen Tint"] * (self.value(node, "Sheen") > 0):
             self.note(f"{name} of a Principled BSDF has no counterpart here: dropped", self.value(node, name) != 0)
         self.note("surfaces have no holes here: alpha is dropped", node.inputs["Alpha"].is_linked or node.inputs["Alpha"].default_value != 1)
-        transmission = self.value(node, "Transmission")
-        if transmission > 0:
-            self.note("what transmits in part transmits all here", transmission != 1)
+        metallic, transmission = (min(max(self.value(node, name), 0), 1) for name in ("Metallic", "Transmission"))
+        share = transmission * (1 - metallic)  # as Cycles weighs them, with (1 - transmission)(1 - metallic) of the diffuse surface and its sheen
+        if share > 0:
+            self.note("what transmits in part transmits all here", share != 1)
+            dropped = {"Metallic": metallic, "Sheen": (1 - transmission) * self.value(node, "Sheen"), "Clearcoat": self.value(node, "Clearcoat")}
+            for name, weight in dropped.items():
+                self.note(f"{name} of a Principled BSDF that transmits has no counterpart here: dropped", weight > 0)
             return self.glass(node, "Base Color", "GGX")[0], emission
         self.note("a reflectance along the normal above 0.08 is cut to that", self.value(node, "Specular") > 1)
-        model = {key: tidy(min(self.value(node, key.capitalize()), 1)) for key in ("metallic", "roughness", "specular", "sheen", "clearcoat")}
+        model = {"metallic": tidy(metallic)}
+        model.update({key: tidy(min(self.value(node, key.capitalize()), 1)) for key in ("roughness", "specular", "sheen", "clearcoat")})
         model["clearcoat_gloss"] = tidy(1 - self.value(node, "Clearcoat Roughness"))
         return self.in_relief(node, {"principled": {"base_color": self.reflectance(node, "Base Color"), **model}}), emission
 

@@ -250,9 +250,11 @@ class Kinds(Exported):
         for name, known in {"mixed": {"mixture": [{"material": "mixed part 1", "weight": 0.75}]}, "mixed part 1": {"diffuse": {"reflectance": 0.8}},
                             "tinted": {"dielectric": {"ior": 1.45, "roughness": {"alpha": 0.25, "distribution": "beckmann"}, "absorption_per_m": 2}},
                             "metal": {"conductor": {"ior": "Al_Rakic"}}, "mirror": {"mirror": {"reflectance": 0.9}}, "fluid": {"dielectric": {"ior": 1.33}},
+                            "bottle": {"dielectric": {"ior": 1.45}},
                             "glossy": {"conductor": {"ior": {"n": 1, "k": 2}, "roughness": {"alpha": 0.25, "distribution": "ggx"}}},
                             "velvet": {"diffuse": {"reflectance": 0.8}}, "default": {"diffuse": {"reflectance": 0.8}}}.items():
             self.assertEqual(materials[name], known, name)
+        self.assertEqual((materials["chrome"]["principled"]["metallic"], materials["chrome"]["principled"]["base_color"]), (1, 0.5), "a metal transmits nothing")
         self.assertEqual(materials["relief"]["normal_map"], {"image": "kinds_files/texel.png", "filter": "bilinear", "wrap": "clamp", "scale": [3, 1], "offset": [0, 0]})
         shapes = {shape["name"]: shape for shape in scene["shapes"]}
         self.assertEqual([shapes[name]["mesh"] for name in ("shape0", "shape1")], ["kinds_files/shape0.obj", "kinds_files/shape1.ply"])
@@ -260,9 +262,10 @@ class Kinds(Exported):
         self.assertAlmostEqual(shapes["shape10"]["emission"]["luminance"], 2 * 190.41 * (0.2126 + 0.5 * 0.7874), delta=0.05)
         told = "\n".join(self.facts["kinds"]["notes"])
         for part in ('view "Filmic"', "triangles of a smooth body as they are: it needs many (2 times)", 'material "wax": warning: Subsurface', "alpha is dropped",
-                     'material "fluid": warning: the colour of a clear surface', "Velvet BSDF", 'object "fog": warning: volumes', "points and lines", "elliptic"):
+                     'material "fluid": warning: the colour of a clear surface', "Velvet BSDF", 'object "fog": warning: volumes', "points and lines", "elliptic",
+                     'material "bottle": warning: Clearcoat of a Principled BSDF that transmits'):
             self.assertIn(part, told)
-        self.assertEqual(len(self.facts["kinds"]["notes"]), 13)
+        self.assertEqual(len(self.facts["kinds"]["notes"]), 14)
 
 
 class Faults(Exported):

@@ -189,6 +189,30 @@ TEST_F(MitsubaTest, WhatImagesSayAndIsNotSoHereIsTold) {
   EXPECT_TRUE(tells("unknown wrap mode \"miror\"; did you mean \"mirror\"?")) << told_;
 }
 
+TEST_F(MitsubaTest, ReliefsNeedATexture) {
+  for (const std::string wrapper : {"bumpmap", "normalmap"}) {
+    EXPECT_FALSE(convert("a.xml", whole("<shape type=\"sphere\"><bsdf type=\"" + wrapper +
+                                        "\"><bsdf type=\"diffuse\"/></bsdf></shape>")));
+    EXPECT_TRUE(tells("a.xml:3:23: error: \"" + wrapper + "\" needs a texture within")) << told_;
+  }
+}
+
+TEST_F(MitsubaTest, FacetsAreOfAKnownDistribution) {
+  const auto rough = [](const std::string& distribution) {
+    return R"(<bsdf type="roughconductor"><string name="distribution" value=")" + distribution +
+           "\"/></bsdf>";
+  };
+  const auto shape = [&](const std::string& distribution) {
+    const auto metal = material<spec::Conductor>(rough(distribution));
+    const auto* facets = std::get_if<spec::Facets>(&metal.roughness.value().value);
+    return facets ? facets->distribution : FacetShape::ggx;
+  };
+  EXPECT_EQ(shape("Beckmann"), FacetShape::beckmann);  // in any case there
+  EXPECT_EQ(shape("ggx"), FacetShape::ggx);
+  EXPECT_FALSE(convert("a.xml", whole("<shape type=\"sphere\">" + rough("phong") + "</shape>")));
+  EXPECT_TRUE(tells("error: unknown distribution \"phong\"")) << told_;
+}
+
 TEST_F(MitsubaTest, WhatSpectraSayIsUsedOrTold) {
   const spec::Scene made = scene(R"(<emitter type="constant"><spectrum name="radiance" type="uniform">
       <float name="value" value="2"/><float name="wavelength_min" value="500"/></spectrum></emitter>)");

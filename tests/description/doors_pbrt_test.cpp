@@ -1,8 +1,12 @@
 // What scenes of pbrt in the wild say and small examples do not.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "io/exr.h"
 #include "pbrt_scenes.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {
@@ -29,6 +33,43 @@ TEST_F(PbrtTest, MagnesiaIsANumber) {
   EXPECT_EQ(index.n, 1.7375);
   EXPECT_EQ(index.k, 0);
   EXPECT_TRUE(tells("no table of MgO is shipped")) << told_;
+}
+
+void expect_at_550(const spec::Ior& index, double n, double k) {
+  const auto& table = std::get<spec::TableIor>(index.value);
+  const auto found = std::ranges::find(table.wavelength_nm, 550);
+  ASSERT_NE(found, table.wavelength_nm.end());
+  const auto i = static_cast<std::size_t>(found - table.wavelength_nm.begin());
+  EXPECT_NEAR(table.n.at(i), n, 1e-9);
+  EXPECT_NEAR(table.k.value().at(i), k, 1e-9);
+}
+
+TEST_F(PbrtTest, MetalsTakeFromCopperWhatTheyDoNotSay) {
+  const auto index = [&](const std::string& parameters) {
+    return material<spec::Conductor>("Material \"conductor\" " + parameters).ior;
+  };
+  const RefractiveIndex copper = index_of("Cu_Johnson");
+  const RefractiveIndex silver = index_of("Ag_Johnson");
+  EXPECT_EQ(std::get<std::string>(index("\"spectrum k\" \"metal-Cu-k\"").value), "Cu_Johnson");
+  expect_at_550(index("\"float eta\" 1.5"), 1.5, copper.k(550));
+  expect_at_550(index("\"float k\" 3"), copper.n(550), 3);
+  expect_at_550(index("\"spectrum eta\" \"metal-Ag-eta\""), silver.n(550), copper.k(550));
+  expect_at_550(index("\"spectrum eta\" \"metal-Cu-eta\" \"spectrum k\" \"metal-Ag-k\""), copper.n(550),
+                silver.k(550));
+  expect_at_550(index("\"float eta\" 1.5 \"spectrum k\" \"metal-Ag-k\""), 1.5, silver.k(550));
+}
+
+TEST_F(PbrtTest, SpectraMayBeThoseOfMetalsAndGlasses) {
+  expect_at_550(material<spec::Conductor>(
+                    "Material \"conductor\" \"spectrum eta\" \"glass-BK7\" \"spectrum k\" \"metal-MgO-k\"")
+                    .ior,
+                index_of("N-BK7").n(550), 0);
+  expect_at_550(
+      material<spec::Dielectric>("Material \"dielectric\" \"spectrum eta\" \"metal-Cu-eta\"").ior.ior,
+      index_of("Cu_Johnson").n(550), 0);
+  expect_refused(
+      {{"no end", kBegin + "Material \"conductor\" \"spectrum eta\" \"metal-Ag\"\nShape \"sphere\"\n",
+        "a.pbrt:5:22: error: unknown spectrum \"metal-Ag\"; did you mean \"metal-Ag-k\"?"}});
 }
 
 TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
@@ -185,6 +226,60 @@ TEST_F(PbrtTest, WhatIntegratorsSayIsOfNoiseOrTold) {
   EXPECT_TRUE(tells("\"regularize\" of integrator has no counterpart here: dropped")) << told_;
   EXPECT_FALSE(tells("rrthreshold")) << told_;
   EXPECT_FALSE(tells("lightsampler")) << told_;
+}
+
+TEST_F(PbrtTest, SamplersSayHowMany) {
+  const auto samples = [&](const std::string& sampler) {
+    const auto made = convert("a.pbrt", "Sampler " + sampler + "\n" + kBegin);
+    EXPECT_TRUE(made) << told_;
+    return made ? made->render->samples : 0;
+  };
+  EXPECT_EQ(samples("\"stratified\" \"integer xsamples\" 16 \"integer ysamples\" 8 \"bool jitter\" false"),
+            128);
+  EXPECT_EQ(samples("\"stratified\""), 16);
+  EXPECT_EQ(samples("\"independent\""), 4);
+  EXPECT_EQ(samples("\"halton\""), 16);
+  EXPECT_FALSE(tells("sampler")) << told_;
+  EXPECT_EQ(samples("\"halton\" \"integer xsamples\" 8"), 16);
+  EXPECT_TRUE(tells("\"xsamples\" of sampler has no counterpart here: dropped")) << told_;
+  expect_refused(
+      {{"more than an int holds",
+        "Sampler \"stratified\" \"integer xsamples\" 1000000000 \"integer ysamples\" 1000000000\n" + kBegin,
+        "/render/samples: error: expected an integer (got 1000000000, allowed [1, "}});
+}
+
+TEST_F(PbrtTest, WiderFiltersAreTold) {
+  const auto told = [&](const std::string& filter) {
+    EXPECT_TRUE(convert("a.pbrt", "PixelFilter " + filter + "\n" + kBegin)) << told_;
+    return tells("a pixel filter has no counterpart here: a box of one pixel");
+  };
+  EXPECT_TRUE(told("\"gaussian\""));
+  EXPECT_TRUE(told("\"box\" \"float xradius\" 3"));
+  EXPECT_TRUE(told("\"box\" \"float yradius\" 3"));
+  EXPECT_FALSE(told("\"box\""));
+  EXPECT_FALSE(told("\"box\" \"float xradius\" 0.5 \"float yradius\" 0.5"));
+}
+
+TEST_F(PbrtTest, CornersAreThoseOfWholeFaces) {
+  const std::string four = "\"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0]";
+  const auto mesh = [&](const std::string& text) {
+    return std::get<spec::InlineMesh>(shape<spec::MeshBody>(text).surface.value);
+  };
+  const std::string three = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]\n";
+  EXPECT_EQ(mesh(three).triangles.size(), 1U);
+  EXPECT_FALSE(tells("indices")) << told_;
+  EXPECT_EQ(mesh("Shape \"trianglemesh\" " + four + " \"integer indices\" [0 1 2 3 2]\n").triangles.size(),
+            1U);
+  EXPECT_TRUE(tells("a.pbrt:5:1: ")) << told_;
+  EXPECT_TRUE(tells("indices behind the last whole face of a shape \"trianglemesh\" are dropped")) << told_;
+  const std::string five = "\"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0  2 2 0]\n";
+  expect_refused(
+      {{"four points", kBegin + "Shape \"trianglemesh\" " + four + "\n",
+        "a.pbrt:5:1: error: a shape \"trianglemesh\" needs \"indices\" unless it has 3 points (got 4)"},
+       {"five points", kBegin + "Shape \"bilinearmesh\" " + five,
+        "a.pbrt:5:1: error: a shape \"bilinearmesh\" needs \"indices\" unless it has 4 points (got 5)"},
+       {"no points", kBegin + "Shape \"trianglemesh\" \"integer indices\" [0 1 2]\n",
+        "a.pbrt:5:1: error: a shape \"trianglemesh\" needs \"P\""}});
 }
 
 TEST_F(PbrtTest, PatchesKeepTheirCoordinates) {

@@ -1,4 +1,10 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
+
+#include <fmt/format.h>
 
 #include "mesh_files.h"
 #include "scene/shapes/mesh.h"
@@ -15,6 +21,19 @@ using test::write;
 class ObjTest : public test::MeshFileTest {};
 
 constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
+// A wheel of as many corners, each second of which is a tooth's.
+std::string gear(int corners) {
+  std::string text;
+  std::string face = "f";
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * M_PI * i / corners;
+    const double radius = 1 + 0.5 * (i % 2);
+    text += fmt::format("v {} {} 0\n", radius * std::cos(angle), radius * std::sin(angle));
+    face += fmt::format(" {}", i + 1);
+  }
+  return text + face + "\n";
+}
 
 TEST_F(ObjTest, ReadsFaces) {
   const Mesh cut =
@@ -35,6 +54,41 @@ TEST_F(ObjTest, CommentsEndLines) {
   ASSERT_EQ(file.submeshes.size(), 2U);
   EXPECT_EQ(file.submeshes[0].mesh.vertices[1], Imath::V3d(1, 0, 0));
   EXPECT_EQ(file.submeshes[1].mesh.triangles.size(), 1U);
+}
+
+TEST_F(ObjTest, LinesGoOnBehindABackslash) {
+  const std::string text = "# C:\\objects\\\nv 0 0 0\nv 1 0 0\nv 1 1 \\\n 0\nv 0 1 0\nf 1 2 \\\r\n3\\\n4\n";
+  EXPECT_DOUBLE_EQ(area(mesh("a.obj", text)), 1);
+  expect_refused("a.obj", {{"a line behind it", text + "f 1 2 9\n", ErrorCode::input,
+                            "line 10: no such vertex (got 9, allowed [1, 4])"}});
+}
+
+TEST_F(ObjTest, PolygonsNeedNotBeConvex) {
+  const std::string dented = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 0.2 0\nv 0 1 0\n";
+  for (const char* face : {"f 1 2 3 4 5", "f 2 3 4 5 1", "f 3 4 5 1 2", "f 4 5 1 2 3", "f 5 1 2 3 4"}) {
+    SCOPED_TRACE(face);
+    const Mesh cut = mesh("a.obj", dented + face);
+    EXPECT_EQ(cut.triangles.size(), 3U);
+    EXPECT_NEAR(area(cut), 1.2, 1e-12);
+    for (std::size_t i = 0; i < cut.triangles.size(); ++i) EXPECT_GT(area_vector(cut, i).z, 0);
+  }
+  const Mesh slit = mesh("a.obj",
+                         "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\n"
+                         "f 1 2 3 4 1 5 6 7 8 5\n");
+  EXPECT_NEAR(area(slit), 12, 1e-12) << "a slit leads to a hole";
+  const Mesh shaded = mesh("a.obj", dented +
+                                        "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nvn -1 0 0\nvn 0 -1 0\n"
+                                        "f 1//1 2//2 3//3 4//4 5//5\n");
+  const std::vector<Imath::V3f> normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  for (std::size_t i = 0; i < shaded.triangles.size(); ++i)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      EXPECT_EQ(shaded.normals.at(i).at(corner), normals.at(shaded.triangles[i].at(corner)));
+}
+
+TEST_F(ObjTest, ABentQuadrilateralIsCutAtItsFirstCorner) {
+  const std::vector<std::array<std::uint32_t, 3>> fan{{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(mesh("a.obj", "v 0 0 0\nv 1 0 1\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n").triangles, fan);
+  EXPECT_EQ(mesh("a.obj", "v 0 0 0\nv 1 1 1\nv 1 0 0\nv 0 1.5 0.3\nf 1 2 3 4\n").triangles, fan) << "twisted";
 }
 
 TEST_F(ObjTest, BringsItsMaterials) {
@@ -113,7 +167,16 @@ TEST_F(ObjTest, RefusesBadFiles) {
         "line 5: no such vertex (got 5, allowed [1, 4])"},
        {"an index before", std::string(kCorners) + "f 1 2 -5\n", in, "no such vertex (got -5"},
        {"zero", std::string(kCorners) + "f 1 2 0\n", in, "no such vertex (got 0"},
-       {"no number", std::string(kCorners) + "f 1 2 x\n", in, "no such vertex (got 0"},
+       {"no number", std::string(kCorners) + "f 1 2 x\n", in,
+        "line 5: a corner of a face (got \"x\", allowed v, v/vt, v//vn and v/vt/vn of whole numbers)"},
+       {"no whole number", std::string(kCorners) + "f 1.5 2 3\n", in, "a corner of a face (got \"1.5\", "},
+       {"half an index", std::string(kCorners) + "f 1/1-1 2 3\n", in, "a corner of a face (got \"1/1-1\", "},
+       {"four indices", std::string(kCorners) + "f 1/1/1/1 2 3\n", in,
+        "a corner of a face (got \"1/1/1/1\", "},
+       {"edges that cross", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n", in,
+        "line 5: a polygon of 4 corners whose edges cross"},
+       {"more dents than can be cut", gear(16386), in,
+        "a polygon of 16386 corners that is not convex (allowed 16384 or fewer)"},
        {"two corners", std::string(kCorners) + "f 1 2\n", in,
         "line 5: a face of 2 corners (allowed 3 or more)"},
        {"half a vertex", "v 1 2\nf 1 1 1\n", in, "line 1: vertex 1 needs three finite numbers (got 1 2)"},

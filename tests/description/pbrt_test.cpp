@@ -258,6 +258,9 @@ TEST_F(PbrtTest, PictureAndRender) {
   EXPECT_EQ(made->render->samples, 8);
   EXPECT_EQ(made->render->max_depth, 9);
   EXPECT_EQ(made->output->image, "x.exr");
+  const auto capitals = convert("a.pbrt", "Film \"rgb\" \"string filename\" \"X.EXR\"\nWorldBegin\n");
+  ASSERT_TRUE(capitals) << told_;
+  EXPECT_EQ(capitals->output->image, "X.EXR");
   const auto& camera = std::get<spec::ThinLensCamera>(made->camera->kind);
   const double f = camera.lens.focal_length;
   EXPECT_NEAR(f / camera.lens.aperture.f_number.value() / 2, 0.1, 1e-12);

@@ -45,6 +45,11 @@ TEST_F(PlyTest, ReadsPly) {
   EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("promises more"), std::string::npos);
 }
 
+TEST_F(PlyTest, PolygonsNeedNotBeConvex) {
+  write(folder_ / "dented.ply", ply(4, 1, "0 0 0\n2 0 0\n2 1 0\n1 0.2 0\n4 0 1 2 3\n"));
+  EXPECT_NEAR(area(shape(R"("mesh": "dented.ply")")), 0.7, 1e-7);
+}
+
 TEST_F(PlyTest, ReadsPlyWhateverTheLocale) {
   struct Comma : std::numpunct<char> {
     [[nodiscard]] char do_decimal_point() const override { return ','; }
@@ -111,7 +116,8 @@ TEST_F(PlyTest, RefusesBadPly) {
       {"34 promises", ply(2147483647, 1, kSquare + "3 0 1 2\n"), ErrorCode::input,
        "the header promises more than the file holds"},
       {"34 more than memory",
-       "ply\nformat ascii 1.0\nelement vertex 1000000000000000\nproperty float x\nend_header\n0\n",
+       "ply\nformat ascii 1.0\nelement vertex 1000000000000000\nproperty float x\nproperty float y\nproperty "
+       "float z\nend_header\n0\n",
        ErrorCode::input, "promises more"},
       {"34 a long list", ply(4, 1, kSquare + "4000000000 0 1 2\n"), ErrorCode::input, "promises more"},
       {"truncated", ply(4, 2, kSquare + "3 0 1 2\n"), ErrorCode::input, "promises more"},
@@ -132,12 +138,32 @@ TEST_F(PlyTest, RefusesBadPly) {
        "vertex_indices\nend_header\n1000000\n",
        ErrorCode::input, "lists counted in 32 bits"},
       {"a list of negative length",
-       "ply\nformat ascii 1.0\nelement face 1\nproperty list char int vertex_indices\nend_header\n-1\n",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 1\nproperty list char int vertex_indices\nend_header\n0 0 0\n-1\n",
        ErrorCode::input, "malformed PLY"},
       {"whole numbers for positions",
        "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int "
        "z\nend_header\n0 0 0\n",
-       ErrorCode::input, "malformed PLY"},
+       ErrorCode::input,
+       "malformed PLY header: the type of x (got int, allowed float, float32, double, float64)"},
+      {"whole numbers for normals",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+       "z\nproperty uchar nx\nend_header\n0 0 0 0\n",
+       ErrorCode::input, "malformed PLY header: the type of nx (got uchar"},
+      {"no x",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float a\nproperty list uchar float x\nproperty "
+       "float "
+       "y\nproperty float z\nend_header\n0 1 0 0 0\n",
+       ErrorCode::input, "malformed PLY header: a vertex needs x, y and z (got a, y, z)"},
+      {"capitals",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float X\nproperty float Y\nproperty float "
+       "Z\nend_header\n0 0 0\n",
+       ErrorCode::input, "malformed PLY header: a vertex needs x, y and z (got X, Y, Z)"},
+      {"no vertices",
+       "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n3 0 1 2\n",
+       ErrorCode::input, "malformed PLY header: a vertex needs x, y and z (got none)"},
+      {"edges that cross", ply(4, 2, kSquare + "4 0 1 2 3\n4 0 2 1 3\n"), ErrorCode::input,
+       "face 1: a polygon of 4 corners whose edges cross"},
       {"no properties", "ply\nformat ascii 1.0\nelement vertex 9e300\nend_header\n", ErrorCode::input,
        "malformed PLY header"},
   };

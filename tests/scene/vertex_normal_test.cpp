@@ -182,8 +182,9 @@ TEST_F(VertexNormalFiles, FaultsAreNamed) {
   refused_ply(ply_with_normals("0 0 0 7 0 0.6 0.8\n2 0 0 7 0 0 1\n0 0 2 7 0 -nan 0.8\n3 0 1 2\n5\n"),
               "vertex 2 needs finite numbers (got \"nan\")");
   refused_ply(
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float nx\nelement face "
-      "1\nproperty list uchar int vertex_indices\nend_header\n0 0\n3 0 0 0\n",
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0\n3 0 0 "
+      "0\n",
       "a normal needs nx, ny and nz");
   expect_refused("a.gltf", {{"zero", with_normals({0, 0, 1, 0, 0, 1, 0, 0, 0}).text(), in,
                              "the normal of vertex 2 has no direction"},

@@ -10,6 +10,7 @@
 #include "description/doors/mitsuba/named_indices.h"
 #include "description/doors/shared/materials.h"
 #include "description/doors/shared/picture.h"
+#include "io/text.h"
 #include "materials/interface/hemispherical.h"
 
 namespace abbe::doors::mitsuba {
@@ -54,10 +55,14 @@ void note_factors(const Object& bsdf, const World& world) {
 std::optional<spec::Roughness> roughness(const Object& bsdf, const World& world) {
   if (!bsdf.type().starts_with("rough")) return std::nullopt;
   const double both = number(bsdf, "alpha", 0.1, world);
-  const bool beckmann = bsdf.text("distribution", "beckmann") == "beckmann";
+  const std::string said = lower_case(bsdf.text("distribution", "beckmann"));
+  const std::vector<std::string> distributions{"beckmann", "ggx"};
+  if (std::ranges::find(distributions, said) == distributions.end())
+    world.door.diagnostics.error(bsdf.place_of("distribution"),
+                                 unknown_name("distribution", said, distributions));
   bsdf.ignore({"sample_visible"});
   return roughness_of(number(bsdf, "alpha_u", both, world), number(bsdf, "alpha_v", both, world),
-                      beckmann ? FacetShape::beckmann : FacetShape::ggx, bsdf.where());
+                      said == "beckmann" ? FacetShape::beckmann : FacetShape::ggx, bsdf.where());
 }
 
 spec::Ior metal_index(const Object& bsdf, const World& world) {
@@ -188,6 +193,8 @@ spec::Material Materials::converted(const Object& bsdf, const Element* inside, R
       world_.door.note(bsdf.where(), "surfaces have no holes here: opacity is dropped");
       bsdf.ignore({"opacity"});
     } else if (type != "twosided") {
+      if (bsdf.all("texture").empty())
+        world_.door.diagnostics.error(bsdf.where(), fmt::format("\"{}\" needs a texture within", type));
       for (const Element* texture : bsdf.all("texture")) {
         const Object relief(*texture, world_);
         const auto file = image(relief, v, world_);

@@ -10,14 +10,17 @@
 #include "description/doors/pbrt/named_spectra.h"
 #include "description/doors/shared/camera.h"
 #include "description/doors/shared/placement.h"
+#include "io/extension.h"
 #include "sampling/angle.h"
 
 namespace abbe::doors::pbrt {
 namespace {
 
+constexpr double kMaxCount = 1e9;
+
 // A number of things, cut to what an int holds.
 int count(const Parameters& p, std::string_view name, int absent, Door& door) {
-  return static_cast<int>(std::clamp(p.integer(name, absent, door), -1e9, 1e9));
+  return static_cast<int>(std::clamp(p.integer(name, absent, door), -kMaxCount, kMaxCount));
 }
 
 // What the sensor counts: X, Y and Z, a camera's channels, or radiances.
@@ -44,8 +47,9 @@ void set_output(const Parameters& p, Door& door) {
   if (file.empty()) return;
   spec::Output& output = door.scene.output.emplace();
   const std::string name = file.filename().string();
-  (file.extension() == ".exr" ? output.image : output.display) = name;
-  if (file.extension() != ".exr" && file.extension() != ".png") {
+  const std::string extension = extension_of(file);
+  (extension == ".exr" ? output.image : output.display) = name;
+  if (extension != ".exr" && extension != ".png") {
     door.note(p.all().front().where, "a picture of this format is not written here: no output is named");
     door.scene.output.reset();
   }
@@ -130,13 +134,30 @@ void read_integrator(const Made& integrator, Door& door) {
   p.note_unused("integrator", door);
 }
 
+// Of a pixel, with pbrt's own numbers for what is absent.
+int pixel_samples(const Made& sampler, Door& door) {
+  const Parameters& p = sampler.parameters;
+  if (sampler.type != "stratified")
+    return std::max(1, count(p, "pixelsamples", sampler.type == "independent" ? 4 : 16, door));
+  const double all = std::max(1.0, static_cast<double>(count(p, "xsamples", 4, door))) *
+                     std::max(1.0, static_cast<double>(count(p, "ysamples", 4, door)));
+  return static_cast<int>(std::min(all, kMaxCount));
+}
+
+void note_filter(const Made& filter, Door& door) {
+  const Parameters& p = filter.parameters;
+  if (filter.type == "box" && p.number("xradius", 0.5, door) == 0.5 && p.number("yradius", 0.5, door) == 0.5)
+    return;
+  door.note(filter.where, "a pixel filter has no counterpart here: a box of one pixel");
+}
+
 void set_render(const Picture& picture, Door& door) {
   spec::Render& render = door.scene.render.emplace();
   render.max_depth = 5;  // of the integrator that pbrt takes when none is named
   if (picture.sampler) {
     const Parameters& p = picture.sampler->parameters;
-    render.samples = std::max(1, count(p, "pixelsamples", 16, door));
-    p.ignore({"xsamples", "ysamples", "jitter", "randomization", "seed"});
+    render.samples = pixel_samples(*picture.sampler, door);
+    p.ignore({"jitter", "randomization", "seed"});
     p.note_unused("sampler", door);
   }
   if (picture.integrator) read_integrator(*picture.integrator, door);
@@ -161,8 +182,7 @@ void set_picture(const Picture& said, const SourcePosition& end, World& world) {
   } else {
     sensor.counts = spec::StandardObserver{{{Observer::cie1931}, end}};
   }
-  if (picture.filter && picture.filter->type != "box")
-    door.note(picture.filter->where, "a pixel filter has no counterpart here: a box");
+  if (picture.filter) note_filter(*picture.filter, door);
   world.upright = upright_world(picture.camera_to_world);
   if (world.upright != Imath::M44d())
     door.note(picture.camera->where,

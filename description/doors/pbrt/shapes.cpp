@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,11 +34,19 @@ std::vector<std::array<double, 3>> points(const Parameters& p, World& world) {
   return points;
 }
 
-// The indices of corners, `absent` without any; nothing, after an error, for one of no point.
-std::optional<std::vector<std::uint32_t>> indices(const Made& made, std::size_t points,
-                                                  const std::vector<std::uint32_t>& absent, World& world) {
-  if (!made.parameters.has("indices")) return absent;
+// The points at the corners of faces that have `count` each, without "indices" those of one face. Nothing,
+// after an error, for an index of no point and for other points than those of one face without any.
+std::optional<std::vector<std::uint32_t>> indices(const Made& made, std::size_t points, std::size_t count,
+                                                  World& world) {
   std::vector<std::uint32_t> indices;
+  if (!made.parameters.has("indices") && points != count) {
+    world.door.diagnostics.error(
+        made.where, fmt::format("a shape \"{}\" needs \"indices\" unless it has {} points (got {})",
+                                made.type, count, points));
+    return std::nullopt;
+  }
+  if (!made.parameters.has("indices")) indices.resize(count);
+  std::iota(indices.begin(), indices.end(), 0U);
   for (const double index : made.parameters.numbers("indices", world.door)) {
     if (index >= 0 && index < static_cast<double>(points)) {
       indices.push_back(static_cast<std::uint32_t>(index));
@@ -47,6 +56,12 @@ std::optional<std::vector<std::uint32_t>> indices(const Made& made, std::size_t 
         made.where, fmt::format("a corner is no point (got {}, allowed [0, {}])", index, points - 1));
     return std::nullopt;
   }
+  const std::size_t more = indices.size() % count;
+  if (more > 0)
+    world.door.note(
+        made.where,
+        fmt::format("indices behind the last whole face of a shape \"{}\" are dropped", made.type));
+  indices.resize(indices.size() - more);
   return indices;
 }
 
@@ -64,9 +79,12 @@ std::optional<Surface> triangle_mesh(const Made& made, World& world) {
   spec::InlineMesh mesh;
   mesh.where = made.where;
   mesh.vertices = points(made.parameters, world);
-  if (mesh.vertices.empty()) report_missing(made, "P", world);
-  const auto corners = indices(made, mesh.vertices.size(), {0, 1, 2}, world);
-  if (mesh.vertices.size() < 3 || !corners) return std::nullopt;
+  if (mesh.vertices.empty()) {
+    report_missing(made, "P", world);
+    return std::nullopt;
+  }
+  const auto corners = indices(made, mesh.vertices.size(), 3, world);
+  if (!corners) return std::nullopt;
   for (std::size_t i = 0; i + 2 < corners->size(); i += 3)
     mesh.triangles.push_back({(*corners)[i], (*corners)[i + 1], (*corners)[i + 2]});
   add_coordinates(made, mesh, world);
@@ -93,9 +111,12 @@ bool has_plain_coordinates(const spec::InlineMesh& mesh, const std::vector<std::
 // Patches of four corners each; a single plain one stays a parallelogram.
 std::optional<Surface> bilinear_mesh(const Made& made, World& world) {
   const auto vertices = points(made.parameters, world);
-  if (vertices.empty()) report_missing(made, "P", world);
-  const auto corners = indices(made, vertices.size(), {0, 1, 2, 3}, world);
-  if (vertices.size() < 4 || !corners) return std::nullopt;
+  if (vertices.empty()) {
+    report_missing(made, "P", world);
+    return std::nullopt;
+  }
+  const auto corners = indices(made, vertices.size(), 4, world);
+  if (!corners) return std::nullopt;
   const auto at = [&](std::size_t i) {
     const auto& v = vertices[(*corners)[i]];
     return Imath::V3d(v[0], v[1], v[2]);

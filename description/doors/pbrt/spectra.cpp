@@ -9,6 +9,7 @@
 #include "description/doors/shared/picture.h"
 #include "description/doors/shared/spectrum_file.h"
 #include "io/text.h"
+#include "materials/index/library.h"
 
 namespace abbe::doors::pbrt {
 namespace {
@@ -25,25 +26,53 @@ void add_names(const List& list, std::vector<std::string>& names) {
   for (const Renamed& entry : list) names.emplace_back(entry.theirs);
 }
 
-// "metal-Cu" of "metal-Cu-eta".
-std::string_view metal_of(std::string_view name) {
-  for (const std::string_view end : {"-eta", "-k"})
-    if (name.ends_with(end)) return name.substr(0, name.size() - end.size());
-  return name;
+constexpr std::string_view kEta = "-eta";
+constexpr std::string_view kK = "-k";
+// What a conductor has where it does not say.
+constexpr const char* kCopperEta = "metal-Cu-eta";
+constexpr const char* kCopperK = "metal-Cu-k";
+
+// "metal-Cu" of "metal-Cu-eta", where it ends so; "" of other names.
+std::string_view metal_of(std::string_view name, std::string_view end) {
+  return name.ends_with(end) ? name.substr(0, name.size() - end.size()) : std::string_view();
+}
+
+void add_metal(std::string_view metal, std::vector<std::string>& names) {
+  for (const std::string_view end : {kEta, kK}) names.push_back(fmt::format("{}{}", metal, end));
+}
+
+// n or k of a shipped table or formula, every 5 nm where both it and the renderer have some.
+std::optional<Spectrum> index_samples(const std::string& material, bool extinction,
+                                      const SourcePosition& where, World& world) {
+  constexpr double kStep = 5;
+  const auto named = load_index(material, where, world.door.diagnostics);
+  if (!named) return std::nullopt;
+  const RefractiveIndex& index = named->index;
+  Samples samples;
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += kStep) {
+    if (nm < index.low_nm() || nm > index.high_nm()) continue;
+    samples.nm.push_back(nm);
+    samples.values.push_back(extinction ? index.k(nm) : index.n(nm));
+  }
+  return samples;
 }
 
 std::optional<Spectrum> file_or_name(const std::string& name, const SourcePosition& where, World& world) {
   if (auto illuminant = renamed(kIlluminants, name)) return Shipped{*illuminant};
-  if (metal_of(name) == kMagnesia) {
+  const bool extinction = !metal_of(name, kK).empty();
+  const std::string_view metal = metal_of(name, extinction ? kK : kEta);
+  if (metal == kMagnesia) {
     world.door.note(
         where, fmt::format("no table of MgO is shipped: the number {} at all wavelengths", kMagnesiaIndex));
-    return name.ends_with("-k") ? 0.0 : kMagnesiaIndex;
+    return extinction ? 0.0 : kMagnesiaIndex;
   }
+  if (const auto shipped = renamed(kMetals, metal)) return index_samples(*shipped, extinction, where, world);
+  if (const auto glass = renamed(kGlasses, name)) return index_samples(*glass, false, where, world);
   if (name.find('.') != std::string::npos) return read_spectrum_file(world.folder / name, where, world.door);
   std::vector<std::string> names;
   add_names(kIlluminants, names);
-  add_names(kMetals, names);
-  names.emplace_back(kMagnesia);
+  for (const Renamed& entry : kMetals) add_metal(entry.theirs, names);
+  add_metal(kMagnesia, names);
   add_names(kGlasses, names);
   world.door.diagnostics.error(where, unknown_name("spectrum", name, names));
   return std::nullopt;
@@ -175,16 +204,24 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
   static constexpr std::initializer_list<const char*> kTypes{"spectrum", "rgb", "float"};
   const Parameter* n = parameters.find(eta, kTypes, world.door);
   const Parameter* extinction = parameters.find(k, kTypes, world.door);
-  const Parameter* named = n != nullptr ? n : extinction;
-  const std::string name =
-      named == nullptr ? "metal-Cu-eta" : (named->texts.empty() ? "" : named->texts.front());
-  if (const auto metal = renamed(kMetals, metal_of(name))) {
-    spec::Ior ior;
-    ior.value = *metal;
-    if (named != nullptr) ior.where = named->where;
-    return ior;
+  const auto name_of = [](const Parameter* said, const char* absent) {
+    if (said == nullptr) return std::string(absent);
+    return said->texts.empty() ? std::string() : said->texts.front();
+  };
+  const std::string n_name = name_of(n, kCopperEta);
+  const std::string k_name = name_of(extinction, kCopperK);
+  spec::Ior ior;
+  if (n != nullptr || extinction != nullptr) ior.where = n != nullptr ? n->where : extinction->where;
+  if (metal_of(n_name, kEta) == metal_of(k_name, kK)) {
+    if (const auto metal = renamed(kMetals, metal_of(n_name, kEta))) {
+      ior.value = *metal;
+      return ior;
+    }
   }
-  return index_of(spectrum(parameters, eta, 1.0, world), spectrum(parameters, k, 0.0, world), named->where);
+  const auto said_or = [&](const Parameter* said, const char* copper) {
+    return (said ? spectrum_of(*said, world) : file_or_name(copper, ior.where, world)).value_or(1.0);
+  };
+  return index_of(said_or(n, kCopperEta), said_or(extinction, kCopperK), ior.where);
 }
 
 spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World& world) {

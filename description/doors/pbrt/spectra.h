@@ -28,7 +28,7 @@ namespace abbe::doors::pbrt {
 [[nodiscard]] std::optional<spec::TextureFile> image_file(const Parameters& parameters,
                                                           const SourcePosition& where, World& world);
 
-/// The index of a metal said by `eta` and `k`; copper's by default.
+/// The index of a metal said by `eta` and `k`; of what is absent that of copper.
 [[nodiscard]] spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k,
                                     World& world);
 /// The index of a dielectric said by `eta`: a number, a glass or samples.

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "io/extension.h"
 #include "io/picture.h"
 #include "io/picture_codec.h"
-#include "io/text.h"
 
 namespace abbe::doors {
 namespace {
@@ -29,7 +29,7 @@ std::optional<double> mean(const ImageChannel& channel, bool linear) {
 
 bool holds_codes(const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 3> kOfFloats{".exr", ".hdr", ".pfm"};
-  return std::ranges::find(kOfFloats, lower_case(file.extension().string())) == kOfFloats.end();
+  return std::ranges::find(kOfFloats, extension_of(file)) == kOfFloats.end();
 }
 
 std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const SourcePosition& where,

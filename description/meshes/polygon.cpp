@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "description/meshes/mesh_formats.h"
+
+namespace abbe {
+namespace {
+
+// Files round coordinates to about six digits: nothing less tells where a corner is.
+constexpr double kRounding = 1e-6;
+// The time that ears take grows as the square of the corners.
+constexpr std::size_t kMaxConcaveCorners = 16384;
+
+/// A polygon of which ears, triangles of three successive corners with no other corner in them, are cut off
+/// until a triangle is left: every simple polygon has two [Meisters1975].
+class Polygon {
+ public:
+  explicit Polygon(const std::vector<Imath::V3d>& corners) : corners_(corners) {
+    double largest = 0;
+    for (const Imath::V3d& corner : corners) {
+      extent_ = std::max(extent_, (corner - corners[0]).length());
+      largest = std::max({largest, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+    }
+    rounding_ = kRounding * largest;
+    Imath::V3d area(0);
+    Imath::V3d widest(0);  // where edges cross, whose areas may cancel
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Imath::V3d part = (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+      if (part.length2() > widest.length2()) widest = part;
+      area += part;
+    }
+    normal_ = (area.length() > line() ? area : widest).normalized();
+  }
+
+  /// Whether no triangle around the first corner turns back, as none does in a convex polygon.
+  [[nodiscard]] bool is_fan() const {
+    for (std::uint32_t i = 2; i < corners_.size(); ++i)
+      if (turn(0, i - 1, i) < -line()) return false;
+    return true;
+  }
+  [[nodiscard]] bool is_flat() const {
+    return std::all_of(corners_.begin(), corners_.end(), [this](const Imath::V3d& corner) {
+      return std::abs(normal_.dot(corner - corners_[0])) <= rounding_;
+    });
+  }
+  /// Triangles that wind as the polygon does, those without area last; too few if its edges cross.
+  [[nodiscard]] std::vector<Triangle> ears() {
+    left_.resize(corners_.size());
+    std::iota(left_.begin(), left_.end(), 0U);
+    std::vector<Triangle> cut;
+    std::size_t missed = 0;
+    for (std::size_t i = 0; left_.size() > 2 && missed < 2 * left_.size();) {
+      if (!is_ear(i, missed < left_.size() ? line() : -line())) {
+        i = next(i);
+        ++missed;
+        continue;
+      }
+      cut.push_back({left_[previous(i)], left_[i], left_[next(i)]});
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
+      i = previous(i);  // of which an ear may have become
+      missed = 0;
+    }
+    return cut;
+  }
+
+ private:
+  // Twice the area of a triangle seen along the normal; negative if it winds the other way.
+  [[nodiscard]] double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    return normal_.dot((corners_[b] - corners_[a]).cross(corners_[c] - corners_[a]));
+  }
+  // The same of one that rounding may have made of a line.
+  [[nodiscard]] double line() const { return rounding_ * extent_; }
+  [[nodiscard]] std::size_t next(std::size_t i) const { return (i + 1) % left_.size(); }
+  [[nodiscard]] std::size_t previous(std::size_t i) const { return (i + left_.size() - 1) % left_.size(); }
+
+  // A corner where another is, as where a slit leads to a hole, is in no ear of that.
+  [[nodiscard]] bool is_within(std::uint32_t corner, const Triangle& t) const {
+    const auto at = [&](std::uint32_t i) { return (corners_[corner] - corners_[i]).length() <= rounding_; };
+    return turn(t[0], t[1], corner) >= 0 && turn(t[1], t[2], corner) >= 0 && turn(t[2], t[0], corner) >= 0 &&
+           std::none_of(t.begin(), t.end(), at);
+  }
+  [[nodiscard]] bool is_ear(std::size_t i, double more_than) const {
+    const Triangle ear{left_[previous(i)], left_[i], left_[next(i)]};
+    return turn(ear[0], ear[1], ear[2]) > more_than &&
+           std::none_of(left_.begin(), left_.end(),
+                        [&](std::uint32_t other) { return is_within(other, ear); });
+  }
+
+  const std::vector<Imath::V3d>& corners_;
+  std::vector<std::uint32_t> left_;  // of the corners, while ears are cut off
+  Imath::V3d normal_;
+  double extent_ = 0;
+  double rounding_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> cut_polygon(const std::vector<Imath::V3d>& corners,
+                                       std::vector<Triangle>& triangles) {
+  triangles.clear();
+  for (std::uint32_t i = 2; i < corners.size(); ++i) triangles.push_back({0, i - 1, i});
+  if (corners.size() == 3) return std::nullopt;
+  Polygon polygon(corners);
+  if (polygon.is_fan()) return std::nullopt;
+  if (corners.size() > kMaxConcaveCorners)
+    return fmt::format("a polygon of {} corners that is not convex (allowed {} or fewer)", corners.size(),
+                       kMaxConcaveCorners);
+  std::vector<Triangle> ears = polygon.ears();
+  if (ears.size() == triangles.size()) {
+    triangles = std::move(ears);
+    return std::nullopt;
+  }
+  if (polygon.is_flat()) return fmt::format("a polygon of {} corners whose edges cross", corners.size());
+  return std::nullopt;
+}
+
+}  // namespace abbe
