@@ -44,7 +44,8 @@ static Fields fields(Tag<Line>) {
   return describe("line", "A spectral line.",
                   {field("nm", &Line::nm, kWavelength, "Its middle."),
                    field("width_nm", &Line::width_nm, kLineWidth, "Its width."),
-                   field("power", &Line::power, kPower, "Its integral, of which what lies beyond 300 to 1100 nm does not count.")});
+                   field("power", &Line::power, kPower,
+                         "Its integral, of which what lies beyond 300 to 1100 nm does not count.")});
 }
 
 static Fields fields(Tag<Scaled>) {

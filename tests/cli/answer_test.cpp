@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/cli/program.h"
+
 namespace abbe::cli {
 namespace {
 
@@ -57,6 +59,15 @@ TEST(Answer, PlacedComplaintsKeepTheirCodeAndBeginTheirLine) {
     EXPECT_EQ(e.code, ErrorCode::scene);
     EXPECT_NE(std::string(e.what()).find("\na.json:1:1: /camera: "), std::string::npos) << e.what();
   }
+}
+
+TEST(Answer, AListOfNamesAnswersNoQuestion) {
+  const test::Outcome run = test::abbe("query --list illuminant --json ior N-BK7 --at 550");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("--list: lists names, and answers no question beside (got ior, allowed alone)"),
+            std::string::npos)
+      << run.err;
+  EXPECT_TRUE(run.out.empty());
 }
 
 }  // namespace

@@ -73,15 +73,6 @@ TEST(Program, UsageErrorsExitWith2) {
   }
 }
 
-TEST(Program, AListOfNamesAnswersNoQuestion) {
-  const Outcome run = abbe("query --list illuminant --json ior N-BK7 --at 550");
-  EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("--list: lists names, and answers no question beside (got ior, allowed alone)"),
-            std::string::npos)
-      << run.err;
-  EXPECT_TRUE(run.out.empty());
-}
-
 TEST(Program, UnknownNamesComeWithTheNearest) {
   for (const auto& [text, nearest] :
        {std::pair{"rendr", "command \"rendr\"; did you mean \"render\""},

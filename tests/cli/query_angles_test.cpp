@@ -4,7 +4,7 @@
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 
-// Angles of materials that absorb.
+// Angles of materials that absorb, and the medium that angles are in.
 
 namespace abbe::test {
 namespace {
@@ -30,6 +30,22 @@ TEST(QueryAngles, OfMetalsTheLeastRpHasAnAngleButNoTotalReflection) {
   const auto metal = scratch().write("dense.csv", "# unit: 1\nwavelength_nm,n,k\n500,3,3\n600,3,3\n");
   EXPECT_TRUE(json_output(cli::query_critical, {metal.string(), {550}})["angle_deg"].is_null())
       << "which n alone would have";
+}
+
+TEST(QueryAngles, NothingComesThroughAPrismOfMetal) {
+  const json gold = json_output(cli::query_prism, {"Au_Johnson", 60, {587.5618}, {}});
+  for (const char* figure : {"deviation_deg", "incidence_deg", "Ts", "Tp"})
+    EXPECT_TRUE(gold[figure].is_null()) << figure;
+}
+
+TEST(QueryAngles, AreInTheMediumThatIsTold) {
+  const auto expect_medium = [](const char* id, const char* medium) {
+    EXPECT_EQ(json_output(cli::query_prism, {id, 60, {550}, {}})["medium"], medium);
+    EXPECT_EQ(json_output(cli::query_critical, {id, {550}})["medium"], medium);
+    EXPECT_EQ(json_output(cli::query_reflectance, {id, {550}, {0}})["medium"], medium);
+  };
+  expect_medium("N-BK7", "air");
+  expect_medium("water_20.0C", "vacuum");
 }
 
 }  // namespace

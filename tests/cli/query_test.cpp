@@ -190,22 +190,6 @@ TEST(QueryPrism, SmallestIncidenceThatIsTransmitted) {
   }
 }
 
-TEST(QueryPrism, NothingComesThroughAMetal) {
-  const json gold = json_output(cli::query_prism, {"Au_Johnson", 60, {587.5618}, {}});
-  for (const char* figure : {"deviation_deg", "incidence_deg", "Ts", "Tp"})
-    EXPECT_TRUE(gold[figure].is_null()) << figure;
-}
-
-TEST(Query, TellsInWhichMediumItsAnglesAre) {
-  const auto expect_medium = [](const char* id, const char* medium) {
-    EXPECT_EQ(json_output(cli::query_prism, {id, 60, {550}, {}})["medium"], medium);
-    EXPECT_EQ(json_output(cli::query_critical, {id, {550}})["medium"], medium);
-    EXPECT_EQ(json_output(cli::query_reflectance, {id, {550}, {0}})["medium"], medium);
-  };
-  expect_medium("N-BK7", "air");
-  expect_medium("water_20.0C", "vacuum");
-}
-
 TEST(QueryPrism, ThroughputOfBothPolarisations) {
   const json found = json_output(cli::query_prism, {"N-BK7", 60, {587.5618}, {}});
   EXPECT_NEAR(found["Ts"].get<double>(), 0.786084, 1e-6);

@@ -130,6 +130,23 @@ TEST_F(DescriptionTest, ReadsThinElements) {
   EXPECT_EQ(std::get<DepolariserMaterial>(model(4)).transmittance(550), 0.5);
 }
 
+TEST_F(DescriptionTest, WhatIsTakenAsClearIsClear) {
+  for (const char* model : {"dielectric", "thin_glass"}) {
+    const Loaded gold =
+        load(fmt::format(R"({{"materials": {{"m": {{"{}": {{"ior": {{"n": 0.2, "k": 3}}}}}}}}}})", model));
+    EXPECT_FALSE(gold.scene);
+    EXPECT_NE(gold.text().find("\"m\" is not clear: with n = 0.2 and k = 3 at 300 nm it reflects"),
+              std::string::npos)
+        << gold.text();
+  }
+}
+
+TEST_F(DescriptionTest, FilmsTakeNoPriority) {
+  const Loaded film =
+      load(R"({"materials": {"m": {"film": {"layers": [{"ior": 1.3, "thickness_nm": 9}]}, "priority": 1}}})");
+  EXPECT_NE(film.text().find("a priority goes with matter within a shape"), std::string::npos) << film.text();
+}
+
 TEST_F(DescriptionTest, ReadsCoatings) {
   const Loaded loaded = load(R"({"materials": {
     "lens": {"dielectric": {"ior": "N-BK7", "coating": [{"ior": "MgF2", "thickness_nm": 99.6}]}, "priority": -3},
