@@ -109,15 +109,19 @@ TEST(LensSystemScene, NothingOfTheSceneIsWithinTheLens) {
   };
   const Film open = seen("path", 64, "");
   EXPECT_GT(test::region(open, 0, 0, 0, 8, 8).mean, 0);
-  for (const auto& [integrator, samples] :
-       {std::pair("path", 64), {"light", 512}, {"bdpt", 64}, {"photon-brute", 64}}) {
+  const struct {
+    const char* integrator;
+    int samples;
+    double off;
+  } all[] = {{"path", 64, 0.02}, {"light", 512, 0.1}, {"bdpt", 64, 0.05}, {"photon-brute", 512, 0.3}};
+  for (const auto& [integrator, samples, off] : all) {
     const Film film = seen(
         integrator, samples,
         R"(, {"quad": {"corner": [-60, -410, -60], "edge_u": [120, 0, 0], "edge_v": [0, 0, 120]}, "material": "black"})");
     const test::Comparison c = test::compare_regions(open, film, 2);
     std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
     EXPECT_LT(c.largest_z, 5) << integrator;
-    EXPECT_NEAR(c.ratio, 1, 0.1) << integrator;
+    EXPECT_NEAR(c.ratio, 1, off) << integrator;
   }
 }
 
