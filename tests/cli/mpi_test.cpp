@@ -74,20 +74,6 @@ TEST_F(Mpi, AnErrorAskedForEndsAtTheSameSample) {
   expect_same_bits(scene("cornell") + " --error 24%", {2, 3});
 }
 
-// As by one process, which takes some time for the film's error too. Of passes that double, one of these
-// times would be passed by four tenths.
-TEST_F(Mpi, ATimeAskedForIsKept) {
-  for (const double seconds : {1.5, 2.1}) {
-    const std::string arguments = fmt::format("{} --time {}s --threads 1 --quiet -o {} --stats -",
-                                              scene("cornell"), seconds, (scratch() / "timed.exr").string());
-    const nlohmann::json alone = abbe("render " + arguments).json();
-    const nlohmann::json crew = together(2, arguments).json();
-    EXPECT_GT(crew["samples_per_pixel"], 8);
-    EXPECT_GT(crew["wall_s"], seconds);
-    EXPECT_LT(crew["wall_s"], alone["wall_s"].get<double>() + 0.3 * seconds);
-  }
-}
-
 TEST_F(Mpi, ALostProcessEndsAllAndLosesNoCheckpoint) {
   const std::string save = (scratch() / "at.abbepart").string();
   const std::string whole = scene("cornell") + " --spp 200 --threads 1 --quiet";

@@ -190,6 +190,25 @@ TEST(Time, EndsASmallFilmAfterASampleThatTakesLonger) {
   EXPECT_EQ(render(small_scene("cornell.json"), soon).stats.samples_per_pixel, 1U);
 }
 
+// What the first says bounds the passes of all: as many samples as have been traced, and ever fewer when the
+// time that is left does not allow them.
+TEST(Time, EndsTheLongPassesOfACrewToo) {
+  std::vector<std::uint64_t> told;
+  RenderOptions timed;
+  timed.time_limit_s = 0.5;
+  timed.crew = {.rank = 0,
+                .size = 2,
+                .collect = [](std::span<Int128>) {},
+                .follow =
+                    [&told](std::uint64_t said) {
+                      if (said > 1) told.push_back(said);
+                      return said;
+                    }};
+  EXPECT_GT(render(small_scene("cornell.json"), timed).stats.samples_per_pixel, 8U);
+  ASSERT_FALSE(told.empty());
+  EXPECT_LT(told.back(), *std::max_element(told.begin(), told.end()) / 2);
+}
+
 // Amid a sample, the photons of which are traced again and not counted twice.
 TEST(Resume, WhatGathersPhotonsGoesOnAsItWouldHave) {
   for (const char* integrator : {"sppm", "vcm"}) {

@@ -111,7 +111,7 @@ TEST(Crew, CostsAreThoseOfAll) {
                       [](std::span<Int128> numbers) {
                         for (Int128& n : numbers) n *= 2;
                       },
-                  .follow = [](bool said) { return said; }};
+                  .follow = [](std::uint64_t said) { return said; }};
   const double before = process_cpu_seconds();
   const RenderResult result = render(scene, options);
   const double own = process_cpu_seconds() - before;
