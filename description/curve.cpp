@@ -167,10 +167,6 @@ struct CurveBuilder {
   }
 };
 
-}  // namespace
-
-namespace {
-
 bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
   return std::find(words.begin(), words.end(), text) != words.end();
 }

@@ -170,11 +170,12 @@ std::string spectrum_text(const spec::Emission& emission) {
 
 // The same words name the same spectrum, which is made once however many lamps have it.
 LampSpectrum* build_spectrum(const spec::Emission& emission, LoadContext& context) {
-  const std::string words = spectrum_text(emission);
-  if (const auto found = context.lamp_spectra.find(words); found != context.lamp_spectra.end())
-    return &found->second;
   const bool absolute = std::holds_alternative<spec::Spectrum>(emission.spectrum) &&
                         std::holds_alternative<std::monostate>(emission.scale);
+  // A table whose unit does not matter to a lamp that is scaled is not yet one for a lamp that is not.
+  const std::string words = (absolute ? "absolute " : "") + spectrum_text(emission);
+  if (const auto found = context.lamp_spectra.find(words); found != context.lamp_spectra.end())
+    return &found->second;
   const CurveUnit unit = absolute ? CurveUnit::spectral_radiance : CurveUnit::any;
   std::optional<Curve> curve = std::visit(SpectrumBuilder{context, unit}, emission.spectrum);
   if (!curve) return nullptr;

@@ -247,6 +247,10 @@ TEST_F(DescriptionTest, TablesAreInTheUnitThatIsAskedFor) {
   for (const char* unit : {"mW/(m2 sr nm)", "W/(m2 sr um)", "W/(cm2 sr nm)"})
     EXPECT_NE(complaint(lamp, unit).find("allowed W/(m^2 sr nm)"), std::string::npos) << unit;
   for (const char* unit : {"W/(m2 sr nm)", "relative spectrum"}) EXPECT_EQ(complaint(lamp, unit), "") << unit;
+  const std::string behind_a_scaled_one =
+      R"({"lights": [{"sun": {"towards": [0, 0, 1]}, "emission": {"spectrum": "t.csv:a", "irradiance": 1}},
+                     {"environment": {}, "emission": {"spectrum": "t.csv:a"}}]})";
+  EXPECT_NE(complaint(behind_a_scaled_one, "mW/(m2 sr nm)").find("/lights/1/emission"), std::string::npos);
 }
 
 TEST_F(DescriptionTest, OverridesAndHashes) {
