@@ -47,6 +47,8 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
   const auto planes = find_planes(image);
   if (!planes) return refuse("no channels R, G, B, or Y alone");
   if (const auto fault = rec709_fault(image)) return refuse(*fault);
+  if (const auto warning = exposure_warning(image))
+    context.diagnostics.warning(where, fmt::format("environment \"{}\": {}", name, *warning));
   // Texels, and the cumulative distribution by which they are drawn.
   context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),

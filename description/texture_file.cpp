@@ -26,6 +26,8 @@ std::optional<TextureFile> build(const spec::TextureFile& said, LoadContext& con
   try {
     Image image = read_image(*path, context.inputs);
     const std::size_t bytes = image.memory_bytes();
+    if (const auto warning = exposure_warning(image))
+      context.diagnostics.warning(where, fmt::format("texture \"{}\": {}", name, *warning));
     return TextureFile{name, where, std::move(image), said.mapping, {context.inputs, bytes}};
   } catch (const Error& e) {
     context.diagnostics.error(where, e.what(), e.code);

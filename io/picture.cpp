@@ -130,4 +130,11 @@ Image read_image(const std::filesystem::path& path, Inputs* inputs, AlphaReading
   return image;
 }
 
+std::optional<std::string> exposure_warning(const Image& image) {
+  const auto factor = image.metadata.find(kExposureFactor);
+  if (factor == image.metadata.end()) return std::nullopt;
+  return "its values are taken as they are, after the EXPOSURE that they were multiplied by (got " +
+         factor->second + ")";
+}
+
 }  // namespace abbe

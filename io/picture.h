@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "io/image.h"
@@ -31,5 +32,9 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image);
 /// where the file holds floats, or says so.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr,
                                AlphaReading alpha = AlphaReading::multiplied);
+
+/// What is to be said of an image from `read_image` whose values are those of the scene times a factor that
+/// the file tells, the EXPOSURE of Radiance, as it is not taken off; nothing of others.
+[[nodiscard]] std::optional<std::string> exposure_warning(const Image& image);
 
 }  // namespace abbe

@@ -15,8 +15,9 @@ namespace abbe {
 struct PictureHeader {
   std::int64_t width = 0;
   std::int64_t height = 0;
-  std::vector<std::string> channels;            ///< Their names, in the order of a pixel's values.
-  std::map<std::string, std::string> metadata;  ///< Attributes that are texts, by OpenImageIO's names.
+  std::vector<std::string> channels;  ///< Their names, in the order of a pixel's values.
+  /// Attributes that are texts, by OpenImageIO's names, and `kExposureFactor`.
+  std::map<std::string, std::string> metadata;
 };
 
 /// The attribute that says how a picture's codes are to be read, "sRGB" or "Linear".
@@ -27,6 +28,10 @@ inline constexpr const char* kLinear = "Linear";
   const auto space = metadata.find(kColorSpace);
   return space != metadata.end() && space->second == kLinear;
 }
+
+/// The attribute that says by what the values of a Radiance file were multiplied, where that is not 1: of a
+/// file that tells several factors, the last of them.
+inline constexpr const char* kExposureFactor = "hdr:exposure";
 
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;

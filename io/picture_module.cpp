@@ -22,6 +22,8 @@ PictureHeader header_of(const OIIO::ImageSpec& spec) {
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       header.metadata[attribute.name().string()] = attribute.get_string();
+  if (const float factor = spec.get_float_attribute(kExposureFactor, 1); factor != 1)
+    header.metadata[kExposureFactor] = OIIO::Strutil::to_string(factor);
   if (spec.format.is_floating_point()) header.metadata[kColorSpace] = kLinear;
   return header;
 }

@@ -119,6 +119,9 @@ constexpr std::uint16_t kPlanarConfiguration = 284;
 constexpr std::uint16_t kSoftware = 305;
 constexpr std::uint16_t kSampleFormat = 339;
 constexpr std::uint16_t kBlackLevel = 50714;
+constexpr std::uint16_t kBlackLevelDeltaH = 50715;
+constexpr std::uint16_t kBlackLevelDeltaV = 50716;
+constexpr std::uint16_t kActiveArea = 50829;
 
 TEST(Dng, PlanesOneAfterTheOtherAreThoseOfPixels) {
   RawPicture raw = one_pixel({kRed, kGreen, kBlue});
@@ -147,6 +150,42 @@ TEST(Dng, BlackLevelsThatDifferAreRefused) {
       refusal_of(path, file.bytes),
       path.string() +
           ": filters or planes have a black level of their own (got from 64 to 65, allowed one for all)");
+}
+
+TEST(Dng, RowsAndColumnsHaveNoBlackLevelOfTheirOwn) {
+  const auto path = test_folder() / "a.dng";
+  const std::string bytes = bytes_of_dng(under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer));
+  const auto with = [&](std::uint16_t tag, const std::vector<std::uint32_t>& deltas) {
+    test::TiffEntries file{bytes};
+    file.set_longs(kSoftware, tag, deltas);
+    return refusal_of(path, file.bytes);
+  };
+  const std::string refusal = path.string() +
+                              ": rows or columns have a black level of their own (BlackLevelDeltaV or "
+                              "BlackLevelDeltaH; allowed one for all)";
+  for (const std::uint16_t tag : {kBlackLevelDeltaH, kBlackLevelDeltaV}) {
+    EXPECT_EQ(with(tag, {0, 0, 0}), "accepted") << tag;
+    EXPECT_EQ(with(tag, {0, 0, 3}), refusal) << tag;
+  }
+}
+
+// Cameras have masked pixels around the lit ones, and tell the pattern from where these begin.
+TEST(Dng, OnlyTheActiveAreaIsRead) {
+  RawPicture raw = under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer);
+  raw.width = 4;
+  raw.height = 3;
+  raw.codes = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  test::TiffEntries file{bytes_of_dng(raw)};
+  file.set_longs(kSoftware, kActiveArea, {1, 1, 3, 4});
+  const auto path = test_folder() / "a.dng";
+  put(path, file.bytes);
+  const RawPicture lit = read_raw_picture(path);
+  EXPECT_EQ(lit.width, 3);
+  EXPECT_EQ(lit.height, 2);
+  EXPECT_EQ(lit.codes, (std::vector<std::uint16_t>{6, 7, 8, 10, 11, 12}));
+  EXPECT_EQ(lit.mosaic, raw.mosaic);
+  file.set_longs(kActiveArea, {1, 1, 3, 5});
+  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": its ActiveArea is no part of it");
 }
 
 TEST(Dng, CodesThatAreFloatsAreRefused) {

@@ -19,10 +19,12 @@ struct TiffEntries {
     set(entry_of(tag), {{2, as}, {2, kShort}, {4, 1}, {4, value}});
   }
   /// Makes the numbers of `tag` these of 32 bits, behind all else.
-  void set_longs(std::uint16_t tag, const std::vector<std::uint32_t>& values) {
+  void set_longs(std::uint16_t tag, const std::vector<std::uint32_t>& values) { set_longs(tag, tag, values); }
+  /// Makes the entry of `tag` one of `as` with these.
+  void set_longs(std::uint16_t tag, std::uint16_t as, const std::vector<std::uint32_t>& values) {
     constexpr std::uint32_t kLong = 4;
     const auto at = static_cast<std::uint32_t>(bytes.size());
-    set(entry_of(tag), {{2, tag}, {2, kLong}, {4, static_cast<std::uint32_t>(values.size())}, {4, at}});
+    set(entry_of(tag), {{2, as}, {2, kLong}, {4, static_cast<std::uint32_t>(values.size())}, {4, at}});
     bytes.resize(at + 4 * values.size());
     for (std::size_t i = 0; i < values.size(); ++i) set(at + 4 * i, {{4, values[i]}});
   }

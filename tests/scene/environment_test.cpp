@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/atomic_file.h"
 #include "io/exr.h"
 #include "scene/lights/environment_image.h"
 #include "scenes.h"
@@ -202,6 +203,22 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
   EXPECT_TRUE(load(text).scene) << "grey";
   std::filesystem::rename(folder_ / "sky.exr", folder_ / "SKY.EXR");
   EXPECT_TRUE(load(std::regex_replace(text, std::regex("sky.exr"), "SKY.EXR")).scene) << "in capitals";
+}
+
+TEST_F(EnvironmentFileTest, TellsOfTheExposureOfAPicture) {
+  const auto warns = [&](const std::string& line) {
+    write_atomically(folder_ / "sky.hdr",
+                     "#?RADIANCE\n" + line + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81");
+    const Loaded loaded =
+        load(R"({"lights": [{"environment": {"image": "sky.hdr"}, "emission": {"spectrum": 1}}]})");
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.text().find(
+               "environment \"sky.hdr\": its values are taken as they are, after the EXPOSURE "
+               "that they were multiplied by (got 2.5)") != std::string::npos;
+  };
+  EXPECT_TRUE(warns("EXPOSURE=2.5\n"));
+  EXPECT_FALSE(warns("EXPOSURE=1\n"));
+  EXPECT_FALSE(warns(""));
 }
 
 TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {

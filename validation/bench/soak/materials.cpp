@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -7,14 +8,19 @@
 namespace abbe::soak {
 namespace {
 
-Json dielectric_index(Random& random) {
+// The largest k of layers, and of dielectrics and panes: those must be clear, and along the normal k changes
+// their reflectance by k^2/(n + 1)^2 at most.
+constexpr double kMostOfLayers = 10;
+constexpr double kMostOfClear = 1e-2;
+
+Json dielectric_index(Random& random, double most_k) {
   switch (integer(random, 0, 7)) {
     case 0:
       return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
     case 1:
       return decades(random, 0.05, 20);
     case 2:
-      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, 10)}};
+      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, most_k)}};
     default:
       return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
   }
@@ -30,7 +36,7 @@ Json metal_index(Random& random) {
 Json layers(Random& random) {
   Json all = Json::array();
   for (int i = integer(random, 1, 3); i > 0; --i) {
-    Json layer{{"ior", chance(random, 0.8) ? dielectric_index(random) : Json("Ti_Palm")},
+    Json layer{{"ior", chance(random, 0.8) ? dielectric_index(random, kMostOfLayers) : Json("Ti_Palm")},
                {"thickness_nm", decades(random, 1e-2, 1e5)}};
     if (chance(random, 0.3))
       all.push_back(
@@ -71,11 +77,16 @@ Json phase(Random& random) {
 constexpr double kMostScattering = 30;  // optical depths: paths within deeper matter take for ever
 constexpr double kMostAbsorption = 1e6;
 
+// That of clear matter is 4 pi k over the wavelength, of which the longest is 1.1 um.
+Json clear_absorption(Drawing& drawing) {
+  constexpr double kMost_per_m = 4 * std::numbers::pi * kMostOfClear / 1.1e-6;
+  return coefficient(drawing, std::min(kMostAbsorption, kMost_per_m * 2 * drawing.size * drawing.unit_m));
+}
+
 Json dielectric(Drawing& drawing, DrawnMaterial& matter) {
   Random& random = drawing.random;
-  Json glass{{"ior", dielectric_index(random)}};
-  if (glass["ior"].is_number() && chance(random, 0.4))
-    glass["absorption_per_m"] = coefficient(drawing, kMostAbsorption);
+  Json glass{{"ior", dielectric_index(random, kMostOfClear)}};
+  if (glass["ior"].is_number() && chance(random, 0.4)) glass["absorption_per_m"] = clear_absorption(drawing);
   if (chance(random, 0.3)) {
     glass["scattering_per_m"] = coefficient(drawing, kMostScattering);
     glass["phase"] = phase(random);
@@ -116,7 +127,7 @@ Json conductor(Random& random, DrawnMaterial& matter) {
 Json thin_glass(Drawing& drawing) {
   Random& random = drawing.random;
   Json pane{{"ior", decades(random, 1, 4)}, {"thickness", drawing.size * decades(random, 1e-6, 1e-1)}};
-  if (chance(random, 0.5)) pane["absorption_per_m"] = coefficient(drawing, kMostAbsorption);
+  if (chance(random, 0.5)) pane["absorption_per_m"] = clear_absorption(drawing);
   return pane;
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <tiffio.h>
+
+#include <memory>
+
+namespace abbe::picture_module {
+
+using Tiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
+using TiffOptions = std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)>;
+
+/// The program says itself what a file lacks: libtiff's own lines would stand beside it on stderr.
+TiffOptions quiet_tiff();
+
+/// Lets libtiff know the tags of a DNG that it does not know by itself, and would warn of.
+void teach_dng_tags();
+
+}  // namespace abbe::picture_module

@@ -1,0 +1,190 @@
+// Raw files for the developers of photographs: DNG through libtiff, read.
+#include <tiffio.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <utility>
+
+#include "io/error.h"
+#include "io/image.h"
+#include "io/picture_module.h"
+#include "io/picture_module_dng.h"
+#include "io/rgb_order.h"
+
+namespace abbe::picture_module {
+namespace {
+
+// The lines "key: value" of the description, as `set_names` writes them.
+void read_lines(TIFF* tiff, RawPicture& raw) {
+  char* lines = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &lines) == 1) raw.metadata["ImageDescription"] = lines;
+}
+
+// The channels of a DNG in its order: red, green and blue, unless its description names three others.
+std::vector<std::string> channels_of(const RawPicture& raw, const std::string& key) {
+  const auto description = raw.metadata.find("ImageDescription");
+  std::istringstream lines(description == raw.metadata.end() ? "" : description->second);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(key + ": ")) continue;
+    std::istringstream told(line.substr(key.size() + 2));
+    for (std::string name; std::getline(told, name, ',');) names.push_back(name);
+  }
+  if (names.size() != 3) return {"R", "G", "B"};
+  const auto order = rgb_order(names);
+  return order ? std::vector{names[(*order)[0]], names[(*order)[1]], names[(*order)[2]]} : names;
+}
+
+// The planes of a DNG and the channels of its pattern.
+void read_layout(TIFF* tiff, RawPicture& raw) {
+  std::uint16_t* repeats = nullptr;
+  std::uint16_t count = 0;
+  std::uint8_t* pattern = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_CFAREPEATPATTERNDIM, &repeats) == 1 &&
+      TIFFGetField(tiff, TIFFTAG_CFAPATTERN, &count, &pattern) == 1 && count == repeats[0] * repeats[1] &&
+      *std::max_element(pattern, pattern + count) < 3) {
+    raw.mosaic_width = repeats[1];
+    raw.mosaic.assign(pattern, pattern + count);
+    raw.channels = channels_of(raw, "mosaic_channels");
+    raw.planes = {"raw"};
+    return;
+  }
+  if (raw.planes.size() == 3) raw.planes = channels_of(raw, "sensor_channels");
+  raw.channels = raw.planes;
+}
+
+// The level that a tag tells of each filter or plane, in place of `level` where the file has the tag.
+template <typename Number>
+void read_level(TIFF* tiff, std::uint32_t tag, const char* name, double& level) {
+  std::uint16_t count = 0;
+  Number* told = nullptr;
+  if (TIFFGetField(tiff, tag, &count, &told) != 1 || count == 0) return;
+  const auto [least, greatest] = std::minmax_element(told, told + count);
+  if (*least != *greatest) {
+    std::ostringstream differs;
+    differs << "filters or planes have a " << name << " of their own (got from " << *least << " to "
+            << *greatest << ", allowed one for all)";
+    throw Error(ErrorCode::input, TIFFFileName(tiff), differs.str());
+  }
+  level = static_cast<double>(*told);
+}
+
+void read_levels(TIFF* tiff, RawPicture& raw) {
+  read_level<float>(tiff, TIFFTAG_BLACKLEVEL, "black level", raw.black_level_dn);
+  read_level<std::uint32_t>(tiff, TIFFTAG_WHITELEVEL, "white level", raw.white_level_dn);
+  std::uint16_t count = 0;
+  std::uint16_t* table = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_LINEARIZATIONTABLE, &count, &table) == 1 && count > 0) {
+    raw.is_linearised = true;
+    for (std::uint16_t& code : raw.codes) code = table[std::min<std::size_t>(code, count - 1U)];
+  }
+}
+
+// Levels of single rows and columns are refused.
+void require_even_black(TIFF* tiff) {
+  for (const std::uint32_t tag : {TIFFTAG_BLACKLEVELDELTAH, TIFFTAG_BLACKLEVELDELTAV}) {
+    std::uint16_t count = 0;
+    const float* deltas = nullptr;
+    if (TIFFGetField(tiff, tag, &count, &deltas) == 1 &&
+        std::any_of(deltas, deltas + count, [](float delta) { return delta != 0; }))
+      throw Error(ErrorCode::input, TIFFFileName(tiff),
+                  "rows or columns have a black level of their own (BlackLevelDeltaV or BlackLevelDeltaH; "
+                  "allowed one for all)");
+  }
+}
+
+// Without the border that no light comes to: mosaics begin at its inner corner [DNG, "ActiveArea"].
+void keep_active_area(TIFF* tiff, RawPicture& raw) {
+  const std::uint32_t* area = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_ACTIVEAREA, &area) != 1) return;
+  const std::size_t top = area[0];
+  const std::size_t left = area[1];
+  const std::size_t bottom = area[2];
+  const std::size_t right = area[3];
+  const auto width = static_cast<std::size_t>(raw.width);
+  if (top >= bottom || left >= right || bottom > static_cast<std::size_t>(raw.height) || right > width)
+    throw Error(ErrorCode::input, TIFFFileName(tiff), "its ActiveArea is no part of it");
+  const std::size_t planes = raw.planes.size();
+  std::vector<std::uint16_t> lit;
+  lit.reserve((bottom - top) * (right - left) * planes);
+  for (std::size_t y = top; y < bottom; ++y) {
+    const auto row = raw.codes.begin() + static_cast<std::ptrdiff_t>(y * width * planes);
+    lit.insert(lit.end(), row + static_cast<std::ptrdiff_t>(left * planes),
+               row + static_cast<std::ptrdiff_t>(right * planes));
+  }
+  raw.codes = std::move(lit);
+  raw.width = static_cast<decltype(raw.width)>(right - left);
+  raw.height = static_cast<decltype(raw.height)>(bottom - top);
+}
+
+// The exposure time, of which the folder of Exif tells; the last to be read, since it leaves the image.
+void read_exposure(TIFF* tiff, RawPicture& raw) {
+  toff_t folder = 0;
+  float seconds = 0;
+  if (TIFFGetField(tiff, TIFFTAG_EXIFIFD, &folder) == 1 && TIFFReadEXIFDirectory(tiff, folder) == 1 &&
+      TIFFGetField(tiff, EXIFTAG_EXPOSURETIME, &seconds) == 1 && seconds > 0)
+    raw.exposure_s = static_cast<double>(seconds);
+}
+
+void require_codes(TIFF* tiff) {
+  std::uint16_t bits = 0;
+  std::uint16_t format = 0;
+  TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  if (bits != 16 || TIFFIsTiled(tiff) != 0)
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its first image has no strips of 16-bit numbers (got " + std::to_string(bits) +
+                    " bits); a raw converter can make an uncompressed DNG of it");
+  if (format != SAMPLEFORMAT_UINT)
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its first image has no whole numbers without sign (got SampleFormat " +
+                    std::to_string(format) + ", allowed 1)");
+}
+
+// Strip by strip, or nothing where libtiff cannot undo the compression.
+bool read_codes(TIFF* tiff, RawPicture& raw) {
+  const std::uint32_t strips = TIFFNumberOfStrips(tiff);
+  std::size_t at = 0;
+  for (std::uint32_t strip = 0; strip < strips; ++strip) {
+    const std::size_t left = (raw.codes.size() - at) * sizeof(std::uint16_t);
+    const tmsize_t got =
+        TIFFReadEncodedStrip(tiff, strip, raw.codes.data() + at, static_cast<tmsize_t>(left));
+    if (got <= 0) return false;
+    at += static_cast<std::size_t>(got) / sizeof(std::uint16_t);
+  }
+  std::uint16_t layout = PLANARCONFIG_CONTIG;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &layout);
+  if (layout == PLANARCONFIG_SEPARATE) raw.codes = pixel_by_pixel(raw.codes, raw.planes.size());
+  return at == raw.codes.size();
+}
+
+}  // namespace
+
+RawPicture read_dng(const std::string& path) {
+  teach_dng_tags();
+  const Tiff tiff(TIFFOpenExt(path.c_str(), "r", quiet_tiff().get()), TIFFClose);
+  if (!tiff) throw Error(ErrorCode::input, path, "no DNG, or a damaged one");
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint16_t samples = 1;
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
+  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, &samples);
+  require_image_size(path, width, height, samples);
+  require_codes(tiff.get());
+  RawPicture raw;
+  raw.width = width;
+  raw.height = height;
+  for (int k = 0; k < samples; ++k) raw.planes.push_back(samples == 1 ? "raw" : std::to_string(k));
+  raw.codes.resize(static_cast<std::size_t>(width) * height * samples);
+  if (!read_codes(tiff.get(), raw)) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  read_lines(tiff.get(), raw);
+  read_layout(tiff.get(), raw);
+  read_levels(tiff.get(), raw);
+  require_even_black(tiff.get());
+  keep_active_area(tiff.get(), raw);
+  read_exposure(tiff.get(), raw);
+  return raw;
+}
+}  // namespace abbe::picture_module
