@@ -1,6 +1,7 @@
 #include "calibration/calibration_case.h"
 
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,6 +41,15 @@ std::vector<Channel> box_channels(const std::string& bands) {
     throw Error(ErrorCode::usage, "--camera", fmt::format("expected three bands (got {})", pieces.size()));
   return {energy_channel("R", box_filter(pieces[2])), energy_channel("G", box_filter(pieces[1])),
           energy_channel("B", box_filter(pieces[0]))};
+}
+
+// The channels of a camera that is no table.
+std::optional<std::vector<Channel>> formula_channels(const std::string& camera) {
+  constexpr std::string_view kBox = "box:";
+  if (camera.starts_with(kBox)) return box_channels(camera.substr(kBox.size()));
+  if (camera == "observer:1931") return observer_channels(Observer::cie1931);
+  if (camera == "observer:1964") return observer_channels(Observer::cie1964);
+  return std::nullopt;
 }
 
 // All patches of several tables of reflectances.
@@ -98,6 +108,15 @@ void require_light_of(const ChartTargets& chart, const NamedCurve& light) {
                             light.name, named[0], named[1], own[0], own[1]));
 }
 
+void warn_of_codes(const MeasuredPatches& patches, const fs::path& file, Diagnostics& diagnostics) {
+  if (patches.unit != kCodeValues) return;
+  const auto source = std::make_shared<const SourceText>(SourceText{file.string(), ""});
+  diagnostics.warning(
+      {source, SourcePosition::kWholeFile, ""},
+      "its values, the code values of a picture, are taken for linear, which those for displays "
+      "are not: measure raw files, or give a --series");
+}
+
 // Code values to linear ones.
 void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
   for (Raw& value : patches.values)
@@ -106,19 +125,23 @@ void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>&
 
 }  // namespace
 
-std::optional<std::vector<Channel>> camera_channels(const std::string& camera, Diagnostics& diagnostics) {
-  constexpr std::string_view kBox = "box:";
-  if (camera.starts_with(kBox)) return box_channels(camera.substr(kBox.size()));
-  if (camera == "observer:1931") return observer_channels(Observer::cie1931);
-  if (camera == "observer:1964") return observer_channels(Observer::cie1964);
-  auto channels = load_camera(camera, {}, diagnostics);
+std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
+                                                    std::optional<ResponseKind> response,
+                                                    Diagnostics& diagnostics) {
+  if (auto channels = formula_channels(camera)) {
+    if (response)
+      throw Error(ErrorCode::usage, "camera response",
+                  fmt::format("goes with measured curves (got {}, which has its own)", camera));
+    return channels;
+  }
+  auto channels = load_camera(camera, {}, diagnostics, response, ResponseScale::relative);
   if (channels) channels = in_rgb_order(*std::move(channels), &Channel::name);
   return channels;
 }
 
 CalibrationCase simulated_calibration(const CalibrationSource& source, const std::string& illuminant,
                                       Diagnostics& diagnostics) {
-  const auto channels = camera_channels(source.camera, diagnostics);
+  const auto channels = camera_channels(source.camera, source.camera_response, diagnostics);
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   const auto chart = load_chart(source.chart, {}, diagnostics);
   const auto test = source.test.empty() ? Chart{} : load_chart(source.test, {}, diagnostics);
@@ -149,7 +172,8 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
   auto patches = load_measured_patches(source.measured, diagnostics);
   const Chart training = load_training(source, diagnostics);
   std::optional<std::vector<Channel>> channels;
-  if (!training.patches.empty()) channels = camera_channels(source.camera, diagnostics);
+  if (!training.patches.empty())
+    channels = camera_channels(source.camera, source.camera_response, diagnostics);
   require_sound(diagnostics);
   require_light_of(*chart, *light);
   if (channels) require_rgb(*channels, &Channel::name, "--camera");
@@ -160,6 +184,8 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
     camera.responses = in_rgb_order(std::move(recovered.channels), &ChannelResponse::channel);
     scale_to_codes(*patches, recovered.full_scale_dn, source.measured);
     linearise_all(*patches, camera.responses);
+  } else {
+    warn_of_codes(*patches, source.measured, diagnostics);
   }
   const BalancedPatches balanced = balance(*chart, *patches);
   camera.colors = balanced.colors;

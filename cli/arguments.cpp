@@ -121,7 +121,7 @@ LightFactor parse_light_factor(const std::string& option, const std::string& tex
   constexpr double kMost = 1e30;
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos || sign == 0) refuse(option, "\"" + text + "\"", "NAME=FACTOR");
-  return {text.substr(0, sign), parse_numbers(option, text.substr(sign + 1), -kMost, kMost)};
+  return {text.substr(0, sign), parse_numbers(option, text.substr(sign + 1), 0, kMost)};
 }
 
 Crop asked_pixels(const Image& film, const std::optional<Crop>& asked) {

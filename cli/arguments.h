@@ -38,7 +38,7 @@ namespace abbe::cli {
 [[nodiscard]] std::size_t parse_bytes(const std::string& option, const std::string& text);
 /// A share in (0, 1): "0.5%" or "0.005".
 [[nodiscard]] double parse_share(const std::string& option, const std::string& text);
-/// "name=factor", or a factor for each plane separated by commas.
+/// "name=factor", 0 or more, or a factor for each plane separated by commas.
 [[nodiscard]] LightFactor parse_light_factor(const std::string& option, const std::string& text);
 /// "bias", "dark", or "flat" perhaps with a share of saturation, as "flat:0.5".
 [[nodiscard]] CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text);

@@ -15,6 +15,7 @@
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/invalid_input.h"
 #include "io/text.h"
 #include "spectral/library.h"
 
@@ -100,8 +101,10 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
   }
   std::vector<Channel> channels;
   if (!options.camera.empty()) {
-    Diagnostics diagnostics;
-    channels = accepted(camera_channels(options.camera, diagnostics), diagnostics);
+    Diagnostics again;  // whose warnings have been told with the calibrations
+    auto camera = camera_channels(options.camera, options.camera_response, again);
+    require_sound(again);
+    channels = *std::move(camera);
     write("sensitivities.json", sensitivities_json(options.camera, channels));
   }
   write("report.html", page_of(cases, channels, bench));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/usage.h"
 #include "description/render_limits.h"
+#include "sensor/response/channel.h"
 
 namespace abbe::cli {
 
@@ -72,6 +74,14 @@ auto one_of(std::vector<std::string> names) {
   return [names = std::move(names)](const std::string& option, const std::string& text) {
     return static_cast<T>(parse_choice(option, text, names));
   };
+}
+
+/// What the curves of a camera multiply.
+inline CLI::Option* add_response(CLI::App& app, const std::string& flag, std::optional<ResponseKind>& value) {
+  return add_parsed(app, flag, value, one_of<ResponseKind>({"energy", "quantum"}),
+                    "What the camera's curves multiply, energy or photons (default: photons for columns "
+                    "named QE, else energy)",
+                    "energy|quantum");
 }
 
 inline Imath::V3d parse_vector(const std::string& option, const std::string& text) {

@@ -146,10 +146,12 @@ void add_calibrate(CLI::App& app, Command& command) {
   const Sub<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera on a colour chart", command,
                                           calibrate);
   CLI::App& options = *calibration.app;
-  options
-      .add_option("--camera", calibration->camera,
-                  "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
-      ->type_name("CAMERA");
+  CLI::Option* const camera =
+      options
+          .add_option("--camera", calibration->camera,
+                      "Camera or FILE.csv or .json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH, or observer:1931 or 1964")
+          ->type_name("CAMERA");
+  add_response(options, "--camera-response", calibration->camera_response)->needs(camera);
   options
       .add_option("--measured", calibration->measured,
                   "A real camera's values of the chart, linear or to be made so by --series")

@@ -121,6 +121,7 @@ void add_color_queries(CLI::App& query, Command& command) {
                  "Instead, how near the camera comes to an observer: Vora value, Luther's condition, "
                  "sensitivity metamerism index")
       ->excludes(illuminant);
+  add_response(*camera.app, "--response", camera->response);
   add_json(*camera.app, camera->json);
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/inputs.h"
 #include "sensor/film/crop.h"
+#include "sensor/response/channel.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::cli {
@@ -113,6 +114,7 @@ struct CameraOptions {
   std::string reflectance;
   bool judge = false;  ///< Print the Vora value, what is left of x, y, z, and the sensitivity index instead.
   bool json = false;
+  std::optional<ResponseKind> response = {};  ///< Of its curves; without one as `load_camera` takes them.
 };
 /// Throws Error{usage} without an illuminant unless the camera is to be judged.
 int query_camera(const CameraOptions& options);

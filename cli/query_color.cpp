@@ -14,6 +14,7 @@
 #include "materials/index/library.h"
 #include "sensor/response/channel.h"
 #include "spectral/astm_e308.h"
+#include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "validation/statistics/image_difference.h"
 
@@ -28,9 +29,7 @@ struct LitSurface {
 LitSurface load(const std::string& illuminant, const std::string& reflectance, Diagnostics& diagnostics) {
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   std::optional<NamedCurve> surface;
-  if (!reflectance.empty()) surface = load_curve("reflectance", reflectance, {}, diagnostics);
-  if (const auto fault = surface ? value_fault(surface->curve, Range::unit()) : std::nullopt)
-    diagnostics.error({}, fmt::format("\"{}\": {}", reflectance, *fault), ErrorCode::input);
+  if (!reflectance.empty()) surface = load_curve(kReflectanceUse, reflectance, {}, diagnostics);
   check(diagnostics);
   return {light->curve, surface ? surface->curve : Curve(1.0)};
 }
@@ -143,7 +142,7 @@ int query_camera(const CameraOptions& options) {
   Diagnostics diagnostics;
   if (options.illuminant.empty() && !options.judge)
     throw Error(ErrorCode::usage, "query camera", "needs --illuminant or --judge");
-  const auto channels = load_camera(options.name, {}, diagnostics);
+  const auto channels = load_camera(options.name, {}, diagnostics, options.response, ResponseScale::relative);
   if (options.judge) return judge_camera(accepted(channels, diagnostics), options.json);
   const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
   const std::vector<double> raw = camera_raw(*channels, lit.illuminant, lit.reflectance);

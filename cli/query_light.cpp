@@ -15,6 +15,7 @@
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "spectral/color_temperature.h"
+#include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "validation/plot/color_vector.h"
 
@@ -54,12 +55,10 @@ Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& di
   return Curve(std::move(knots));
 }
 
-Curve within(const char* folder, const std::string& name, Diagnostics& diagnostics) {
-  const auto curve = load_curve(folder, name, {}, diagnostics);
-  if (!curve) return Curve();
-  if (const auto fault = value_fault(curve->curve, Range::unit()))
-    diagnostics.error({}, fmt::format("\"{}\": {}", name, *fault), ErrorCode::input);
-  return curve->curve;
+// Nothing after an error.
+Curve curve_for(const CurveUse& use, const std::string& name, Diagnostics& diagnostics) {
+  const auto curve = load_curve(use, name, {}, diagnostics);
+  return curve ? curve->curve : Curve();
 }
 
 // The light that is asked about: a lamp's or a picture's, through filters, from a surface.
@@ -68,9 +67,9 @@ Curve asked_light(const LightOptions& options) {
   Curve passed(1.0);
   if (!options.filters.empty())
     for (const std::string& filter : split(options.filters, ','))
-      passed = product(passed, within("filter", filter, diagnostics));
+      passed = product(passed, curve_for(kTransmittanceUse, filter, diagnostics));
   if (!options.reflectance.empty())
-    passed = product(passed, within("reflectance", options.reflectance, diagnostics));
+    passed = product(passed, curve_for(kReflectanceUse, options.reflectance, diagnostics));
   Curve light;
   if (extension_of(options.name) == ".exr") {
     light = light_of(options, passed, diagnostics);
@@ -131,8 +130,8 @@ int query_light(const LightOptions& options) {
 
 int query_metamerism(const MetamerismOptions& options) {
   Diagnostics diagnostics;
-  const Curve first = within("reflectance", options.first, diagnostics);
-  const Curve second = within("reflectance", options.second, diagnostics);
+  const Curve first = curve_for(kReflectanceUse, options.first, diagnostics);
+  const Curve second = curve_for(kReflectanceUse, options.second, diagnostics);
   const auto reference = load_illuminant(options.reference, {}, diagnostics);
   const auto test = load_illuminant(options.test, {}, diagnostics);
   check(diagnostics);

@@ -294,14 +294,15 @@ void write_results(const RenderOptions& options, const Outputs& outputs,
 }
 
 void tell_results(const RenderOptions& options, const fs::path& film, const Scene& scene,
-                  const RenderStats& stats) {
+                  const RenderResult& result) {
+  const RenderStats& stats = result.stats;
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", film.string(), stats.samples_per_pixel,
                     stats.wall_s, error_text(stats.error, ", ")));
   if (options.target_error && !options.time_limit_s && !stats.interrupted &&
       !std::isfinite(stats.error.median))
     say("warning: a pilot found no light on the film: --error had nothing to wait for");
-  for (const std::string& loss : left_out(scene, stats)) say("warning: " + loss);
+  for (const std::string& loss : left_out(scene, result)) say("warning: " + loss);
 }
 
 }  // namespace
@@ -341,6 +342,7 @@ int render(const RenderOptions& options) {
   warn_of_dark_camera(scene, options.strict);
   warn_of_hidden_sheet(scene, options.strict);
   warn_of_lost_light(scene, options.strict && !leaves_integrator);
+  warn_of_unused_settings(scene);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options, scene)));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
@@ -350,7 +352,7 @@ int render(const RenderOptions& options) {
   write_results(options, outputs, display, scene, part, costs);
   watchers.end(part.result);
   const RenderStats& stats = part.result.stats;
-  tell_results(options, outputs.film, scene, stats);
+  tell_results(options, outputs.film, scene, part.result);
   if (stats.interrupted) return kSignalExit + watch.signal();
   return options.strict && stats.nonfinite_samples > 0 ? static_cast<int>(ErrorCode::internal) : 0;
 }

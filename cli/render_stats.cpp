@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cli/answer.h"
+#include "film/spectral.h"
 #include "io/data_directory.h"
 
 namespace abbe::cli {
@@ -12,13 +13,14 @@ Json json_of(const Cost& cost) {
   return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
 }
 
-// Of the planes over what was rendered.
+// Of the planes over what was rendered, those of a spectral sensor as the radiances that its file holds.
 Json film_figures(const Scene& scene, const Film& film) {
   const Crop of = film.crop();
   const std::vector<std::string> planes = scene.film_planes();
+  const std::vector<double> divisors = scene.spectral ? exposure_per_radiance(scene) : std::vector<double>();
   Json figures;
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    const Film::Average average = film.average(static_cast<int>(i), of.x0, of.y0, of.x1, of.y1);
+    const Film::Average average = film.average(static_cast<int>(i), of.x0, of.y0, of.x1, of.y1, divisors);
     const bool known = average.degrees_of_freedom > 0;
     figures[planes[i]] = {{"mean", average.mean},
                           {"standard_error", known ? Json(average.standard_error) : Json()},

@@ -10,11 +10,16 @@ void set_sampling(const SamplingOptions& options, RenderSettings& render) {
   render.samples = options.samples.value_or(render.samples);
   render.integrator = options.integrator.value_or(render.integrator);
   render.seed = options.seed.value_or(render.seed);
-  render.consistent = render.consistent || options.consistent;
+  const bool by_scene = render.consistent;
+  render.consistent = by_scene || options.consistent;
   if (options.consistent && render.integrator != Integrator::automatic)
     throw Error(ErrorCode::usage, "--consistent",
                 fmt::format("lets auto choose among more integrators, and this one is chosen already (got "
                             "--integrator {}, allowed auto)",
+                            integrator_name(render.integrator)));
+  if (by_scene && render.integrator != Integrator::automatic)
+    throw Error(ErrorCode::usage, "--integrator",
+                fmt::format("the scene lets \"auto\" choose among more integrators (got {}, allowed auto)",
                             integrator_name(render.integrator)));
   if (render.sampling != PathSampling{} && render.integrator != Integrator::path)
     throw Error(ErrorCode::usage, "--integrator",

@@ -26,8 +26,8 @@ struct SamplingOptions {
   bool quiet = false;
 };
 
-/// Sets what is asked for. Throws Error{usage} where `consistent` has nothing to choose, and for another
-/// integrator than the one that the scene says how to sample.
+/// Sets what is asked for. Throws Error{usage} where `consistent`, the scene's too, has nothing to choose,
+/// and for another integrator than the one that the scene says how to sample.
 void set_sampling(const SamplingOptions& options, RenderSettings& render);
 
 }  // namespace abbe::cli

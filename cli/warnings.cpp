@@ -40,6 +40,10 @@ void warn_of_hidden_sheet(const Scene& scene, bool strict) {
   if (const auto hidden = hidden_sheet(scene)) warn(*hidden, strict);
 }
 
+void warn_of_unused_settings(const Scene& scene) {
+  if (const auto unused = unused_settings(scene)) warn(*unused, false);
+}
+
 void note_polarisation(const Scene& scene) {
   if (!scene.needs.polarisation_matters || scene.render.polarisation) return;
   say(fmt::format(

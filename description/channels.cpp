@@ -10,10 +10,7 @@
 namespace abbe::description {
 namespace {
 
-// Above 1 by what a measurement may err, far below a percentage.
-constexpr Range kTransmittance{0, 1.05};
 constexpr Range kExtinctionRatio{1, 1e9};
-constexpr Range kQuantumEfficiency{0, 10};  // above 1 for energetic photons; per cent are more
 
 // As EXR files can name channels and what is said of them.
 constexpr std::size_t kLongestName = 100;
@@ -32,6 +29,7 @@ bool is_plain(std::string_view name) {
 /// What all channels of a sensor share.
 struct Detector {
   std::optional<ResponseKind> response = {};
+  ResponseScale scale = ResponseScale::absolute;
   std::optional<Curve> quantum_efficiency = {};
   std::optional<FilterStack> filters = {};  ///< Before all channels: the lens, and what lies over the sensor.
   std::optional<Polariser> polariser = {};  ///< Likewise.
@@ -41,12 +39,12 @@ struct Detector {
 // Puts one more filter into the stack: a curve, or one that shifts with the angle.
 bool add_filter(const spec::Filter& filter, FilterStack& stack, LoadContext& context) {
   if (const auto* fixed = std::get_if<spec::Curve>(&filter)) {
-    const auto curve = build(*fixed, {"filter", kTransmittance}, context);
+    const auto curve = build(*fixed, kTransmittanceUse, context);
     if (curve) stack.fixed = product(stack.fixed, *curve);
     return curve.has_value();
   }
   const auto& shifting = std::get<spec::InterferenceFilter>(filter);
-  auto curve = build(shifting.transmittance, {"filter", kTransmittance}, context);
+  auto curve = build(shifting.transmittance, kTransmittanceUse, context);
   if (!curve) return false;
   stack.shifting.push_back({*std::move(curve), shifting.effective_index});
   return true;
@@ -62,7 +60,7 @@ std::optional<FilterStack> build_filters(const spec::Filters& filters, LoadConte
 std::optional<Polariser> build_polariser(const spec::PolarisingFilter& said, LoadContext& context) {
   Polariser polariser{said.angle_deg};
   const auto& passing = said.transmittance;
-  const auto transmittance = passing ? build(*passing, {"filter", kTransmittance}, context) : Curve(1.0);
+  const auto transmittance = passing ? build(*passing, kTransmittanceUse, context) : Curve(1.0);
   const auto& ratio = said.extinction_ratio;
   if (ratio) polariser.extinction_ratio = build(*ratio, {"filter", kExtinctionRatio}, context);
   if (!transmittance || (ratio && !polariser.extinction_ratio)) return std::nullopt;
@@ -74,15 +72,16 @@ std::optional<Polariser> build_polariser(const spec::PolarisingFilter& said, Loa
 std::optional<Detector> build_detector(const spec::Sensor& said, LoadContext& context) {
   Detector detector{.exposure_s = said.exposure_s};
   if (said.response) detector.response = said.response->value;
+  if (said.peak_quantum_efficiency || said.electrons_per_lx_s) detector.scale = ResponseScale::relative;
   const auto& efficiency = said.quantum_efficiency;
   if (efficiency && detector.response == ResponseKind::energy)
     context.diagnostics.error(efficiency->where,
                               "a quantum_efficiency makes the response quantum (got \"energy\")");
-  if (efficiency) detector.quantum_efficiency = build(*efficiency, {"camera", kQuantumEfficiency}, context);
+  if (efficiency) detector.quantum_efficiency = build(*efficiency, kQuantumEfficiencyUse, context);
   if (said.filters) detector.filters = build_filters(said.filters->value, context);
   if (said.polariser) detector.polariser = build_polariser(*said.polariser, context);
   const auto& lens = said.lens_transmission;
-  const auto transmission = lens ? build(*lens, {"filter", kTransmittance}, context) : std::optional<Curve>();
+  const auto transmission = lens ? build(*lens, kTransmittanceUse, context) : std::optional<Curve>();
   if ((efficiency && !detector.quantum_efficiency) || (said.filters && !detector.filters) ||
       (said.polariser && !detector.polariser) || (lens && !transmission))
     return std::nullopt;
@@ -101,12 +100,24 @@ struct Own {
   double exposure_s;
 };
 
+bool is_quantum(const Detector& detector) {
+  return detector.quantum_efficiency || detector.response == ResponseKind::quantum;
+}
+
+// Responses to energy have no unit that is told, nor has what is scaled afterwards.
+CurveUse response_use(const Detector& detector) {
+  if (is_quantum(detector) && detector.scale == ResponseScale::absolute)
+    return {"filter", kQuantumResponseUse.allowed, kQuantumResponseUse.unit};
+  const bool unsaid = !is_quantum(detector) && !detector.response;
+  return {"filter", spec::kValue, unsaid ? CurveUnit::unsaid_response : CurveUnit::any};
+}
+
 // Either a curve, or filters perhaps with an exposure time.
 std::optional<Own> build_own(const spec::ChannelResponse& said, const Detector& detector,
                              LoadContext& context) {
   Own own{.exposure_s = detector.exposure_s};
   if (const auto* response = std::get_if<spec::Curve>(&said)) {
-    auto curve = build(*response, {"filter"}, context);
+    auto curve = build(*response, response_use(detector), context);
     if (!curve) return std::nullopt;
     own.curve = *std::move(curve);
     return own;
@@ -137,8 +148,8 @@ std::optional<Channel> build_channel(const schema::Named<spec::ChannelResponse>&
   if (!own) return std::nullopt;
   Curve& curve = own->curve;
   if (detector.quantum_efficiency) curve = product(curve, *detector.quantum_efficiency);
-  const bool quantum = detector.quantum_efficiency || detector.response == ResponseKind::quantum;
-  Channel channel = quantum ? quantum_channel(name, curve) : energy_channel(name, std::move(curve));
+  Channel channel =
+      is_quantum(detector) ? quantum_channel(name, curve) : energy_channel(name, std::move(curve));
   if (!own->filters.shifting.empty()) channel = behind(std::move(channel), own->filters);
   if (own->polariser) channel = behind(std::move(channel), *own->polariser);
   if (own->exposure_s != detector.exposure_s)
@@ -175,8 +186,9 @@ struct ChannelBuilder {
     refuse(place(said.quantum_efficiency), "quantum_efficiency", "camera", context);
     const auto name = context.table(camera.value, camera.where);
     if (name && detector)
-      sensor.channels = load_camera(*name, camera.where, context.diagnostics, detector->response)
-                            .value_or(std::vector<Channel>{});
+      sensor.channels =
+          load_camera(*name, camera.where, context.diagnostics, detector->response, detector->scale)
+              .value_or(std::vector<Channel>{});
   }
   void operator()(const spec::StandardObserver& observer) const {
     refuse(place(said.response), "response", "observer", context);

@@ -1,8 +1,6 @@
 // A colour chart as a scene object: a grid of patches with measured reflectances on a dark surround.
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "description/shape.h"
 #include "spectral/chart.h"
 
@@ -75,27 +73,15 @@ std::uint32_t diffuse_material(const std::string& name, Curve reflectance, LoadC
   return known->second;
 }
 
-bool check_reflectances(const Chart& chart, const SourcePosition& at, const LoadContext& context) {
-  for (const Patch& patch : chart.patches) {
-    if (patch.reflectance.min() >= 0 && patch.reflectance.max() <= 1) continue;
-    context.diagnostics.error(
-        at, fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed [0, 1])", patch.name,
-                        patch.reflectance.min(), patch.reflectance.max()));
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<NamedShape> build(const spec::Chart& said, const std::string& name, LoadContext& context,
                               Scene& scene) {
-  const auto surround =
-      said.surround ? build(*said.surround, {"reflectance", Range::unit()}, context) : Curve(kSurround);
+  const auto surround = said.surround ? build(*said.surround, kReflectanceUse, context) : Curve(kSurround);
   const SourcePosition& where = said.reflectances.where;
   const auto file = context.table(said.reflectances.value, where);
-  const auto chart = file ? load_chart(*file, where, context.diagnostics) : std::nullopt;
-  if (!chart || !surround || !check_reflectances(*chart, where, context)) return {};
+  const auto chart = file ? load_chart(*file, where, context.diagnostics, kReflectanceUse) : std::nullopt;
+  if (!chart || !surround) return {};
   const Imath::V3d edge_u = said.edge_u * context.unit_m;
   const Imath::V3d edge_v = said.edge_v * context.unit_m;
   if (edge_u.cross(edge_v).length() == 0) {

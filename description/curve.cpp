@@ -167,40 +167,18 @@ struct CurveBuilder {
   }
 };
 
-bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), text) != words.end();
-}
-bool has_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [text](std::string_view word) { return text.find(word) != text.npos; });
-}
-
-// A unit is prose, such as "1/m" or "reflectance (0-1); wavelength in nm". What is allowed in its place where
-// it is not that of the use.
-std::optional<std::string> allowed_unit(const std::string& told, const CurveUse& use) {
-  std::string unit = told.substr(0, told.find_first_of(";,("));
-  while (unit.ends_with(' ')) unit.pop_back();
-  const bool share = use.allowed.text() == Range::unit().text();
-  if (share && is_one_of(unit, {"%", "percent", "per cent"})) return "shares of 1";
-  if (use.unit == CurveUnit::per_metre &&
-      !is_one_of(unit, {"1/m", "/m", "m^-1", "m-1", "m⁻¹", "per m", "per metre", "per meter"}))
-    return "1/m";
-  if (use.unit == CurveUnit::spectral_radiance &&
-      (has_one_of(unit.substr(0, 2), {"mW", "uW", "µ", "nW", "kW"}) ||
-       has_one_of(told, {"/um", "/µm", " um)", " µm)", "/cm", "cm2", "cm^2"})))
-    return "W/(m^2 sr nm)";
-  return std::nullopt;
-}
-
 // A table named by itself, if its unit is that of the use.
 std::optional<Curve> checked(NamedCurve table, const std::string& words, const CurveUse& use,
                              const SourcePosition& where, Diagnostics& diagnostics) {
-  const auto allowed = allowed_unit(table.unit, use);
-  if (!allowed) return std::move(table.curve);
-  diagnostics.error(where, fmt::format("\"{0}\" is in another unit (got \"{1}\", allowed {2}; "
-                                       "{{\"scale\": S, \"of\": \"{0}\"}} converts)",
-                                       words, table.unit, *allowed));
-  return std::nullopt;
+  const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", words);
+  if (auto fault = unit_fault(words, table.unit, use.unit, remedy)) {
+    diagnostics.error(where, *std::move(fault));
+    return std::nullopt;
+  }
+  if (use.unit == CurveUnit::unsaid_response)
+    if (auto doubt = unsaid_response(words, table.unit))
+      diagnostics.error_if_strict(where, *std::move(doubt));
+  return std::move(table.curve);
 }
 
 }  // namespace

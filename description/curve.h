@@ -10,6 +10,7 @@
 
 #include "description/kinds.h"
 #include "description/load_context.h"
+#include "spectral/curve_use.h"
 #include "spectral/sources.h"
 
 namespace abbe::spec {
@@ -64,19 +65,10 @@ inline constexpr Range kDaylight = Range{4000, 25000}.in("K");
 
 namespace abbe::description {
 
-/// What the values of a curve stand for, where a table may say that its own stand for something else.
-enum class CurveUnit { any, per_metre, spectral_radiance };
-
-/// Where a curve is used: the data folder its names are looked for in, the values it may take, and their
-/// unit.
-struct CurveUse {
-  std::string_view folder;
-  Range allowed = spec::kValue;
-  CurveUnit unit = CurveUnit::any;
-};
 /// The curve, sampled. Reports what no table can say: wavelengths that do not ascend, an empty band, an
 /// unknown name, values that the use does not allow, or a table, named by itself and not scaled, whose unit
-/// is another one, as 1/cm is for 1/m and percent for a share; nothing then.
+/// is another one, as 1/cm is for 1/m and percent for a share; nothing then. Warns of a table named so whose
+/// unit speaks of photons where the response is unsaid.
 [[nodiscard]] std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context);
 [[nodiscard]] Curve build(const spec::Lines& lines);
 

@@ -8,6 +8,7 @@
 
 #include "description/light.h"
 #include "io/extension.h"
+#include "io/orientation.h"
 #include "io/picture.h"
 #include "spectral/rgb.h"
 
@@ -42,13 +43,11 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
   if (extension != ".exr" && extension != ".hdr")
     return refuse(
         fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", path->extension().string()));
-  const Image image = read_image(*path, context.inputs);
+  const Image image = upright(read_image(*path, context.inputs));
   const HeldMemory held(context.inputs, image.memory_bytes());
   const auto planes = find_planes(image);
   if (!planes) return refuse("no channels R, G, B, or Y alone");
   if (const auto fault = rec709_fault(image)) return refuse(*fault);
-  if (const auto warning = exposure_warning(image))
-    context.diagnostics.warning(where, fmt::format("environment \"{}\": {}", name, *warning));
   // Texels, and the cumulative distribution by which they are drawn.
   context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
   Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
@@ -61,7 +60,8 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
         return refuse(fmt::format("texel ({}, {}) (got {}, allowed {})",
                                   i % static_cast<std::size_t>(image.width),
                                   i / static_cast<std::size_t>(image.width), value, spec::kPower.text()));
-      negative += value < 0;
+      const bool is_told = c > 0 && (*planes)[c] == (*planes)[0];  // a luminance, which is all three
+      negative += value < 0 && !is_told;
       sky.texels[i][c] = std::max(value, 0.0F);
     }
   if (std::all_of(sky.texels.begin(), sky.texels.end(),

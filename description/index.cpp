@@ -122,7 +122,7 @@ std::optional<Ior> table_ior(const spec::TableIor& said, LoadContext& context) {
     table.where = said.where;
     table.value =
         spec::CurveFormula{spec::TableCurve{said.wavelength_nm, values, Outside::clamp, said.where}};
-    return build(table, {""}, context);
+    return build(table, {"", spec::kValue}, context);
   };
   const auto n = curve(said.n);
   const auto k = said.k ? curve(*said.k) : Curve();

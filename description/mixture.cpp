@@ -36,7 +36,7 @@ std::optional<MixtureMaterial> build(const spec::Mixture& said, LoadContext& con
   MixtureMaterial mixture;
   Curve total(0.0);
   for (const spec::MixturePart& part : said.value) {
-    auto weight = build(part.weight, {"reflectance", Range::unit()}, context);
+    auto weight = build(part.weight, kReflectanceUse, context);
     auto material = mixable_material(part.material, context, scene);
     if (!weight || !material) return std::nullopt;
     total = sum(total, *weight);

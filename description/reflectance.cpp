@@ -8,9 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "io/picture_codec.h"
-#include "spectral/rgb.h"
-
 namespace abbe {
 
 static schema::Fields fields(schema::Tag<TextureMapping>) {
@@ -45,8 +42,8 @@ static Fields fields(Tag<Texture>) {
               under<Weights>("weights", by_name<Curve>("spectra by channel", 1),
                              "The spectrum that each channel weighs; values are taken as linear."),
               under<Rgb>("rgb",
-                         "true: channels R, G, B are a colour, linear in files of floats or that say so, "
-                         "else sRGB."))});
+                         "true: channels R, G, B are a colour, linear in files of floats, else encoded as "
+                         "the file says, or as sRGB."))});
 }
 
 Kind kind(Tag<Reflectance>) {
@@ -69,13 +66,13 @@ constexpr double kSumRounding = 1e-6;
 struct Weights {
   std::vector<std::string> channels;
   std::vector<Curve> spectra;
-  Encoding encoding = Encoding::linear;
+  Encoding encoding = kLinearEncoding;
 };
 
 std::optional<Weights> build(const spec::Weights& said, LoadContext& context) {
   Weights weights;
   for (const auto& [channel, curve, where] : said.value) {
-    auto spectrum = build(curve, {"reflectance"}, context);
+    auto spectrum = build(curve, {"reflectance", spec::kValue}, context);
     if (!spectrum) return std::nullopt;
     weights.channels.push_back(channel);
     weights.spectra.push_back(std::move(*spectrum));
@@ -83,7 +80,15 @@ std::optional<Weights> build(const spec::Weights& said, LoadContext& context) {
   return weights;
 }
 
-// Files of floats hold linear values, those of integers what a display is sent unless they say otherwise.
+void warn_of_alpha(const TextureFile& file, LoadContext& context) {
+  const ImageChannel* alpha = file.image.find("A");
+  if (alpha && std::ranges::any_of(alpha->values, [](float value) { return value != 1; }))
+    context.diagnostics.warning(
+        file.where,
+        fmt::format("texture \"{}\": its alpha channel is not heeded: colours are as the file has them",
+                    file.name));
+}
+
 std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, LoadContext& context) {
   if (!said.value) {
     context.diagnostics.error(said.where, "an image that is not rgb needs weights (got false, allowed true)");
@@ -97,10 +102,11 @@ std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, Loa
       file.where, fmt::format("texture \"{}\": red, green and blue have no spectrum: the smooth one that "
                               "looks so under D65 stands in for what was there",
                               file.name));
-  const bool linear = is_linear(file.image.metadata);
+  warn_of_alpha(file, context);
   const RgbBasis& basis = rgb_basis();
-  return Weights{
-      {"R", "G", "B"}, {basis.red, basis.green, basis.blue}, linear ? Encoding::linear : Encoding::srgb};
+  return Weights{{"R", "G", "B"},
+                 {basis.red, basis.green, basis.blue},
+                 recorded_encoding(file.image).value_or(Encoding{})};
 }
 
 /// The values of all spectra at one wavelength.
@@ -187,7 +193,7 @@ bool check_reflectances(const TextureFile& file, const Weights& weights, const s
 
 std::optional<SpectralTexture> build(const spec::Reflectance& said, LoadContext& context) {
   if (const auto* constant = std::get_if<spec::Curve>(&said)) {
-    auto curve = build(*constant, {"reflectance", Range::unit()}, context);
+    auto curve = build(*constant, kReflectanceUse, context);
     if (!curve) return std::nullopt;
     return SpectralTexture(std::move(*curve));
   }

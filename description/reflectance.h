@@ -10,6 +10,7 @@
 #include "io/image.h"
 #include "materials/texture/spectral_texture.h"
 #include "materials/texture/texture_image.h"
+#include "spectral/rgb.h"
 
 namespace abbe::spec {
 
@@ -34,9 +35,6 @@ using Reflectance = std::variant<Curve, Texture>;
 
 namespace abbe::description {
 
-/// How a file's values stand for numbers.
-enum class Encoding { linear, srgb };
-
 /// An image named by a scene, and how it lies on surfaces.
 struct TextureFile {
   std::string name;
@@ -51,14 +49,14 @@ struct TextureFile {
   [[nodiscard]] std::string texel_name(std::size_t i) const;
 };
 
-/// The image, read; one that cannot be read or is too large is reported.
+/// The image, read and turned upright; one that cannot be read or is too large is reported.
 [[nodiscard]] std::optional<TextureFile> build(const spec::TextureFile& file, LoadContext& context);
 
-/// Reads `channels` of the image texel by texel; a channel that is not there and a value that is not finite
-/// are reported.
+/// Reads the linear values of `channels` of the image texel by texel; a channel that is not there and a value
+/// that is not finite are reported.
 [[nodiscard]] std::optional<std::vector<float>> read_texels(const TextureFile& file,
                                                             std::span<const std::string> channels,
-                                                            Encoding encoding, LoadContext& context);
+                                                            const Encoding& encoding, LoadContext& context);
 
 /// Makes an image of texels with so many channels each, laid on surfaces as the file says.
 [[nodiscard]] TextureImage texture_image(const TextureFile& file, std::size_t channels,

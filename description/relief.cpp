@@ -18,7 +18,7 @@ std::optional<TextureImage> map_image(const TextureFile& file, std::span<const s
         ErrorCode::input, context);
     return std::nullopt;
   }
-  auto texels = read_texels(file, channels, Encoding::linear, context);
+  auto texels = read_texels(file, channels, kLinearEncoding, context);
   if (!texels) return std::nullopt;
   return texture_image(file, channels.size(), std::move(*texels));
 }

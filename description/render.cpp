@@ -102,7 +102,11 @@ RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& dia
     settings.photons = {photons->per_sample, photons->radius, photons->nearest, photons->final_gather};
     if (photons->radius) *settings.photons.radius_m *= unit_m;
   }
-  settings.consistent = render.consistent;
+  settings.consistent = render.consistent.value;
+  if (settings.consistent && render.integrator != Integrator::automatic)
+    diagnostics.error(render.consistent.where,
+                      fmt::format("lets the integrator \"auto\" choose among more (got it with \"{}\")",
+                                  integrator_name(render.integrator)));
   settings.polarisation = render.polarisation == spec::Polarising::automatic;
   settings.sampling = sampling_of(render, diagnostics);
   return settings;

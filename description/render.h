@@ -28,7 +28,7 @@ struct Render {
   schema::Located<int> roulette_depth{{4}, {}};
   std::uint64_t seed = 0;
   std::optional<Photons> photons;
-  bool consistent = false;
+  schema::Located<bool> consistent;
   Polarising polarisation = Polarising::automatic;
   schema::Located<DirectionSampling> directions;
   schema::Located<LightStrategy> lights;
@@ -40,8 +40,8 @@ struct Render {
 
 namespace abbe::description {
 
-/// Reports paths that nothing ends, and how `path` is to draw paths where it is not the integrator. Lengths
-/// are in units of `unit_m`.
+/// Reports paths that nothing ends, how `path` is to draw paths where it is not the integrator, and what
+/// `auto` may choose where it is not. Lengths are in units of `unit_m`.
 [[nodiscard]] RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics);
 
 }  // namespace abbe::description

@@ -30,6 +30,7 @@ constexpr std::array<std::string_view, 9> kCounts{"channels",
                                                   "peak_quantum_efficiency",
                                                   "electrons_per_lx_s"};
 constexpr std::array<std::string_view, 4> kWhatCounts{"channels", "camera", "observer", "spectral"};
+constexpr std::array<std::string_view, 2> kScale{"peak_quantum_efficiency", "electrons_per_lx_s"};
 constexpr std::array<std::string_view, 2> kConversion{"gain_e_per_dn", "iso"};
 
 std::vector<std::string> shipped_models() {
@@ -71,6 +72,13 @@ bool has_any(const JsonValue& object, std::span<const std::string_view> keys) {
   return std::any_of(keys.begin(), keys.end(), [&](auto key) { return object.find(key) != nullptr; });
 }
 
+// Which keys of a file a scene's sensor replaces together.
+std::span<const std::string_view> replaced_by(const JsonValue& sensor) {
+  if (has_any(sensor, kWhatCounts)) return kCounts;
+  if (has_any(sensor, kScale)) return kScale;
+  return {};
+}
+
 // Puts the members of `file` that `own` lacks into it, none of `replaced`.
 void complete(JsonValue& own, JsonValue& file, std::span<const std::string_view> replaced) {
   auto* const members = std::get_if<JsonValue::Object>(&file.value);
@@ -98,9 +106,7 @@ void include_sensor_model(JsonValue& scene, LoadContext& context) {
     complete(*own, *others,
              has_any(*own, kConversion) ? std::span<const std::string_view>(kConversion)
                                         : std::span<const std::string_view>());
-  complete(*sensor, *file,
-           has_any(*sensor, kWhatCounts) ? std::span<const std::string_view>(kCounts)
-                                         : std::span<const std::string_view>());
+  complete(*sensor, *file, replaced_by(*sensor));
 }
 
 }  // namespace abbe::description

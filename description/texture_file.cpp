@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "io/orientation.h"
 #include "io/picture.h"
-#include "spectral/rgb.h"
 
 namespace abbe::description {
 void TextureFile::refuse(const std::string& what, ErrorCode code, LoadContext& context) const {
@@ -24,10 +24,8 @@ std::optional<TextureFile> build(const spec::TextureFile& said, LoadContext& con
   const auto path = context.file(name, where);
   if (!path) return std::nullopt;
   try {
-    Image image = read_image(*path, context.inputs);
+    Image image = upright(read_image(*path, context.inputs));
     const std::size_t bytes = image.memory_bytes();
-    if (const auto warning = exposure_warning(image))
-      context.diagnostics.warning(where, fmt::format("texture \"{}\": {}", name, *warning));
     return TextureFile{name, where, std::move(image), said.mapping, {context.inputs, bytes}};
   } catch (const Error& e) {
     context.diagnostics.error(where, e.what(), e.code);
@@ -36,7 +34,7 @@ std::optional<TextureFile> build(const spec::TextureFile& said, LoadContext& con
 }
 
 std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span<const std::string> channels,
-                                              Encoding encoding, LoadContext& context) {
+                                              const Encoding& encoding, LoadContext& context) {
   context.take_memory(fmt::format("texture \"{}\"", file.name),
                       file.image.pixels() * channels.size() * sizeof(float));
   std::vector<float> texels(file.image.pixels() * channels.size());
@@ -57,8 +55,7 @@ std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span
             ErrorCode::input, context);
         return std::nullopt;
       }
-      texels[i * channels.size() + c] =
-          encoding == Encoding::linear ? value : static_cast<float>(srgb_decoded(static_cast<double>(value)));
+      texels[i * channels.size() + c] = static_cast<float>(encoding.decoded(static_cast<double>(value)));
     }
   }
   return texels;

@@ -72,7 +72,7 @@ Curve reciprocal(const Curve& curve) {
 
 std::optional<Curve> transmittance(const spec::ThinElement& said, LoadContext& context) {
   if (!said.transmittance) return Curve(1.0);
-  return build(*said.transmittance, {"filter", Range::unit()}, context);
+  return build(*said.transmittance, {"filter", Range::unit(), CurveUnit::share}, context);
 }
 
 // How a wave plate retards.

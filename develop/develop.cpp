@@ -1,6 +1,8 @@
 #include "develop/develop.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -99,12 +101,13 @@ void tell_unit(const char* unit, std::map<std::string, std::string>& told) {
 }
 
 // What the numbers of a raw file stand for, so that nothing that reads it has to guess.
-void tell_codes(const Readout& readout, std::map<std::string, std::string>& told) {
+void tell_codes(const FilmSensor& sensor, std::map<std::string, std::string>& told) {
+  const Readout& readout = *sensor.readout;
   told[kCodesKey] =
       fmt::format("digital numbers 0 to {}, linear, not scaled to 16 bits", readout.highest_code());
   if (readout.response_curve)
     told[kCodesKey] = fmt::format("digital numbers 0 to {}, by a response curve", readout.highest_code());
-  told[kBlackLevelKey] = fmt::format("{}", readout.offset_dn);
+  told[kBlackLevelKey] = fmt::format("{}", black_level(sensor));
   told[kWhiteLevelKey] = fmt::format("{}", white_level(readout));
   told[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
 }
@@ -138,9 +141,26 @@ DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint3
   }
   tell_unit("electrons per pixel", developed.electrons.metadata);
   tell_unit("digital numbers", developed.codes.metadata);
-  if (exposed.sensor.readout) tell_codes(*exposed.sensor.readout, developed.codes.metadata);
+  if (exposed.sensor.readout) tell_codes(exposed.sensor, developed.codes.metadata);
   if (!exposed.sensor.readout) developed.calibrated = developed.exposure;
   return developed;
+}
+
+double black_level(const FilmSensor& sensor) {
+  const std::optional<double> exposure_s = common_exposure(sensor);
+  return exposure_s ? black_level(*sensor.readout, *exposure_s) : sensor.readout->offset_dn;
+}
+
+void warn_of_own_dark_signals(const FilmSensor& sensor, Diagnostics& diagnostics) {
+  const double dark_dn_per_s = sensor.readout->dark_e_per_s / sensor.readout->gain_e_per_dn;
+  if (dark_dn_per_s == 0 || sensor.exposure_s.empty() || common_exposure(sensor)) return;
+  const auto [least_s, most_s] = std::minmax_element(sensor.exposure_s.begin(), sensor.exposure_s.end());
+  const auto option = std::make_shared<const SourceText>(SourceText{"-o", ""});
+  diagnostics.warning(
+      {option, SourcePosition::kWholeFile, ""},
+      fmt::format("channels of exposure times of their own have dark signals of their own (of "
+                  "{:.3g} to {:.3g} codes), which the black level of raw files leaves out",
+                  dark_dn_per_s * *least_s, dark_dn_per_s * *most_s));
 }
 
 std::uint64_t render_seed(const Image& film) {

@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-/// Attributes of raw files: what their numbers are, the code of a pixel without electrons, that which
-/// saturated ones reach, and electrons per digital number.
+/// Attributes of raw files: what their numbers are, the code that pixels expect without light, as
+/// `black_level` has it, that which saturated ones reach, and electrons per digital number.
 inline constexpr const char* kCodesKey = "codes";
 inline constexpr const char* kBlackLevelKey = "black_level_dn";
 inline constexpr const char* kWhiteLevelKey = "white_level_dn";
@@ -27,6 +27,13 @@ struct DevelopedFilm {
 /// Reads the film out once, its noise a function of `seed`, `frame`, plane and pixel. Throws Error{input} for
 /// a pixel that expects more electrons than can be counted.
 [[nodiscard]] DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint32_t frame = 0);
+
+/// The code that every pixel expects without light, on the straight line that is left where a response curve
+/// is undone: offset and dark signal; the offset alone where channels have exposure times of their own, and
+/// so dark signals of their own. For sensors with a read-out.
+[[nodiscard]] double black_level(const FilmSensor& sensor);
+/// Warns of such channels, since what is measured above that level has their dark signals in it.
+void warn_of_own_dark_signals(const FilmSensor& sensor, Diagnostics& diagnostics);
 
 /// The seed of the render that made the film; 0 for one that does not tell.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);

@@ -62,7 +62,7 @@ LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
   return read;
 }
 
-// Makes of codes what they stand for on a straight line above black.
+// Makes of codes what they stand for on a straight line above black, which is a code of that line.
 void take_black(LinearImage& read, const RawScale& scale, double black, double white) {
   read.unit = kNumbersAboveBlack;
   read.saturation = scale.linear(white) - black;
@@ -78,7 +78,9 @@ LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
   tell_lines(read.image);
   read_mosaic(read);
   const RawScale scale = raw.is_linearised ? RawScale{} : raw_scale(read.image).value_or(RawScale{});
-  take_black(read, scale, raw.black_level_dn, raw.white_level_dn);
+  // Tags tell it in single precision at most.
+  const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
+  take_black(read, scale, black.value_or(raw.black_level_dn), raw.white_level_dn);
   return read;
 }
 
@@ -98,11 +100,7 @@ void require_codes(const Image& image, const std::filesystem::path& path) {
 }
 
 LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
-  LinearImage read{read_picture(path, inputs, AlphaReading::as_stored),
-                   {},
-                   {},
-                   1.0,
-                   "code values in [0, 1], as the file has them"};
+  LinearImage read{read_picture(path, inputs), {}, {}, 1.0, kCodeValues};
   tell_lines(read.image);
   const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
   const auto white = parse_number(told(read.image, kWhiteLevelKey).value_or(""));

@@ -55,7 +55,7 @@ RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor)
     raw.mosaic_width = sensor.mosaic->width;
     raw.mosaic.assign(sensor.mosaic->channel.begin(), sensor.mosaic->channel.end());
   }
-  raw.black_level_dn = readout.offset_dn;
+  raw.black_level_dn = black_level(sensor);
   raw.linear_codes = linear_codes(readout);
   raw.white_level_dn = white_level(readout);
   raw.gain_e_per_dn = readout.gain_e_per_dn;

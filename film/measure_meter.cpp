@@ -54,11 +54,12 @@ MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions ho
   how.guides = choice.guides;
   tell_shortcoming(caller, meter, dark_camera(scene), caller.strict);
   tell_shortcoming(caller, meter, lost_light(scene), caller.strict && !chooses);
+  tell_shortcoming(caller, meter, unused_settings(scene), false);
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   const RenderResult result = caller.render(scene, how);
   inputs.give_back_memory(film_bytes(scene, how) + bytes_of_light_paths(scene));
-  for (const std::string& loss : left_out(scene, result.stats)) warn_of_meter(caller, meter, loss);
+  for (const std::string& loss : left_out(scene, result)) warn_of_meter(caller, meter, loss);
   if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))
     warn_of_meter(caller, meter,
                   fmt::format("a pilot found no light there: {} had nothing to wait for", caller.error_name));

@@ -1,13 +1,34 @@
 #include "film/shortcomings.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "scene/contact.h"
 #include "scene/dark_enclosure.h"
 #include "transport/path/roulette.h"
+#include "transport/plan/emissions.h"
+#include "transport/plan/photon_settings.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {
+namespace {
+
+bool emits_what_is_seen(const Scene& scene) {
+  const std::vector<double> seen = emissions_of(scene).seen;
+  return std::any_of(seen.begin(), seen.end(), [](double of_light) { return of_light > 0; });
+}
+
+// Sums that are exactly 0 are those of a film that no light has been added to.
+bool found_nothing(const Scene& scene, const RenderResult& result) {
+  const bool counts = result.stats.samples_per_pixel > 0 && result.stats.nonfinite_samples == 0;
+  return counts && !result.film.shape().crop &&
+         result.film.bytes().find_first_not_of('\0') == std::string_view::npos && emits_what_is_seen(scene) &&
+         !dark_enclosure(scene);
+}
+
+}  // namespace
 
 std::optional<std::string> lost_light(const Scene& scene) {
   const std::vector<PathClass> lost = unreached(scene);
@@ -33,7 +54,17 @@ std::optional<std::string> hidden_sheet(const Scene& scene) {
                      scene.shapes[sheet->shape].name, scene.shapes[sheet->on].name);
 }
 
-std::vector<std::string> left_out(const Scene& scene, const RenderStats& stats) {
+std::optional<std::string> unused_settings(const Scene& scene) {
+  std::vector<std::string> keys;
+  for (const std::string_view key : unused_photon_settings(scene))
+    keys.push_back(fmt::format("render/photons/{}", key));
+  if (keys.empty()) return std::nullopt;
+  return fmt::format("without effect, as integrator \"{}\" makes no use of it: {}",
+                     integrator_name(scene.render.integrator), fmt::join(keys, ", "));
+}
+
+std::vector<std::string> left_out(const Scene& scene, const RenderResult& result) {
+  const RenderStats& stats = result.stats;
   std::vector<std::string> told;
   if (stats.nonfinite_samples > 0)
     told.push_back(fmt::format("{} samples were not finite and were left out", stats.nonfinite_samples));
@@ -43,6 +74,11 @@ std::vector<std::string> left_out(const Scene& scene, const RenderStats& stats) 
                     "light is missing",
                     stats.cut.paths, stats.paths, kMostEvents,
                     100 * stats.cut.throughput() / static_cast<double>(stats.paths)));
+  if (found_nothing(scene, result))
+    told.push_back(
+        fmt::format("no light was found by {} samples per pixel, although lights emit what the sensor sees: "
+                    "none comes there, or by ways too rare for so many",
+                    stats.samples_per_pixel));
   return told;
 }
 

@@ -19,8 +19,13 @@ namespace abbe {
 /// That a sheet lies on something that is met instead, as a sentence; nothing when none does.
 [[nodiscard]] std::optional<std::string> hidden_sheet(const Scene& scene);
 
-/// What a render left out of the scene's film, a sentence each: samples that were not finite, and paths that
-/// were cut although the scene does not say so.
-[[nodiscard]] std::vector<std::string> left_out(const Scene& scene, const RenderStats& stats);
+/// Which settings of the scene its integrator makes no use of, as a sentence; nothing when it uses all.
+[[nodiscard]] std::optional<std::string> unused_settings(const Scene& scene);
+
+/// What a render left out of the scene's film, a sentence each: samples that were not finite, paths that were
+/// cut although the scene does not say so, and all light where none was found on the whole film although
+/// lights emit what its sensor sees. Of the camera of `dark_camera`, and of a crop, which may well be of
+/// what is black, the last is not told.
+[[nodiscard]] std::vector<std::string> left_out(const Scene& scene, const RenderResult& result);
 
 }  // namespace abbe

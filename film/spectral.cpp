@@ -94,6 +94,10 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity) {
   identity["whiteLuminance"] = "1";  // cd/m^2 that 1 in all channels of the preview stands for
 }
 
+std::vector<double> exposure_per_radiance(const Scene& scene) {
+  return exposure_per_radiance(scene.camera, scene.exposure_s * scene.shutter.mean());
+}
+
 Image spectral_film_image(const Image& film) {
   SpectralImage image =
       spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_of(film)));
@@ -115,11 +119,9 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
                 fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
                             image.height, camera.width, camera.height));
   require_same_view(image, camera, path);
-  return exposed_film(
-      image,
-      {scene.channels, scene.mosaic, exposure_per_radiance(camera, scene.exposure_s * scene.shutter.mean()),
-       sensor_identity(scene)},
-      path, diagnostics);
+  return exposed_film(image,
+                      {scene.channels, scene.mosaic, exposure_per_radiance(scene), sensor_identity(scene)},
+                      path, diagnostics);
 }
 
 }  // namespace abbe

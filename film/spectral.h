@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "io/diagnostics.h"
 #include "io/spectral_exr.h"
@@ -12,6 +13,10 @@ namespace abbe {
 
 /// What it takes to make radiances of the films of a scene whose sensor is spectral.
 void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
+
+/// What a radiance is multiplied by to give the radiant exposure that the scene's sensor counts, pixel by
+/// pixel [s sr].
+[[nodiscard]] std::vector<double> exposure_per_radiance(const Scene& scene);
 
 /// The film of a spectral sensor as radiances in the layout of spectral files, with their preview.
 [[nodiscard]] Image spectral_film_image(const Image& film);

@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/extension.h"
+#include "io/picture_codec.h"
 #include "io/png.h"
 
 namespace abbe {
@@ -103,14 +104,14 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
   write_atomically(path, encode(path, header, interleaved(image, channels, whole_number)));
 }
 
-Image read_picture(const std::filesystem::path& path, Inputs* inputs, AlphaReading alpha) {
+Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     throw Error(ErrorCode::input, path.string(), "no such regular file");
   PictureHeader header;
   std::vector<float> values;
   HeldMemory held(inputs, 0);
-  picture_codec().read(path.string(), alpha, [&](const PictureHeader& found) {
+  picture_codec().read(path.string(), [&](const PictureHeader& found) {
     header = found;
     const std::size_t channels = header.channels.size();
     require_image_size(path.string(), header.width, header.height, channels);
@@ -123,18 +124,11 @@ Image read_picture(const std::filesystem::path& path, Inputs* inputs, AlphaReadi
   return planes(header, values);
 }
 
-Image read_image(const std::filesystem::path& path, Inputs* inputs, AlphaReading alpha) {
-  if (!is_exr(path)) return read_picture(path, inputs, alpha);
+Image read_image(const std::filesystem::path& path, Inputs* inputs) {
+  if (!is_exr(path)) return read_picture(path, inputs);
   Image image = read_exr(path, inputs);
   image.metadata[kColorSpace] = kLinear;
   return image;
-}
-
-std::optional<std::string> exposure_warning(const Image& image) {
-  const auto factor = image.metadata.find(kExposureFactor);
-  if (factor == image.metadata.end()) return std::nullopt;
-  return "its values are taken as they are, after the EXPOSURE that they were multiplied by (got " +
-         factor->second + ")";
 }
 
 }  // namespace abbe

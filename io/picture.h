@@ -1,12 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "io/image.h"
 #include "io/inputs.h"
-#include "io/picture_codec.h"
 
 namespace abbe {
 
@@ -22,19 +20,15 @@ void write_picture(const std::filesystem::path& path, const Image& image);
 /// or three as .png, any number as .tif. Throws Error{output}, Error{internal} for other values.
 void write_raw_picture(const std::filesystem::path& path, const Image& image);
 
-/// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files, of which an
-/// alpha channel is "A". Throws Error{input}, or Error{resource} for one beyond the limits of `io/image.h` or
-/// beyond the memory that `inputs` has left, told by its header.
-[[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr,
-                                 AlphaReading alpha = AlphaReading::multiplied);
+/// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files. Pixels stand as
+/// in the file, whatever its `kOrientation`; an alpha channel is "A", and the others are as stored beside it.
+/// The factors are taken off that a Radiance file says it was multiplied by. Throws Error{input}, or
+/// Error{resource} for one beyond the limits of `io/image.h` or beyond the memory that `inputs` has left,
+/// told by its header.
+[[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Any image file: .exr by `read_exr`, others by `read_picture`. Its attribute `kColorSpace` is "Linear"
 /// where the file holds floats, or says so.
-[[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr,
-                               AlphaReading alpha = AlphaReading::multiplied);
-
-/// What is to be said of an image from `read_image` whose values are those of the scene times a factor that
-/// the file tells, the EXPOSURE of Radiance, as it is not taken off; nothing of others.
-[[nodiscard]] std::optional<std::string> exposure_warning(const Image& image);
+[[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 }  // namespace abbe

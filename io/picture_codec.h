@@ -16,29 +16,18 @@ struct PictureHeader {
   std::int64_t width = 0;
   std::int64_t height = 0;
   std::vector<std::string> channels;  ///< Their names, in the order of a pixel's values.
-  /// Attributes that are texts, by OpenImageIO's names, and `kExposureFactor`.
+  /// Attributes that are texts, by OpenImageIO's names, `kOrientation` and `kPrimariesKey`.
   std::map<std::string, std::string> metadata;
 };
 
-/// The attribute that says how a picture's codes are to be read, "sRGB" or "Linear".
+/// The attribute that says how a picture's codes are to be read: "sRGB", "Linear", or "Gamma" before the
+/// power of a code in [0, 1] that is linear.
 inline constexpr const char* kColorSpace = "oiio:ColorSpace";
 inline constexpr const char* kLinear = "Linear";
-/// Whether attributes, those of an image from `read_image`, say that values are linear.
-[[nodiscard]] inline bool is_linear(const std::map<std::string, std::string>& metadata) {
-  const auto space = metadata.find(kColorSpace);
-  return space != metadata.end() && space->second == kLinear;
-}
-
-/// The attribute that says by what the values of a Radiance file were multiplied, where that is not 1: of a
-/// file that tells several factors, the last of them.
-inline constexpr const char* kExposureFactor = "hdr:exposure";
+inline constexpr const char* kGamma = "Gamma";
 
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;
-
-/// How colours are read that a file holds beside an alpha channel and not multiplied by it: multiplied, as
-/// OpenImageIO has it, or as stored.
-enum class AlphaReading { multiplied, as_stored };
 
 /// What the module of pictures offers: OpenImageIO, libtiff and cfitsio, of which the first brings some 250
 /// shared libraries and with them a fifth of a second at every start, is loaded with it when a picture is
@@ -50,9 +39,10 @@ struct PictureCodec {
   std::string (*encode)(const std::string& path, const PictureHeader& header, const PictureCodes& codes);
 
   /// Reads the file into the place that `room` gives for its header: width * height * channels floats, pixel
-  /// by pixel, scaled to [0, 1] for integer files. `room` may throw. Throws Error{input}.
-  void (*read)(const std::string& path, AlphaReading alpha,
-               const std::function<float*(const PictureHeader&)>& room);
+  /// by pixel, scaled to [0, 1] for integer files. What a file holds beside an alpha channel is as stored,
+  /// and the factors are taken off that a Radiance file says it was multiplied by. `room` may throw. Throws
+  /// Error{input}.
+  void (*read)(const std::string& path, const std::function<float*(const PictureHeader&)>& room);
 
   /// The bytes of a DNG (libtiff) and of a FITS file (cfitsio), checked to read back. Throw Error{output}.
   std::string (*encode_dng)(const std::string& path, const RawPicture& raw);

@@ -2,7 +2,13 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <array>
+#include <memory>
+#include <string_view>
+
 #include "io/error.h"
+#include "io/exr.h"
+#include "io/orientation.h"
 #include "io/picture_codec.h"
 #include "io/picture_module.h"
 
@@ -17,14 +23,33 @@ OIIO::ImageSpec spec_of(const PictureHeader& header, const OIIO::TypeDesc& forma
   return spec;
 }
 
-PictureHeader header_of(const OIIO::ImageSpec& spec) {
+// How values are encoded, in the words of `kColorSpace`; "" where the file says nothing, as no PNM does,
+// whatever the library tells of it.
+std::string color_space(const OIIO::ImageSpec& spec, std::string_view format) {
+  if (spec.format.is_floating_point()) return kLinear;
+  const std::string told{spec.get_string_attribute(kColorSpace)};
+  if (format == "pnm") return "";
+  if (OIIO::Strutil::iequals(told, kLinear)) return kLinear;
+  const float gamma = spec.get_float_attribute("oiio:Gamma", 0);  // rounded to two digits in `told`
+  return gamma > 0 && told.starts_with(kGamma) ? kGamma + OIIO::Strutil::to_string(gamma) : told;
+}
+
+void set(PictureHeader& header, const char* key, const std::string& text) {
+  header.metadata.erase(key);
+  if (!text.empty()) header.metadata[key] = text;
+}
+
+void set_orientation(PictureHeader& header, int orientation) {
+  set(header, kOrientation, orientation > 1 && orientation <= 8 ? std::to_string(orientation) : "");
+}
+
+PictureHeader header_of(const OIIO::ImageSpec& spec, std::string_view format) {
   PictureHeader header{spec.width, spec.height, spec.channelnames, {}};
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       header.metadata[attribute.name().string()] = attribute.get_string();
-  if (const float factor = spec.get_float_attribute(kExposureFactor, 1); factor != 1)
-    header.metadata[kExposureFactor] = OIIO::Strutil::to_string(factor);
-  if (spec.format.is_floating_point()) header.metadata[kColorSpace] = kLinear;
+  set(header, kColorSpace, color_space(spec, format));
+  set_orientation(header, spec.get_int_attribute(kOrientation, 1));
   return header;
 }
 
@@ -52,21 +77,41 @@ std::string encode(const std::string& path, const PictureHeader& header, const P
   return std::visit([&](const auto& values) { return encode_spec(path, spec, values.data()); }, codes);
 }
 
-void read(const std::string& path, AlphaReading alpha,
-          const std::function<float*(const PictureHeader&)>& room) {
+// The red, green and blue of so many pixels.
+void divide(float* pixels, std::uint64_t count, const std::array<double, 3>& factors) {
+  for (std::uint64_t i = 0; i < 3 * count; ++i)
+    pixels[i] = static_cast<float>(static_cast<double>(pixels[i]) / factors.at(i % 3));
+}
+
+// The file, whose colours beside an alpha channel are to be as stored.
+std::unique_ptr<OIIO::ImageInput> opened(const std::string& path) {
+  OIIO::ImageSpec how;
+  how.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path, &how);
+  if (!input) throw Error(ErrorCode::input, path, OIIO::geterror());
+  return input;
+}
+
+void read(const std::string& path, const std::function<float*(const PictureHeader&)>& room) {
   constexpr const char* kDamaged = "truncated or corrupt";
   if (picture_module::is_damaged_png(path)) throw Error(ErrorCode::input, path, kDamaged);
-  OIIO::ImageSpec how;
-  how.attribute("oiio:UnassociatedAlpha", alpha == AlphaReading::as_stored ? 1 : 0);
-  const auto input = OIIO::ImageInput::open(path, &how);
-  if (!input) throw Error(ErrorCode::input, path, OIIO::geterror());
+  const auto input = opened(path);
   const OIIO::ImageSpec spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
     throw Error(ErrorCode::input, path, "not a flat image");
-  float* pixels = room(header_of(spec));
+  const std::string_view format = input->format_name();
+  PictureHeader header = header_of(spec, format);
+  picture_module::RadianceHeader radiance;
+  if (format == "hdr") {
+    radiance = picture_module::radiance_header(path);
+    set(header, kPrimariesKey, radiance.primaries);
+    set_orientation(header, radiance.orientation);
+  }
+  float* pixels = room(header);
   // Of strips that a TIFF lacks the library tells as an error, and makes something up.
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels) || input->has_error())
     throw Error(ErrorCode::input, path, kDamaged);
+  if (format == "hdr") divide(pixels, spec.image_pixels(), radiance.factors);
 }
 
 }  // namespace

@@ -36,16 +36,30 @@ std::vector<std::string> channels_of(const RawPicture& raw, const std::string& k
   return order ? std::vector{names[(*order)[0]], names[(*order)[1]], names[(*order)[2]]} : names;
 }
 
+// The filters of a mosaic, row by row; none where there is no mosaic.
+std::vector<std::uint8_t> read_pattern(TIFF* tiff, std::int64_t& width) {
+  std::uint16_t photometric = 0;
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+  if (photometric != PHOTOMETRIC_CFA) return {};
+  const std::uint16_t* repeats = nullptr;
+  std::uint16_t count = 0;
+  const std::uint8_t* filters = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_CFAREPEATPATTERNDIM, &repeats) != 1 ||
+      TIFFGetField(tiff, TIFFTAG_CFAPATTERN, &count, &filters) != 1 || count == 0 ||
+      count != repeats[0] * repeats[1])
+    throw Error(ErrorCode::input, TIFFFileName(tiff), "it does not tell the pattern of its mosaic");
+  if (const std::uint8_t most = *std::max_element(filters, filters + count); most > 2)
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its mosaic has filters other than red, green and blue (got number " + std::to_string(most) +
+                    ", allowed 0 to 2)");
+  width = repeats[1];
+  return {filters, filters + count};
+}
+
 // The planes of a DNG and the channels of its pattern.
 void read_layout(TIFF* tiff, RawPicture& raw) {
-  std::uint16_t* repeats = nullptr;
-  std::uint16_t count = 0;
-  std::uint8_t* pattern = nullptr;
-  if (TIFFGetField(tiff, TIFFTAG_CFAREPEATPATTERNDIM, &repeats) == 1 &&
-      TIFFGetField(tiff, TIFFTAG_CFAPATTERN, &count, &pattern) == 1 && count == repeats[0] * repeats[1] &&
-      *std::max_element(pattern, pattern + count) < 3) {
-    raw.mosaic_width = repeats[1];
-    raw.mosaic.assign(pattern, pattern + count);
+  raw.mosaic = read_pattern(tiff, raw.mosaic_width);
+  if (raw.mosaic_width > 0) {
     raw.channels = channels_of(raw, "mosaic_channels");
     raw.planes = {"raw"};
     return;

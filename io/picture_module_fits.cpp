@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <regex>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -77,8 +79,8 @@ void write_header(Header header, const RawPicture& raw) {
   header.number("EGAIN", raw.gain_e_per_dn, "[electron/adu] the same, as others call it");
   header.number("RDNOISE", raw.read_noise_e, "[electron] read noise");
   header.number("PEDESTAL", raw.black_level_dn,
-                raw.linear_codes.empty() ? "[adu] electrons = (x - PEDESTAL) GAIN"
-                                         : "[adu] no electrons; sensor has response_curve");
+                raw.linear_codes.empty() ? "[adu] electrons of light = (x - PEDESTAL) GAIN"
+                                         : "[adu] no light, with response_curve undone");
   header.number("SATURATE", raw.white_level_dn, "[adu] saturated pixels reach this code");
   if (raw.full_well_e > 0) header.number("FULLWELL", raw.full_well_e, "[electron] full well");
   if (raw.f_number) header.number("FNUMBER", *raw.f_number, "f-number");
@@ -127,14 +129,20 @@ std::size_t shift_of(fitsfile* fits, const char* key) {
   return std::fmod(std::round(number_of(fits, key, 0)), 2) == 0 ? 0 : 1;
 }
 
-// A pattern of two by two, as "RGGB", told from the top and shifted as an area of a larger sensor has it;
-// other words are no pattern that is known.
-void read_pattern(fitsfile* fits, RawPicture& raw) {
+// A pattern of two by two, as "RGGB", told from the top and shifted as an area of a larger sensor has it. Of
+// files that Abbe wrote the history tells any.
+void read_pattern(fitsfile* fits, const std::string& path, RawPicture& raw) {
   constexpr std::string_view kLetters = "RGB";
-  const std::string pattern = text_of(fits, "BAYERPAT");
-  if (pattern.size() != 4 || raw.planes.size() != 1 ||
-      pattern.find_first_not_of(kLetters) != std::string::npos)
-    return;
+  const std::string told = text_of(fits, "BAYERPAT");
+  if (told.empty() || raw.planes.size() != 1) return;
+  std::string pattern = told;
+  for (char& c : pattern) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  if (pattern.size() != 4 || pattern.find_first_not_of(kLetters) != std::string::npos) {
+    if (raw.metadata.contains("mosaic")) return;
+    throw Error(ErrorCode::input, path,
+                "BAYERPAT is no pattern of two by two filters R, G and B (got \"" + told +
+                    "\", allowed as \"RGGB\")");
+  }
   raw.mosaic_width = 2;
   raw.channels = {"R", "G", "B"};
   const std::size_t right = shift_of(fits, "XBAYROFF");
@@ -181,6 +189,17 @@ void read_history(fitsfile* fits, RawPicture& raw) {
       *last += text;
     }
   }
+}
+
+// The code that is expected without light. Below 0 some programs mean what was taken away, and others the
+// same level with the other sign.
+double pedestal_of(fitsfile* fits, const std::string& path) {
+  const double pedestal = number_of(fits, "PEDESTAL", 0);
+  if (pedestal >= 0) return pedestal;
+  std::ostringstream negative;
+  negative << "PEDESTAL is below 0, which programs mean differently (got " << pedestal
+           << ", allowed the code of no light, 0 or more)";
+  throw Error(ErrorCode::input, path, negative.str());
 }
 
 // The numbers of all planes, one after the other.
@@ -236,12 +255,12 @@ RawPicture read_fits(const std::string& path) {
   const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
   raw.codes = pixel_by_pixel(read_codes(file.fits, path, pixels * planes), planes);
   if (text_of(file.fits, "ROWORDER") == "BOTTOM-UP") flip(raw);
-  read_pattern(file.fits, raw);
-  raw.black_level_dn = number_of(file.fits, "PEDESTAL", 0);
+  read_history(file.fits, raw);
+  read_pattern(file.fits, path, raw);
+  raw.black_level_dn = pedestal_of(file.fits, path);
   raw.white_level_dn = number_of(file.fits, "SATURATE", 65535);
   raw.gain_e_per_dn = number_of(file.fits, "GAIN", 1);
   if (const double seconds = number_of(file.fits, "EXPTIME", 0); seconds > 0) raw.exposure_s = seconds;
-  read_history(file.fits, raw);
   return raw;
 }
 

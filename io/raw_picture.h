@@ -26,8 +26,8 @@ struct RawPicture {
   std::vector<std::string> channels;      ///< The planes, or the channels of the mosaic.
   std::int64_t mosaic_width = 0;          ///< 0 without a mosaic.
   std::vector<std::uint8_t> mosaic = {};  ///< Numbers among the channels, rows of the pattern from the top.
-  double black_level_dn = 0;
-  double white_level_dn = 65535;                 ///< The code that saturated pixels reach.
+  double black_level_dn = 0;      ///< The code that is expected without light, on a line where codes are not.
+  double white_level_dn = 65535;  ///< The code that saturated pixels reach.
   std::vector<std::uint16_t> linear_codes = {};  ///< What each code stands for; empty where they are linear.
   bool is_linearised = false;  ///< Whether such a table of the file has made the codes that were read.
   double gain_e_per_dn = 1;

@@ -10,6 +10,7 @@
 #include "calibration/calibration_case.h"
 #include "python/develop.h"
 #include "python/errors.h"
+#include "python/query.h"
 
 namespace abbe::python {
 namespace {
@@ -64,7 +65,7 @@ py::dict told_of(const CameraCalibration& made) {
 py::dict calibrate(const std::string& camera, const std::string& illuminant, const std::string& chart,
                    const std::string& response, int bits, const std::optional<fs::path>& measured,
                    const std::optional<fs::path>& series, const std::string& training,
-                   const std::string& correction) {
+                   const std::string& correction, const std::string& camera_response) {
   if (measured && !response.empty())
     throw Error(ErrorCode::usage, "response", "is planted into a simulated camera, not into a measured one");
   if (series && !measured)
@@ -72,8 +73,16 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
                 "needs measured (its curves alone are those of recover_response)");
   if (camera.empty() && (!measured || !training.empty()))
     throw Error(ErrorCode::usage, "camera", "is needed, unless measured is given without training");
-  CalibrationSource source{
-      camera, measured.value_or(""), series.value_or(""), chart, "", training, response, bits, {}};
+  CalibrationSource source{camera,
+                           measured.value_or(""),
+                           series.value_or(""),
+                           chart,
+                           "",
+                           training,
+                           response,
+                           bits,
+                           {},
+                           response_of("camera_response", camera_response)};
   if (!choose_correction(source.how, correction))
     throw Error(ErrorCode::usage, "correction",
                 fmt::format("expected {} or auto (got {})", fmt::join(kCorrectionNames, ", "), correction));
@@ -108,7 +117,7 @@ void add_calibrate(py::module_& module) {
       "calibrate", calibrate, py::arg("camera") = "", py::arg("illuminant") = "D65", py::kw_only(),
       py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "", py::arg("bits") = 12,
       py::arg("measured") = py::none(), py::arg("series") = py::none(), py::arg("training") = "",
-      py::arg("correction") = "matrix",
+      py::arg("correction") = "matrix", py::arg("camera_response") = "",
       "Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving "
       "correction with the least mean CIEDE2000 is fitted.\n\n`camera` is a camera whose curves are known: "
       "the "
@@ -118,7 +127,9 @@ void add_calibrate(py::module_& module) {
       "these "
       "are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` "
       "is "
-      "\"matrix\", \"root-polynomial-2\", \"root-polynomial-3\" or \"auto\".\n\nReturns a dict: CIEDE2000 of "
+      "\"matrix\", \"root-polynomial-2\", \"root-polynomial-3\" or \"auto\". `camera_response` says what the "
+      "camera's curves multiply, \"energy\" or \"quantum\"; without it those of columns named QE are quantum "
+      "efficiencies, and all others responses to energy.\n\nReturns a dict: CIEDE2000 of "
       "each "
       "patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance "
       "white, "

@@ -13,6 +13,7 @@
 #include "python/errors.h"
 #include "python/query.h"
 #include "sensor/response/channel.h"
+#include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "validation/statistics/image_difference.h"
 
@@ -39,7 +40,7 @@ Curve named_illuminant(const std::string& name) {
 
 Curve named_reflectance(const std::string& name) {
   Diagnostics diagnostics;
-  return accepted(load_curve("reflectance", name, {}, diagnostics), diagnostics).curve;
+  return accepted(load_curve(kReflectanceUse, name, {}, diagnostics), diagnostics).curve;
 }
 
 py::object illuminant(const std::string& name, const Numbers& wavelengths_nm) {
@@ -61,10 +62,11 @@ py::dict observer(const std::string& name, const Numbers& wavelengths_nm) {
   return values;
 }
 
-py::dict camera(const std::string& name, const Numbers& wavelengths_nm) {
+py::dict camera(const std::string& name, const Numbers& wavelengths_nm, const std::string& response) {
   Diagnostics diagnostics;
   py::dict values;
-  for (const Channel& channel : accepted(load_camera(name, {}, diagnostics), diagnostics))
+  const std::optional<ResponseKind> kind = response_of("response", response);
+  for (const Channel& channel : accepted(load_camera(name, {}, diagnostics, kind), diagnostics))
     values[py::str(channel.name)] = values_of(name, channel.weight, wavelengths_nm);
   return values;
 }
@@ -84,20 +86,23 @@ Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
   return table_curve(nm, all(values), Outside::zero);
 }
 
-// A name, or a pair of wavelengths and values.
+// A name, or a pair of wavelengths and values that the use allows.
 template <typename Load>
-Curve curve_of(const py::handle& spectrum, const char* name, Load load) {
+Curve curve_of(const py::handle& spectrum, const char* name, const CurveUse& use, Load load) {
   if (py::isinstance<py::str>(spectrum)) return load(spectrum.cast<std::string>());
   const auto [nm, values] =
       argument<std::pair<Numbers, Numbers>>(spectrum, name, "a name, or wavelengths and values");
-  return sampled(nm, values);
+  Curve curve = sampled(nm, values);
+  if (const auto fault = value_fault(curve, use.allowed)) throw Error(ErrorCode::usage, name, *fault);
+  return curve;
 }
 
 py::dict color(const py::object& illuminant, const py::object& reflectance, const std::string& observer) {
   const Observer eye = observer_of(observer);
-  const Curve light = curve_of(illuminant, "illuminant", named_illuminant);
-  const Curve surface =
-      reflectance.is_none() ? Curve(1.0) : curve_of(reflectance, "reflectance", named_reflectance);
+  const Curve light = curve_of(illuminant, "illuminant", kIlluminantUse, named_illuminant);
+  const Curve surface = reflectance.is_none()
+                            ? Curve(1.0)
+                            : curve_of(reflectance, "reflectance", kReflectanceUse, named_reflectance);
   const XYZ xyz = tristimulus(light, surface, eye);
   const XYZ white = tristimulus(light, Curve(1.0), eye);
   if (!std::isfinite(white[1]))
@@ -142,6 +147,13 @@ std::vector<std::string> names(const std::string& kind) {
 
 }  // namespace
 
+std::optional<ResponseKind> response_of(const char* argument, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (text == "energy") return ResponseKind::energy;
+  if (text == "quantum") return ResponseKind::quantum;
+  throw Error(ErrorCode::usage, argument, fmt::format("got \"{}\", allowed energy, quantum", text));
+}
+
 void add_curves(py::module_& module) {
   module.def("names", names, py::arg("kind"),
              "Returns the names that Abbe knows of a kind: material, glass, illuminant, reflectance, camera, "
@@ -160,10 +172,13 @@ void add_curves(py::module_& module) {
              "Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at "
              "wavelengths, as a "
              "dict of x, y, z. Raises as `illuminant` does.");
-  module.def("camera", camera, py::arg("name"), py::arg("wavelengths_nm"),
+  module.def("camera", camera, py::arg("name"), py::arg("wavelengths_nm"), py::kw_only(),
+             py::arg("response") = "",
              "Returns the responses of a measured camera at wavelengths as a dict by channel: relative to "
-             "energy, or "
-             "electrons per J for a quantum efficiency. Raises as `illuminant` does.");
+             "energy, or electrons per J for a quantum efficiency. `response` says what the camera's curves "
+             "multiply, \"energy\" or \"quantum\"; without it those of columns named QE are quantum "
+             "efficiencies, and all others responses to energy. Raises as "
+             "`illuminant` does, and InputError for quantum efficiencies in percent.");
   module.def(
       "color", color, py::arg("illuminant"), py::arg("reflectance") = py::none(),
       py::arg("observer") = "1931",
@@ -172,7 +187,8 @@ void add_curves(py::module_& module) {
       "reflectance "
       "are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. "
       "Raises "
-      "InputError for an unknown name.");
+      "InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError "
+      "for a pair with values outside [0, 1], or of an illuminant below 0.");
   module.def("delta_e", lab_difference, py::arg("lab1"), py::arg("lab2"), py::arg("formula") = "2000",
              "Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of "
              "2000, 94 or "

@@ -43,7 +43,8 @@ Extent extent_of(const Camera& camera, std::span<const ShapeInstance> shapes) {
     extent.near.extendBy(box);
     reach = furthest_point;
   }
-  extent.far_from = Extent::kGap * reach;
+  const double own_reach = meter ? furthest(bounds(camera), from) : 0;
+  extent.far_from = Extent::kGap * std::max(reach, own_reach);
   const bool around_camera = extent.near.isEmpty() || reach > Extent::kGap * nearest;
   extent.origin = around_camera ? from : extent.near.center();
   return extent;

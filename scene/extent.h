@@ -27,7 +27,9 @@ struct Extent {
   /// Where floats are to be finest: the middle of what is near, or the camera where there is none or where it
   /// reaches from the nearest, step by step, more than `kGap` times further.
   Imath::V3d origin{0, 0, 0};
-  double far_from = 0;  ///< What lies wholly beyond this distance from the camera [m] is far.
+  /// What lies wholly beyond this distance from the camera [m] is far: `kGap` times how far what is near
+  /// reaches, a meter's own surface included.
+  double far_from = 0;
 };
 /// Finds what is near, far and large to a camera. To a camera of a lens the shapes it comes to first are
 /// near, however far it stands; to a meter, which is lit where it is, only if it sees them larger than

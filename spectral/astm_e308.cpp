@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "spectral/library.h"
+#include "spectral/curve_use.h"
 
 namespace abbe {
 namespace {
@@ -67,9 +67,12 @@ XYZ astm_tristimulus(const TristimulusWeights& weights, const Samples& samples) 
 
 std::optional<Samples> load_astm_samples(const std::string& name, const SourcePosition& where,
                                          Diagnostics& diagnostics) {
-  const auto read = load_samples("reflectance", name, where, diagnostics);
+  const auto read = load_samples(kReflectanceUse.folder, name, where, diagnostics);
   if (!read) return std::nullopt;
   const std::vector<double>& nm = read->samples.wavelengths_nm;
+  const Curve curve = table_curve(nm, read->samples.values, Outside::clamp);
+  if (!check_use(name, read->table.provenance.unit, curve, kReflectanceUse, where, diagnostics))
+    return std::nullopt;
   if (const auto fault = astm_fault(nm)) {
     diagnostics.error(
         read->table.position(fault->row),

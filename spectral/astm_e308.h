@@ -37,7 +37,7 @@ struct TristimulusWeights {
 
 /// Reads the samples of a reflectance for `astm_tristimulus`, rounded to whole nanometres: those in [360,
 /// 780] nm. Reports a table that was not measured every 10 or 20 nm, beginning at 360 nm or whole steps from
-/// there, or in that range at fewer than two wavelengths.
+/// there, or in that range at fewer than two wavelengths, and one that is no share of 1.
 [[nodiscard]] std::optional<Samples> load_astm_samples(const std::string& name, const SourcePosition& where,
                                                        Diagnostics& diagnostics);
 

@@ -2,10 +2,26 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "io/error.h"
 #include "spectral/library.h"
 
 namespace abbe {
+namespace {
+
+bool check_values(const Patch& patch, const Range& allowed, const SourcePosition& where,
+                  Diagnostics& diagnostics) {
+  const Curve& values = patch.reflectance;
+  if (allowed.contains(values.min()) && allowed.contains(values.max())) return true;
+  diagnostics.error(where,
+                    fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed {})",
+                                patch.name, values.min(), values.max(), allowed.text()),
+                    ErrorCode::input);
+  return false;
+}
+
+}  // namespace
 
 std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
                                       Diagnostics& diagnostics) {
@@ -20,7 +36,7 @@ bool is_spectral(const Table& table) {
 }
 
 std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
-                                Diagnostics& diagnostics) {
+                                Diagnostics& diagnostics, const CurveUse& use) {
   const std::optional<Table> table = read_chart_table(name, where, diagnostics);
   if (!table) return std::nullopt;
   if (!is_spectral(*table)) {
@@ -30,13 +46,17 @@ std::optional<Chart> load_chart(const std::string& name, const SourcePosition& w
         ErrorCode::input);
     return std::nullopt;
   }
+  if (auto fault = unit_fault(name, table->provenance.unit, use.unit)) {
+    diagnostics.error(where, *std::move(fault), ErrorCode::input);
+    return std::nullopt;
+  }
   Chart chart{name, {}};
   for (const std::string& column : table->columns) {
     if (column.starts_with("wavelength")) continue;
-    const std::optional<NamedCurve> curve =
-        load_curve("reflectance", name + ":" + column, where, diagnostics);
+    const std::optional<NamedCurve> curve = load_curve(use.folder, name + ":" + column, where, diagnostics);
     if (!curve) return std::nullopt;
     chart.patches.push_back({column, curve->curve});
+    if (!check_values(chart.patches.back(), use.allowed, where, diagnostics)) return std::nullopt;
   }
   return chart;
 }

@@ -7,6 +7,7 @@
 #include "io/diagnostics.h"
 #include "io/table.h"
 #include "spectral/curve.h"
+#include "spectral/curve_use.h"
 
 namespace abbe {
 
@@ -29,9 +30,10 @@ struct Chart {
 [[nodiscard]] bool is_spectral(const Table& table);
 
 /// The chart of a table of reflectances, one patch per column, e.g. "colorchecker24_babelcolor_average".
-/// Reports a table of colours.
+/// Reports a table of colours, one whose unit is not that of the use, and a patch with values beyond it.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
-                                              Diagnostics& diagnostics);
+                                              Diagnostics& diagnostics,
+                                              const CurveUse& use = kReflectanceFactorUse);
 /// The same of a shipped table; what is wrong with it is thrown as Error.
 [[nodiscard]] Chart shipped_chart(const std::string& name);
 

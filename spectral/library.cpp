@@ -11,6 +11,7 @@
 #include "io/json_values.h"
 #include "io/table.h"
 #include "io/text.h"
+#include "spectral/curve_use.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -293,12 +294,7 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
                       830,
                       daylight(*kelvin)};
   }
-  constexpr Range kPower{0, 1e30};
-  auto illuminant = load_curve("illuminant", name, where, diagnostics, needed);
-  if (const auto fault = illuminant ? value_fault(illuminant->curve, kPower) : std::nullopt) {
-    diagnostics.error(where, fmt::format("\"{}\": {}", name, *fault), ErrorCode::input);
-    return std::nullopt;
-  }
+  auto illuminant = load_curve(kIlluminantUse, name, where, diagnostics, needed);
   if (illuminant && (name == "A" || name == "cie_A")) extend_by_definition(*illuminant);
   return illuminant;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 
 #include "io/error.h"
 #include "io/exr.h"
+#include "io/picture_codec.h"
 #include "io/text.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
@@ -135,6 +137,9 @@ std::optional<RgbSpace> recorded_primaries(const Image& image) {
 
 std::optional<std::string> rec709_fault(const Image& image) {
   constexpr double kRounding = 5e-3;
+  if (!recorded_encoding(image))
+    return "its colour space is unknown (got \"" + image.metadata.at(kColorSpace) +
+           "\", allowed linear, sRGB or a gamma)";
   const auto told = recorded_primaries(image);
   if (!told) return std::nullopt;
   const auto near = [](const Chromaticity& a, const Chromaticity& b) {
@@ -165,6 +170,21 @@ LinearRgb linear_rgb(const Curve& reflectance) {
 
 double srgb_decoded(double code) {
   return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+double Encoding::decoded(double value) const {
+  if (gamma == 1.0) return value;
+  return gamma ? std::pow(value, *gamma) : srgb_decoded(value);
+}
+
+std::optional<Encoding> recorded_encoding(const Image& image) {
+  const auto told = image.metadata.find(kColorSpace);
+  if (told == image.metadata.end() || told->second == "sRGB") return Encoding{};
+  if (told->second == kLinear) return kLinearEncoding;
+  if (!told->second.starts_with(kGamma)) return std::nullopt;
+  const auto gamma = parse_number(told->second.substr(std::string_view(kGamma).size()));
+  if (!gamma || !(*gamma > 0)) return std::nullopt;
+  return Encoding{gamma};
 }
 
 const RgbBasis& rgb_basis() {

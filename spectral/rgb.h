@@ -36,8 +36,8 @@ inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec
 
 /// The space of the R, G and B of an image by its attribute `kPrimariesKey`; nothing where it tells none.
 [[nodiscard]] std::optional<RgbSpace> recorded_primaries(const Image& image);
-/// Why R, G and B of an image cannot be taken as those of Rec.709, by what it tells of its primaries; nothing
-/// where it tells none, or these to two digits.
+/// Why R, G and B of an image cannot be taken as those of Rec.709, by what it tells of its primaries and its
+/// encoding; nothing where it tells no primaries, or these to two digits, and an encoding that is known.
 [[nodiscard]] std::optional<std::string> rec709_fault(const Image& image);
 
 /// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
@@ -50,6 +50,20 @@ inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec
 /// The linear value in [0, 1] of a code value in [0, 1] encoded as sRGB: x/12.92 up to 0.04045, beyond
 /// ((x + 0.055)/1.055)^2.4. [IEC61966, sec. 5.2]
 [[nodiscard]] double srgb_decoded(double code);
+
+/// How the values of an image stand for linear ones.
+struct Encoding {
+  /// The power of a value that is linear, 1 where values are; nothing where they are encoded as sRGB.
+  std::optional<double> gamma;
+
+  /// The linear value of one that is 0 or more, or of any where values are linear.
+  [[nodiscard]] double decoded(double value) const;
+};
+inline constexpr Encoding kLinearEncoding{1.0};
+
+/// That of the R, G and B of an image by its attribute `kColorSpace`, sRGB where it tells none; nothing for a
+/// space that is unknown.
+[[nodiscard]] std::optional<Encoding> recorded_encoding(const Image& image);
 
 /// Three smooth spectra in [0, 1] that add up to 1 everywhere and have the colours (1, 0, 0), (0, 1, 0) and
 /// (0, 0, 1) under `linear_rgb`, so that any mixture of them has the colour of its weights, and stays a

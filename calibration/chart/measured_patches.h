@@ -25,8 +25,9 @@ struct ChartTargets {
                                                              const SourcePosition& where,
                                                              Diagnostics& diagnostics);
 
-/// The unit of what `abbe measure` reads out of raw files.
+/// The units of what `abbe measure` reads out of raw files, and out of any other pictures.
 inline constexpr const char* kNumbersAboveBlack = "digital numbers above black";
+inline constexpr const char* kCodeValues = "code values in [0, 1], as the file has them";
 
 /// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
 /// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells

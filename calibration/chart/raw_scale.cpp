@@ -151,7 +151,7 @@ std::optional<RawScale> raw_scale(const Image& image) {
 
 RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_raw_picture(path)) {
-    Image image = read_image(path, inputs, AlphaReading::as_stored);
+    Image image = read_image(path, inputs);
     auto scale = raw_scale(image);
     if (scale && holds_codes(all_told(image))) name_planes(image);
     if (scale && !scale->linear_codes.empty()) straighten(image, *scale);

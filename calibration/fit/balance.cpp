@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "calibration/fit/correction_fit.h"
+#include "io/diagnostics.h"
 #include "io/error.h"
 
 namespace abbe {
@@ -20,6 +21,15 @@ std::optional<std::size_t> find(const MeasuredPatches& measured, const std::stri
   const auto found = std::find(measured.names.begin(), measured.names.end(), name);
   if (found == measured.names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - measured.names.begin());
+}
+
+// A patch that the chart has not, as of a misspelt name, would count for nothing.
+void require_known(const ChartTargets& chart, const MeasuredPatches& measured) {
+  std::vector<std::string> known = chart.names;
+  known.emplace_back(kDiffuser);
+  for (const std::string& name : measured.names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(ErrorCode::input, "measured patches", unknown_name("patch", name, known));
 }
 
 // The measured patches in the order of the chart, without those that are saturated.
@@ -82,6 +92,7 @@ Raw diffuser_by_neutrals(const PatchColors& colors) {
 }  // namespace
 
 BalancedPatches balance(const ChartTargets& chart, const MeasuredPatches& measured) {
+  require_known(chart, measured);
   BalancedPatches balanced = in_order(chart, measured);
   const auto diffuser = measured.saturated.contains(kDiffuser) ? std::nullopt : find(measured, kDiffuser);
   const Raw white = diffuser ? measured.values[*diffuser] : diffuser_by_neutrals(balanced.colors);

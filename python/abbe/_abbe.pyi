@@ -171,22 +171,22 @@ class Scene:
         """The seed of the random numbers unless `render` is told otherwise."""
 
 
-def calibrate(camera: str = '', illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: int = 12, measured: typing.Optional[str | os.PathLike[str]] = None, series: typing.Optional[str | os.PathLike[str]] = None, training: str = '', correction: str = 'matrix') -> dict:
+def calibrate(camera: str = '', illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: int = 12, measured: typing.Optional[str | os.PathLike[str]] = None, series: typing.Optional[str | os.PathLike[str]] = None, training: str = '', correction: str = 'matrix', camera_response: str = '') -> dict:
     """Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving correction with the least mean CIEDE2000 is fitted.
 
-    `camera` is a camera whose curves are known: the chart is photographed at so many bits by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it. Or `measured` is a table of a real camera's values of the chart, and `series` its photographs at known exposure times, by whose curves these are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` is "matrix", "root-polynomial-2", "root-polynomial-3" or "auto".
+    `camera` is a camera whose curves are known: the chart is photographed at so many bits by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it. Or `measured` is a table of a real camera's values of the chart, and `series` its photographs at known exposure times, by whose curves these are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` is "matrix", "root-polynomial-2", "root-polynomial-3" or "auto". `camera_response` says what the camera's curves multiply, "energy" or "quantum"; without it those of columns named QE are quantum efficiencies, and all others responses to energy.
 
     Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance white, of a matrix that from linear camera values to XYZ relative to D65, and of each recovered response its curve, as `recover_response` has it, and the largest error where it was planted, as a share of full scale. Raises InputError for an unknown name and for files that cannot be used."""
 
 
-def camera(name: str, wavelengths_nm: ArrayLike) -> dict:
-    """Returns the responses of a measured camera at wavelengths as a dict by channel: relative to energy, or electrons per J for a quantum efficiency. Raises as `illuminant` does."""
+def camera(name: str, wavelengths_nm: ArrayLike, *, response: str = '') -> dict:
+    """Returns the responses of a measured camera at wavelengths as a dict by channel: relative to energy, or electrons per J for a quantum efficiency. `response` says what the camera's curves multiply, "energy" or "quantum"; without it those of columns named QE are quantum efficiencies, and all others responses to energy. Raises as `illuminant` does, and InputError for quantum efficiencies in percent."""
 
 
 def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str = '1931') -> dict:
     """Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the perfect diffuser), xy and Lab, summed every nanometre from 380 to 780 nm.
 
-    Illuminant and reflectance are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. Raises InputError for an unknown name."""
+    Illuminant and reflectance are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. Raises InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError for a pair with values outside [0, 1], or of an illuminant below 0."""
 
 
 def compare(film: Film, reference: Film, *, white: typing.Any = None) -> dict:

@@ -226,7 +226,8 @@ Film::Average Film::average(int channel) const {
   return average(channel, 0, 0, shape_.width, shape_.height);
 }
 
-Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
+Film::Average Film::average(int channel, int x0, int y0, int x1, int y1,
+                            std::span<const double> divisors) const {
   std::vector<CompensatedSum> sums(static_cast<std::size_t>(shape_.replicates));
   const auto sum_of = [&sums](int r) { return sums[static_cast<std::size_t>(r)].value; };
   double variances = 0;
@@ -235,9 +236,10 @@ Film::Average Film::average(int channel, int x0, int y0, int x1, int y1) const {
   for (int y = std::max(y0, own.y0); y < std::min(y1, own.y1); ++y)
     for (int x = std::max(x0, own.x0); x < std::min(x1, own.x1); ++x) {
       const std::size_t pixel = pixel_at(x, y);
+      const double divisor = divisors.empty() ? 1 : divisors[pixel];
       for (int r = 0; r < shape_.replicates; ++r)
-        sums[static_cast<std::size_t>(r)].add(value(pixel, r, channel));
-      const double of_pixel = shape_.photons > 0 ? 0 : variance(pixel, channel);
+        sums[static_cast<std::size_t>(r)].add(value(pixel, r, channel) / divisor);
+      const double of_pixel = shape_.photons > 0 ? 0 : variance(pixel, channel) / (divisor * divisor);
       variances += of_pixel;
       squares += of_pixel * of_pixel;
     }

@@ -93,8 +93,9 @@ class Film {
     double degrees_of_freedom;
   };
   [[nodiscard]] Average average(int channel) const;
-  /// Over x0 <= x < x1, y0 <= y < y1.
-  [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1) const;
+  /// Over x0 <= x < x1, y0 <= y < y1; each pixel divided by its own of `divisors`, where there are any.
+  [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1,
+                                std::span<const double> divisors = {}) const;
   /// How many replicates have samples.
   [[nodiscard]] int filled_replicates() const;
 

@@ -94,6 +94,11 @@ double curved(const Readout& readout, double signal) {
          (readout.response_curve ? codes * (*readout.response_curve)(signal / codes) : signal);
 }
 
+// The code that a sensor without the response curve would have given, before it is rounded.
+double linear_code(const Readout& readout, double dn) {
+  return readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
+}
+
 // The code of so many electrons, before it is cut to those that there are.
 double code_of(const Readout& readout, double electrons) {
   return std::floor(curved(readout, electrons / readout.gain_e_per_dn) + 0.5);
@@ -163,13 +168,17 @@ double electrons_of(const Readout& readout, double dn) {
          (readout.response_curve ? codes * readout.response_curve->inverse(signal / codes) : signal);
 }
 
+double black_level(const Readout& readout, double exposure_s) {
+  const double dark_dn = readout.offset_dn + readout.dark_e_per_s * exposure_s / readout.gain_e_per_dn;
+  return dark_dn < linear_code(readout, white_level(readout)) ? dark_dn : readout.offset_dn;
+}
+
 std::vector<std::uint16_t> linear_codes(const Readout& readout) {
   std::vector<std::uint16_t> table;
   if (!readout.response_curve) return table;
-  for (double dn = 0; dn <= readout.highest_code(); ++dn) {
-    const double linear = readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
-    table.push_back(static_cast<std::uint16_t>(std::clamp(std::round(linear), 0.0, readout.highest_code())));
-  }
+  for (double dn = 0; dn <= readout.highest_code(); ++dn)
+    table.push_back(static_cast<std::uint16_t>(
+        std::clamp(std::round(linear_code(readout, dn)), 0.0, readout.highest_code())));
   return table;
 }
 

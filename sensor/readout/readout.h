@@ -94,6 +94,10 @@ struct RawFrame {
 /// Electrons that a code stands for, by offset, curve and gain alone: what calibration makes of raw data.
 [[nodiscard]] double electrons_of(const Readout& readout, double dn);
 
+/// The code that a pixel expects without light after such an exposure, were the response a straight line:
+/// offset + dark t/K; the offset where the dark signal alone saturates, so that nothing of light is told.
+[[nodiscard]] double black_level(const Readout& readout, double exposure_s);
+
 /// For each code from 0 to the highest the whole number that a sensor without the response curve would have
 /// given; nothing without a curve.
 [[nodiscard]] std::vector<std::uint16_t> linear_codes(const Readout& readout);

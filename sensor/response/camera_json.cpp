@@ -9,6 +9,8 @@
 namespace abbe {
 namespace {
 
+constexpr const char* kUnit = "relative";
+
 // The member at the end of a path of keys; a missing one is reported.
 const JsonValue* descend(const JsonValue& root, std::initializer_list<const char*> keys,
                          Diagnostics& diagnostics) {
@@ -61,8 +63,8 @@ CameraSamples samples_of(const JsonValue& main, std::size_t channels, Diagnostic
 
 }  // namespace
 
-std::optional<std::vector<Channel>> read_camera_json(const std::filesystem::path& path, ResponseKind kind,
-                                                     Diagnostics& diagnostics) {
+std::optional<std::vector<NamedCurve>> read_camera_json(const std::filesystem::path& path,
+                                                        Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.all().size();
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
@@ -72,17 +74,16 @@ std::optional<std::vector<Channel>> read_camera_json(const std::filesystem::path
   const JsonValue* const index = descend(*root, {"spectral_data", "index", "main"}, diagnostics);
   const JsonValue* const data = descend(*root, {"spectral_data", "data", "main"}, diagnostics);
   if (units == nullptr || index == nullptr || data == nullptr) return std::nullopt;
-  static_cast<void>(read_choice(*units, "unit", {"relative"}, diagnostics));
+  static_cast<void>(read_choice(*units, "unit", {kUnit}, diagnostics));
   const std::vector<std::string> names = channel_names(*index, diagnostics);
   const CameraSamples samples = samples_of(*data, names.size(), diagnostics);
   if (diagnostics.all().size() != before) return std::nullopt;
-  std::vector<Channel> channels;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const Curve response = table_curve(samples.wavelengths_nm, samples.values[k], Outside::zero);
-    channels.push_back(kind == ResponseKind::quantum ? quantum_channel(names[k], response)
-                                                     : energy_channel(names[k], response));
-  }
-  return channels;
+  const std::vector<double>& nm = samples.wavelengths_nm;
+  std::vector<NamedCurve> curves;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    curves.push_back({names[k], path.string(), kUnit, nm.front(), nm.back(),
+                      table_curve(nm, samples.values[k], Outside::zero)});
+  return curves;
 }
 
 }  // namespace abbe

@@ -6,6 +6,7 @@
 #include "io/error.h"
 #include "io/table.h"
 #include "sensor/response/camera_json.h"
+#include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
@@ -16,6 +17,37 @@ namespace {
 Curve photons_per_joule() {
   return Curve({{kMinWavelengthNm, 1 / photon_energy(kMinWavelengthNm)},
                 {kMaxWavelengthNm, 1 / photon_energy(kMaxWavelengthNm)}});
+}
+
+bool is_json(const std::string& name) {
+  return name.ends_with(".json");
+}
+
+// The columns of a camera's table, or the one that is named, by the names of their channels.
+std::optional<std::vector<NamedCurve>> camera_curves(const std::string& name, const SourcePosition& where,
+                                                     Diagnostics& diagnostics) {
+  if (is_json(name)) return read_camera_json(name, diagnostics);
+  const std::optional<TableColumn> found = find_table("camera", name, where, diagnostics);
+  if (!found) return std::nullopt;
+  if (!found->column.empty()) {
+    std::optional<NamedCurve> curve = load_curve("camera", name, where, diagnostics);
+    if (!curve) return std::nullopt;
+    curve->name = found->column;
+    return std::vector{*std::move(curve)};
+  }
+  const bool shipped = name.find(".csv") == std::string::npos;
+  const std::optional<Table> table =
+      read_table(found->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
+  if (!table) return std::nullopt;
+  std::vector<NamedCurve> curves;
+  for (std::size_t column = 1; column < table->columns.size(); ++column) {
+    const std::string& label = table->columns[column];
+    std::optional<NamedCurve> curve = load_curve("camera", name + ":" + label, where, diagnostics);
+    if (!curve) return std::nullopt;
+    curve->name = label;
+    curves.push_back(*std::move(curve));
+  }
+  return curves;
 }
 
 }  // namespace
@@ -85,31 +117,20 @@ void limit_angles(Channel& channel, double least_cosine) {
 }
 
 std::optional<std::vector<Channel>> load_camera(const std::string& name, const SourcePosition& where,
-                                                Diagnostics& diagnostics, std::optional<ResponseKind> kind) {
-  if (name.ends_with(".json"))
-    return read_camera_json(name, kind.value_or(ResponseKind::energy), diagnostics);
-  const std::optional<TableColumn> found = find_table("camera", name, where, diagnostics);
-  if (!found) return std::nullopt;
-  const auto channel = [kind](const std::string& label, const Curve& curve) {
-    const ResponseKind own = label == "QE" ? ResponseKind::quantum : ResponseKind::energy;
-    return kind.value_or(own) == ResponseKind::quantum ? quantum_channel(label, curve)
-                                                       : energy_channel(label, curve);
-  };
-  if (!found->column.empty()) {
-    const std::optional<NamedCurve> curve = load_curve("camera", name, where, diagnostics);
-    if (!curve) return std::nullopt;
-    return std::vector{channel(found->column, curve->curve)};
-  }
-  const bool shipped = name.find(".csv") == std::string::npos;
-  const std::optional<Table> table =
-      read_table(found->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
-  if (!table) return std::nullopt;
+                                                Diagnostics& diagnostics, std::optional<ResponseKind> kind,
+                                                ResponseScale scale) {
+  const auto curves = camera_curves(name, where, diagnostics);
+  if (!curves) return std::nullopt;
   std::vector<Channel> channels;
-  for (std::size_t column = 1; column < table->columns.size(); ++column) {
-    const std::string& label = table->columns[column];
-    const std::optional<NamedCurve> curve = load_curve("camera", name + ":" + label, where, diagnostics);
-    if (!curve) return std::nullopt;
-    channels.push_back(channel(label, curve->curve));
+  for (const auto& [label, source, unit, low_nm, high_nm, response] : *curves) {
+    const bool quantum = kind ? *kind == ResponseKind::quantum : label == "QE" && !is_json(name);
+    const std::string column = name.ends_with(":" + label) ? name : name + ":" + label;
+    if (quantum && scale == ResponseScale::absolute &&
+        !check_use(column, unit, response, kQuantumResponseUse, where, diagnostics))
+      return std::nullopt;
+    if (!kind && !quantum && channels.empty())
+      if (auto doubt = unsaid_response(name, unit)) diagnostics.error_if_strict(where, *std::move(doubt));
+    channels.push_back(quantum ? quantum_channel(label, response) : energy_channel(label, response));
   }
   return channels;
 }

@@ -75,13 +75,19 @@ struct Channel {
 /// Tells the channel that the cosines of the angles of incidence are at least this.
 void limit_angles(Channel& channel, double least_cosine);
 
+/// Whether the numbers of quantum efficiencies count, or only how they compare.
+enum class ResponseScale { absolute, relative };
+
 /// The channels of a measured camera or detector in `data/camera`, one per column (R, G, B or QE), or of a
 /// user's table or `.json` (see `read_camera_json`). Without a `kind`, colour cameras are energy responses
-/// ("to be multiplied by spectral power"), as they are tabulated, and columns named QE quantum efficiencies.
+/// ("to be multiplied by spectral power"), as they are tabulated, and columns named QE quantum efficiencies;
+/// others whose unit speaks of photons are warned of. Reports absolute quantum efficiencies in percent, or
+/// beyond `kQuantumResponseUse`.
 [[nodiscard]] std::optional<std::vector<Channel>> load_camera(const std::string& name,
                                                               const SourcePosition& where,
                                                               Diagnostics& diagnostics,
-                                                              std::optional<ResponseKind> kind = {});
+                                                              std::optional<ResponseKind> kind = {},
+                                                              ResponseScale scale = ResponseScale::absolute);
 
 /// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so Y
 /// is in lx s.

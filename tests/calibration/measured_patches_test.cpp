@@ -95,7 +95,7 @@ TEST_F(Measured, BalancesOnNeutralPatchesAlone) {
   }
 }
 
-TEST_F(Measured, SaysWhatIsMissing) {
+TEST_F(Measured, SaysWhatIsMissingOrUnknown) {
   const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
   const auto few = read("patch,R,G,B\nperfect diffuser,1,1,1\ndark skin,0.1,0.1,0.1\n");
   ASSERT_TRUE(few);
@@ -107,6 +107,11 @@ TEST_F(Measured, SaysWhatIsMissing) {
         static_cast<void>(balance(red, {{"red"}, {{0.4, 0.2, 0.1}}}));
       },
       ErrorCode::input, "nothing to balance white on");
+  test::expect_error(
+      [&] {
+        static_cast<void>(balance(red, {{"red", "Perfect diffuser"}, {{0.4, 0.2, 0.1}, {1, 1, 1}}}));
+      },
+      ErrorCode::input, "unknown patch \"Perfect diffuser\"; did you mean \"perfect diffuser\"?");
   EXPECT_FALSE(read("patch,R,G\ndark skin,1,1\n"));
   EXPECT_NE(diagnostics_.text().find("no column \"B\""), std::string::npos);
 }

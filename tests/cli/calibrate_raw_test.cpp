@@ -121,6 +121,22 @@ TEST(CalibrateRaw, SaturatedPatchesAreLeftOutOfBalanceAndFit) {
   (void)testing::internal::GetCapturedStderr();
 }
 
+TEST(CalibrateRaw, CodeValuesOfPicturesAreWarnedOfWhereNoSeriesMakesThemLinear) {
+  const auto told = [](const CalibrateOptions& options) {
+    testing::internal::CaptureStderr();
+    (void)json_output(calibrate, options);
+    return testing::internal::GetCapturedStderr();
+  };
+  CalibrateOptions options = measured(kCodeValues, 0.8);
+  EXPECT_NE(
+      told(options).find("raw_patches.csv: warning: its values, the code values of a picture, are taken "
+                         "for linear, which those for displays are not"),
+      std::string::npos);
+  options.series = write_series();
+  EXPECT_EQ(told(options).find("taken for linear"), std::string::npos);
+  EXPECT_EQ(told(measured("linear camera values", 0.8)), "");
+}
+
 TEST(CalibrateRaw, ScalesThatDoNotFitAreNamed) {
   MeasuredPatches raw{{"grey"}, {{300, 300, 300}}, {}, kNumbersAboveBlack};
   EXPECT_EQ(fault([&] { scale_to_codes(raw, {}, "m.csv"); }, "m.csv: its values are digital numbers above"),

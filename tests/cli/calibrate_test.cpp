@@ -1,5 +1,7 @@
+#include <cmath>
 #include <fstream>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -129,6 +131,34 @@ std::string camera_table(const std::vector<std::size_t>& order) {
     for (const std::size_t k : order) rows += fmt::format(",{}", (*channels)[k].weight(nm));
   }
   return rows + "\n";
+}
+
+TEST(Calibrate, TakesCurvesForWhatTheyAreSaidToMultiply) {
+  const std::string table = camera_table({0, 1, 2});
+  CalibrateOptions options = nikon();
+  options.camera = scratch().write("energy.csv", table).string();
+  const double energy = json_output(calibrate, options)["dE00_mean"];
+  options.camera_response = ResponseKind::quantum;
+  const double quantum = json_output(calibrate, options)["dE00_mean"];
+  EXPECT_GT(std::abs(quantum - energy), 0.01);
+  options.camera = "box:400-500,500-600,600-700";
+  EXPECT_EQ(fault([&] { calibrate(options); }, "goes with measured curves (got box:400-500"),
+            ErrorCode::usage);
+  const Outcome alone = abbe("calibrate --all-cameras --camera-response quantum");
+  EXPECT_EQ(alone.code, 2) << alone.err;
+}
+
+TEST(Calibrate, RefusesChartsInPercent) {
+  CalibrateOptions options = nikon();
+  options.chart = scratch()
+                      .write("percent.csv",
+                             "# unit: reflectance in percent\n# outside: clamp\n"
+                             "wavelength_nm,a\n400,0.5\n700,0.9\n")
+                      .string();
+  EXPECT_EQ(fault([&] { calibrate(options); }, "allowed shares of 1"), ErrorCode::input);
+  std::swap(options.chart, options.training);
+  options.chart = "colorchecker24_babelcolor_average";
+  EXPECT_EQ(fault([&] { calibrate(options); }, "allowed shares of 1"), ErrorCode::input);
 }
 
 TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {

@@ -139,9 +139,34 @@ TEST(DevelopRaw, FilesTellWhatTheirNumbersAre) {
   developed(path + " -o " + file("scale.png"));
   const auto told = read_picture(file("scale.png")).metadata;
   EXPECT_EQ(told.at("codes"), "digital numbers 0 to 16300, linear, not scaled to 16 bits");
-  EXPECT_EQ(told.at("black_level_dn"), "600");
+  EXPECT_EQ(told.at("black_level_dn"), "600.00002") << "of a dark signal of 2e-4 electrons";
   EXPECT_EQ(told.at("white_level_dn"), "16300");
   EXPECT_EQ(told.at("gain_e_per_dn"), "10");
+}
+
+// 20 electrons of dark signal at 10 electrons per code.
+TEST(DevelopRaw, AboveBlackIsLight) {
+  const std::string path = ball_film("dark_signal", kMosaic);
+  const std::string dark_current = " --set /readout/dark_e_per_s=20000";
+  developed(path + dark_current + " --frame dark -o " + file("ds.dng") + " -o " + file("ds.fits"));
+  for (const char* name : {"ds.dng", "ds.fits"}) {
+    const RawPicture raw = read_raw_picture(file(name));
+    EXPECT_EQ(raw.black_level_dn, 602) << name;
+    EXPECT_NEAR(std::accumulate(raw.codes.begin(), raw.codes.end(), 0.0) / (48 * 32), 602, 0.1) << name;
+    EXPECT_EQ(raw_scale(code_planes(raw)).value().offset_dn, 600) << "which transfer and series go by";
+  }
+}
+
+TEST(DevelopRaw, ChannelsWithDarkSignalsOfTheirOwnAreWarnedOf) {
+  const std::string path = ball_film("own_dark", R"("response": "quantum",
+      "channels": {"a": {"band": [600, 700]}, "b": {"filters": [{"band": [500, 600]}], "exposure_s": 3}},
+      "readout": {"gain_e_per_dn": 50, "bits": 12, "offset_dn": 50, "dark_e_per_s": 100})");
+  const std::string warning =
+      "have dark signals of their own (of 2 to 6 codes), which the black level of raw files leaves out";
+  EXPECT_NE(abbe("develop " + path + " -o " + file("own.fits")).err.find(warning), std::string::npos);
+  EXPECT_EQ(read_raw_picture(file("own.fits")).black_level_dn, 50);
+  EXPECT_EQ(abbe("develop " + path + " -o " + file("own.exr")).err, "");
+  EXPECT_EQ(abbe("develop " + path + " --frame bias -o " + file("own.tif")).err, "");
 }
 
 TEST(DevelopAnew, TwiceTheTimeIsTwiceTheLight) {

@@ -55,6 +55,23 @@ TEST(DevelopSpectral, BinsHoldTheRadianceThatIsSeenFromCornerToCorner) {
   EXPECT_NEAR(corner, 150, 0.3) << "the lens darkens its corners to a half, the scene does not";
 }
 
+TEST(DevelopSpectral, StatsAreOfTheRadiancesThatTheFilmHolds) {
+  const std::string path = dome_film("stats", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 100})",
+                                     "--crop 0,0,12,16 --stats " + file("dome.stats"));
+  const auto stats = nlohmann::json::parse(read_file(file("dome.stats")));
+  const Image film = read_exr(path);
+  double mean = 0;
+  double variance = 0;
+  for (std::size_t y = 0; y < 16; ++y)
+    for (std::size_t x = 0; x < 12; ++x) {
+      mean += static_cast<double>(film.find(spectral_channel(450))->values[24 * y + x]) / 192;
+      variance += static_cast<double>(film.find("Variance." + spectral_channel(450))->values[24 * y + x]);
+    }
+  EXPECT_NEAR(mean, 50, 2.5);
+  EXPECT_NEAR(stats["film"]["450nm"]["mean"], mean, 1e-6 * mean);
+  EXPECT_NEAR(stats["film"]["450nm"]["standard_error"], std::sqrt(variance) / 192, 1e-6 * mean);
+}
+
 // A dome of 0.5 W/(m^2 sr nm) over all the visible is 683 lm/W x 0.5 x 106.8 nm.
 TEST(DevelopSpectral, ThePreviewIsInCandelas) {
   const std::string path = dome_film("dome", kBins);

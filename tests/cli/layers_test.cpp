@@ -127,6 +127,8 @@ TEST(Layers, WhatCannotBeToldIsRefused) {
         "--light: the film has no layers of lights: render --layers lights makes them");
   fails(abbe(fmt::format("develop {} --light sky -o {}", file("plain.exr"), file("no.exr"))), 2,
         "--light: got \"sky\", allowed NAME=FACTOR");
+  fails(abbe(fmt::format("develop {} --light sky=0.5,-1 -o {}", file("plain.exr"), file("no.exr"))), 2,
+        "--light: got -1, allowed [0, 1e+30]");
 }
 
 }  // namespace

@@ -115,9 +115,23 @@ TEST(MeterCommand, TellsOfADarkPlaceAndStrictlyRefusesIt) {
   EXPECT_NE(run.err.find("warning: meter inside: a pilot found no light there: --error had"),
             std::string::npos)
       << run.err;
+  EXPECT_EQ(run.err.find("no light was found"), std::string::npos) << "it is told why";
   const Outcome strict = abbe("meter " + scene.string() + " --quiet --strict");
   EXPECT_EQ(strict.code, 3);
   EXPECT_NE(strict.err.find("inside: the camera stands within"), std::string::npos) << strict.err;
+}
+
+TEST(MeterCommand, TellsWhichMetersFoundNoLight) {
+  const auto scene = scratch().write("below.json", R"({"abbe": 1,
+    "lights": [{"directional": {"towards": [0, 0, 1], "irradiance": 3}}],
+    "meters": {"up": {"at": [0, 0, 0], "normal": [0, 0, 1]}, "down": {"at": [0, 0, 0], "normal": [0, 0, -1]}}})");
+  const Outcome run = abbe("meter " + scene.string() + " --quiet --spp 16");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err.find("meter up"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("warning: meter down: no light was found by 16 samples per pixel, although lights "
+                         "emit what the sensor sees"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST(MeterCommand, NeedsMetersAndNoCamera) {

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -136,6 +137,21 @@ TEST(QueryLight, ObjectsInSentences) {
             ErrorCode::input);
 }
 
+TEST(Query, SharesInPercentAreRefusedByEveryCommand) {
+  const std::string table =
+      scratch().write("pc.csv", "# unit: %\n# outside: clamp\nwavelength_nm,T\n380,0.3\n780,0.6\n").string() +
+      ":T";
+  const auto expect_refused = [](const std::function<void()>& command) {
+    EXPECT_EQ(fault(command, "is in another unit (got \"%\", allowed shares of 1)"), ErrorCode::input);
+  };
+  expect_refused([&] { query_light(LightOptions{"D65", table}); });
+  expect_refused([&] { query_light(LightOptions{"D65", "", table}); });
+  expect_refused([&] { query_metamerism(MetamerismOptions{"cornell_box_walls:red", table}); });
+  expect_refused([&] { query_camera(CameraOptions{"Nikon_D5100", "D65", table}); });
+  for (const ColorMethod method : {ColorMethod::one_nm, ColorMethod::astm_e308})
+    expect_refused([&] { query_color(ColorOptions{"D65", Observer::cie1931, table, false, method}); });
+}
+
 TEST(QueryMetamerism, ComparesTwoSurfaces) {
   const json found = json_output(query_metamerism, MetamerismOptions{"colorchecker24_babelcolor_average:blue",
                                                                      "colorchecker24_ohta1997:blue"});
@@ -151,6 +167,36 @@ TEST(QueryCamera, IsJudgedWithoutALight) {
   EXPECT_NEAR(found["vora"].get<double>(), 0.931, 1e-3);
   EXPECT_NEAR(found["sensitivity_index"].get<double>(), 90.78, 0.01);
   EXPECT_EQ(found["luther_residual"].size(), 3u);
+}
+
+// A camera's responses to energy as quantum efficiencies, 1 where both are so.
+std::string as_quantum_efficiencies(double unity_nm) {
+  Diagnostics diagnostics;
+  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
+  std::string rows =
+      "# unit: quantum efficiency (electrons per photon)\n# outside: clamp\nwavelength_nm,R,G,B\n";
+  for (int nm = 380; nm <= 780; nm += 5) {
+    rows += std::to_string(nm);
+    for (const Channel& channel : *channels) rows += "," + std::to_string(channel.weight(nm) * unity_nm / nm);
+    rows += '\n';
+  }
+  return rows;
+}
+
+TEST(QueryCamera, TakesCurvesForWhatTheyAreSaidToMultiply) {
+  CameraOptions options{scratch().write("q.csv", as_quantum_efficiencies(550)).string(), "A", ""};
+  const json true_raw = json_output(query_camera, CameraOptions{"Nikon_D5100", "A", ""})["raw"];
+  options.response = ResponseKind::quantum;
+  testing::internal::CaptureStderr();
+  const json raw = json_output(query_camera, options)["raw"];
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  for (const char* channel : {"R", "B"})
+    EXPECT_NEAR(raw[channel].get<double>(), true_raw[channel].get<double>(), 2e-3) << channel;
+  options.response.reset();
+  testing::internal::CaptureStderr();
+  EXPECT_LT(json_output(query_camera, options)["raw"]["R"], 0.95);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("is taken as a response to energy"),
+            std::string::npos);
 }
 
 TEST(QueryDeltaE, KnowsFormulasOfAppearanceAndDisplays) {

@@ -1,4 +1,7 @@
 // What light an image lacks is said, also where nothing else is.
+#include <algorithm>
+#include <string_view>
+
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -36,7 +39,7 @@ Outcome warned(const std::string& scene, const std::string& options = "") {
 TEST(Warnings, LightThatAChosenTechniqueLosesIsNamed) {
   const std::string scene = room(ball_of("white"), kLamp);
   EXPECT_EQ(warned(scene).err, "");
-  const Outcome light = warned(scene, " --integrator light");
+  const Outcome light = warned(scene, " --integrator light --spp 16");
   EXPECT_EQ(light.code, 0);
   EXPECT_EQ(
       light.err,
@@ -63,6 +66,62 @@ TEST(Warnings, WhatChoosesNothingIsRefused) {
       run.err.find("--integrator: the scene says how \"path\" draws its paths (got bdpt, allowed path)"),
       std::string::npos)
       << run.err;
+  const Outcome allowed = warned(scene, " --set /render/consistent=true --integrator bdpt");
+  EXPECT_EQ(allowed.code, 2);
+  EXPECT_NE(
+      allowed.err.find(
+          "--integrator: the scene lets \"auto\" choose among more integrators (got bdpt, allowed auto)"),
+      std::string::npos)
+      << allowed.err;
+}
+
+TEST(Warnings, SettingsOfPhotonsThatTheIntegratorMakesNoUseOfAreNamed) {
+  const std::string scene = room(ball_of("white"), kLamp);
+  const auto unused = [&](const std::string& options, const char* settings) {
+    std::string set;
+    for (std::string_view all = settings; !all.empty();) {
+      const std::size_t end = std::min(all.find(' '), all.size());
+      set += " --set /render/photons/" + std::string(all.substr(0, end));
+      all.remove_prefix(std::min(end + 1, all.size()));
+    }
+    const Outcome run = warned(scene + set, options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    const std::string before = "makes no use of it: ";
+    const std::size_t at = run.err.find(before);
+    if (at == std::string::npos) return std::string();
+    return run.err.substr(at + before.size(), run.err.find('\n', at) - at - before.size());
+  };
+  const char* kAll = "per_sample=100 radius=0.1 nearest=7 final_gather=true";
+  const std::string of_map = "render/photons/nearest, render/photons/final_gather";
+  for (const char* integrator : {"auto", "path", "light", "bdpt"})
+    EXPECT_EQ(unused(std::string("--integrator ") + integrator, kAll),
+              "render/photons/per_sample, render/photons/radius, " + of_map)
+        << integrator;
+  EXPECT_EQ(unused("--integrator vcm", kAll), "render/photons/per_sample, " + of_map);
+  EXPECT_EQ(unused("--consistent", kAll), "render/photons/per_sample, " + of_map);
+  for (const char* integrator : {"ppm", "sppm"})
+    EXPECT_EQ(unused(std::string("--integrator ") + integrator, kAll), of_map) << integrator;
+  EXPECT_EQ(unused("--integrator photon-map", kAll), "render/photons/radius");
+  EXPECT_EQ(unused("--integrator path", "nearest=50"), "") << "is so anyway";
+}
+
+// It tells nothing of light that no sample has found.
+TEST(Warnings, ABlackFilmIsTold) {
+  const std::string said =
+      "abbe: warning: no light was found by 1 samples per pixel, although lights emit what the sensor sees: "
+      "none comes there, or by ways too rare for so many\n";
+  const std::string nothing_there = room("", kBulb);
+  EXPECT_EQ(warned(nothing_there).err, said);
+  EXPECT_EQ(warned(nothing_there, "--strict").code, 0) << "it may be right";
+  EXPECT_EQ(warned(nothing_there + " --set /sensor/stokes=true").err, said);
+  EXPECT_EQ(warned(nothing_there, "--crop 0,0,2,2").err, "") << "may be of what is black";
+  const std::string infrared =
+      R"({"point": {"at": [0, -1, 2]}, "emission": {"spectrum": {"band": [900, 1000], "value": 1}}})";
+  for (const std::string& lights : {std::string(), infrared}) {
+    const Outcome run = warned(room(ball_of("white"), lights));
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.find("no light was found"), std::string::npos) << run.err;
+  }
 }
 
 TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
@@ -128,7 +187,7 @@ TEST(Warnings, PolarisationLeftOutTakesALineUnlessQuiet) {
       << measuring.err;
   EXPECT_EQ(warned(left_out + " --set /sensor/stokes=true", " --strict").code, 3);
   const std::string mirrors = room(ball_of("mirror") + ", " + ball_of("mirror", "0.1"), kLamp);
-  EXPECT_EQ(warned(mirrors + " --set /render/polarisation=off").err, "");
+  EXPECT_EQ(warned(mirrors + " --set /render/polarisation=off", "--spp 256").err, "");
 }
 
 TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {

@@ -253,6 +253,36 @@ TEST_F(DescriptionTest, TablesAreInTheUnitThatIsAskedFor) {
   EXPECT_NE(complaint(behind_a_scaled_one, "mW/(m2 sr nm)").find("/lights/1/emission"), std::string::npos);
 }
 
+TEST_F(DescriptionTest, SharesOfASensorAreNoPercentagesWhereverATableStands) {
+  const auto complaint = [&](const std::string& unit, double value, const std::string& sensor) {
+    write(folder_ / "t.csv", fmt::format("# unit: {}\n# outside: clamp\nwavelength_nm,QE\n400,{}\n700,{}\n",
+                                         unit, value, value));
+    const Loaded loaded = load(R"({"sensor": {"resolution": [1, 1], )" + sensor + "}}");
+    const std::string text = loaded.text();
+    return loaded.scene && text.find("is taken as a response") == text.npos ? "" : text;
+  };
+  const std::string channels = R"("channels": {"a": "t.csv:QE"})";
+  const std::string peak = R"(, "peak_quantum_efficiency": 0.5)";
+  const std::string quantum = R"(, "response": "quantum")";
+  for (const std::string& sensor :
+       {std::string(R"("channels": {"a": {"filters": ["t.csv:QE"]}})"),
+        std::string(R"("observer": 1931, "lens_transmission": "t.csv:QE")"),
+        std::string(R"("observer": 1931, "polariser": {"angle_deg": 0, "transmittance": "t.csv:QE"})"),
+        std::string(R"("quantum_efficiency": "t.csv:QE", "channels": {"a": 1})"),
+        std::string(R"("camera": "t.csv")"), channels + quantum}) {
+    for (const char* unit : {"%", "quantum efficiency [%]"})
+      EXPECT_NE(complaint(unit, 0.9, sensor).find("allowed shares of 1"), std::string::npos) << sensor;
+    EXPECT_NE(complaint("1", 50, sensor).find("(got 50, allowed ["), std::string::npos) << sensor;
+    EXPECT_EQ(complaint("1", 0.9, sensor), "") << sensor;
+  }
+  for (const std::string& sensor : {R"("camera": "t.csv")" + peak, channels + quantum + peak})
+    EXPECT_EQ(complaint("%", 50, sensor), "") << "scaled: " << sensor;
+  EXPECT_EQ(complaint("%", 50, channels), "") << "of no unit";
+  EXPECT_NE(complaint("electrons per photon", 0.5, channels).find("warning: \"t.csv:QE\" is taken as"),
+            std::string::npos);
+  EXPECT_EQ(complaint("electrons per photon", 0.5, channels + quantum), "");
+}
+
 TEST_F(DescriptionTest, OverridesAndHashes) {
   const std::string text = R"({"materials": {"m": {"diffuse": {"reflectance": "filter.csv:T"}}},
     "shapes": [{"mesh": "bench.ply", "material": "m"}], "render": {"integrator": "path", "samples": 16, "max_depth": 12,

@@ -105,8 +105,14 @@ TEST_F(PbrtTest, ImagesOfTheSkyGiveTheirMean) {
   EXPECT_TRUE(tells("its mean from all sides")) << told_;
   EXPECT_NEAR(luminance("\"float scale\" 10") / kLm, 10 * y, 1e-2);
   EXPECT_NEAR(luminance("\"float illuminance\" 5") / kLm, 5 / M_PI, 1e-3);
+  write_exr(folder_ / "wide.exr", {1,
+                                   1,
+                                   {{"R", {1}}, {"G", {1}}, {"B", {1}}},
+                                   {{kPrimariesKey, "0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329"}}});
   expect_refused({{"gone", kBegin + "LightSource \"infinite\" \"string filename\" \"gone.exr\"\n",
-                   "a.pbrt:5:24: error: "}});
+                   "a.pbrt:5:24: error: "},
+                  {"wide", kBegin + "LightSource \"infinite\" \"string filename\" \"wide.exr\"\n",
+                   "its chromaticities are not those of Rec.709"}});
 }
 
 TEST_F(PbrtTest, WithoutACameraItIsPbrtsOwn) {

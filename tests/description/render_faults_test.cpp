@@ -21,6 +21,9 @@ TEST_F(RenderFaultsTest, OfSamplingAreExplained) {
       {"settings of another integrator", R"({"render": {"integrator": "vcm", "heuristic": "power"}})",
        ErrorCode::scene,
        "/render/heuristic: error: says how the integrator \"path\" draws its paths (got it with \"vcm\")"},
+      {"settings of another integrator", R"({"render": {"integrator": "path", "consistent": true}})",
+       ErrorCode::scene,
+       "/render/consistent: error: lets the integrator \"auto\" choose among more (got it with \"path\")"},
       {"weights of one way", R"({"render": {"integrator": "path", "lights": "bsdf", "heuristic": "power"}})",
        ErrorCode::scene,
        "/render/heuristic: error: weighs two ways to a light, of which \"lights\" leaves one (allowed with "

@@ -338,6 +338,24 @@ TEST_F(SensorTest, TheSceneReplacesWhatAModelSays) {
   EXPECT_NE(plain->sha256, other->sha256);
 }
 
+// One scale in place of another, and the other way round.
+TEST_F(SensorTest, TheSceneReplacesTheScaleOfAModel) {
+  constexpr const char* kFile = R"({{"title": "t", "source": "s", "status": "example", "sensor": {{
+        "resolution": [1, 1], "camera": "Nikon_D5100", {},
+        "readout": {{"gain_e_per_dn": 2, "bits": 12}}}}}})";
+  constexpr const char* kPeak = R"("peak_quantum_efficiency": 0.5)";
+  constexpr const char* kCounted = R"("electrons_per_lx_s": 9000)";
+  for (const auto& [of_file, of_scene] : {std::pair{kPeak, kCounted}, {kCounted, kPeak}}) {
+    write(folder_ / "scaled.json", fmt::format(kFile, of_file));
+    const Loaded model = load(sensed(fmt::format(R"("model": "scaled.json", {})", of_scene)));
+    const Loaded plain =
+        load(sensed(fmt::format(R"("resolution": [1, 1], "camera": "Nikon_D5100", {})", of_scene)));
+    ASSERT_TRUE(model.scene && plain.scene) << model.text() << plain.text();
+    EXPECT_EQ(model->channels[1].weight(540), plain->channels[1].weight(540)) << of_scene;
+    EXPECT_TRUE(model->readout);
+  }
+}
+
 TEST_F(SensorTest, FaultsOfModelsAreNamed) {
   write(folder_ / "bare.json",
         R"({"sensor": {"resolution": [4, 3], "observer": "1931"}, "title": "t", "status": "s"})");

@@ -75,6 +75,38 @@ TEST_F(TextureTest, FilesOfIntegersAreLinearWeightsAndEncodedColours) {
   }
 }
 
+TEST_F(TextureTest, ColoursOfIntegersThatSayThatTheyAreLinearAreNotDecoded) {
+  write_raw_picture(folder_ / "deep.png", {1, 1, {{"R", {13107}}, {"G", {26214}}, {"B", {39321}}}, {}});
+  const Curve linear = rgb_spectrum({0.2, 0.4, 0.6});
+  const SampledSpectrum png = reflectance(R"({"image": "deep.png", "rgb": true})", {0, 0});
+  for (int lane = 0; lane < kLanes; ++lane)
+    EXPECT_NEAR(png[lane], linear(static_cast<double>(kWavelengths[lane])), 1e-6);
+}
+
+TEST_F(TextureTest, AlphaBesideColoursIsSaidNotToBeHeeded) {
+  const auto warns = [&](float alpha, const char* of) {
+    write_exr(folder_ / "veil.exr",
+              {2, 1, {{"R", {0, 0.2F}}, {"G", {0, 0.2F}}, {"B", {0, 0.2F}}, {"A", {1, alpha}}}, {}});
+    const Loaded loaded = load(painted(fmt::format(R"({{"image": "veil.exr", {}}})", of)));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.text().find(
+               "/reflectance/image: warning: texture \"veil.exr\": its alpha channel is not heeded: colours "
+               "are as the file has them") != std::string::npos;
+  };
+  EXPECT_TRUE(warns(0.5F, R"("rgb": true)"));
+  EXPECT_FALSE(warns(1, R"("rgb": true)"));
+  EXPECT_FALSE(warns(0.5F, R"("weights": {"R": 1})"));
+}
+
+TEST_F(TextureTest, PicturesStandUprightAsTheirFilesSay) {
+  // A row of two from the right, 0.25 and 0.5, of which the second is to be on the left.
+  write(folder_ / "mirrored.hdr",
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 -X 2\n\x80\x80\x80\x7f\x80\x80\x80\x80");
+  const std::string texture = R"({"image": "mirrored.hdr", "weights": {"R": 1}, "filter": "nearest"})";
+  EXPECT_NEAR(reflectance(texture, {0.25F, 0.5F})[0], 0.5, 1e-6);
+  EXPECT_NEAR(reflectance(texture, {0.75F, 0.5F})[0], 0.25, 1e-6);
+}
+
 TEST_F(TextureTest, ColoursAreSaidToHaveNoSpectrum) {
   const Loaded loaded = load(painted(R"({"image": "photo.exr", "rgb": true})"));
   ASSERT_TRUE(loaded.scene) << loaded.text();

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "develop/film_file.h"
+#include "develop/raw_picture.h"
 #include "films.h"
 #include "io/error.h"
 #include "io/exr.h"
@@ -146,6 +147,38 @@ TEST(Develop, APixelOfAMosaicIsDarkForTheTimeOfItsOwnFilter) {
   expose_for(film, 1, diagnostics);
   EXPECT_EQ(film.sensor.exposure_s, (std::vector<double>{10, 1}));
   EXPECT_EQ(film.film.metadata.at("exposure_s.R"), "10");
+}
+
+TEST(Develop, BlackIsTheExpectedDarkSignal) {
+  ExposedFilm film = exposed({{"/readout/offset_dn", "50"}, {"/readout/dark_e_per_s", "2500"}});
+  const auto told = [&film] { return develop(film, 7).codes.metadata.at("black_level_dn"); };
+  EXPECT_EQ(told(), "75");
+  Diagnostics diagnostics;
+  expose_for(film, 0.02, diagnostics);
+  EXPECT_EQ(told(), "100");
+  EXPECT_EQ(raw_picture(develop(film, 7), film.sensor).black_level_dn, 100);
+  expose_to(film, DarkFrame{});
+  EXPECT_EQ(told(), "100");
+  warn_of_own_dark_signals(film.sensor, diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  expose_to(film, BiasFrame{});
+  EXPECT_EQ(told(), "50");
+}
+
+TEST(Develop, DarkSignalsThatDifferAreNotInTheBlackLevelAndWarnedOf) {
+  const ExposedFilm film = exposed({{"/readout/offset_dn", "50"}}, test::mosaic_film());
+  EXPECT_EQ(develop(film, 7).codes.metadata.at("black_level_dn"), "50");
+  Diagnostics diagnostics;
+  warn_of_own_dark_signals(film.sensor, diagnostics);
+  EXPECT_EQ(
+      diagnostics.text(),
+      "-o: warning: channels of exposure times of their own have dark signals of their own (of 5e+03 to "
+      "5e+04 codes), which the black level of raw files leaves out\n");
+  ExposedFilm cooled = film;
+  cooled.sensor.readout->dark_e_per_s = 0;
+  Diagnostics none;
+  warn_of_own_dark_signals(cooled.sensor, none);
+  EXPECT_EQ(none.text(), "");
 }
 
 // Where all channels have one time of their own, that is the film's: the sensor's is nobody's.

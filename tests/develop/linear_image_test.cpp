@@ -1,5 +1,6 @@
 #include "develop/linear_image.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -172,6 +173,32 @@ TEST(LinearImage, OfARawFileOfAnyKindIsTheSame) {
   fs::remove_all(folder);
 }
 
+// Black between two codes, as dark signals have it, which tags would round.
+TEST(LinearImage, BlackIsTheSameInEveryKindOfRawFile) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("abbe_black_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  RawPicture raw = curved_picture();
+  raw.black_level_dn = 100 + 1.0 / 3;
+  raw.metadata["black_level_dn"] = fmt::format("{}", raw.black_level_dn);
+  write_dng(folder / "a.dng", raw);
+  write_fits(folder / "a.fits", raw);
+  write_raw_picture(folder / "a.tif", {2, 2, {{"raw", {raw.codes.begin(), raw.codes.end()}}}, raw.metadata});
+  std::vector<float> linear;
+  for (const std::uint16_t code : raw.codes)
+    linear.push_back(static_cast<float>(raw.linear_codes[code] - raw.black_level_dn));
+  for (const char* name : {"a.dng", "a.fits", "a.tif"}) {
+    const LinearImage read = read_linear_image(folder / name);
+    EXPECT_EQ(read.image.channels[0].values, linear) << name;
+    EXPECT_EQ(read.saturation, 3850 - raw.black_level_dn) << name;
+  }
+  raw.metadata.erase("black_level_dn");
+  write_dng(folder / "a.dng", raw);
+  EXPECT_NEAR(static_cast<double>(read_linear_image(folder / "a.dng").image.channels[0].values[0]),
+              static_cast<double>(linear[0]), 1e-4)
+      << "as other programs tell it";
+  fs::remove_all(folder);
+}
+
 // A TIFF of four planes whose fourth a tag calls alpha: 1, which colours are multiplied by, or 2.
 LinearImage with_alpha(const Image& codes, std::uint16_t alpha) {
   constexpr std::uint16_t kExtraSamples = 338;
@@ -227,6 +254,15 @@ TEST(LinearImage, APixelThatIsNoNumberIsRefused) {
   std::ofstream(path, std::ios::binary) << "Pf\n2 1\n-1.0\n" << std::string("\0\0\0\0\0\0\xc0\x7f", 8);
   EXPECT_EQ(refusal([&] { (void)read_linear_image(path); }),
             path.string() + ": channel \"Y\" holds no number at pixel 1,0 (got nan)");
+  std::filesystem::remove(path);
+}
+
+TEST(LinearImage, APictureIsMeasuredAsItStandsInItsFile) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("abbe_mirrored_" + std::to_string(::getpid()) + ".hdr");
+  std::ofstream(path, std::ios::binary)
+      << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 -X 2\n\x80\x80\x80\x7f\x80\x80\x80\x80";
+  EXPECT_EQ(read_linear_image(path).image.channels[0].values, (std::vector<float>{0.25F, 0.5F}));
   std::filesystem::remove(path);
 }
 

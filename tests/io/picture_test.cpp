@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/extension.h"
+#include "io/orientation.h"
 #include "test_files.h"
 
 namespace abbe {
@@ -224,22 +226,130 @@ TEST(Picture, ARawTiffHoldsAnyNumberOfPlanes) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
-TEST(Picture, ColoursBesideAlphaAreMultipliedUnlessAskedFor) {
-  const auto path = test_folder() / "a.png";
-  OIIO::ImageSpec spec(1, 1, 4, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  const std::array<std::uint8_t, 4> pixel{200, 100, 50, 51};
+/// Writes one row of red, green, blue and perhaps alpha in 8 bits, by OpenImageIO.
+void write_codes(const std::filesystem::path& path, OIIO::ImageSpec spec,
+                 const std::vector<std::uint8_t>& codes) {
+  spec.set_format(OIIO::TypeDesc::UINT8);
   const auto output = OIIO::ImageOutput::create(path.string());
-  ASSERT_TRUE(output->open(path.string(), spec) && output->write_image(OIIO::TypeDesc::UINT8, pixel.data()) &&
+  ASSERT_TRUE(output->open(path.string(), spec) && output->write_image(OIIO::TypeDesc::UINT8, codes.data()) &&
               output->close());
-  for (const auto& [alpha, factor] :
-       {std::pair(AlphaReading::multiplied, 0.2F), {AlphaReading::as_stored, 1.0F}}) {
-    const Image read = read_image(path, nullptr, alpha);
-    ASSERT_EQ(read.channels.size(), 4U);
-    for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_FLOAT_EQ(read.channels[c].values[0], factor * static_cast<float>(pixel[c]) / 255) << factor << c;
-    EXPECT_FLOAT_EQ(read.channels[3].values[0], 0.2F);
+}
+
+TEST(Picture, ColoursBesideAlphaAreReadAsStored) {
+  const auto path = test_folder() / "a.png";
+  OIIO::ImageSpec spec(1, 1, 4);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  const std::vector<std::uint8_t> pixel{200, 100, 50, 51};
+  write_codes(path, spec, pixel);
+  const Image read = read_image(path);
+  ASSERT_EQ(read.channels.size(), 4U);
+  for (std::size_t c = 0; c < 4; ++c)
+    EXPECT_FLOAT_EQ(read.channels[c].values[0], static_cast<float>(pixel[c]) / 255) << c;
+}
+
+TEST(Picture, FilesOfIntegersSayHowTheyAreEncoded) {
+  const auto folder = test_folder();
+  const auto space = [&](const char* name) {
+    const auto metadata = read_image(folder / name).metadata;
+    const auto told = metadata.find("oiio:ColorSpace");
+    return told == metadata.end() ? "" : told->second;
+  };
+  write_raw_picture(folder / "raw.png", {1, 1, {{"Y", {130}}}, {}});
+  EXPECT_EQ(space("raw.png"), "Linear");
+  OIIO::ImageSpec spec(1, 1, 3);
+  spec.attribute("oiio:ColorSpace", "GammaCorrected");
+  spec.attribute("oiio:Gamma", 2.22F);
+  write_codes(folder / "gamma.png", spec, {130, 130, 130});
+  EXPECT_EQ(space("gamma.png"), "Gamma2.22");
+  put(folder / "a.ppm", "P6 1 1 255\nabc");
+  EXPECT_EQ(space("a.ppm"), "") << "which says nothing";
+}
+
+/// The rows of an image that has one digit for each pixel.
+std::string rows_of(const Image& image) {
+  std::string rows;
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    if (i > 0 && i % static_cast<std::size_t>(image.width) == 0) rows += "/";
+    rows += std::to_string(std::lround(image.channels[0].values[i] * 255));
   }
+  return rows;
+}
+
+TEST(Picture, IsTurnedUprightAsItsFileSays) {
+  const auto path = test_folder() / "a.tif";
+  const std::vector<std::uint8_t> codes{0, 1, 2, 3, 4, 5};
+  const std::array<const char*, 8> upright_rows{"012/345",  "210/543",  "543/210",  "345/012",
+                                                "03/14/25", "30/41/52", "52/41/30", "25/14/03"};
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    OIIO::ImageSpec spec(3, 2, 1);
+    spec.attribute(kOrientation, orientation);
+    write_codes(path, spec, codes);
+    const Image stored = read_image(path);
+    EXPECT_EQ(rows_of(stored), "012/345") << orientation;
+    EXPECT_EQ(stored.metadata.contains(kOrientation), orientation > 1) << orientation;
+    const Image turned = upright(stored);
+    EXPECT_EQ(rows_of(turned), upright_rows.at(static_cast<std::size_t>(orientation) - 1)) << orientation;
+    EXPECT_FALSE(turned.metadata.contains(kOrientation)) << orientation;
+  }
+  EXPECT_EQ(rows_of(upright({2, 1, {{"Y", {0, 1.0F / 255}}}, {{kOrientation, "9"}}})), "01");
+}
+
+/// A Radiance picture of grey pixels, each this many parts of 128.
+std::string radiance_file(const std::string& lines, const std::string& resolution, const std::string& parts) {
+  std::string bytes = "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n";
+  for (const char part : parts) bytes += std::string(3, part) + '\x81';
+  return bytes;
+}
+
+// X counts to the right and Y upwards; the first of them runs from scan line to scan line.
+TEST(Picture, OfRadianceIsTurnedUprightAsItsResolutionSays) {
+  const auto path = test_folder() / "a.hdr";
+  const std::string picture = "\x90\xa0\xb0\xc0\xd0\xe0";  // two rows of three from the top left
+  for (const char* const resolution : {"-Y 2 +X 3", "-Y 2 -X 3", "+Y 2 +X 3", "+Y 2 -X 3", "+X 3 -Y 2",
+                                       "+X 3 +Y 2", "-X 3 +Y 2", "-X 3 -Y 2"}) {
+    const std::string axes = resolution;
+    std::string stored;
+    for (std::size_t i = 0; i < 6; ++i) {
+      std::size_t x = axes[1] == 'X' ? i / 2 : i % 3;
+      std::size_t y = axes[1] == 'X' ? i % 2 : i / 3;
+      if (axes.find("-X") != std::string::npos) x = 2 - x;
+      if (axes.find("+Y") != std::string::npos) y = 1 - y;
+      stored += picture[3 * y + x];
+    }
+    put(path, radiance_file("", axes, stored));
+    const Image turned = upright(read_image(path));
+    ASSERT_EQ(turned.width, 3) << axes;
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_EQ(turned.channels[0].values[i], static_cast<std::uint8_t>(picture[i]) / 128.0F) << axes << i;
+  }
+}
+
+TEST(Picture, OfRadianceIsWhatItsLinesSay) {
+  const auto path = test_folder() / "a.hdr";
+  const auto read = [&](const std::string& lines) {
+    put(path, radiance_file(lines, "-Y 1 +X 1", "\x80"));
+    return read_image(path);
+  };
+  EXPECT_EQ(read("").channels[0].values[0], 1);
+  const Image scaled = read("EXPOSURE=2\n# EXPOSURE=8\nCOLORCORR= 1 .5 4\nEXPOSURE= 2.5\n");
+  EXPECT_FLOAT_EQ(scaled.channels[0].values[0], 0.2F);
+  EXPECT_FLOAT_EQ(scaled.channels[1].values[0], 0.4F);
+  EXPECT_FLOAT_EQ(scaled.channels[2].values[0], 0.05F);
+  EXPECT_EQ(read("PRIMARIES= .7347 .2653 0 1 .0001 -.077 .32168 .33767\n").metadata.at(kPrimariesKey),
+            "0.7347 0.2653 0 1 0.0001 -0.077 0.32168 0.33767");
+  EXPECT_FALSE(read("GAMMA=1.0\nPRIMARIES=0 0 0 0 0 0 0 0\n").metadata.contains(kPrimariesKey));
+  for (const auto& [line, said] :
+       {std::pair("GAMMA=2.2", "values are not linear (got \"GAMMA=2.2\", allowed GAMMA=1)"),
+        {"EXPOSURE=0", "pixels were multiplied by (got \"EXPOSURE=0\", allowed > 0)"},
+        {"EXPOSURE=bright", "numbers expected (got \"EXPOSURE=bright\", allowed 1)"},
+        {"PRIMARIES=.64 .33", "numbers expected (got \"PRIMARIES=.64 .33\", allowed 8)"}})
+    try {
+      static_cast<void>(read(std::string(line) + "\n"));
+      ADD_FAILURE() << line;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::input);
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
 }
 
 TEST(Picture, CapitalsNameTheSameKindOfFile) {

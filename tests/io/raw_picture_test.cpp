@@ -118,6 +118,8 @@ constexpr std::uint16_t kStripByteCounts = 279;
 constexpr std::uint16_t kPlanarConfiguration = 284;
 constexpr std::uint16_t kSoftware = 305;
 constexpr std::uint16_t kSampleFormat = 339;
+constexpr std::uint16_t kRepeatPatternDim = 33421;
+constexpr std::uint16_t kPattern = 33422;
 constexpr std::uint16_t kBlackLevel = 50714;
 constexpr std::uint16_t kBlackLevelDeltaH = 50715;
 constexpr std::uint16_t kBlackLevelDeltaV = 50716;
@@ -150,6 +152,21 @@ TEST(Dng, BlackLevelsThatDifferAreRefused) {
       refusal_of(path, file.bytes),
       path.string() +
           ": filters or planes have a black level of their own (got from 64 to 65, allowed one for all)");
+}
+
+TEST(Dng, FiltersOfOtherColoursAreRefused) {
+  const auto path = test_folder() / "a.dng";
+  test::TiffEntries file{bytes_of_dng(under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer))};
+  file.set_longs(kPattern, {0, 1, 2, 2});
+  EXPECT_EQ(refusal_of(path, file.bytes), "accepted");
+  file.set_longs(kPattern, {0, 1, 1, 3});
+  EXPECT_EQ(refusal_of(path, file.bytes),
+            path.string() +
+                ": its mosaic has filters other than red, green and blue (got number 3, allowed 0 to 2)");
+  file.set_longs(kPattern, {0, 1, 1});
+  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": it does not tell the pattern of its mosaic");
+  file.set_short(kRepeatPatternDim, kSoftware, 0);
+  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": it does not tell the pattern of its mosaic");
 }
 
 TEST(Dng, RowsAndColumnsHaveNoBlackLevelOfTheirOwn) {
@@ -252,6 +269,34 @@ TEST(Fits, APixelBelowZeroIsToldOf) {
   const auto path = test_folder() / "b.fits";
   EXPECT_EQ(refusal_of(path, with_card(bytes, "BZERO", "BZERO   =                  0.0")),
             path.string() + ": a pixel is below 0 (got -32668, allowed 0 to 65535)");
+}
+
+TEST(Fits, APatternIsReadInSmallLettersAndRefusedIfItIsUnknown) {
+  const RawPicture raw = under_mosaic(one_pixel({kRed, kGreen, kBlue}), kBayer);
+  const auto path = test_folder() / "b.fits";
+  const std::string bytes = bytes_of_fits(raw);
+  EXPECT_EQ(read_fits_bytes(with_card(bytes, "BAYERPAT", "BAYERPAT= 'bggr    '")).mosaic,
+            (std::vector<std::uint8_t>{2, 1, 1, 0}));
+  EXPECT_EQ(refusal_of(path, with_card(bytes, "BAYERPAT", "BAYERPAT= 'CYGM    '")),
+            path.string() +
+                ": BAYERPAT is no pattern of two by two filters R, G and B (got \"CYGM\", allowed "
+                "as \"RGGB\")");
+  RawPicture own = raw;
+  own.channels = {"M", "G", "Y"};
+  own.metadata = {{"mosaic", "M,G/G,Y"}};
+  EXPECT_EQ(read_fits_bytes(bytes_of_fits(own)).codes, own.codes) << "whose history tells it";
+}
+
+TEST(Fits, APedestalBelowZeroIsRefused) {
+  RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  raw.black_level_dn = 0.5;
+  const auto path = test_folder() / "b.fits";
+  const std::string bytes = bytes_of_fits(raw);
+  EXPECT_EQ(read_fits_bytes(bytes).black_level_dn, 0.5);
+  EXPECT_EQ(refusal_of(path, with_card(bytes, "PEDESTAL", "PEDESTAL=               -100.0")),
+            path.string() +
+                ": PEDESTAL is below 0, which programs mean differently (got -100, allowed the code "
+                "of no light, 0 or more)");
 }
 
 // Readers take it for two rows of two.

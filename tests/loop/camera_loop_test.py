@@ -155,7 +155,9 @@ class Chart(Loop):
     def patches(self, file):
         """Means above black, deviations of a pixel and numbers of pixels, by numpy: patch by patch, R, G, B."""
         pixels, told = read_raw(file)
-        black = json.loads(told["sensor"])["readout"].get("offset_dn", 0)
+        readout = json.loads(told["sensor"])["readout"]
+        dark = readout.get("dark_e_per_s", 0) * float(told["exposure_s"]) / float(told["gain_e_per_dn"])
+        black = readout.get("offset_dn", 0) + dark
         values = []
         for x0, y0, x1, y1 in self.regions():
             part = pixels[y0:y1, x0:x1]

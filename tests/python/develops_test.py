@@ -118,6 +118,12 @@ class Develops(Test):
         self.assertEqual(made["dE00"].tolist(), [patch["dE00"] for patch in told["patches"]])
         self.assertEqual(list(made["response_max_error"].values()), [response["max_error"] for response in told["responses"]])
 
+    def test_curves_of_a_camera_are_what_they_are_said_to_be(self):
+        quantum = abbe.calibrate("Nikon_D5100", "A", camera_response="quantum")["dE00_mean"]
+        self.assertNotAlmostEqual(quantum, abbe.calibrate("Nikon_D5100", "A")["dE00_mean"], 3)
+        told = json.loads(self.command("calibrate", "--camera", "Nikon_D5100", "--camera-response", "quantum", "--illuminant", "A", "--json"))
+        self.assertEqual(quantum, told["dE00_mean"])
+
     def write_photographs_of_gamma_2(self):
         """Grey steps, and the raw values of a chart, as a camera of that response photographs them."""
         exposures = []

@@ -62,6 +62,8 @@ class Queries(Test):
         self.assertEqual(abbe.illuminant("A", 560.0), 100)
         self.assertEqual(abbe.observer(wavelengths_nm=555.0)["y"], 1)
         self.assertEqual(list(abbe.camera("Nikon_D5100", [550])), ["R", "G", "B"])
+        photons = abbe.camera("Nikon_D5100", [450.0, 600.0], response="quantum")["G"] / abbe.camera("Nikon_D5100", [450.0, 600.0], response="energy")["G"]
+        self.assertAlmostEqual(photons[1] / photons[0], 600 / 450)
         self.assertIn("D65", abbe.names("illuminant"))
         self.assertEqual(json.loads(self.command("query", "--list", "glass", "--json"))["glass"], abbe.names("glass"))
 
@@ -71,6 +73,8 @@ class Queries(Test):
             for nm in (numpy.nan, 299, [500, 1101]):
                 with self.subTest(nm=nm), self.assertRaisesRegex(abbe.UsageError, r"^wavelengths_nm: .* has no data there \(got (nan|299|1101) nm, allowed \[300, 1100\] nm\)$"):
                     call(nm)
+        percent = self.scratch / "percent.csv"
+        percent.write_text("# unit: %\n# outside: clamp\nwavelength_nm,T\n380,0.3\n780,0.6\n")
         for call, error, message in ((lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
                                      (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data there"),
                                      (lambda: abbe.ior("N-BK7", [numpy.nan]), abbe.UsageError, "got nan nm"),
@@ -78,6 +82,12 @@ class Queries(Test):
                                      (lambda: abbe.names("lens"), abbe.UsageError, "unknown kind"),
                                      (lambda: abbe.color("D65", ([400, 390], [1, 1])), abbe.UsageError, "ascending"),
                                      (lambda: abbe.color("D65", ([400], [1])), abbe.UsageError, "two or more"),
+                                     (lambda: abbe.color("D65", ([380, 780], [20, 80])), abbe.UsageError, r"reflectance: curve out of range at 380 nm \(got 20, allowed \[0, 1\]\)"),
+                                     (lambda: abbe.color("D65", ([380, 780], [-0.2, 0.8])), abbe.UsageError, "got -0.2"),
+                                     (lambda: abbe.color(([380, 780], [-1, 1])), abbe.UsageError, "illuminant: curve out of range"),
+                                     (lambda: abbe.color("D65", f"{percent}:T"), abbe.InputError, "allowed shares of 1"),
+                                     (lambda: abbe.camera(f"{percent}:T", 500, response="quantum"), abbe.InputError, "allowed shares of 1"),
+                                     (lambda: abbe.camera("Nikon_D5100", 500, response="photons"), abbe.UsageError, "response: got \"photons\", allowed energy, quantum"),
                                      (lambda: abbe.delta_e([1, 2], [1, 2]), abbe.UsageError, "last axis"),
                                      (lambda: abbe.delta_e([1, 2], [1, 2, 3]), abbe.UsageError, "lab1: has no shape in common with lab2")):
             with self.subTest(message=message), self.assertRaisesRegex(error, message):

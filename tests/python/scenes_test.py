@@ -153,6 +153,15 @@ class Scenes(Test):
         with self.assertWarnsRegex(abbe.SceneWarning, 'light that integrator "path" does not reach is missing'):
             abbe.render(scene)
 
+    def test_renders_warn_of_what_does_nothing(self):
+        lamp = {"name": "lamp", "point": {"at": [0, 0, 3]}, "emission": {"spectrum": 1}}
+        scene = abbe.Scene(box(lights=[lamp], shapes=[], render={"samples": 1, "integrator": "path", "photons": {"radius": 1}}))
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            abbe.render(scene)
+        self.assertEqual([str(w.message).split(":")[0] for w in heard], [
+            'without effect, as integrator "path" makes no use of it', "no light was found by 1 samples per pixel, although lights emit what the sensor sees"])
+
     def test_docstrings_tell_what_the_tables_of_keys_say(self):
         self.assertIn("  camera: What looks at the scene. (object, required without meters)", abbe.Scene.__doc__)
         self.assertEqual(abbe.help("sensor/readout/bits"), self.command("help", "scene", "sensor/readout/bits"))

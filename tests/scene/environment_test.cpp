@@ -201,24 +201,37 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
       std::string::npos);
   write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
   EXPECT_TRUE(load(text).scene) << "grey";
+  write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {-1, 2}}}, {}});
+  EXPECT_NE(load(text).text().find("negative values taken as 0: 1\n"), std::string::npos)
+      << load(text).text();
+  write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
   std::filesystem::rename(folder_ / "sky.exr", folder_ / "SKY.EXR");
   EXPECT_TRUE(load(std::regex_replace(text, std::regex("sky.exr"), "SKY.EXR")).scene) << "in capitals";
 }
 
-TEST_F(EnvironmentFileTest, TellsOfTheExposureOfAPicture) {
-  const auto warns = [&](const std::string& line) {
-    write_atomically(folder_ / "sky.hdr",
-                     "#?RADIANCE\n" + line + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81");
-    const Loaded loaded =
-        load(R"({"lights": [{"environment": {"image": "sky.hdr"}, "emission": {"spectrum": 1}}]})");
-    EXPECT_TRUE(loaded.scene) << loaded.text();
-    return loaded.text().find(
-               "environment \"sky.hdr\": its values are taken as they are, after the EXPOSURE "
-               "that they were multiplied by (got 2.5)") != std::string::npos;
+TEST_F(EnvironmentFileTest, PicturesOfRadianceAreWhatTheirLinesSay) {
+  const std::string text =
+      R"({"lights": [{"environment": {"image": "sky.hdr"}, "emission": {"spectrum": 1}}]})";
+  // Grey texels of 1 and 2, one above the other.
+  const auto load_sky = [&](const std::string& lines, const std::string& resolution) {
+    write_atomically(folder_ / "sky.hdr", "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + resolution +
+                                              "\n\x80\x80\x80\x81\x80\x80\x80\x82");
+    return load(text);
   };
-  EXPECT_TRUE(warns("EXPOSURE=2.5\n"));
-  EXPECT_FALSE(warns("EXPOSURE=1\n"));
-  EXPECT_FALSE(warns(""));
+  const auto zenith = [&](const std::string& lines, const std::string& resolution) {
+    const Loaded loaded = load_sky(lines, resolution);
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    return loaded.scene ? emission_from(loaded->lights[0], {0.1F, 0.2F, 0.9F}, kGreen)[0] : 0;
+  };
+  EXPECT_NEAR(zenith("PRIMARIES=0 0 0 0 0 0 0 0\n", "-Y 2 +X 1"), 1, 1e-3);
+  EXPECT_NEAR(zenith("EXPOSURE=2\nEXPOSURE=2.5\n", "-Y 2 +X 1"), 0.2, 1e-3) << "which is taken off";
+  EXPECT_NEAR(zenith("", "+Y 2 +X 1"), 2, 1e-3) << "from the bottom";
+  const Loaded wide = load_sky("PRIMARIES=.64 .33 .29 .6 .15 .06 .3333 .3333\n", "-Y 2 +X 1");
+  EXPECT_FALSE(wide.scene);
+  EXPECT_NE(wide.text().find("its chromaticities are not those of Rec.709 (got 0.64 0.33 0.29 0.6"),
+            std::string::npos)
+      << wide.text();
+  EXPECT_THROW((void)load_sky("GAMMA=2.2\n", "-Y 2 +X 1"), Error);
 }
 
 TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {

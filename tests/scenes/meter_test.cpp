@@ -211,6 +211,23 @@ TEST(Meter, SunlightReachesWhatIsBeyondTheShapes) {
   }
 }
 
+// The flux of a bulb of 1000 lm through a quad at the distance h is that of four rectangles a x b with a
+// corner under the bulb, which are seen from there at the solid angle atan(a b / (h sqrt(a^2 + b^2 + h^2))).
+// No shape is there to tell that the bulb is near.
+TEST(Meter, TakesALampBesideItsOwnSurfaceForNear) {
+  constexpr double kHeight = 0.3;
+  double solid_angle = 0;
+  for (const double a : {0.25, 1.75})
+    for (const double b : {0.25, 0.75})
+      solid_angle += std::atan(a * b / (kHeight * std::sqrt(a * a + b * b + kHeight * kHeight)));
+  const std::string quad =
+      R"({"measures": "flux", "quad": {"corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 1, 0]}})";
+  const std::string bulb =
+      R"("lights": [{"point": {"at": [0.25, 0.25, 0.3]}, "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}])";
+  for (const char* integrator : {"auto", "light", "photon-brute"})
+    expect_equal(read(scene_of(quad, bulb, integrator)).whole.luminous, 1000 * solid_angle / (4 * kPi));
+}
+
 // A card lit by a bulb 1.1 m above it.
 TEST(Meter, RadianceIsThatOfWhatIsSeen) {
   const std::string card = std::string(kBulb) +

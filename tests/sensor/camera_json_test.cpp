@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sensor/response/channel.h"
+
 namespace abbe {
 namespace {
 
@@ -63,7 +65,7 @@ TEST_F(CameraJson, SaysWhereItIsWrong) {
   expect_complaint("expected the names of the channels");
   std::ofstream(path_) << R"({"spectral_data": {"units": "relative", "index": {}}})";
   diagnostics_ = {};
-  EXPECT_FALSE(read_camera_json(path_, ResponseKind::energy, diagnostics_));
+  EXPECT_FALSE(read_camera_json(path_, diagnostics_));
   expect_complaint("/spectral_data/index: error: missing key \"main\"");
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <thread>
@@ -106,6 +107,27 @@ TEST(Film, AveragesPixelsWithTheErrorOfTheirMean) {
   EXPECT_DOUBLE_EQ(film.average(0, 1, 0, 2, 1).mean, 3.5);
   EXPECT_DOUBLE_EQ(film.average(0, 1, 0, 2, 1).standard_error, 1.5);
   EXPECT_DOUBLE_EQ(film.average(0, 1, 0, 2, 1).degrees_of_freedom, 1);
+}
+
+TEST(Film, AveragesPixelsThatAreEachDividedByTheirOwn) {
+  for (const bool shared : {false, true}) {
+    Film film(2, 1, 1, 2, 1.0, shared);
+    Film divided(2, 1, 1, 2, 1.0, shared);
+    for (int r = 0; r < 2; ++r) {
+      const std::array<double, 2> values{1.0 + r, 5.0 - 3 * r};
+      const std::array<double, 2> quotients{values[0] / 4, values[1] / 0.5};
+      for (const std::size_t pixel : {0U, 1U}) {
+        film.add(pixel, r, {&values.at(pixel), 1});
+        divided.add(pixel, r, {&quotients.at(pixel), 1});
+      }
+    }
+    film.set_samples({1, 1});
+    divided.set_samples({1, 1});
+    const Film::Average average = film.average(0, 0, 0, 2, 1, std::array<double, 2>{4, 0.5});
+    EXPECT_DOUBLE_EQ(average.mean, divided.average(0).mean);
+    EXPECT_DOUBLE_EQ(average.standard_error, divided.average(0).standard_error);
+    EXPECT_DOUBLE_EQ(average.degrees_of_freedom, divided.average(0).degrees_of_freedom);
+  }
 }
 
 // What one replicate lost on the left it has on the right.

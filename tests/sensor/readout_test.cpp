@@ -267,6 +267,21 @@ TEST(Readout, ElectronsThatAreNoNumberAreRefused) {
     }
 }
 
+TEST(Readout, BlackIsOffsetAndDarkSignalUnlessThatSaturates) {
+  Readout readout;
+  readout.bits = 12;
+  readout.gain_e_per_dn = 2;
+  readout.offset_dn = 50;
+  readout.dark_e_per_s = 1000;
+  readout.full_well_e = 6000;
+  EXPECT_DOUBLE_EQ(black_level(readout, 0), 50);
+  EXPECT_DOUBLE_EQ(black_level(readout, 0.5), 300);
+  EXPECT_DOUBLE_EQ(black_level(readout, 5), 2550);
+  EXPECT_DOUBLE_EQ(black_level(readout, 6), 50);
+  readout.response_curve = MonotoneCurve({{0, 0}, {0.5, 0.8}, {1, 1}});
+  EXPECT_DOUBLE_EQ(black_level(readout, 0.5), 300) << "on a straight line";
+}
+
 TEST(Readout, TemporalNoiseIsWhatPairsOfFramesShow) {
   Readout readout;
   readout.gain_e_per_dn = 20;

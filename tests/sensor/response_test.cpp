@@ -1,4 +1,8 @@
+#include <filesystem>
+#include <fstream>
+
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "sensor/response/channel.h"
 #include "spectral/library.h"
@@ -49,6 +53,53 @@ TEST(Response, ACamerasCurvesAreReadAsAsked) {
   EXPECT_NEAR(counts.weight(380) * photon_energy(380), 0.001563843, 1e-12);
   EXPECT_EQ(read("Nikon_D5100:R", {}).kind, ResponseKind::energy);
   EXPECT_EQ(read("kodak_kaf-3200me", ResponseKind::energy).weight(300), 0.05);
+}
+
+// A user's table of a camera.
+class CameraTable : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  std::string table(const std::string& unit, const std::string& columns, const std::string& row) {
+    std::ofstream(path_) << "# unit: " << unit << "\n# outside: clamp\nwavelength_nm," << columns << "\n400,"
+                         << row << "\n700," << row << '\n';
+    return path_.string();
+  }
+  std::string complaint(const std::string& name, std::optional<ResponseKind> kind = {}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(load_camera(name, {}, diagnostics, kind)) << name;
+    return diagnostics.text();
+  }
+
+  std::filesystem::path path_ =
+      std::filesystem::path(testing::TempDir()) / ("abbe_camera_" + std::to_string(::getpid()) + ".csv");
+};
+
+TEST_F(CameraTable, QuantumEfficienciesAreElectronsPerPhotonUnlessTheirRatiosAloneCount) {
+  EXPECT_NE(complaint(table("%", "QE", "5")).find("(got \"%\", allowed shares of 1)"), std::string::npos);
+  EXPECT_NE(complaint(table("1", "QE", "50")).find("(got 50, allowed [-10, 10])"), std::string::npos);
+  const std::string colours = table("quantum efficiency [%]", "R,G,B", "5,6,7");
+  EXPECT_NE(complaint(colours, ResponseKind::quantum).find("is in another unit"), std::string::npos);
+  Diagnostics diagnostics;
+  EXPECT_TRUE(load_camera(colours, {}, diagnostics, ResponseKind::energy)) << "of no unit";
+  EXPECT_TRUE(load_camera(colours, {}, diagnostics, ResponseKind::quantum, ResponseScale::relative));
+  EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
+}
+
+TEST_F(CameraTable, CurvesWhoseUnitSpeaksOfPhotonsAreWarnedOfUntilTheirResponseIsSaid) {
+  const auto warnings = [](const std::string& name, std::optional<ResponseKind> kind) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(load_camera(name, {}, diagnostics, kind));
+    return diagnostics.all().size();
+  };
+  for (const char* unit : {"Quantum efficiency", "electrons per photon"}) {
+    const std::string colours = table(unit, "R,G,B", "0.5,0.6,0.7");
+    EXPECT_EQ(warnings(colours, {}), 1U) << unit;
+    EXPECT_EQ(warnings(colours, ResponseKind::energy), 0U) << unit;
+    EXPECT_EQ(warnings(colours, ResponseKind::quantum), 0U) << unit;
+    EXPECT_EQ(warnings(table(unit, "QE", "0.5"), {}), 0U) << unit;
+  }
+  EXPECT_EQ(warnings("Nikon_D5100", {}), 0U);
 }
 
 TEST(Response, AnUnknownCameraIsReportedWithTheNearestName) {

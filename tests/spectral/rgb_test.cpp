@@ -1,7 +1,11 @@
 #include "spectral/rgb.h"
 
+#include <cmath>
+#include <string>
+
 #include <gtest/gtest.h>
 
+#include "io/picture_codec.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -33,6 +37,25 @@ TEST(Rgb, ColoursAreThoseOfTheTables) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(chromaticity(red)[i], kRec709Primaries[0][i], 1e-9);
   EXPECT_NEAR(red[1], 21.26, 0.02) << "luminance of the primary [BT709]";
   expect_rgb_near(linear_rgb(Curve(0.25)), {0.25, 0.25, 0.25}, 1e-12);
+}
+
+TEST(Rgb, AnImageSaysHowItsValuesAreEncoded) {
+  const auto decoded = [](const std::string& space, double value) {
+    const auto encoding = recorded_encoding({0, 0, {}, {{kColorSpace, space}}});
+    return encoding ? encoding->decoded(value) : std::nan("");
+  };
+  EXPECT_EQ(decoded("Linear", 0.3), 0.3);
+  EXPECT_EQ(decoded("Linear", -0.3), -0.3);
+  EXPECT_EQ(decoded("sRGB", 0.3), srgb_decoded(0.3));
+  EXPECT_EQ(decoded("Gamma1.8", 0.3), std::pow(0.3, 1.8));
+  for (const char* const unknown : {"KodakLog", "Gamma", "Gamma-1", "GammaCorrected"}) {
+    EXPECT_TRUE(std::isnan(decoded(unknown, 0.3))) << unknown;
+    const auto fault = rec709_fault({0, 0, {}, {{kColorSpace, unknown}}});
+    EXPECT_EQ(fault.value_or(""), "its colour space is unknown (got \"" + std::string(unknown) +
+                                      "\", allowed linear, sRGB or a gamma)");
+  }
+  EXPECT_EQ(recorded_encoding({})->decoded(0.3), srgb_decoded(0.3));
+  EXPECT_FALSE(rec709_fault({}));
 }
 
 TEST(Rgb, BasisIsSmoothAndAddsUpToOne) {

@@ -9,6 +9,7 @@
 #include "transport/plan/aiming.h"
 #include "transport/plan/emissions.h"
 #include "transport/plan/light_bounds.h"
+#include "transport/plan/photon_settings.h"
 
 namespace abbe {
 namespace {
@@ -105,12 +106,6 @@ double first_gather_radius(const Scene& scene, std::uint64_t photons) {
   if (scene.render.photons.radius_m) return *scene.render.photons.radius_m;
   const auto many = static_cast<double>(std::max(photons, kLeastPhotonsPerSample));
   return 2 * scene_radius(scene.bounds) / std::sqrt(many);
-}
-
-// Whether the number of photons is nothing that camera paths rely on.
-bool traces_photons_alone(std::span<const Technique> techniques) {
-  return uses(techniques, Technique::photon_brute) ||
-         std::any_of(techniques.begin(), techniques.end(), gathers_photons);
 }
 
 std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniques) {

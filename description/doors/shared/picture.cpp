@@ -9,18 +9,16 @@
 
 #include "io/extension.h"
 #include "io/picture.h"
-#include "io/picture_codec.h"
 
 namespace abbe::doors {
 namespace {
 
 // Nothing if a value is not finite.
-std::optional<double> mean(const ImageChannel& channel, bool linear) {
+std::optional<double> mean(const ImageChannel& channel, const Encoding& encoding) {
   double sum = 0;
   for (const float value : channel.values) {
     if (!std::isfinite(value)) return std::nullopt;
-    const double kept = std::max(static_cast<double>(value), 0.0);
-    sum += linear ? kept : srgb_decoded(kept);
+    sum += encoding.decoded(std::max(static_cast<double>(value), 0.0));
   }
   return sum / static_cast<double>(channel.values.size());
 }
@@ -41,12 +39,14 @@ std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const So
   };
   try {
     const Image image = read_image(file, door.inputs);
+    if (const auto fault = rec709_fault(image)) return refuse(*fault, ErrorCode::input);
+    const Encoding encoding = recorded_encoding(image).value_or(Encoding{});
     LinearRgb colour{};
     for (std::size_t c = 0; c < 3; ++c) {
       constexpr std::array<std::string_view, 3> kNames{"R", "G", "B"};
       const ImageChannel* channel = image.find(image.find("R") ? kNames.at(c) : "Y");
       if (channel == nullptr) return refuse("the image has no channels R, G, B or Y", ErrorCode::input);
-      const auto value = mean(*channel, is_linear(image.metadata));
+      const auto value = mean(*channel, encoding);
       if (!value) return refuse("the image holds values that are not finite", ErrorCode::input);
       colour.at(c) = *value;
     }

@@ -19,9 +19,9 @@ inline constexpr const char* kLinearRelief =
 /// linear values.
 [[nodiscard]] bool holds_codes(const std::filesystem::path& file);
 
-/// The mean linear Rec.709 colour of an image's pixels, those of files with 8 or 16 bits decoded as sRGB and
-/// negative values taken as 0. Reports, at `where`, a file that is missing or no image, one without channels
-/// R, G, B or Y, and values that are not finite.
+/// The mean linear Rec.709 colour of an image's pixels, those of files with 8 or 16 bits decoded as these
+/// say, or as sRGB, and negative values taken as 0. Reports, at `where`, a file that is missing or no image,
+/// one without channels R, G, B or Y or of other primaries, and values that are not finite.
 [[nodiscard]] std::optional<LinearRgb> mean_colour(const std::filesystem::path& file,
                                                    const SourcePosition& where, Door& door);
 
