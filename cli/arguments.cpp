@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "io/image.h"
+#include "io/json_values.h"
 #include "io/text.h"
 #include "sensor/film/recorded_crop.h"
 
@@ -66,8 +66,7 @@ std::size_t parse_choice(const std::string& option, const std::string& text,
 }
 
 std::array<double, 3> parse_triple(const std::string& option, const std::string& text) {
-  constexpr double kAny = std::numeric_limits<double>::max();
-  const std::vector<double> numbers = parse_numbers(option, text, -kAny, kAny);
+  const std::vector<double> numbers = parse_numbers(option, text, -kLargestFloat, kLargestFloat);
   if (numbers.size() != 3) refuse(option, "\"" + text + "\"", "three numbers separated by commas");
   return {numbers[0], numbers[1], numbers[2]};
 }

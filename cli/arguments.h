@@ -30,7 +30,7 @@ namespace abbe::cli {
 /// The number of `text` among `names`.
 [[nodiscard]] std::size_t parse_choice(const std::string& option, const std::string& text,
                                        const std::vector<std::string>& names);
-/// Three numbers separated by commas.
+/// Three numbers separated by commas, of single precision as those of scenes are.
 [[nodiscard]] std::array<double, 3> parse_triple(const std::string& option, const std::string& text);
 /// A time above 0: "60s", "2m", "1h" or a number of seconds [s].
 [[nodiscard]] double parse_seconds(const std::string& option, const std::string& text);

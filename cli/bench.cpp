@@ -68,6 +68,8 @@ int scale(const BenchOptions& options) {
 }
 
 int soak(const BenchOptions& options) {
+  if (!options.output.empty() && !options.cache.empty())
+    throw Error(ErrorCode::usage, "--cache", "has nothing of a soak whose folder --output names");
   const fs::path folder = options.output.empty() ? settings_of(options).cache / "soak" : options.output;
   require_report_folder(folder);
   const SoakResult result = run_soak({options.soak_paths, options.soak_seed, folder, say});
@@ -80,10 +82,20 @@ int soak(const BenchOptions& options) {
   return result.failures > 0 ? 1 : 0;
 }
 
-std::vector<BaselineRow> read_baseline(const fs::path& path) {
+Baseline read_baseline(const fs::path& path) {
   if (path.empty()) return {};
   Diagnostics diagnostics;
   return accepted(load_baseline(path, diagnostics), diagnostics);
+}
+
+// Scenes are loaded once more for it, so that nothing is rendered that cannot be compared.
+void require_comparable_suites(const Baseline& before, const std::vector<BenchSuite>& suites,
+                               const BenchSettings& settings) {
+  Diagnostics diagnostics;
+  for (const BaselineSuite& then : before.suites)
+    for (const BenchSuite& suite : suites)
+      if (suite.name == then.name) require_comparable(then, conditions_of(suite, settings), diagnostics);
+  check(diagnostics);
 }
 
 // In ascending order, each once.
@@ -126,11 +138,12 @@ int bench(const BenchOptions& options) {
     require_report_folder(options.output);
     require_distinct(report_files(options.output, suites), std::array{options.baseline});
   }
-  const std::vector<BaselineRow> before = read_baseline(options.baseline);
+  const Baseline before = read_baseline(options.baseline);
   BenchReport report{this_machine(), settings_of(options), {}, {}, {}};
+  require_comparable_suites(before, suites, report.settings);
   if (!options.quick) report.rivals = load_rivals();
   for (const BenchSuite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));
-  report.changes = compare_runs(before, baseline_rows(report.runs));
+  report.changes = compare_runs(before.rows, baseline_rows(report.runs));
   if (!options.baseline.empty() && report.changes.empty())
     say("warning: no render of the baseline is of the same suite, integrator, sample count and seed");
   if (!options.output.empty()) write_report(options.output, report);

@@ -199,6 +199,23 @@ void add_calibrate(CLI::App& app, Command& command) {
   add_json(options, calibration->json);
 }
 
+// What `bench` does instead of measuring suites is asked for alone, but for what has an effect on it.
+void exclude_beside_other_benches(CLI::App& bench) {
+  const auto option = [&bench](const std::string& name) { return bench.get_option(name); };
+  CLI::Option* const list = option("--list");
+  CLI::Option* const scale = option("--scale");
+  CLI::Option* const soak = option("--soak");
+  for (const char* name : {"suite", "--integrator", "--spp", "--seeds", "--reference-spp", "--baseline"})
+    option(name)->excludes(list)->excludes(scale)->excludes(soak);
+  for (const char* name : {"--threads", "--quick"}) option(name)->excludes(list)->excludes(soak);
+  option("--output")->excludes(list)->excludes(scale);
+  option("--cache")->excludes(list);
+  scale->excludes(list)->excludes(soak);
+  soak->excludes(list);
+  option("--strict")->needs(option("--baseline"));
+  option("--seed")->needs(soak);
+}
+
 void add_bench(CLI::App& app, Command& command) {
   const Sub<BenchOptions> sub(app, "bench", "Measure run time against error", command, bench);
   CLI::App& options = *sub.app;
@@ -226,6 +243,7 @@ void add_bench(CLI::App& app, Command& command) {
   add_parsed(options, "--seed", sub->soak_seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Of the first scene of a soak, the next ones count on (default 0)", "N");
   options.add_flag("--list", sub->list, "Say what suites there are");
+  exclude_beside_other_benches(options);
   add_json(options, sub->json);
 }
 

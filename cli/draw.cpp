@@ -5,6 +5,7 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
+#include "cli/warnings.h"
 #include "description/load.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
@@ -37,13 +38,18 @@ int draw(const DrawOptions& options) {
   const Scene scene =
       accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   require_distinct(std::array{options.output}, inputs.files());
+  const FollowLimits limits{.max_events = options.max_events, .least_share = kLeastDrawnShare};
   std::vector<DrawnRay> drawn;
+  std::optional<std::string> held;
   for (const double nm : options.wavelengths_nm)
-    for (const BasicRay<double>& ray : rays_of(scene, options))
-      for (DrawnRay& way : drawn_rays(scene, ray, nm, options.max_events, options.follow))
-        drawn.push_back(std::move(way));
+    for (const BasicRay<double>& ray : rays_of(scene, options)) {
+      const RayTree tree = follow_ray(scene, ray, nm, options.follow, limits);
+      if (!held) held = held_index(scene, tree, nm);
+      for (DrawnRay& way : drawn_rays(scene, tree, nm)) drawn.push_back(std::move(way));
+    }
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
   write_atomically(options.output, layout_drawing(scene, drawn, name));
+  if (held) say("warning: " + *held);
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/warnings.h"
 #include "description/load_material.h"
 #include "io/atomic_file.h"
+#include "io/extension.h"
 #include "io/picture.h"
 #include "spectral/library.h"
 #include "validation/goniometer/lobe_plot.h"
@@ -109,6 +110,7 @@ void print_table(const Json& answer, const LabOptions& options, const Goniometer
 }  // namespace
 
 int lab(const LabOptions& options) {
+  if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   for (const std::filesystem::path& output : {options.plot, options.map})
     if (!output.empty()) require_writable(output);
   Diagnostics diagnostics;

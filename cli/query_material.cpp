@@ -9,6 +9,7 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
+#include "materials/interface/film_thickness.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/prism.h"
 #include "sampling/angle.h"
@@ -88,10 +89,10 @@ Coating parse_coating(const std::string& text, const std::vector<double>& at_nm)
   for (const std::string& layer : split(text, ',')) {
     const std::size_t colon = layer.rfind(':');
     const auto thickness = parse_number(colon == std::string::npos ? "" : layer.substr(colon + 1));
-    if (!thickness || !(*thickness > 0) || coating.layers.size() == Coating::kMaxMaterials)
+    if (!thickness || !kFilmThickness.contains(*thickness) || coating.layers.size() == Coating::kMaxMaterials)
       throw Error(ErrorCode::usage, "--coating",
-                  fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES", text,
-                              Coating::kMaxMaterials));
+                  fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES, of {} nm", text,
+                              Coating::kMaxMaterials, kFilmThickness.text()));
     NamedIndex material = find(layer.substr(0, colon), at_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), *thickness});
     coating.materials.push_back({std::move(material.name), std::move(material.index)});

@@ -111,16 +111,6 @@ Json tree_answer(const Scene& scene, const RayTree& tree, bool with_branches, co
   return answer;
 }
 
-// The first index, if any, that is asked for beyond its data.
-void warn_beyond_data(const Scene& scene, const RayTree& tree, double wavelength_nm) {
-  for (const RayBranch& branch : tree.branches)
-    for (const TraceEvent& event : branch.trace.events) {
-      if (!event.passage) continue;
-      const Material& material = scene.materials[scene.shapes[event.shape].material];
-      if (const auto held = held_index(material, wavelength_nm)) return say("warning: " + *held);
-    }
-}
-
 void warn_cut(const RayTree& tree, const TraceOptions& options, const FollowLimits& limits) {
   if (options.follow == Follow::both && tree.cut > 0)
     say(fmt::format(
@@ -182,7 +172,7 @@ int trace(const TraceOptions& options) {
     print(answer, true);
   else
     print_readable(answer);
-  warn_beyond_data(scene, tree, options.wavelength_nm);
+  if (const auto held = held_index(scene, tree, options.wavelength_nm)) say("warning: " + *held);
   warn_cut(tree, options, limits);
   return 0;
 }

@@ -36,6 +36,16 @@ std::optional<std::string> held_index(const Material& material, double wavelengt
   return std::nullopt;
 }
 
+std::optional<std::string> held_index(const Scene& scene, const RayTree& tree, double wavelength_nm) {
+  for (const RayBranch& branch : tree.branches)
+    for (const TraceEvent& event : branch.trace.events) {
+      if (!event.passage) continue;
+      const Material& material = scene.materials[scene.shapes[event.shape].material];
+      if (auto held = held_index(material, wavelength_nm)) return held;
+    }
+  return std::nullopt;
+}
+
 void warn_of_hidden_sheet(const Scene& scene, bool strict) {
   if (const auto hidden = hidden_sheet(scene)) warn(*hidden, strict);
 }

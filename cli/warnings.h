@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scene/scene.h"
+#include "transport/path/ray_trace.h"
 
 namespace abbe::cli {
 
@@ -17,6 +18,11 @@ void warn_of_dark_camera(const Scene& scene, bool strict);
 /// What is to be said of a material an index of which is held from the end of its data at a wavelength [nm],
 /// if one is.
 [[nodiscard]] std::optional<std::string> held_index(const Material& material, double wavelength_nm);
+
+/// What is to be said of the first index that a ray of a wavelength [nm] asked for beyond its data, if it
+/// did.
+[[nodiscard]] std::optional<std::string> held_index(const Scene& scene, const RayTree& tree,
+                                                    double wavelength_nm);
 
 /// Warns of a thin sheet that is lost where it lies on something: Error{scene} when `strict`.
 void warn_of_hidden_sheet(const Scene& scene, bool strict);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "materials/index/library.h"
+#include "materials/interface/film_thickness.h"
 
 namespace abbe::spec {
 namespace {
@@ -15,7 +16,6 @@ using namespace schema;
 constexpr Range kIndex{0, 100, true, false};  // every measured index lies well inside
 constexpr Range kMetalIndex{0, 100};          // n = 0 is the perfect mirror
 constexpr Range kExtinction{0, 100};
-constexpr Range kFilmThickness{0, 1e5, true, false, "nm"};  // nothing thicker is coherent
 constexpr Range kRepeats{1, static_cast<double>(Coating::kMaxLayers)};
 
 template <typename Constant>

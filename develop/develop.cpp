@@ -192,7 +192,9 @@ std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const Develope
     PlaneFigures& figures = all.emplace_back();
     figures.mean = over_film(counted.channels[plane].values);
     const ImageChannel* variance = developed.variance.find(variance_of(sensor.planes[plane]));
-    if (variance != nullptr && is_known) figures.render_error = std::sqrt(over_film(variance->values)) * unit;
+    const double mean_variance = variance != nullptr ? over_film(variance->values) : 0;
+    if (variance != nullptr && is_known && std::isfinite(mean_variance))
+      figures.render_error = std::sqrt(mean_variance) * unit;
     if (!sensor.readout) continue;
     const double seconds = own_seconds.empty() ? sensor.exposure_s[plane] : over_film(own_seconds);
     figures.noise = temporal_noise(*sensor.readout, figures.mean, seconds);

@@ -45,8 +45,9 @@ void warn_of_own_dark_signals(const FilmSensor& sensor, Diagnostics& diagnostics
 /// electrons with a read-out, else in film values.
 struct PlaneFigures {
   double mean = 0;
-  std::optional<double> render_error;  ///< Nothing where the film does not know it.
-  TemporalNoise noise{};               ///< The sensor's noise at the mean; none without a read-out.
+  std::optional<double>
+      render_error;       ///< Nothing where the film does not know it, or a variance is infinite.
+  TemporalNoise noise{};  ///< The sensor's noise at the mean; none without a read-out.
   double saturated_share = 0;
 };
 /// The figures of each plane of a developed film, in the order of its planes.

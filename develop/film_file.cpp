@@ -38,6 +38,10 @@ Image joined(std::vector<ExrPart> parts, const std::filesystem::path& path) {
   return film;
 }
 
+bool is_variance(const ImageChannel& channel) {
+  return channel.name.starts_with(variance_of(""));
+}
+
 // Linear Rec.709 that displays show, with nothing of the sensor that would have it read as a film.
 Image preview(const Image& planes, const Matrix3& to_xyz) {
   Image rgb = rec709_image(planes, to_xyz);
@@ -50,11 +54,10 @@ Image preview(const Image& planes, const Matrix3& to_xyz) {
 void require_finite(const Image& film, const std::filesystem::path& path) {
   for (const ImageChannel& channel : film.channels)
     for (std::size_t i = 0; i < channel.values.size(); ++i)
-      if (const float value = channel.values[i];
-          !std::isfinite(value) || (value < 0 && channel.name.starts_with(variance_of(""))))
+      if (const float value = channel.values[i]; is_variance(channel) ? !(value >= 0) : !std::isfinite(value))
         throw Error(ErrorCode::input, path.string(),
                     fmt::format("channel \"{}\" holds no {} at pixel {},{} (got {})", channel.name,
-                                std::isfinite(value) ? "variance" : "number",
+                                value < 0 && is_variance(channel) ? "variance" : "number",
                                 i % static_cast<std::size_t>(film.width),
                                 i / static_cast<std::size_t>(film.width), value));
 }

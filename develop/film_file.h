@@ -9,7 +9,8 @@
 namespace abbe {
 
 /// Throws Error{input} naming `path`, channel and pixel for a value that is no number, and for a negative
-/// variance.
+/// variance. Variances may be infinite: they are the squares of errors whose values may be as large as single
+/// precision holds.
 void require_finite(const Image& film, const std::filesystem::path& path);
 
 /// Reads a film as it was rendered, or one that was developed into parts before. Throws Error{input} for a

@@ -73,12 +73,16 @@ std::vector<std::vector<double>> factors_by_light(const std::vector<std::string>
   return all;
 }
 
+// Of so many times what has a variance, which may be infinite.
+double deviation_of(double times, double variance) {
+  return times == 0 ? 0 : std::abs(times) * std::sqrt(variance);
+}
+
 // The least bound of `relight`, which is found at one of the factors or at 0, between which it is linear.
 double variance_bound(double film, std::span<const double> layers, std::span<const double> factors) {
   const auto bound = [&](double share) {
-    double deviation = std::abs(share) * std::sqrt(film);
-    for (std::size_t g = 0; g < layers.size(); ++g)
-      deviation += std::abs(factors[g] - share) * std::sqrt(layers[g]);
+    double deviation = deviation_of(share, film);
+    for (std::size_t g = 0; g < layers.size(); ++g) deviation += deviation_of(factors[g] - share, layers[g]);
     return deviation;
   };
   double least = bound(0);

@@ -62,27 +62,39 @@ py::dict told_of(const CameraCalibration& made) {
   return told;
 }
 
+// Arguments beside which others would have no effect are refused, as options are by the command.
+void require_effect(const CalibrationSource& source, bool is_measured, bool has_bits) {
+  const auto refuse = [](const char* argument, const char* why) {
+    throw Error(ErrorCode::usage, argument, why);
+  };
+  if (is_measured && !source.planted_response.empty())
+    refuse("response", "is planted into a simulated camera, not into a measured one");
+  if (is_measured && has_bits) refuse("bits", "are those of a simulated camera, not of a measured one");
+  if (!source.series.empty() && !is_measured)
+    refuse("series", "needs measured (its curves alone are those of recover_response)");
+  if (source.camera.empty() && (!is_measured || !source.training.empty()))
+    refuse("camera", "is needed, unless measured is given without training");
+  if (!source.camera.empty() && is_measured && source.training.empty())
+    refuse("camera", "is allowed with measured only for training, which is seen through its curves");
+  if (source.camera.empty() && source.camera_response)
+    refuse("camera_response", "needs camera, whose curves it speaks of");
+}
+
 py::dict calibrate(const std::string& camera, const std::string& illuminant, const std::string& chart,
-                   const std::string& response, int bits, const std::optional<fs::path>& measured,
-                   const std::optional<fs::path>& series, const std::string& training,
-                   const std::string& correction, const std::string& camera_response) {
-  if (measured && !response.empty())
-    throw Error(ErrorCode::usage, "response", "is planted into a simulated camera, not into a measured one");
-  if (series && !measured)
-    throw Error(ErrorCode::usage, "series",
-                "needs measured (its curves alone are those of recover_response)");
-  if (camera.empty() && (!measured || !training.empty()))
-    throw Error(ErrorCode::usage, "camera", "is needed, unless measured is given without training");
-  CalibrationSource source{camera,
-                           measured.value_or(""),
-                           series.value_or(""),
-                           chart,
-                           "",
-                           training,
-                           response,
-                           bits,
-                           {},
-                           response_of("camera_response", camera_response)};
+                   const std::string& response, std::optional<int> bits,
+                   const std::optional<fs::path>& measured, const std::optional<fs::path>& series,
+                   const std::string& training, const std::string& correction,
+                   const std::string& camera_response) {
+  CalibrationSource source;
+  source.camera = camera;
+  source.measured = measured.value_or("");
+  source.series = series.value_or("");
+  source.chart = chart;
+  source.training = training;
+  source.planted_response = response;
+  source.bits = bits.value_or(source.bits);
+  source.camera_response = response_of("camera_response", camera_response);
+  require_effect(source, measured.has_value(), bits.has_value());
   if (!choose_correction(source.how, correction))
     throw Error(ErrorCode::usage, "correction",
                 fmt::format("expected {} or auto (got {})", fmt::join(kCorrectionNames, ", "), correction));
@@ -115,17 +127,20 @@ py::dict responses_of(const fs::path& series) {
 void add_calibrate(py::module_& module) {
   module.def(
       "calibrate", calibrate, py::arg("camera") = "", py::arg("illuminant") = "D65", py::kw_only(),
-      py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "", py::arg("bits") = 12,
-      py::arg("measured") = py::none(), py::arg("series") = py::none(), py::arg("training") = "",
-      py::arg("correction") = "matrix", py::arg("camera_response") = "",
+      py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "",
+      py::arg("bits") = py::none(), py::arg("measured") = py::none(), py::arg("series") = py::none(),
+      py::arg("training") = "", py::arg("correction") = "matrix", py::arg("camera_response") = "",
       "Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving "
       "correction with the least mean CIEDE2000 is fitted.\n\n`camera` is a camera whose curves are known: "
       "the "
-      "chart is photographed at so many bits by a linear camera, or through a planted response (\"linear\", "
+      "chart is photographed at so many `bits`, 12 by default, by a linear camera, or through a planted "
+      "response (\"linear\", "
       "\"gamma:G\" or \"s-curve\") that is recovered without knowing it. Or `measured` is a table of a real "
       "camera's values of the chart, and `series` its photographs at known exposure times, by whose curves "
       "these "
-      "are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` "
+      "are made linear. `training` names reflectances to fit to instead, seen through `camera`, which is "
+      "given beside `measured` "
+      "for that alone. `correction` "
       "is "
       "\"matrix\", \"root-polynomial-2\", \"root-polynomial-3\" or \"auto\". `camera_response` says what the "
       "camera's curves multiply, \"energy\" or \"quantum\"; without it those of columns named QE are quantum "
@@ -136,7 +151,9 @@ void add_calibrate(py::module_& module) {
       "of a matrix that from linear camera values to XYZ relative to D65, and of each "
       "recovered response its curve, as `recover_response` has it, and the largest error where it was "
       "planted, as a "
-      "share of full scale. Raises InputError for an unknown name and for files that cannot be used.");
+      "share of full scale. Raises InputError for an unknown name and for files that cannot be used, "
+      "UsageError for "
+      "arguments that have no effect beside others.");
   module.def(
       "recover_response", responses_of, py::arg("series"),
       "Recovers the response of a real camera's channels from photographs at known exposure times, as `abbe "

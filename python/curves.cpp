@@ -48,6 +48,7 @@ py::object illuminant(const std::string& name, const Numbers& wavelengths_nm) {
 }
 
 py::object curve(const std::string& kind, const std::string& name, const Numbers& wavelengths_nm) {
+  if (kind == kIlluminantUse.folder) return illuminant(name, wavelengths_nm);
   Diagnostics diagnostics;
   return values_of(name, accepted(load_curve(kind, name, {}, diagnostics), diagnostics).curve,
                    wavelengths_nm);

@@ -7,6 +7,7 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
+#include "materials/interface/film_thickness.h"
 #include "materials/interface/prism.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -53,10 +54,10 @@ py::dict material(const std::string& name) {
 Coating coating_of(const std::vector<std::pair<std::string, double>>& layers, const Numbers& wavelengths_nm) {
   Coating coating;
   for (const auto& [name, thickness_nm] : layers) {
-    if (!(thickness_nm > 0) || coating.layers.size() == Coating::kMaxMaterials)
+    if (!kFilmThickness.contains(thickness_nm) || coating.layers.size() == Coating::kMaxMaterials)
       throw Error(ErrorCode::usage, "coating",
-                  fmt::format("got {} nm of \"{}\", allowed up to {} layers above 0 nm", thickness_nm, name,
-                              Coating::kMaxMaterials));
+                  fmt::format("got {} nm of \"{}\", allowed up to {} layers of {} nm", thickness_nm, name,
+                              Coating::kMaxMaterials, kFilmThickness.text()));
     NamedIndex matter = find(name, wavelengths_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), thickness_nm});
     coating.materials.push_back({std::move(matter.name), std::move(matter.index)});

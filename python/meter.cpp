@@ -112,7 +112,10 @@ std::vector<Override> settings_of(const Request& request, const py::object& inte
 std::vector<std::string> names_of(const py::object& only) {
   if (only.is_none()) return {};
   if (py::isinstance<py::str>(only)) return {only.cast<std::string>()};
-  return argument<std::vector<std::string>>(only, "only", "the name of a meter or a list of them");
+  auto names = argument<std::vector<std::string>>(only, "only", "the name of a meter or a list of them");
+  if (names.empty())
+    throw Error(ErrorCode::usage, "only", "names no meter (got [], allowed one or more, or None for all)");
+  return names;
 }
 
 SceneSource source_of_meters(const py::object& scene) {
@@ -181,7 +184,7 @@ void add_meter(py::module_& module) {
       "path or "
       "dict needs no camera.\n\n"
       "Returns a dict of dicts by the meters' names, in the scene's order, with the keys of `abbe meter "
-      "--json`: "
+      "--json` but `wall_s`, and `columns` and `rows` of cells: "
       "`radiant`, `luminous` and `photons` have `value`, `unit`, `standard_error` and `half_interval_95`, "
       "half the "
       "width of Student's interval of 95 %, None where nothing is known; `cells` are arrays of rows and "
@@ -192,7 +195,8 @@ void add_meter(py::module_& module) {
       "`time` "
       "and `progress` are those of `render`, for each meter, and `error` ends at the largest relative "
       "standard "
-      "error of its three figures. Raises UsageError for a name that no meter has, SceneError for a scene "
+      "error of its three figures. Raises UsageError for a name that no meter has and for a list of none, "
+      "SceneError for a scene "
       "without meters.");
 }
 

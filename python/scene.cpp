@@ -57,7 +57,8 @@ std::string class_text() {
   std::string text =
       "A scene, ready to render.\n\n"
       "Scene(path) reads a scene file; Scene(dict) takes what such a file would hold, and files it names are "
-      "looked for in `folder`, by default the current one. Keywords are keys at the top of the scene and "
+      "looked for in `folder`, by default the current one, which only a dict may have. Keywords are keys at "
+      "the top of the scene and "
       "replace "
       "those of the file or dict. What is wrong is raised as abbe.SceneError or abbe.InputError, whose "
       "`diagnostics` tell all of it.\n\nKeywords:\n";
@@ -79,6 +80,9 @@ SceneSource source_of(const py::object& source, const py::object& folder, const 
   if (py::isinstance<py::dict>(source) || source.is_none())
     return {kDict, text_of(source, keywords),
             folder.is_none() ? fs::path() : argument<fs::path>(folder, "folder", "a path")};
+  if (!folder.is_none())
+    throw Error(ErrorCode::usage, "folder",
+                "is where files that a dict names are looked for; those of a scene file are beside it");
   std::vector<Override> overrides = overrides_of(keywords);
   return {argument<fs::path>(source, "source", "a path or a dict"), {}, {}, std::move(overrides)};
 }

@@ -79,7 +79,7 @@ class Film:
 
     @property
     def variance(self) -> NDArray[numpy.float32] | None:
-        """The variance of each of these values, of the same shape; None for an image that does not tell it, and where samples are in fewer than two replicates, so that nothing is known of it."""
+        """The variance of each of these values, of the same shape; None for an image that does not tell it, and where samples are in fewer than two replicates, so that nothing is known of it. It is inf where it is beyond single precision."""
 
     @property
     def channels(self) -> typing.List[str]:
@@ -142,7 +142,7 @@ class Progress:
 class Scene:
     """A scene, ready to render.
 
-    Scene(path) reads a scene file; Scene(dict) takes what such a file would hold, and files it names are looked for in `folder`, by default the current one. Keywords are keys at the top of the scene and replace those of the file or dict. What is wrong is raised as abbe.SceneError or abbe.InputError, whose `diagnostics` tell all of it."""
+    Scene(path) reads a scene file; Scene(dict) takes what such a file would hold, and files it names are looked for in `folder`, by default the current one, which only a dict may have. Keywords are keys at the top of the scene and replace those of the file or dict. What is wrong is raised as abbe.SceneError or abbe.InputError, whose `diagnostics` tell all of it."""
 
     def __init__(self: Scene, source: typing.Any = None, *, folder: typing.Any = None, **keywords: typing.Any) -> None:
         """Reads a scene from a path or a dict; keywords replace keys at its top."""
@@ -171,12 +171,12 @@ class Scene:
         """The seed of the random numbers unless `render` is told otherwise."""
 
 
-def calibrate(camera: str = '', illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: int = 12, measured: typing.Optional[str | os.PathLike[str]] = None, series: typing.Optional[str | os.PathLike[str]] = None, training: str = '', correction: str = 'matrix', camera_response: str = '') -> dict:
+def calibrate(camera: str = '', illuminant: str = 'D65', *, chart: str = 'colorchecker24_babelcolor_average', response: str = '', bits: typing.Optional[int] = None, measured: typing.Optional[str | os.PathLike[str]] = None, series: typing.Optional[str | os.PathLike[str]] = None, training: str = '', correction: str = 'matrix', camera_response: str = '') -> dict:
     """Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving correction with the least mean CIEDE2000 is fitted.
 
-    `camera` is a camera whose curves are known: the chart is photographed at so many bits by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it. Or `measured` is a table of a real camera's values of the chart, and `series` its photographs at known exposure times, by whose curves these are made linear. `training` names reflectances to fit to instead, seen through `camera`. `correction` is "matrix", "root-polynomial-2", "root-polynomial-3" or "auto". `camera_response` says what the camera's curves multiply, "energy" or "quantum"; without it those of columns named QE are quantum efficiencies, and all others responses to energy.
+    `camera` is a camera whose curves are known: the chart is photographed at so many `bits`, 12 by default, by a linear camera, or through a planted response ("linear", "gamma:G" or "s-curve") that is recovered without knowing it. Or `measured` is a table of a real camera's values of the chart, and `series` its photographs at known exposure times, by whose curves these are made linear. `training` names reflectances to fit to instead, seen through `camera`, which is given beside `measured` for that alone. `correction` is "matrix", "root-polynomial-2", "root-polynomial-3" or "auto". `camera_response` says what the camera's curves multiply, "energy" or "quantum"; without it those of columns named QE are quantum efficiencies, and all others responses to energy.
 
-    Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance white, of a matrix that from linear camera values to XYZ relative to D65, and of each recovered response its curve, as `recover_response` has it, and the largest error where it was planted, as a share of full scale. Raises InputError for an unknown name and for files that cannot be used."""
+    Returns a dict: CIEDE2000 of each patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance white, of a matrix that from linear camera values to XYZ relative to D65, and of each recovered response its curve, as `recover_response` has it, and the largest error where it was planted, as a share of full scale. Raises InputError for an unknown name and for files that cannot be used, UsageError for arguments that have no effect beside others."""
 
 
 def camera(name: str, wavelengths_nm: ArrayLike, *, response: str = '') -> dict:
@@ -240,7 +240,7 @@ def merge(films: typing.Sequence[typing.Any], *, partial: bool = False) -> Film:
 def meter(scene: typing.Any, *, only: typing.Any = None, spp: typing.Optional[int] = None, seed: typing.Optional[int] = None, threads: int = 0, error: typing.Optional[float] = None, time: typing.Optional[float] = None, integrator: typing.Any = None, progress: typing.Any = None) -> dict:
     """Reads the meters of a scene, a path, a dict or a Scene, of the numbers that `abbe meter` gives; a path or dict needs no camera.
 
-    Returns a dict of dicts by the meters' names, in the scene's order, with the keys of `abbe meter --json`: `radiant`, `luminous` and `photons` have `value`, `unit`, `standard_error` and `half_interval_95`, half the width of Student's interval of 95 %, None where nothing is known; `cells` are arrays of rows and columns of a meter that has some, `spectrum` arrays over `wavelength_nm`, nan where an error is not known. `only` names a meter, or several. `spp`, `seed` and `integrator` replace what the scene says; `threads`, `time` and `progress` are those of `render`, for each meter, and `error` ends at the largest relative standard error of its three figures. Raises UsageError for a name that no meter has, SceneError for a scene without meters."""
+    Returns a dict of dicts by the meters' names, in the scene's order, with the keys of `abbe meter --json` but `wall_s`, and `columns` and `rows` of cells: `radiant`, `luminous` and `photons` have `value`, `unit`, `standard_error` and `half_interval_95`, half the width of Student's interval of 95 %, None where nothing is known; `cells` are arrays of rows and columns of a meter that has some, `spectrum` arrays over `wavelength_nm`, nan where an error is not known. `only` names a meter, or several. `spp`, `seed` and `integrator` replace what the scene says; `threads`, `time` and `progress` are those of `render`, for each meter, and `error` ends at the largest relative standard error of its three figures. Raises UsageError for a name that no meter has and for a list of none, SceneError for a scene without meters."""
 
 
 def names(kind: str) -> typing.List[str]:

@@ -134,7 +134,7 @@ Image expose(const SpectralImage& image, std::span<const Channel> channels,
       double deviation = 0;
       for (const Term& term : terms) {
         value += term.weight * term.radiance[pixel];
-        if (term.variance != nullptr)
+        if (term.variance != nullptr && term.weight != 0)  // else it may be infinite
           deviation += std::abs(term.weight) * std::sqrt(term.variance->values[pixel]);
       }
       values.push_back(static_cast<float>(value * exposure_per_radiance[pixel]));

@@ -56,6 +56,9 @@ TEST(Arguments, ChoicesGoByName) {
 TEST(Arguments, TriplesHaveThreeNumbers) {
   EXPECT_EQ(parse_triple("--dir", "-1,0.5,2e3"), (std::array<double, 3>{-1, 0.5, 2000}));
   EXPECT_NE(refusal([] { return parse_triple("--dir", "1,2"); }), "accepted");
+  EXPECT_EQ(parse_triple("--dir", "0,-3e38,1e-300"), (std::array<double, 3>{0, -3e38, 1e-300}));
+  EXPECT_EQ(refusal([] { return parse_triple("--dir", "1e155,0,1e155"); }),
+            "--dir: got 1e155, allowed [-3.402823466e+38, 3.402823466e+38]");
 }
 
 TEST(Arguments, TimesHaveUnits) {

@@ -48,6 +48,11 @@ Across across_prism(double incidence_deg) {
   return {V3d(-7.5, 1.25, 4.330127018922193) - 60.0 * direction, direction};
 }
 
+// What `abbe draw` draws of a ray.
+std::vector<DrawnRay> drawn(const Scene& scene, const BasicRay<double>& ray, double nm, Follow follow) {
+  return drawn_rays(scene, follow_ray(scene, ray, nm, follow, {.least_share = kLeastDrawnShare}), nm);
+}
+
 struct Line {
   double nm, x0, y0, x1, y1;
   std::string color;
@@ -67,8 +72,7 @@ TEST(Draw, RaysLeaveAPrismAtTheDeviationOfItsFormula) {
   const auto [origin, direction] = across_prism(50);
   for (const double nm : {486.1327, 587.5618, 656.2725}) {
     const DrawnRay ray =
-        drawn_rays(scene, {origin * scene.unit_m - scene.origin_m, direction}, nm, 64, Follow::refraction)
-            .at(0);
+        drawn(scene, {origin * scene.unit_m - scene.origin_m, direction}, nm, Follow::refraction).at(0);
     ASSERT_EQ(ray.points.size(), 4U);
     const double deviation = json_output(cli::query_prism, {"N-BK7", 60, {nm}, 50})["deviation_deg"];
     EXPECT_NEAR(angle_deg(ray.points[1] - ray.points[0], ray.points[3] - ray.points[2]), deviation, 1e-9)
@@ -120,7 +124,7 @@ TEST(Draw, ASlabShiftsRays) {
   const double angle = 40 * kDegree;
   const V3d direction(std::sin(angle), 0, std::cos(angle));
   const DrawnRay ray =
-      drawn_rays(scene, {V3d(0, 0, 0) - 0.5 * direction, direction}, 550, 64, Follow::refraction).at(0);
+      drawn(scene, {V3d(0, 0, 0) - 0.5 * direction, direction}, 550, Follow::refraction).at(0);
   ASSERT_EQ(ray.points.size(), 4U);
   EXPECT_NEAR((ray.points[3] - ray.points[2]).normalized().dot(direction), 1, 1e-12);
   const double inside = std::asin(std::sin(angle) / kIndex);
@@ -138,9 +142,32 @@ TEST(Draw, BranchesAreFainterTheLessTheyAre) {
   EXPECT_NE(svg.find("stroke-opacity=\"0.8\""), std::string::npos);
   const std::size_t lines = rays_in(svg).size();
   EXPECT_GT(lines, 6U);  // more than the three pieces of the main branch in two views
-  const auto rays = drawn_rays(loaded(prism_scene()), {V3d(-0.06, 0, 0), {1, 0, 0.1}}, 550, 64, Follow::both);
+  const auto rays = drawn(loaded(prism_scene()), {V3d(-0.06, 0, 0), {1, 0, 0.1}}, 550, Follow::both);
   for (const DrawnRay& ray : rays) EXPECT_GE(ray.share, kLeastDrawnShare);
   EXPECT_LT(rays.back().share, 0.1);
+}
+
+// N-SF66 is tabulated from 390 nm on.
+TEST(Draw, AnIndexBeyondItsDataIsTold) {
+  const auto [origin, direction] = across_prism(50);
+  std::string scene = prism_scene();
+  scene.replace(scene.find("N-BK7"), 5, "N-SF66");
+  const std::string all = R"("observer": "1931")";
+  scene.replace(scene.find(all), all.size(), R"("channels": {"a": {"band": [400, 700]}})");
+  const auto said = [&](double nm) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(
+        cli::draw(
+            {scratch().write("held.json", scene), scratch() / "held.svg", {550, nm}, origin, direction}),
+        0);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(450), "");
+  const std::string held = said(320);
+  EXPECT_NE(
+      held.find("warning: the index of material \"glass\" is held from the end of its data, [390, 2500] nm"),
+      std::string::npos)
+      << held;
 }
 
 TEST(Draw, RoundShapesHaveTheirCircumference) {

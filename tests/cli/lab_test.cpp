@@ -174,6 +174,13 @@ TEST(Lab, SaysWhatIsWrongWithAMaterial) {
   EXPECT_EQ(fault(of(R"({"diffuse": )"), "MATERIAL:1"), ErrorCode::scene);
 }
 
+TEST(Lab, DrawsLobesAsSvgAlone) {
+  cli::LabOptions options = about(R"({"diffuse": {"reflectance": 0.5}})");
+  options.plot = scratch() / "plot_of_lobes.png";
+  EXPECT_EQ(fault([&options] { (void)cli::lab(options); }, "plot_of_lobes.png"), ErrorCode::usage);
+  EXPECT_FALSE(std::filesystem::exists(options.plot));
+}
+
 TEST(Lab, DrawsLobesAndHemispheres) {
   cli::LabOptions options = about(R"({"diffuse": {"reflectance": 0.5}})");
   options.angles_deg = {0, 45};

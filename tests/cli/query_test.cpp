@@ -131,6 +131,9 @@ TEST(QueryReflectance, OfACoatedSurface) {
     options.coating = wrong;
     EXPECT_THROW(cli::query_reflectance(options), Error) << wrong;
   }
+  options.coating = "MgF2:100001";  // scenes have none so thick
+  EXPECT_EQ(fault([&options] { (void)cli::query_reflectance(options); }, "of (0, 100000] nm"),
+            ErrorCode::usage);
 }
 
 TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {

@@ -75,6 +75,24 @@ TEST(TraceMirror, ReflectsAndNamesTheMetal) {
   EXPECT_NEAR(found["final_dir"][2].get<double>(), std::sqrt(0.5), 1e-12);
 }
 
+// Sheets and mirrors whose light does not depend on the glass they stand in tell its index all the same.
+TEST(TraceSheet, TellsTheIndexOfTheMatterThatItStandsIn) {
+  for (const char* sheet : {R"({"polariser": {}})", R"({"mirror": {"reflectance": 0.9}})"}) {
+    const std::string scene =
+        scene_text(R"("g": {"dielectric": {"ior": 1.5}}, "m": )" + std::string(sheet),
+                   R"({"name": "ball", "sphere": {"center": [0,0,0], "radius": 1}, "material": "g"},
+           {"name": "sheet", "quad": {"corner": [0,-0.3,-0.3], "edge_u": [0,0,0.6], "edge_v": [0,0.6,0]}, "material": "m"})");
+    for (const double from : {-5.0, -0.5}) {
+      const json events = trace(scene, 550, {from, 0, 0}, {1, 0, 0})["events"];
+      const json& met = events[from < -1 ? 1 : 0];
+      ASSERT_EQ(met["shape"], "sheet") << sheet;
+      EXPECT_EQ(met["n_from"], 1.5) << sheet << " from " << from;
+      EXPECT_EQ(met.value("n_to", 1.5), 1.5) << sheet << " from " << from;
+    }
+    EXPECT_EQ(trace(scene, 550, {0, 0, 5}, {0, 0, -1})["events"][0]["n_from"], 1);
+  }
+}
+
 TEST(TraceDiffuse, EndsWithAHit) {
   const json found = trace(ball_scene(), 550, {0, -300, 0}, {0, 2, 0});
   ASSERT_EQ(found["events"].size(), 1U);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "develop/film_file.h"
 #include "develop/raw_picture.h"
@@ -58,6 +59,17 @@ TEST(Develop, AnErrorThatTheFilmDoesNotKnowIsNotTold) {
   EXPECT_FALSE(plane_figures(film.sensor, develop(film, 7))[0].render_error);
   expose_to(film, FlatFrame{});
   EXPECT_EQ(plane_figures(film.sensor, develop(film, 7))[0].render_error, 0) << "a frame of no render";
+}
+
+// Of a bare lamp, whose values single precision holds, but not their squares.
+TEST(Develop, AnErrorWhoseSquareSinglePrecisionDoesNotHoldIsNotTold) {
+  Image lamp = counting_film();
+  lamp.channels[1].values[1] = std::numeric_limits<float>::infinity();
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "bare_lamp.exr";
+  write_exr(path, lamp);
+  const ExposedFilm film = exposed({}, read_film(path));
+  std::filesystem::remove(path);
+  EXPECT_FALSE(plane_figures(film.sensor, develop(film, 7))[0].render_error);
 }
 
 TEST(Develop, FiguresAreOfTheAreasThatWereRendered) {

@@ -1,6 +1,7 @@
 #include "develop/relight.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -73,6 +74,18 @@ TEST(Relight, ElseItIsTheLeastBound) {
   EXPECT_NEAR(values(relit({{"sun", {0}}}), "Variance.R")[0], 0.01, 1e-6);
   // In the second, 0.5, 0.4 and 0.3: of key and 1.1 sun at w = 1 0.5 + 0.03, at 1.1 0.55 + 0.04, at 0 0.73.
   EXPECT_NEAR(values(relit({{"sun", {1.1}}}), "Variance.R")[1], 0.53 * 0.53, 1e-6);
+}
+
+TEST(Relight, AnInfiniteVarianceCountsWhereItsLightDoes) {
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  Image image = film_of_two_lights();
+  for (ImageChannel& channel : image.channels)
+    if (channel.name == "Variance.R" || channel.name == "Variance.light.sun.R") channel.values[0] = kInfinite;
+  Image whole = image;
+  relight(image, std::vector<LightFactor>{{"sun", {0}}});
+  EXPECT_NEAR(values(image, "Variance.R")[0], 0.01, 1e-6);
+  relight(whole, std::vector<LightFactor>{{"sun", {2}}});
+  EXPECT_EQ(values(whole, "Variance.R")[0], kInfinite);
 }
 
 // Files keep channels by the alphabet, factors come in the order of the sensor.

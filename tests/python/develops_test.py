@@ -175,6 +175,9 @@ class Develops(Test):
         for words, arguments in (("camera: is needed", {}), ("camera: is needed", {"measured": measured, "training": "rawtoaces_190_patches"}),
                                  ("series: needs measured", {"camera": "Nikon_D5100", "series": series}),
                                  ("response: is planted", {"measured": measured, "response": "linear"}),
+                                 ("bits: are those of a simulated camera", {"measured": measured, "bits": 12}),
+                                 ("camera: is allowed with measured only for training", {"camera": "nosuch", "measured": measured}),
+                                 ("camera_response: needs camera", {"measured": measured, "camera_response": "energy"}),
                                  ("correction: expected matrix, root-polynomial-2, root-polynomial-3 or auto .got cubic",
                                   {"camera": "Nikon_D5100", "correction": "cubic"})):
             with self.assertRaisesRegex(abbe.UsageError, words):

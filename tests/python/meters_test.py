@@ -63,6 +63,8 @@ class Meters(Test):
         scene = self.scene()
         with self.assertRaisesRegex(abbe.UsageError, r'only: no such meter \(got "flor", allowed floor, grid, sight\)'):
             abbe.meter(scene, only="flor")
+        with self.assertRaisesRegex(abbe.UsageError, r"only: names no meter \(got \[\], allowed one or more, or None for all\)"):
+            abbe.meter(scene, only=[])
         with self.assertRaisesRegex(abbe.UsageError, "spp excludes error"):
             abbe.meter(scene, spp=4, error=0.1)
         with self.assertRaisesRegex(abbe.SceneError, "the scene has no meters"):

@@ -29,6 +29,9 @@ class Queries(Test):
         rs, rp = abbe.reflectance("Ag_Johnson", [[500], [600]], [0, 60, 90], coating=[("MgF2", 100)])
         self.assertEqual(rs.tolist(), told["Rs"])
         self.assertEqual(rp.tolist(), told["Rp"])
+        for thickness in (0, 1e6, numpy.inf, numpy.nan):
+            with self.subTest(thickness=thickness), self.assertRaisesRegex(abbe.UsageError, r"^coating: .* allowed up to 16 layers of \(0, 100000\] nm"):
+                abbe.reflectance("N-BK7", 550, coating=[("MgF2", thickness)])
 
     def test_prisms_deviate_as_by_the_command(self):
         told = self.query("prism", "N-SF11", "--apex", "60", "--at", "486.1327,587.5618")
@@ -60,6 +63,9 @@ class Queries(Test):
 
     def test_tables_at_wavelengths(self):
         self.assertEqual(abbe.illuminant("A", 560.0), 100)
+        beyond = [300.0, 830.0, 900.0, 1100.0]  # of the table, from where on A is defined
+        self.assertEqual(abbe.curve("illuminant", "A", beyond).tolist(), abbe.illuminant("A", beyond).tolist())
+        self.assertGreater(abbe.curve("illuminant", "A", 1100.0), 280)
         self.assertEqual(abbe.observer(wavelengths_nm=555.0)["y"], 1)
         self.assertEqual(list(abbe.camera("Nikon_D5100", [550])), ["R", "G", "B"])
         photons = abbe.camera("Nikon_D5100", [450.0, 600.0], response="quantum")["G"] / abbe.camera("Nikon_D5100", [450.0, 600.0], response="energy")["G"]

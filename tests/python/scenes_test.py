@@ -106,6 +106,8 @@ class Scenes(Test):
                 abbe.Scene(source)
         with self.assertRaisesRegex(TypeError, r"^folder: expected a path \(got a int\)$"):
             abbe.Scene(box(), folder=3)
+        with self.assertRaisesRegex(abbe.UsageError, "^folder: is where files that a dict names are looked for"):
+            abbe.Scene(CORNELL, folder=self.scratch)
 
     def test_paths_that_are_not_utf_8_are_told(self):
         odd = self.scratch / "odd\udcff"

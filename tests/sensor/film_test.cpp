@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -178,6 +179,17 @@ TEST(Film, ImageNamesValueAndVariancePlanes) {
   ASSERT_NE(image.find("Variance.G"), nullptr);
   EXPECT_EQ(image.find("G")->values, (std::vector<float>{0, 0.5F}));
   EXPECT_EQ(image.find("Variance.G")->values, (std::vector<float>{0, 0.25F}));
+}
+
+TEST(Film, AVarianceBeyondSinglePrecisionIsInfinite) {
+  Film film(1, 1, 1, 2, 1e21);
+  film.add(0, 0, std::array{1e21});
+  film.add(0, 1, std::array{3e21});
+  film.set_samples({1, 1});
+  const Image image = film.image(std::vector<std::string>{"e"});
+  EXPECT_EQ(image.channels[0].values[0], 2e21F);
+  EXPECT_EQ(image.channels[1].values[0], std::numeric_limits<float>::infinity());
+  EXPECT_NEAR(film.variance(0, 0), 1e42, 1e30);
 }
 
 TEST(Film, FilmsAddUpToTheFilmOfAllTheirSamples) {

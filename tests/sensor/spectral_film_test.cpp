@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -79,6 +80,16 @@ TEST(SpectralFilm, ASensorCountsTheEnergyThatItsFiltersPass) {
   // Deviations of 0.2 in all bins, added up.
   EXPECT_FLOAT_EQ(seen.find("Variance.all")->values[0], 0.25F * 0.36F);
   EXPECT_FLOAT_EQ(seen.find("Variance.signed")->values[0], 0.25F * 1.44F);
+}
+
+TEST(SpectralFilm, AnInfiniteVarianceCountsWhereTheBandDoes) {
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  SpectralImage image = radiances();
+  image.others[2].values[0] = kInfinite;
+  const std::vector channels{energy_channel("all", Curve(1.0)), energy_channel("half", band(405, 415))};
+  const Image seen = expose(image, channels, std::vector<double>{1});
+  EXPECT_EQ(seen.find("Variance.all")->values[0], kInfinite);
+  EXPECT_FLOAT_EQ(seen.find("Variance.half")->values[0], 0.04F);
 }
 
 TEST(SpectralFilm, StokesComponentsBecomeRadiancesToo) {

@@ -1,3 +1,7 @@
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
@@ -57,6 +61,53 @@ TEST(BenchProgram, StrictFailsWhenErrorGrew) {
   const std::string baseline = "--baseline " + scratch().write("planted.json", planted.dump()).string();
   EXPECT_EQ(abbe(quick_furnace(baseline)).code, 0);
   EXPECT_EQ(abbe(quick_furnace(baseline + " --strict")).code, 1);
+}
+
+TEST(BenchProgram, RefusesABaselineOfOtherConditionsBeforeItRenders) {
+  const Outcome first = abbe(quick_furnace("--threads 1"));
+  ASSERT_EQ(first.code, 0) << first.err;
+  const std::string baseline = " --baseline " + scratch().write("other.json", first.json().dump()).string();
+  for (const auto& [now, told] : std::vector<std::pair<std::string, std::string>>{
+           {quick_furnace("--threads 2"), "compare: threads (got 1, allowed 2)\n"},
+           {"bench furnace --spp 1,2 --reference-spp 16 --quick --threads 1 --cache " +
+                (scratch() / "cache").string(),
+            "compare: reference_spp (got 32, allowed 16)\n"},
+           {"bench furnace --reference-spp 32 --threads 1 --cache " + (scratch() / "cache").string(),
+            "compare: resolution (got 64x64, allowed 256x256)\n"}}) {
+    const Outcome run = abbe(now + baseline);
+    EXPECT_EQ(run.code, 4) << run.err;
+    EXPECT_NE(run.err.find(told), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("samples per pixel"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(abbe(quick_furnace("--threads 1" + baseline)).code, 0);
+}
+
+TEST(BenchProgram, RefusesOptionsThatWouldHaveNoEffect) {
+  for (const auto& [arguments, told] : std::vector<std::pair<std::string, std::string>>{
+           {"furnace --strict", "--strict requires --baseline"},
+           {"furnace --seed 3", "--seed requires --soak"},
+           {"furnace --soak 1", "suite excludes --soak"},
+           {"furnace --scale", "suite excludes --scale"},
+           {"furnace --list", "suite excludes --list"},
+           {"--soak 1 --spp 4", "--spp excludes --soak"},
+           {"--soak 1 --seeds 2", "--seeds excludes --soak"},
+           {"--soak 1 --integrator path", "--integrator excludes --soak"},
+           {"--soak 1 --reference-spp 4", "--reference-spp excludes --soak"},
+           {"--soak 1 --baseline b.json", "--baseline excludes --soak"},
+           {"--soak 1 --quick", "--quick excludes --soak"},
+           {"--soak 1 --threads 1", "--threads excludes --soak"},
+           {"--soak 1 --scale", "--scale excludes --soak"},
+           {"--soak 1 -o none --cache none", "--cache: has nothing of a soak whose folder --output names"},
+           {"--scale --spp 4", "--spp excludes --scale"},
+           {"--scale -o none", "--output excludes --scale"},
+           {"--scale --baseline b.json", "--baseline excludes --scale"},
+           {"--list --quick", "--quick excludes --list"},
+           {"--list --soak 1", "--soak excludes --list"},
+           {"--list --cache none", "--cache excludes --list"}}) {
+    const Outcome run = abbe("bench " + arguments);
+    EXPECT_EQ(run.code, 2) << arguments;
+    EXPECT_NE(run.err.find(told), std::string::npos) << arguments << ": " << run.err;
+  }
 }
 
 TEST(BenchProgram, ListsItsSuitesAndRefusesOthers) {

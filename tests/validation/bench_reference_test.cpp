@@ -85,7 +85,7 @@ TEST(BenchSuites, AFurnaceIsMeasuredAgainstItsReference) {
   settings.seeds = 2;
   settings.cache = folder.path();
   const SuiteRun run = run_suite(small_furnace(), settings);
-  EXPECT_EQ(run.reference_samples, 64 * 32);
+  EXPECT_EQ(run.conditions.reference_samples, 64 * 32);
   ASSERT_EQ(run.rows.size(), 4U);
   EXPECT_EQ(run.rows[1].samples, 2);
   EXPECT_EQ(run.rows[1].seed, 2U);
@@ -131,6 +131,32 @@ TEST(BenchSuites, CausticsAreSeenBesideAndThroughClosedShapes) {
   ASSERT_TRUE(hit);
   EXPECT_EQ(slab.shapes[hit->shape].name, "slab");
   EXPECT_LT(hit->normal.dot(ray.ray.direction), 0);
+}
+
+TEST(BenchSuites, TheConditionsAreThoseThatARunIsTakenUnder) {
+  const BenchFolder folder;
+  BenchSettings settings;
+  settings.samples = {1};
+  settings.seeds = 1;
+  settings.threads = 2;
+  settings.reference_samples = 2;
+  settings.cache = folder.path();
+  const BenchConditions told = conditions_of(small_furnace(), settings);
+  const BenchConditions taken = run_suite(small_furnace(), settings).conditions;
+  EXPECT_EQ(taken.width, 4);
+  EXPECT_EQ(taken.threads, 2);
+  EXPECT_EQ(told.width, taken.width);
+  EXPECT_EQ(told.height, taken.height);
+  EXPECT_EQ(told.scene_sha256, taken.scene_sha256);
+  EXPECT_EQ(told.reference_samples, taken.reference_samples);
+  EXPECT_EQ(told.threads, taken.threads);
+}
+
+TEST(BenchSuites, ANameThatIsGivenTwiceIsOneSuite) {
+  const std::vector<BenchSuite> suites = choose_suites({"ring", "cornell", "ring"});
+  ASSERT_EQ(suites.size(), 2U);
+  EXPECT_EQ(suites[0].name, "ring");
+  EXPECT_EQ(suites[1].name, "cornell");
 }
 
 TEST(BenchSuites, UnknownNamesComeWithTheNearest) {

@@ -47,8 +47,12 @@ inline BenchRow planned_row(int samples, std::uint64_t seed) {
 
 /// 4, 16 and 64 samples per pixel, two seeds each.
 inline SuiteRun planned_run(const std::string& suite) {
-  SuiteRun run{{suite, "planned", "scene.json"},  8, 6, "abc", 0.25, 1024, "def",
-               {{Integrator::automatic, {}, ""}}, {}};
+  SuiteRun run{{suite, "planned", "scene.json"},
+               {8, 6, "abc", 1024, 2},
+               0.25,
+               "def",
+               {{Integrator::automatic, {}, ""}},
+               {}};
   for (const int samples : {4, 16, 64})
     for (const std::uint64_t seed : {1, 2}) run.rows.push_back(planned_row(samples, seed));
   return run;
@@ -57,6 +61,7 @@ inline SuiteRun planned_run(const std::string& suite) {
 inline BenchReport planned_report() {
   BenchReport report{{"a \"fast\" CPU", 2, "GCC", "-O3", "2026-01-01T00:00:00Z"}, {}, {}, {}, {}};
   report.settings.version = "1.2.3";
+  report.settings.threads = 2;
   report.runs = {planned_run("cornell")};
   report.rivals = {{"cornell", "other", "path", 16, 5, 0.3, 0.2, kUsualFloor},
                    {"cornell", "third", "path", 64, 3, std::nullopt, 0.4, kLowFloor},

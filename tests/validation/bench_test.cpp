@@ -1,6 +1,8 @@
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -136,14 +138,18 @@ std::vector<BaselineRow> slowed(double factor, double scatter) {
   return rows;
 }
 
-std::vector<BaselineRow> stored() {
+Baseline stored_run() {
   const BenchFolder folder;
   const std::filesystem::path path = folder.path() / "bench.json";
   std::ofstream(path) << json_text(planned_report());
   Diagnostics diagnostics;
-  const auto rows = load_baseline(path, diagnostics);
-  EXPECT_TRUE(rows) << diagnostics.text();
-  return rows.value_or(std::vector<BaselineRow>{});
+  const auto run = load_baseline(path, diagnostics);
+  EXPECT_TRUE(run) << diagnostics.text();
+  return run.value_or(Baseline{});
+}
+
+std::vector<BaselineRow> stored() {
+  return stored_run().rows;
 }
 
 TEST(BenchBaseline, FlagsAPlantedSlowdown) {
@@ -192,6 +198,39 @@ TEST(BenchBaseline, OnlyTheSameRendersArePaired) {
   now = stored();
   for (BaselineRow& row : now) row.suite = "mesh";
   EXPECT_TRUE(compare_runs(stored(), now).empty());
+}
+
+TEST(BenchBaseline, RunsUnderOtherConditionsAreRefusedWithWhatDiffers) {
+  const Baseline before = stored_run();
+  ASSERT_EQ(before.suites.size(), 1U);
+  const auto complaint = [&before](const BenchConditions& now) {
+    Diagnostics diagnostics;
+    require_comparable(before.suites[0], now, diagnostics);
+    EXPECT_TRUE(!diagnostics.has_errors() || diagnostics.code() == ErrorCode::input);
+    return diagnostics.text();
+  };
+  EXPECT_EQ(complaint(planned_run("cornell").conditions), "");
+  for (const auto& [now, told] : std::vector<std::pair<BenchConditions, std::string>>{
+           {{9, 6, "abc", 1024, 2}, "compare: resolution (got 8x6, allowed 9x6)\n"},
+           {{8, 7, "abc", 1024, 2}, "compare: resolution (got 8x6, allowed 8x7)\n"},
+           {{8, 6, "abd", 1024, 2}, "compare: scene_sha256 (got abc, allowed abd)\n"},
+           {{8, 6, "abc", 32, 1},
+            "compare: reference_spp (got 1024, allowed 32), threads (got 2, allowed 1)\n"}})
+    EXPECT_NE(complaint(now).find("/suites/0: error: cornell was measured under other conditions, so that "
+                                  "neither times nor errors " +
+                                  told),
+              std::string::npos)
+        << complaint(now);
+}
+
+TEST(BenchReport, ChangesComeWithTheEndsOfTheirIntervals) {
+  BenchReport report = planned_report();
+  report.changes = {{"cornell", "auto", 6, {3.5, 1}, {1.25, std::numeric_limits<double>::infinity()}}};
+  const std::string text = readable_text(report);
+  EXPECT_NE(
+      text.find("CPU time per path 3.500 [1.750, 7.000] CHANGED, relMSE 1.250 [0.000, inf] (6 renders)\n"),
+      std::string::npos)
+      << text;
 }
 
 TEST(BenchBaseline, AMalformedFileIsReportedWhereItIsWrong) {

@@ -1,6 +1,7 @@
 #include "validation/statistics/image_difference.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -91,6 +92,12 @@ TEST(RelMse, RefusesAReferenceWithoutVariance) {
   EXPECT_THROW(
       static_cast<void>(rel_mse(image({{"Y", {1}}}), image({{"Y", {1}}}), {.subtract_variance = true})),
       Error);
+}
+
+TEST(RelMse, RefusesAReferenceOfInfiniteVariance) {
+  const Image lamp = image({{"Y", {2e21F}}, {"Variance.Y", {std::numeric_limits<float>::infinity()}}});
+  EXPECT_EQ(rel_mse(lamp, lamp), 0);
+  EXPECT_THROW(static_cast<void>(rel_mse(lamp, lamp, {.subtract_variance = true})), Error);
 }
 
 TEST(Compare, RefusesValuesOfDifferentUnits) {

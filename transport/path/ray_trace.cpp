@@ -18,6 +18,24 @@ using Kind = TraceEvent::Kind;
 // A hit nearer than this share of the distances involved is the surface the ray starts from.
 constexpr double kSelf = 1e-11;
 
+const Material& material_of(const Scene& scene, std::uint32_t shape) {
+  return scene.materials[scene.shapes[shape].material];
+}
+
+// A surface where no matter is within other matter, so that a ray is in that which it entered last, and what
+// depends on the index around it is in air.
+ActingSurface alone(const Scene& scene, const BasicRay<double>& ray, const ExactHit& at,
+                    const MediumStack& inside) {
+  const Material& material = material_of(scene, at.shape);
+  ActingSurface surface{0, nullptr, inside};
+  if (!inside.empty() && !depends_on_outside(material))
+    surface.outside = interior(material_of(scene, inside.innermost()));
+  if (!encloses_medium(material)) return surface;
+  surface.beyond = {};
+  surface.beyond.cross(scene, at.shape, at.hit.normal.dot(ray.direction) < 0);
+  return surface;
+}
+
 // What a ray meets at once: in scenes of nested matter all surfaces that touch.
 struct Meeting {
   ExactHit acting;
@@ -27,7 +45,7 @@ struct Meeting {
 
 Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& first, double nearest,
              const MediumStack& inside) {
-  if (!scene.needs.nesting) return {first, {0}, 0};
+  if (!scene.needs.nesting) return {first, alone(scene, ray, first, inside), 0};
   const Imath::V3d& normal = first.hit.normal;
   BasicRay<double> rest = ray;
   rest.t_max =
@@ -52,11 +70,8 @@ Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& fi
 // from behind.
 const Material* matter_before(const Scene& scene, const BasicRay<double>& ray,
                               const std::optional<ExactHit>& hit, const MediumStack& inside) {
-  const auto material = [&scene](std::uint32_t shape) {
-    return &scene.materials[scene.shapes[shape].material];
-  };
-  if (scene.needs.nesting) return inside.empty() ? nullptr : material(inside.innermost());
-  return hit && hit->hit.normal.dot(ray.direction) > 0 ? material(hit->shape) : nullptr;
+  if (scene.needs.nesting) return inside.empty() ? nullptr : &material_of(scene, inside.innermost());
+  return hit && hit->hit.normal.dot(ray.direction) > 0 ? &material_of(scene, hit->shape) : nullptr;
 }
 
 // What the matter on the way leaves of a ray's power, by Beer's law.
@@ -100,9 +115,7 @@ class Follower {
         size_(scene.bounds.isEmpty() ? 0 : scene.bounds.size().length()) {}
 
   RayTree operator()(const BasicRay<double>& ray) {
-    const bool nested = scene_.needs.nesting;
-    wait({ray, nested ? enclosing(scene_, Imath::V3f(ray.origin)) : MediumStack{}, 0,
-          PolarisedWay(ray.direction)});
+    wait({ray, enclosing(scene_, Imath::V3f(ray.origin)), 0, PolarisedWay(ray.direction)});
     while (!waiting_.empty()) {
       const Traveller next = waiting_.begin()->second;
       waiting_.erase(waiting_.begin());

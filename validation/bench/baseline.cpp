@@ -1,11 +1,15 @@
 #include "validation/bench/baseline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
-#include "io/json_values.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "io/text.h"
 #include "validation/statistics/students_interval.h"
 
@@ -15,30 +19,59 @@ namespace {
 constexpr double kSignificance = 0.01;
 constexpr double kLeastChange = 0.02;
 
-const JsonValue::Array* array_at(const JsonValue& json, const char* key, Diagnostics& diagnostics) {
+// The member of type T, which `kind` names; null, and reported, where there is none.
+template <typename T>
+const T* member_at(const JsonValue& json, const char* key, const char* kind, Diagnostics& diagnostics) {
   const JsonValue* member = json.find(key);
-  const auto* array = member ? std::get_if<JsonValue::Array>(&member->value) : nullptr;
-  if (array == nullptr)
-    diagnostics.error(json.where, std::string("expected an array \"") + key + "\", as abbe bench writes it",
+  const T* value = member ? std::get_if<T>(&member->value) : nullptr;
+  if (value == nullptr)
+    diagnostics.error(json.where, fmt::format("expected {} \"{}\", as abbe bench writes it", kind, key),
                       ErrorCode::input);
-  return array;
+  return value;
+}
+
+const JsonValue::Array* array_at(const JsonValue& json, const char* key, Diagnostics& diagnostics) {
+  return member_at<JsonValue::Array>(json, key, "an array", diagnostics);
 }
 
 double number_at(const JsonValue& json, const char* key, Diagnostics& diagnostics) {
-  const JsonValue* member = json.find(key);
-  const double* number = member ? std::get_if<double>(&member->value) : nullptr;
-  if (number == nullptr)
-    diagnostics.error(json.where, std::string("expected a number \"") + key + "\"", ErrorCode::input);
+  const double* number = member_at<double>(json, key, "a number", diagnostics);
   return number ? *number : 0;
+}
+
+std::string string_at(const JsonValue& json, const char* key, Diagnostics& diagnostics) {
+  const auto* text = member_at<std::string>(json, key, "a string", diagnostics);
+  return text ? *text : "";
+}
+
+// Numbers beyond an int are its ends, which no run has.
+int count(double number) {
+  return static_cast<int>(std::clamp<double>(number, 0, std::numeric_limits<int>::max()));
+}
+
+// Width and height of the film, 0 where the file has no number.
+std::array<int, 2> resolution_at(const JsonValue& suite, Diagnostics& diagnostics) {
+  std::array<int, 2> edges{};
+  const JsonValue::Array* found = array_at(suite, "resolution", diagnostics);
+  for (std::size_t i = 0; found && i < std::min(found->size(), edges.size()); ++i)
+    if (const double* number = std::get_if<double>(&(*found)[i].value)) edges[i] = count(*number);
+  return edges;
+}
+
+BaselineSuite read_suite(const JsonValue& json, int threads, Diagnostics& diagnostics) {
+  const auto [width, height] = resolution_at(json, diagnostics);
+  return {string_at(json, "name", diagnostics),
+          {width, height, string_at(json, "scene_sha256", diagnostics),
+           count(number_at(json, "reference_spp", diagnostics)), threads},
+          json.where};
 }
 
 BaselineRow read_row(const std::string& suite, const JsonValue& json, Diagnostics& diagnostics) {
   const auto number = [&](const char* key) { return number_at(json, key, diagnostics); };
-  const JsonValue* integrator = json.find("integrator");
   return {suite,
-          integrator ? read_string(*integrator, diagnostics).value_or("")
-                     : integrator_name(Integrator::automatic),
-          static_cast<int>(number("spp")),
+          json.find("integrator") ? string_at(json, "integrator", diagnostics)
+                                  : integrator_name(Integrator::automatic),
+          count(number("spp")),
           static_cast<std::uint64_t>(number("seed")),
           number("cpu_s"),
           number("paths"),
@@ -56,6 +89,20 @@ Ratio geometric_mean(const std::vector<double>& logs) {
           std::expm1(half_interval(std::sqrt(squares / (n - 1) / n), n - 1, 1 - kSignificance))};
 }
 
+// What differs, by the names of a `bench.json`.
+std::vector<std::string> differences(const BenchConditions& then, const BenchConditions& now) {
+  std::vector<std::string> all;
+  const auto compare = [&all](std::string_view name, const auto& got, const auto& allowed) {
+    if (got != allowed) all.push_back(fmt::format("{} (got {}, allowed {})", name, got, allowed));
+  };
+  const auto resolution = [](const BenchConditions& of) { return fmt::format("{}x{}", of.width, of.height); };
+  compare("resolution", resolution(then), resolution(now));
+  compare("scene_sha256", then.scene_sha256, now.scene_sha256);
+  compare("reference_spp", then.reference_samples, now.reference_samples);
+  compare("threads", then.threads, now.threads);
+  return all;
+}
+
 }  // namespace
 
 bool Ratio::changed() const {
@@ -63,23 +110,33 @@ bool Ratio::changed() const {
   return size > noise && size > kLeastChange;
 }
 
-std::optional<std::vector<BaselineRow>> load_baseline(const std::filesystem::path& path,
-                                                      Diagnostics& diagnostics) {
+std::optional<Baseline> load_baseline(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
   const std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
-  std::vector<BaselineRow> rows;
+  Baseline baseline;
+  const int threads = count(number_at(*root, "threads", diagnostics));
   const auto* suites = array_at(*root, "suites", diagnostics);
   for (std::size_t i = 0; suites && i < suites->size(); ++i) {
     const JsonValue& suite = (*suites)[i];
-    const JsonValue* name = suite.find("name");
-    const std::string text = name ? read_string(*name, diagnostics).value_or("") : "";
+    baseline.suites.push_back(read_suite(suite, threads, diagnostics));
     if (const auto* found = array_at(suite, "rows", diagnostics))
-      for (const JsonValue& row : *found) rows.push_back(read_row(text, row, diagnostics));
+      for (const JsonValue& row : *found)
+        baseline.rows.push_back(read_row(baseline.suites.back().name, row, diagnostics));
   }
   if (diagnostics.has_errors()) return std::nullopt;
-  return rows;
+  return baseline;
+}
+
+void require_comparable(const BaselineSuite& then, const BenchConditions& now, Diagnostics& diagnostics) {
+  const std::vector<std::string> different = differences(then.conditions, now);
+  if (different.empty()) return;
+  diagnostics.error(then.where,
+                    fmt::format("{} was measured under other conditions, so that neither times nor errors "
+                                "compare: {}",
+                                then.name, fmt::join(different, ", ")),
+                    ErrorCode::input);
 }
 
 std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs) {

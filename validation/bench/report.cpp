@@ -91,7 +91,7 @@ std::string standings_text(const SuiteRun& run) {
 }
 
 std::string ratio_text(const Ratio& ratio) {
-  return fmt::format("{:.3f} +- {:.3f}{}", ratio.value, ratio.value * ratio.noise,
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]{}", ratio.value, ratio.low(), ratio.high(),
                      ratio.changed() ? " CHANGED" : "");
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "transport/render/threads.h"
 #include "validation/bench/report.h"
 #include "validation/bench/standing.h"
 
@@ -63,12 +64,13 @@ Json standings_json(const SuiteRun& run) {
 }
 
 Json suite_json(const SuiteRun& run, std::span<const Rival> rivals) {
+  const BenchConditions& conditions = run.conditions;
   Json json{{"name", run.suite.name},
             {"description", run.suite.description},
-            {"resolution", {run.width, run.height}},
-            {"scene_sha256", run.scene_sha256},
+            {"resolution", {conditions.width, conditions.height}},
+            {"scene_sha256", conditions.scene_sha256},
             {"load_cpu_s", run.load_cpu_s},
-            {"reference_spp", run.reference_samples},
+            {"reference_spp", conditions.reference_samples},
             {"reference_key", run.reference_key},
             {"standings", standings_json(run)},
             {"rows", Json::array()},
@@ -113,7 +115,7 @@ std::string json_text(const BenchReport& report) {
   Json json{{"version", report.settings.version},
             {"date", report.machine.date},
             {"machine", machine_json(report.machine)},
-            {"threads", report.settings.threads > 0 ? report.settings.threads : report.machine.cores},
+            {"threads", thread_count(report.settings.threads)},
             {"quick", report.settings.quick},
             {"suites", Json::array()},
             {"baseline", Json::array()}};

@@ -26,6 +26,11 @@ int reference_samples(const BenchSettings& settings) {
   return kReferenceFactor * *std::max_element(settings.samples.begin(), settings.samples.end());
 }
 
+BenchConditions conditions_of(const Scene& scene, const BenchSettings& settings) {
+  return {scene.camera.width, scene.camera.height, scene.sha256, reference_samples(settings),
+          thread_count(settings.threads)};
+}
+
 // A scene that leaves its integrator open is settled first, as every command that renders does.
 BenchRow measure(Scene& scene, Integrator integrator, const Image& reference, int samples, std::uint64_t seed,
                  int threads, bool with_replay) {
@@ -85,6 +90,10 @@ void accumulate(BenchRow& sum, const BenchRow& row, double weight) {
 
 }  // namespace
 
+BenchConditions conditions_of(const BenchSuite& suite, const BenchSettings& settings) {
+  return conditions_of(load_suite(suite, settings.cache, settings.quick), settings);
+}
+
 SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings) {
   const auto say = [&](const std::string& message) {
     if (settings.say) settings.say(suite.name + ": " + message);
@@ -92,20 +101,13 @@ SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings) {
   const CostMeter loading;
   Scene scene = load_suite(suite, settings.cache, settings.quick);
   const double load_cpu_s = loading.spent().cpu_s;
-  const int samples = reference_samples(settings);
+  const BenchConditions conditions = conditions_of(scene, settings);
+  const int samples = conditions.reference_samples;
   say(fmt::format("reference of {} samples per pixel", samples));
   const Reference reference =
       reference_of(scene, settings.cache, settings.version, kReferenceSeed, samples, settings.threads);
   say(reference.cached ? "the reference was in the cache" : "the reference is rendered");
-  SuiteRun run{suite,
-               scene.camera.width,
-               scene.camera.height,
-               scene.sha256,
-               load_cpu_s,
-               samples,
-               reference.key,
-               integrators_on(scene, settings.integrators),
-               {}};
+  SuiteRun run{suite, conditions, load_cpu_s, reference.key, integrators_on(scene, settings.integrators), {}};
   for (const int spp : settings.samples)
     for (int seed = 1; seed <= settings.seeds; ++seed)
       for (const Integrator integrator : settings.integrators) {

@@ -56,13 +56,24 @@ struct BenchIntegrator {
   std::string bias;                  ///< As `bias_of`.
 };
 
+/// What times and errors of a suite depend on beside the program, its tables and the machine: runs under
+/// other conditions do not compare.
+struct BenchConditions {
+  int width, height;  ///< Of the film, in pixels.
+  std::string scene_sha256;
+  int reference_samples;
+  int threads;
+};
+
+/// The conditions of a suite, whose scene is loaded as for a run. Throws Error{input} with the loader's
+/// complaints.
+[[nodiscard]] BenchConditions conditions_of(const BenchSuite& suite, const BenchSettings& settings);
+
 /// What a suite gave.
 struct SuiteRun {
   BenchSuite suite;
-  int width, height;
-  std::string scene_sha256;
+  BenchConditions conditions;
   double load_cpu_s;  ///< Reading the scene and building its acceleration structure.
-  int reference_samples;
   std::string reference_key;
   std::vector<BenchIntegrator> integrators;
   std::vector<BenchRow> rows;  ///< By samples, then seed, then integrator, so that integrators take turns.

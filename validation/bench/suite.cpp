@@ -100,7 +100,9 @@ std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) throw Error(ErrorCode::usage, "", unknown_name("suite", name, known));
-    chosen.push_back(all[static_cast<std::size_t>(found - known.begin())]);
+    const auto same = [&name](const BenchSuite& suite) { return suite.name == name; };
+    if (std::none_of(chosen.begin(), chosen.end(), same))
+      chosen.push_back(all[static_cast<std::size_t>(found - known.begin())]);
   }
   return chosen;
 }

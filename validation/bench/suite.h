@@ -22,7 +22,7 @@ struct BenchSuite {
 /// All suites, in the order they run.
 [[nodiscard]] const std::vector<BenchSuite>& bench_suites();
 
-/// The suites of those names, all for none. Throws Error{usage} for another name.
+/// The suites of those names in their order, each once; all for none. Throws Error{usage} for another name.
 [[nodiscard]] std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names);
 
 /// The scene of a suite, any mesh it needs written to a folder of `cache` first; with `quick` a film of a

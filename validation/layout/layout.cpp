@@ -186,11 +186,9 @@ std::string legend(const std::vector<DrawnRay>& rays, double y) {
 
 }  // namespace
 
-std::vector<DrawnRay> drawn_rays(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
-                                 int max_events, Follow follow) {
-  const FollowLimits limits{.max_events = max_events, .least_share = kLeastDrawnShare};
+std::vector<DrawnRay> drawn_rays(const Scene& scene, const RayTree& tree, double wavelength_nm) {
   std::vector<DrawnRay> rays;
-  for (const RayBranch& branch : follow_ray(scene, ray, wavelength_nm, follow, limits).branches) {
+  for (const RayBranch& branch : tree.branches) {
     DrawnRay drawn{wavelength_nm, {branch.start.origin}, branch.share};
     const RayTrace& trace = branch.trace;
     for (const TraceEvent& event : trace.events)

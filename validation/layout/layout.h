@@ -18,10 +18,9 @@ struct DrawnRay {
 /// Branches of less power are not drawn.
 inline constexpr double kLeastDrawnShare = 1e-3;
 
-/// Follows a ray (`follow_ray`), the main branch first; one that leaves the scene is drawn on as far again as
-/// the scene is large.
-[[nodiscard]] std::vector<DrawnRay> drawn_rays(const Scene& scene, const BasicRay<double>& ray,
-                                               double wavelength_nm, int max_events, Follow follow);
+/// The ways of a ray that was followed, the main branch first; one that leaves the scene is drawn on as far
+/// again as the scene is large.
+[[nodiscard]] std::vector<DrawnRay> drawn_rays(const Scene& scene, const RayTree& tree, double wavelength_nm);
 
 /// The colour of a wavelength as displays come nearest to it; grey where nobody sees it.
 [[nodiscard]] std::string wavelength_color(double wavelength_nm);

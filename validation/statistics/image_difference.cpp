@@ -126,6 +126,10 @@ std::vector<Term> terms(const std::vector<Pair>& pairs, double mean, const Error
       const double r = pair.reference[i];
       const double d2 = std::pow(pair.image[i] - r, 2);
       const double v = measure.subtract_variance ? static_cast<double>(pair.variance->values[i]) : 0.0;
+      if (!std::isfinite(v))
+        throw Error(
+            ErrorCode::input, "",
+            fmt::format("the reference has a variance that is not finite (in channel {})", pair.channel));
       const double scale = measure.relative * r * r + measure.floor * mean * mean;
       all.push_back({d2 == 0 ? 0 : d2 / scale, d2 == v ? 0 : (d2 - v) / scale});
     }
