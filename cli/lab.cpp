@@ -110,7 +110,6 @@ void print_table(const Json& answer, const LabOptions& options, const Goniometer
 }  // namespace
 
 int lab(const LabOptions& options) {
-  if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   for (const std::filesystem::path& output : {options.plot, options.map})
     if (!output.empty()) require_writable(output);
   Diagnostics diagnostics;
@@ -119,6 +118,7 @@ int lab(const LabOptions& options) {
   check_matter(material, options.at_nm);
   for (std::filesystem::path& file : files_among({options.illuminant})) inputs.add_file(std::move(file));
   require_distinct(std::array{options.plot, options.map}, inputs.files());
+  if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   const GoniometerSettings settings = settings_of(options);
   const GoniometerReport report = measure(material, settings);
   const Json answer = answer_of(material.name, options, report);
