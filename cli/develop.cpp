@@ -315,11 +315,7 @@ int develop(const DevelopOptions& options) {
   require_noise(sensor, options);
   if (!options.display.empty()) require_display(sensor);
   expose_anew(exposed, options);
-  if (wants_raw) {
-    Diagnostics diagnostics;
-    warn_of_own_dark_signals(sensor, diagnostics);
-    check(diagnostics);
-  }
+  if (const auto dark = wants_raw ? own_dark_signals(sensor) : std::nullopt) say("warning: " + *dark);
 
   // At most three planes beside each of the film and of its variance.
   inputs.take_memory("developing", 3 * exposed.film.memory_bytes());

@@ -60,8 +60,8 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
         return refuse(fmt::format("texel ({}, {}) (got {}, allowed {})",
                                   i % static_cast<std::size_t>(image.width),
                                   i / static_cast<std::size_t>(image.width), value, spec::kPower.text()));
-      const bool is_told = c > 0 && (*planes)[c] == (*planes)[0];  // a luminance, which is all three
-      negative += value < 0 && !is_told;
+      const bool is_repeated = c > 0 && (*planes)[c] == (*planes)[0];  // a luminance, which is all three
+      negative += value < 0 && !is_repeated;
       sky.texels[i][c] = std::max(value, 0.0F);
     }
   if (std::all_of(sky.texels.begin(), sky.texels.end(),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -151,16 +150,14 @@ double black_level(const FilmSensor& sensor) {
   return exposure_s ? black_level(*sensor.readout, *exposure_s) : sensor.readout->offset_dn;
 }
 
-void warn_of_own_dark_signals(const FilmSensor& sensor, Diagnostics& diagnostics) {
+std::optional<std::string> own_dark_signals(const FilmSensor& sensor) {
   const double dark_dn_per_s = sensor.readout->dark_e_per_s / sensor.readout->gain_e_per_dn;
-  if (dark_dn_per_s == 0 || sensor.exposure_s.empty() || common_exposure(sensor)) return;
+  if (dark_dn_per_s == 0 || sensor.exposure_s.empty() || common_exposure(sensor)) return std::nullopt;
   const auto [least_s, most_s] = std::minmax_element(sensor.exposure_s.begin(), sensor.exposure_s.end());
-  const auto option = std::make_shared<const SourceText>(SourceText{"-o", ""});
-  diagnostics.warning(
-      {option, SourcePosition::kWholeFile, ""},
-      fmt::format("channels of exposure times of their own have dark signals of their own (of "
-                  "{:.3g} to {:.3g} codes), which the black level of raw files leaves out",
-                  dark_dn_per_s * *least_s, dark_dn_per_s * *most_s));
+  return fmt::format(
+      "channels of exposure times of their own have dark signals of their own (of {:.3g} to {:.3g} codes), "
+      "which the black level of raw files leaves out",
+      dark_dn_per_s * *least_s, dark_dn_per_s * *most_s);
 }
 
 std::uint64_t render_seed(const Image& film) {

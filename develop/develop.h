@@ -32,8 +32,9 @@ struct DevelopedFilm {
 /// is undone: offset and dark signal; the offset alone where channels have exposure times of their own, and
 /// so dark signals of their own. For sensors with a read-out.
 [[nodiscard]] double black_level(const FilmSensor& sensor);
-/// Warns of such channels, since what is measured above that level has their dark signals in it.
-void warn_of_own_dark_signals(const FilmSensor& sensor, Diagnostics& diagnostics);
+/// That there are such channels, as a sentence, since what is measured above that level has their dark
+/// signals in it; nothing where there are none.
+[[nodiscard]] std::optional<std::string> own_dark_signals(const FilmSensor& sensor);
 
 /// The seed of the render that made the film; 0 for one that does not tell.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);
@@ -45,8 +46,8 @@ void warn_of_own_dark_signals(const FilmSensor& sensor, Diagnostics& diagnostics
 /// electrons with a read-out, else in film values.
 struct PlaneFigures {
   double mean = 0;
-  std::optional<double>
-      render_error;       ///< Nothing where the film does not know it, or a variance is infinite.
+  /// Nothing where the film does not know it, or a variance is infinite.
+  std::optional<double> render_error;
   TemporalNoise noise{};  ///< The sensor's noise at the mean; none without a read-out.
   double saturated_share = 0;
 };

@@ -113,9 +113,7 @@ void write_developed(const Developed& developed, const fs::path& path) {
     return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
   if (!developed.sensor.readout)
     throw Error(ErrorCode::usage, path.string(), "the film has no read-out to make codes with");
-  Diagnostics diagnostics;
-  warn_of_own_dark_signals(developed.sensor, diagnostics);
-  check(diagnostics);
+  if (const auto dark = own_dark_signals(developed.sensor)) warn(*dark);
   write_raw(path, developed.planes, developed.sensor);
 }
 

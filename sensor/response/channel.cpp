@@ -122,15 +122,17 @@ std::optional<std::vector<Channel>> load_camera(const std::string& name, const S
   const auto curves = camera_curves(name, where, diagnostics);
   if (!curves) return std::nullopt;
   std::vector<Channel> channels;
-  for (const auto& [label, source, unit, low_nm, high_nm, response] : *curves) {
+  for (const NamedCurve& curve : *curves) {
+    const std::string& label = curve.name;
     const bool quantum = kind ? *kind == ResponseKind::quantum : label == "QE" && !is_json(name);
     const std::string column = name.ends_with(":" + label) ? name : name + ":" + label;
     if (quantum && scale == ResponseScale::absolute &&
-        !check_use(column, unit, response, kQuantumResponseUse, where, diagnostics))
+        !check_use(column, curve.unit, curve.curve, kQuantumResponseUse, where, diagnostics))
       return std::nullopt;
     if (!kind && !quantum && channels.empty())
-      if (auto doubt = unsaid_response(name, unit)) diagnostics.error_if_strict(where, *std::move(doubt));
-    channels.push_back(quantum ? quantum_channel(label, response) : energy_channel(label, response));
+      if (auto doubt = unsaid_response(name, curve.unit))
+        diagnostics.error_if_strict(where, *std::move(doubt));
+    channels.push_back(quantum ? quantum_channel(label, curve.curve) : energy_channel(label, curve.curve));
   }
   return channels;
 }

@@ -171,7 +171,7 @@ TEST(Develop, BlackIsTheExpectedDarkSignal) {
   EXPECT_EQ(raw_picture(develop(film, 7), film.sensor).black_level_dn, 100);
   expose_to(film, DarkFrame{});
   EXPECT_EQ(told(), "100");
-  warn_of_own_dark_signals(film.sensor, diagnostics);
+  EXPECT_FALSE(own_dark_signals(film.sensor));
   EXPECT_EQ(diagnostics.text(), "");
   expose_to(film, BiasFrame{});
   EXPECT_EQ(told(), "50");
@@ -180,17 +180,12 @@ TEST(Develop, BlackIsTheExpectedDarkSignal) {
 TEST(Develop, DarkSignalsThatDifferAreNotInTheBlackLevelAndWarnedOf) {
   const ExposedFilm film = exposed({{"/readout/offset_dn", "50"}}, test::mosaic_film());
   EXPECT_EQ(develop(film, 7).codes.metadata.at("black_level_dn"), "50");
-  Diagnostics diagnostics;
-  warn_of_own_dark_signals(film.sensor, diagnostics);
-  EXPECT_EQ(
-      diagnostics.text(),
-      "-o: warning: channels of exposure times of their own have dark signals of their own (of 5e+03 to "
-      "5e+04 codes), which the black level of raw files leaves out\n");
+  EXPECT_EQ(own_dark_signals(film.sensor),
+            "channels of exposure times of their own have dark signals of their own (of 5e+03 to 5e+04 "
+            "codes), which the black level of raw files leaves out");
   ExposedFilm cooled = film;
   cooled.sensor.readout->dark_e_per_s = 0;
-  Diagnostics none;
-  warn_of_own_dark_signals(cooled.sensor, none);
-  EXPECT_EQ(none.text(), "");
+  EXPECT_FALSE(own_dark_signals(cooled.sensor));
 }
 
 // Where all channels have one time of their own, that is the film's: the sensor's is nobody's.
