@@ -13,6 +13,9 @@ namespace abbe {
 /// [Jensen1996]. What is found, and in which order, depends on the points alone. Any threads may ask at once.
 class PhotonMap {
  public:
+  /// What a point takes in memory [bytes].
+  static constexpr std::size_t kBytesOfPoint = sizeof(Imath::V3f) + 2 * sizeof(std::uint32_t);
+
   explicit PhotonMap(std::vector<Imath::V3f> points);
   ~PhotonMap();
   PhotonMap(PhotonMap&&) noexcept;

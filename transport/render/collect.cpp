@@ -65,16 +65,13 @@ std::vector<Sampler> numbers_of(const LightNumbers& numbers, std::uint64_t first
 
 std::size_t bytes_of_light_paths(const Scene& scene) {
   constexpr std::size_t kUsualPlaces = 4;
-  constexpr std::size_t kInMap = sizeof(Imath::V3f) + 2 * sizeof(std::uint32_t);
   const std::vector<Technique> techniques = chosen_techniques(scene);
   const std::size_t paths = photons_of_sample(scene);
   const std::size_t carried = carries_polarisation(scene) ? sizeof(Polarisation) : 0;
-  const std::size_t in_place = kInMap + carried;
   if (uses(techniques, Technique::vcm))
-    return paths * (sizeof(RecordedPath) + carried +
-                    kUsualPlaces * (sizeof(PathVertex) + sizeof(LightPaths::Vertex) + in_place));
+    return paths * (LightPaths::kBytesOfPath + kUsualPlaces * (LightPaths::kBytesOfVertex + carried));
   if (std::any_of(techniques.begin(), techniques.end(), gathers_photons))
-    return paths * kUsualPlaces * (sizeof(Photon) + in_place);
+    return paths * kUsualPlaces * (sizeof(Photon) + PhotonMap::kBytesOfPoint + carried);
   return 0;
 }
 
@@ -90,19 +87,14 @@ PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, float ti
   return {std::move(photons), plan.photons, packet, time};
 }
 
-LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float time, float radius,
-                               const LightNumbers& numbers, int threads, PassCounts& counts) {
-  std::vector<std::vector<RecordedPath>> batches((plan.photons + kPathsTogether - 1) / kPathsTogether);
-  trace_all<LightRecorder>(plan, threads, counts,
-                           [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
-                             batches[first / kPathsTogether] =
-                                 std::move(recorder.record(numbers_of(numbers, first, last), packet, time));
-                           });
-  std::vector<RecordedPath> paths;
-  paths.reserve(plan.photons);
-  for (std::vector<RecordedPath>& batch : batches)
-    std::move(batch.begin(), batch.end(), std::back_inserter(paths));
-  return {std::move(paths), radius, packet, time};
+void collect_light_paths(const Plan& plan, const PathPacket& packet, float time, float radius,
+                         const LightNumbers& numbers, int threads, LightPaths& kept, PassCounts& counts) {
+  kept.begin(plan.photons, packet, time);
+  trace_all<LightRecorder>(
+      plan, threads, counts, [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
+        kept.keep(first / kPathsTogether, recorder.record(numbers_of(numbers, first, last), packet, time));
+      });
+  kept.end(radius);
 }
 
 }  // namespace abbe

@@ -22,9 +22,8 @@ using LightNumbers = std::function<Sampler(std::uint64_t path)>;
 [[nodiscard]] PhotonCloud collect_photons(const Plan& plan, const PathPacket& packet, float time,
                                           const LightNumbers& numbers, int threads, PassCounts& counts);
 
-/// The paths themselves, to be merged within `radius` [m].
-[[nodiscard]] LightPaths collect_light_paths(const Plan& plan, const PathPacket& packet, float time,
-                                             float radius, const LightNumbers& numbers, int threads,
-                                             PassCounts& counts);
+/// The paths themselves, to be merged within `radius` [m], which take the place of those that were kept.
+void collect_light_paths(const Plan& plan, const PathPacket& packet, float time, float radius,
+                         const LightNumbers& numbers, int threads, LightPaths& kept, PassCounts& counts);
 
 }  // namespace abbe

@@ -124,12 +124,13 @@ void Pass::collect(std::uint64_t sample, int threads, PassCounts& counts) {
   const LightNumbers numbers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
   const std::array<float, 4> common = numbers_of(sample);
   const PathPacket packet = draw_packet(plan_.wavelengths, common[0]);
-  left_ = std::monostate();  // first, as both would take their memory
-  if (uses(plan_.techniques, Technique::vcm))
-    left_ = collect_light_paths(plan_, packet, common[1], gather_radius(plan_.gather_radius, sample), numbers,
-                                threads, counts);
-  else
-    left_ = collect_photons(plan_, packet, common[1], numbers, threads, counts);
+  if (uses(plan_.techniques, Technique::vcm)) {
+    collect_light_paths(plan_, packet, common[1], gather_radius(plan_.gather_radius, sample), numbers,
+                        threads, light_paths_, counts);
+    return;
+  }
+  cloud_.reset();  // first, as both would take their memory
+  cloud_ = collect_photons(plan_, packet, common[1], numbers, threads, counts);
 }
 
 PassCounts Pass::work(std::uint32_t end, const std::function<bool()>& pause) {
@@ -341,8 +342,7 @@ void Pass::gather_tile(std::uint32_t item, Worker& worker) {
   look(tile(item % tiles_), sample, worker);
   take_pixels(tile(item % tiles_), sample, worker);
   worker.photon_gatherer.tell_apart(pixels_apart(sample, worker));
-  worker.photon_gatherer.trace(worker.pixels, std::get<PhotonCloud>(left_), kernel,
-                               pixels_deposit(sample, worker));
+  worker.photon_gatherer.trace(worker.pixels, *cloud_, kernel, pixels_deposit(sample, worker));
 }
 
 void Pass::join_tile(std::uint32_t number, Worker& worker) {
@@ -361,7 +361,7 @@ void Pass::merge_tile(std::uint32_t item, Worker& worker) {
   take_pairs(tile(item % tiles_), sample, worker);
   for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 1 : 0;
   worker.bidirectional_tracer.tell_apart(splats_apart(sample, worker));
-  worker.bidirectional_tracer.trace(worker.pairs, std::get<LightPaths>(left_), splats_of(sample, worker));
+  worker.bidirectional_tracer.trace(worker.pairs, light_paths_, splats_of(sample, worker));
 }
 
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "sensor/film/feature_film.h"
@@ -178,8 +177,9 @@ class Pass {
   std::vector<Stage> stages_;
   std::uint32_t items_ = 0;  // of all stages
   bool sample_by_sample_;
-  std::optional<std::uint32_t> left_by_;  // the sample of the pass whose paths from lights have left this:
-  std::variant<std::monostate, PhotonCloud, LightPaths> left_;
+  std::optional<std::uint32_t> left_by_;  // the sample of the pass whose paths from lights have left one of
+  std::optional<PhotonCloud> cloud_;
+  LightPaths light_paths_;
   std::uint64_t photons_;
   std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;

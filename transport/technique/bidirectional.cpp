@@ -19,25 +19,6 @@ bool joins(const PathVertex& vertex) {
   return surface == nullptr || scatters(surface->bsdf);
 }
 
-std::vector<LightPaths::Vertex> merged_vertices(const std::vector<RecordedPath>& paths) {
-  std::vector<LightPaths::Vertex> merged;
-  for (std::uint32_t path = 0; path < paths.size(); ++path)
-    for (std::uint32_t k = 1; k < paths[path].vertices.size(); ++k) {
-      const auto* surface = std::get_if<SurfaceVertex>(&paths[path].vertices[k].at);
-      if (surface != nullptr && scatters(surface->bsdf)) merged.push_back({path, k});
-    }
-  return merged;
-}
-
-std::vector<Imath::V3f> places_of(const std::vector<RecordedPath>& paths,
-                                  const std::vector<LightPaths::Vertex>& vertices) {
-  std::vector<Imath::V3f> places;
-  places.reserve(vertices.size());
-  for (const LightPaths::Vertex& at : vertices)
-    places.push_back(point_of(paths[at.path].vertices[at.number]));
-  return places;
-}
-
 // The numbers for connections of the vertex after `i` others.
 std::array<float, 4> connection_numbers(const Sampler& sampler, std::size_t i) {
   return sampler.group(scattering_group(static_cast<int>(i) - 1) + 1);
@@ -57,14 +38,6 @@ BidirectionalTracer::BidirectionalTracer(const Plan& plan, RayCaster& caster)
       ghosts_(plan, caster),
       found_(plan.scene),
       weights_(plan.scene, caster) {}
-
-LightPaths::LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of, float at)
-    : paths(std::move(traced)),
-      vertices(merged_vertices(paths)),
-      map(places_of(paths, vertices)),
-      radius(within),
-      packet(of),
-      time(at) {}
 
 void BidirectionalTracer::trace(std::span<const PixelPair> samples, const LightPaths& from_lights,
                                 const Deposit& deposit) {
@@ -101,14 +74,14 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
     const PixelPair& sample = samples[i];
     RecordedPath& eye = from_camera_.paths().emplace_back(sample.camera, i);
     const std::array<float, 4> film = sample.camera.group(kFilmGroup);
-    const float time = from_lights_ == nullptr ? film[kTimeNumber] : from_lights_->time;
+    const float time = from_lights_ == nullptr ? film[kTimeNumber] : from_lights_->time();
     if (from_lights_ == nullptr) {
       RecordedPath& photon = from_light_.paths().emplace_back(sample.light, i);
       photon.packet = draw_packet(plan_.wavelengths, film[2]);
       eye.packet = photon.packet;
       start_from_light(plan_, caster_, time, photon);
     } else {
-      eye.packet = from_lights_->packet;
+      eye.packet = from_lights_->packet();
     }
     if (!sample.seen) continue;
     at_[i] = start_from_camera(plan_, sample.x, sample.y, time, eye, images_[i]);
@@ -124,7 +97,7 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
 
 void BidirectionalTracer::join(std::uint32_t i) {
   const std::vector<PathVertex>& x = from_camera_.paths()[i].vertices;
-  const std::vector<PathVertex>& y = own_light_path(i).vertices;
+  const std::span<const PathVertex> y = own_light_path(i).vertices;
   for (const MetLight& met : from_camera_.paths()[i].met) meet(i, met);
   for (std::size_t t = meter_ ? 1 : 2; t <= x.size(); ++t) {
     if (!joins(x[t - 1])) continue;
@@ -168,7 +141,7 @@ void BidirectionalTracer::connect(std::uint32_t i, std::size_t t, std::size_t s)
 }
 
 void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
-  const RecordedPath& photon = own_light_path(i);
+  const LightPaths::Path photon = own_light_path(i);
   const PathVertex& from = photon.vertices[s - 1];
   const std::array<float, 4> u = connection_numbers(photon.sampler, s - 1);
   const auto seen = sample_towards(scene_.camera, point_of(from), {u[0], u[1]}, from.lambda_nm(), from.time);
@@ -192,13 +165,13 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
 
 void BidirectionalTracer::merge(std::uint32_t i, std::size_t t) {
   const PathVertex& x = from_camera_.paths()[i].vertices[t - 1];
-  from_lights_->map.within(point_of(x), from_lights_->radius, near_);
-  for (const std::uint32_t near : near_) merge(i, t, from_lights_->vertices[near]);
+  from_lights_->near(point_of(x), near_);
+  for (const LightPaths::Vertex& near : near_) merge(i, t, near);
 }
 
 // The camera's last of `t` vertices with one of another path.
 void BidirectionalTracer::merge(std::uint32_t i, std::size_t t, const LightPaths::Vertex& at) {
-  const RecordedPath& photon = from_lights_->paths[at.path];
+  const LightPaths::Path photon = (*from_lights_)[at.path];
   const PathVertex& x = from_camera_.paths()[i].vertices[t - 1];
   const PathVertex& y = photon.vertices[at.number];
   if (t + at.number > most_vertices_) return;
@@ -215,16 +188,15 @@ void BidirectionalTracer::merge(std::uint32_t i, std::size_t t, const LightPaths
       merged_polarisation(here, x.packet.polarisation, from, y.packet.polarisation));
 }
 
-const RecordedPath& BidirectionalTracer::own_light_path(std::uint32_t i) {
-  if (from_lights_ == nullptr) return from_light_.paths()[i];
+LightPaths::Path BidirectionalTracer::own_light_path(std::uint32_t i) {
+  if (from_lights_ == nullptr) return {from_light_.paths()[i].vertices, samples_[i].light};
   const PixelPair& sample = samples_[i];
-  return from_lights_
-      ->paths[static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(scene_.camera.width) +
-              static_cast<std::size_t>(sample.x)];
+  return (*from_lights_)[static_cast<std::size_t>(sample.y) * static_cast<std::size_t>(scene_.camera.width) +
+                         static_cast<std::size_t>(sample.x)];
 }
 
 // The first `t` vertices from the camera, and the first `s` from the light.
-void BidirectionalTracer::set_joined(std::uint32_t i, std::size_t t, const RecordedPath& photon,
+void BidirectionalTracer::set_joined(std::uint32_t i, std::size_t t, const LightPaths::Path& photon,
                                      std::size_t s) {
   joined_.merged = nullptr;
   joined_.z.clear();
@@ -249,7 +221,7 @@ float BidirectionalTracer::weight() {
   ends.camera_takes_lights = meter_;
   ends.lens_connections = meter_ ? 1 : static_cast<float>(plan_.photons);
   if (from_lights_ != nullptr)
-    ends.merging = disc_area(from_lights_->radius) * static_cast<float>(from_lights_->paths.size());
+    ends.merging = disc_area(from_lights_->radius()) * static_cast<float>(from_lights_->size());
   return weights_.of(joined_, ends);
 }
 

@@ -9,10 +9,10 @@
 #include "transport/path/film_response.h"
 #include "transport/path/found_light.h"
 #include "transport/path/path_recorder.h"
-#include "transport/path/photon_map.h"
 #include "transport/path/strategies.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
+#include "transport/technique/light_paths.h"
 
 namespace abbe {
 
@@ -23,22 +23,6 @@ struct PixelPair {
   Sampler camera;
   Sampler light;
   bool seen;  ///< Whether the pixel itself is asked for; if not, its light's path exposes others alone.
-};
-
-/// The paths from lights of a sample, all of one packet, to be joined to any path from its camera.
-struct LightPaths {
-  LightPaths(std::vector<RecordedPath> traced, float within, const PathPacket& of, float at);
-
-  std::vector<RecordedPath> paths;  ///< By the number of the pixel that each belongs to.
-  struct Vertex {
-    std::uint32_t path;
-    std::uint32_t number;
-  };
-  std::vector<Vertex> vertices;  ///< On surfaces that scatter: those of the map.
-  PhotonMap map;
-  float radius = 0;   ///< Within which they are merged [m].
-  PathPacket packet;  ///< That all set out with,
-  float time = 0;     ///< and when.
 };
 
 /// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]: a path from the camera and one from a
@@ -73,8 +57,8 @@ class BidirectionalTracer {
   void connect_to_lens(std::uint32_t i, std::size_t s);
   void merge(std::uint32_t i, std::size_t t);
   void merge(std::uint32_t i, std::size_t t, const LightPaths::Vertex& at);
-  [[nodiscard]] const RecordedPath& own_light_path(std::uint32_t i);
-  void set_joined(std::uint32_t i, std::size_t t, const RecordedPath& photon, std::size_t s);
+  [[nodiscard]] LightPaths::Path own_light_path(std::uint32_t i);
+  void set_joined(std::uint32_t i, std::size_t t, const LightPaths::Path& photon, std::size_t s);
   void add_joined(std::uint32_t i, const FilmPoint& at);
   [[nodiscard]] float weight();
   [[nodiscard]] float by_path_tracing() const;
@@ -105,7 +89,7 @@ class BidirectionalTracer {
   FoundLight found_;                    // and with what
   StrategyWeights weights_;
   JoinedPath joined_;
-  std::vector<std::uint32_t> near_;  // vertices, at one place
+  std::vector<LightPaths::Vertex> near_;  // at one place
 };
 
 }  // namespace abbe

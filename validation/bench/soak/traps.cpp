@@ -21,8 +21,9 @@ constexpr std::uint32_t kMasksAbove = 7;      // and, so many bits above, what d
 constexpr std::uint16_t kX87Flags = 0x80ff;   // what the x87 unit, which long doubles are for, has raised
 constexpr std::uint64_t kSingleStep = 0x100;  // of RFLAGS
 // Steps cost microseconds, and Embree raises some hundred exceptions for a path that meets balls: a thread
-// that has made so many is left alone.
+// that has made so many is left alone, and so are all where those of every sample are started anew.
 constexpr std::uint32_t kMostSteps = 1'000;
+constexpr std::uint32_t kMostStepsOfAll = 100 * kMostSteps;
 
 // An instruction that raised something. Handlers may not allocate.
 struct Site {
@@ -32,6 +33,7 @@ struct Site {
 };
 std::array<Site, 512> sites;
 thread_local std::uint32_t steps = 0;
+std::atomic<std::uint32_t> steps_of_all = 0;
 
 // Whether an instruction works on one number. Of those that VEX encodes, their prefix says so; comparisons
 // that set the flags of the processor do without.
@@ -72,7 +74,7 @@ void step_over(int, siginfo_t* info, void* context) {
   auto& machine = static_cast<ucontext_t*>(context)->uc_mcontext;
   record(static_cast<const std::uint8_t*>(info->si_addr), info->si_code);
   set_traps(*machine.fpregs, false);
-  if (++steps < kMostSteps) machine.gregs[REG_EFL] |= static_cast<greg_t>(kSingleStep);
+  if (++steps < kMostSteps && ++steps_of_all < kMostStepsOfAll) machine.gregs[REG_EFL] |= static_cast<greg_t>(kSingleStep);
 }
 
 void watch_again(int, siginfo_t*, void* context) {
