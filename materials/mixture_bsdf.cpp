@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "materials/bsdf/polarisation.h"
+#include "materials/interface/quotient.h"
 #include "materials/material.h"
 
 namespace abbe {
 namespace {
-
-SampledSpectrum quotient(const SampledSpectrum& a, const SampledSpectrum& b) {
-  return SampledSpectrum::map(a, b, [](float x, float y) { return y > 0 ? x / y : 0.0F; });
-}
 
 SampledSpectrum total_weight(const MixtureMaterial& material, const SampledSpectrum& wavelengths_nm) {
   SampledSpectrum sum;
@@ -38,17 +35,6 @@ Choice choose(const MixtureMaterial& material, const SampledSpectrum& wavelength
     left -= weight[hero];
   }
   return choice;
-}
-
-SampledSpectrum delta_power(const Bsdf& part, const Imath::V3f& wo, bool through) {
-  return visit_model(
-      [&](const auto& model) {
-        if constexpr (requires { model.delta_power(wo, through); })
-          return model.delta_power(wo, through);
-        else
-          return SampledSpectrum();
-      },
-      part);
 }
 
 }  // namespace
@@ -98,29 +84,35 @@ SampledSpectrum MixtureBsdf::delta_probability(const Imath::V3f& wo) const {
   return quotient(weighted, total_weight(*material_, wavelengths_nm_));
 }
 
+SampledSpectrum MixtureBsdf::delta_power(const Imath::V3f& wo, bool through) const {
+  SampledSpectrum power;
+  for (const MixtureMaterial::Component& component : material_->components)
+    power += component.weight(wavelengths_nm_) *
+             abbe::delta_power(make_bsdf(*component.material, at()), wo, through);
+  return power;
+}
+
 // Light enters no part, so that none scales what passes.
 std::optional<MuellerMatrix> MixtureBsdf::mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                   bool delta) const {
-  SampledSpectrum total;
-  std::optional<MuellerMatrix> sum;
+  MuellerMean<SampledSpectrum> mean;
+  std::optional<Imath::V3f> axis;
   for (const MixtureMaterial::Component& component : material_->components) {
     const Bsdf part = make_bsdf(*component.material, at());
     const SampledSpectrum power =
-        component.weight(wavelengths_nm_) *
-        (delta ? delta_power(part, wo, wo.z * wi.z < 0) : abbe::eval(part, wo, wi, TransportMode::power));
-    total += power;
-    const auto own = power.is_zero() ? std::nullopt : abbe::mueller(part, wo, wi, delta);
-    if (!own) continue;
-    if (!sum) sum = {own->axis, {}, {}, {}, {}};
-    sum->d += power * own->d;
-    sum->p += power * own->p;
-    sum->c += power * own->c;
-    sum->s += power * own->s;
+        component.weight(wavelengths_nm_) * (delta ? abbe::delta_power(part, wo, wo.z * wi.z < 0)
+                                                   : abbe::eval(part, wo, wi, TransportMode::power));
+    if (power.is_zero()) continue;
+    const auto own = abbe::mueller(part, wo, wi, delta);
+    if (own)
+      mean.add(power, {own->d, own->p, own->c, own->s});
+    else
+      mean.add_unpolarised(power);
+    if (own && !axis) axis = own->axis;
   }
-  if (sum)
-    for (SampledSpectrum* element : {&sum->d, &sum->p, &sum->c, &sum->s})
-      *element = quotient(*element, total);
-  return sum;
+  if (!axis) return std::nullopt;
+  const MuellerElements<SampledSpectrum> elements = mean.mean();
+  return MuellerMatrix{*axis, elements.d, elements.p, elements.c, elements.s};
 }
 
 }  // namespace abbe

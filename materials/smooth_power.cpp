@@ -119,34 +119,22 @@ struct SmoothMuellerOf {
   SmoothMueller operator()(const MediumMaterial& /*boundary*/) const { return {}; }
   // The mean over the parts, by the power that each sends that way.
   SmoothMueller operator()(const MixtureMaterial& mixture) const {
-    SmoothMueller sum{{kUnpolarised, kUnpolarised}};
-    double reflected = 0;
-    double through = 0;
+    MuellerMean<double> reflected;
+    MuellerMean<double> through;
     for (const MixtureMaterial::Component& component : mixture.components) {
       const auto power = smooth_power(*component.material, at);
       if (!power) continue;
       const double weight = component.weight(at.wavelength_nm);
       const MuellerBothWays<double> part = smooth_mueller(*component.material, at)->ways;
-      add(part.reflected, weight * power->R(), sum.ways.reflected, reflected);
-      add(part.through, weight * power->transmitted(), sum.ways.through, through);
+      reflected.add(weight * power->R(), part.reflected);
+      through.add(weight * power->transmitted(), part.through);
     }
-    scale(sum.ways.reflected, reflected);
-    scale(sum.ways.through, through);
-    return sum;
+    return {{reflected.mean(), through.mean()}};
   }
   template <typename Spread>
   SmoothMueller operator()(const Spread&) const {
     static_assert(!Spread::lobes().delta);
     return {};
-  }
-
-  using Elements = MuellerElements<double>;
-  static void add(const Elements& part, double power, Elements& sum, double& total) {
-    sum = {sum.d + power * part.d, sum.p + power * part.p, sum.c + power * part.c, sum.s + power * part.s};
-    total += power;
-  }
-  static void scale(Elements& sum, double total) {
-    if (total > 0) sum = {sum.d / total, sum.p / total, sum.c / total, sum.s / total};
   }
 };
 

@@ -22,18 +22,26 @@
 namespace abbe {
 
 /// What every scattering model has: `sample`; `index_inside`, of the matter behind a surface that lets light
-/// in, relative to what is outside, at one lane, 1 for the others; and whether it `kScatters`, in more than
-/// single directions, for which it then has `eval` and `pdf`.
+/// in, relative to what is outside, at one lane, 1 for the others; whether it `kScatters`, in more than
+/// single directions, for which it then has `eval` and `pdf`; and whether it sends light in single
+/// directions, `kDelta`, for which it has `delta_probability` and `delta_power`.
 template <typename Model>
 concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const BsdfRandom& u) {
   { model.sample(w, u, 0, TransportMode::radiance) } -> std::same_as<std::optional<BsdfSample>>;
   { model.index_inside(0) } -> std::same_as<float>;
   { Model::kScatters } -> std::same_as<const bool&>;
+  { Model::kDelta } -> std::same_as<const bool&>;
 }
-&&(!Model::kScatters || requires(const Model& model, const Imath::V3f& w) {
-  { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
-  { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
-});
+&&(Model::kScatters || Model::kDelta) &&
+    (!Model::kScatters ||
+     requires(const Model& model, const Imath::V3f& w) {
+       { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
+       { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
+     }) &&
+    (!Model::kDelta || requires(const Model& model, const Imath::V3f& w) {
+      { model.delta_probability(w) } -> std::same_as<SampledSpectrum>;
+      { model.delta_power(w, true) } -> std::same_as<SampledSpectrum>;
+    });
 
 /// The closed list of scattering models, evaluated at one packet of wavelengths. A new model is a file pair
 /// and an entry here; the statistical tests iterate the list.
@@ -93,21 +101,36 @@ template <typename Visitor>
 [[nodiscard]] inline SampledSpectrum delta_probability(const Bsdf& bsdf, const Imath::V3f& wo) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (requires { model.delta_probability(wo); })
+        if constexpr (Model::kDelta)
           return model.delta_probability(wo);
         else
-          return SampledSpectrum(Model::kScatters ? 0.0F : 1.0F);
+          return SampledSpectrum();
+      },
+      bsdf);
+}
+
+/// Share of the unpolarised light from `wo` that leaves in a single direction, lane by lane: through the
+/// surface, or on the side that it came from.
+[[nodiscard]] inline SampledSpectrum delta_power(const Bsdf& bsdf, const Imath::V3f& wo, bool through) {
+  return visit_model(
+      [&]<typename Model>(const Model& model) {
+        if constexpr (Model::kDelta)
+          return model.delta_power(wo, through);
+        else
+          return SampledSpectrum();
       },
       bsdf);
 }
 
 /// The density of a delta event of `bsdf`, lane by lane, that is the same whichever of its two ways light
-/// takes: its probability. Films that absorb let light through with a probability that depends on the side it
-/// comes from; the transmittance, which does not, stands there for both. `squared_eta` is the square of the
-/// index it goes on in over that it came in.
+/// takes: its probability. Films that absorb, in a mixture too, let light through with a probability that
+/// depends on the side it comes from; the transmittance, which does not, stands there for both. `squared_eta`
+/// is the square of the index it goes on in over that it came in.
 [[nodiscard]] inline SampledSpectrum delta_density(const Bsdf& bsdf, const BsdfSample& event,
                                                    float squared_eta, TransportMode mode) {
-  if (event.transmitted && std::holds_alternative<CoatedDielectricBsdf>(bsdf))
+  const bool may_be_film =
+      std::holds_alternative<CoatedDielectricBsdf>(bsdf) || std::holds_alternative<MixtureBsdf>(bsdf);
+  if (event.transmitted && may_be_film)
     return event.weight * (event.pdf * (mode == TransportMode::radiance ? squared_eta : 1));
   return event.lane_pdf * event.pdf;
 }

@@ -3,6 +3,7 @@
 
 #include "materials/bsdf/coated.h"
 #include "materials/bsdf/mirror.h"
+#include "materials/interface/quotient.h"
 
 namespace abbe {
 namespace {
@@ -16,26 +17,22 @@ struct Powers {
   SampledSpectrum R, T;
 };
 
-Powers all_lanes(const CoatingAt& at, const SampledSpectrum& n, float cos_i, bool inside) {
+Powers all_lanes(const CoatingAt& at, const SampledSpectrum& n, const SampledSpectrum& k, float cos_i,
+                 bool inside) {
   SampledSpectrum::Values R, T;
   for (int lane = 0; lane < kLanes; ++lane) {
-    const FresnelPower<float> f = at.power(lane, n[lane], 0, cos_i, inside);
+    const FresnelPower<float> f = at.power(lane, n[lane], k[lane], cos_i, inside);
     R[static_cast<std::size_t>(lane)] = f.R();
     T[static_cast<std::size_t>(lane)] = f.transmitted();
   }
   return {SampledSpectrum(R), SampledSpectrum(T)};
 }
 
-// The share of `part` in `all`: the probability of its event.
-float share(float part, float all) {
-  return all > 0 ? part / all : 0.0F;
-}
-
 // An event that all lanes could have drawn, each with the share of `part` in R + T, and which the hero drew
 // with `probability`.
 BsdfSample together(const Imath::V3f& wi, const SampledSpectrum& part, const Powers& powers, int hero,
                     float probability) {
-  const SampledSpectrum shares = SampledSpectrum::map(part, powers.R + powers.T, share);
+  const SampledSpectrum shares = quotient(part, powers.R + powers.T);
   return {.wi = wi,
           .weight = part * (1 / probability),
           .lane_pdf = shares * (1 / shares[hero]),
@@ -55,9 +52,9 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
   const auto [n, k, dispersive] = relative_index(*index, outside, wavelengths_nm);
   const CoatingAt at(*coating, wavelengths_nm, outside);
   const FresnelPower<float> f = at.power(hero, n[hero], 0, cos_i, inside);
-  const float mirrors = share(f.R(), f.R() + f.transmitted());
+  const float mirrors = quotient(f.R(), f.R() + f.transmitted());
   if (u.lobe < mirrors) {
-    const Powers powers = all_lanes(at, n, cos_i, inside);
+    const Powers powers = all_lanes(at, n, {}, cos_i, inside);
     return together(mirrored(wo), powers.R, powers, hero, mirrors);
   }
   if (!(f.transmitted() > 0)) return std::nullopt;
@@ -71,12 +68,19 @@ std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, con
          .delta = true};
     s = only_lane(s, hero);
   } else {
-    const Powers powers = all_lanes(at, n, cos_i, inside);
+    const Powers powers = all_lanes(at, n, {}, cos_i, inside);
     s = together(wi, powers.T, powers, hero, 1 - mirrors);
   }
   s.weight *= refraction_scale(eta, mode);
   s.transmitted = true;
   return s;
+}
+
+SampledSpectrum CoatedDielectricBsdf::delta_power(const Imath::V3f& wo, bool through) const {
+  const SampledSpectrum n = relative_index(*index, outside, wavelengths_nm).n;
+  const CoatingAt at(*coating, wavelengths_nm, outside);
+  const Powers powers = all_lanes(at, n, {}, cosine_of(wo), wo.z < 0);
+  return through ? powers.T : powers.R;
 }
 
 std::optional<BsdfSample> CoatedConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/,
@@ -89,11 +93,7 @@ SampledSpectrum CoatedConductorBsdf::delta_power(const Imath::V3f& wo, bool thro
   if (through) return {};
   const CoatingAt at(*coating, wavelengths_nm, outside);
   const RelativeIndex relative = relative_index(*index, outside, wavelengths_nm);
-  SampledSpectrum::Values R;
-  for (int lane = 0; lane < kLanes; ++lane)
-    R[static_cast<std::size_t>(lane)] =
-        at.power(lane, relative.n[lane], relative.k[lane], cosine_of(wo), false).R();
-  return SampledSpectrum(R);
+  return all_lanes(at, relative.n, relative.k, cosine_of(wo), false).R;
 }
 
 }  // namespace abbe

@@ -12,6 +12,7 @@ namespace abbe {
 /// packet `wavelengths_nm`.
 struct CoatedDielectricBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
@@ -20,6 +21,10 @@ struct CoatedDielectricBsdf {
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
+  }
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] float index_inside(int lane) const {
     return relative_index(*index, outside, wavelengths_nm).n[lane];
   }
@@ -28,6 +33,7 @@ struct CoatedDielectricBsdf {
 /// Smooth conductor under thin films.
 struct CoatedConductorBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
@@ -36,6 +42,9 @@ struct CoatedConductorBsdf {
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
+  }
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };

@@ -16,6 +16,7 @@ namespace abbe {
 /// diffuse light from within. Energy is kept for rho = 1. [Saunderson1942]
 struct CoatedDiffuseBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum n;       ///< Of the coat, relative to the outside, 1 or more.
   SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).

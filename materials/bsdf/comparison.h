@@ -14,6 +14,7 @@ namespace abbe {
 /// The ideal mirror R/cos delta, of the same reflectance at every angle. [Marschner2021, sec. 14.1]
 struct MirrorBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum reflectance;
 
@@ -21,6 +22,9 @@ struct MirrorBsdf {
                                                  TransportMode /*mode*/) const {
     if (wo.z == 0) return std::nullopt;
     return BsdfSample{.wi = mirrored(wo), .weight = reflectance, .pdf = 1, .delta = true};
+  }
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
   }
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& /*wo*/, bool through) const {
     return through ? SampledSpectrum() : reflectance;
@@ -31,6 +35,7 @@ struct MirrorBsdf {
 /// A smooth surface by Schlick's approximation in place of Fresnel's equations. [Schlick1994]
 struct SchlickBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum r0;  ///< Reflectance along the normal.
 
@@ -38,6 +43,9 @@ struct SchlickBsdf {
                                                  TransportMode /*mode*/) const {
     if (wo.z == 0) return std::nullopt;
     return BsdfSample{.wi = mirrored(wo), .weight = delta_power(wo, false), .pdf = 1, .delta = true};
+  }
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
   }
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const {
     if (through) return {};

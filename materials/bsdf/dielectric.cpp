@@ -8,6 +8,11 @@
 namespace abbe {
 namespace {
 
+// What the surface of matter of relative index n does to light from wo.
+FresnelPower<float> fresnel(const Imath::V3f& wo, float n) {
+  return fresnel_dielectric(std::min(std::abs(wo.z), 1.0F), wo.z < 0 ? 1 / n : n);
+}
+
 // Reflection leaves in the same direction at every wavelength, so the packet stays together: each lane would
 // have drawn it with its own reflectance as probability, and carries that share.
 BsdfSample reflected(const Imath::V3f& wo, const SampledSpectrum& ratio, float probability) {
@@ -28,23 +33,26 @@ BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float e
 }  // namespace
 
 float DielectricBsdf::reflectance(const Imath::V3f& wo, int lane) const {
-  return fresnel_dielectric(std::min(std::abs(wo.z), 1.0F), eta(wo, lane)).R();
+  return fresnel(wo, n[lane]).R();
 }
 
 std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const {
   if (wo.z == 0) return std::nullopt;
-  const float cos_i = std::min(std::abs(wo.z), 1.0F);
-  const bool inside = wo.z < 0;
-  const auto fresnel = [&](float n) { return fresnel_dielectric(cos_i, inside ? 1 / n : n); };
-  const FresnelPower<float> f = fresnel(n[hero]);
+  const FresnelPower<float> f = fresnel(wo, n[hero]);
   if (u.lobe >= f.R()) {
     const BsdfSample s = refracted(wo, f, eta(wo, hero), mode);
     return dispersive ? only_lane(s, hero) : s;
   }
   if (!dispersive) return reflected(wo, SampledSpectrum(1), f.R());
-  return reflected(wo, SampledSpectrum::map(n, [&](float lane_n) { return fresnel(lane_n).R() / f.R(); }),
-                   f.R());
+  return reflected(wo, delta_power(wo, false) / SampledSpectrum(f.R()), f.R());
+}
+
+SampledSpectrum DielectricBsdf::delta_power(const Imath::V3f& wo, bool through) const {
+  return SampledSpectrum::map(n, [&](float lane_n) {
+    const FresnelPower<float> f = fresnel(wo, lane_n);
+    return through ? f.transmitted() : f.R();
+  });
 }
 
 }  // namespace abbe

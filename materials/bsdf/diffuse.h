@@ -12,6 +12,7 @@ namespace abbe {
 /// Lambertian reflection on the side of the normal `wo` is on; both sides alike.
 struct DiffuseBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
 
   SampledSpectrum reflectance;
 

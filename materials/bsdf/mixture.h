@@ -16,6 +16,7 @@ struct MixtureMaterial;
 class MixtureBsdf {
  public:
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = true;
 
   MixtureBsdf(const MixtureMaterial& material, const SurfaceLookup& at)
       : material_(&material), wavelengths_nm_(at.wavelengths_nm), uv_(at.uv), outside_(at.outside) {}
@@ -25,6 +26,7 @@ class MixtureBsdf {
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
   [[nodiscard]] SampledSpectrum delta_probability(const Imath::V3f& wo) const;
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   /// What `mueller` says of it: the mean over the parts by the power that each sends from wo to wi.
   [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                      bool delta) const;

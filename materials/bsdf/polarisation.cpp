@@ -89,10 +89,10 @@ struct MuellerOf {
 
   Matrix operator()(const MixtureBsdf& mixture) const { return mixture.mueller(wo, wi, delta); }
 
-  // All that is left depolarises. What sends light on in single directions alone must say what it does.
+  // All that is left depolarises. What sends light on in single directions must say what it does.
   template <typename Other>
   Matrix operator()(const Other&) const {
-    static_assert(Other::kScatters);
+    static_assert(!Other::kDelta);
     return std::nullopt;
   }
 

@@ -15,6 +15,7 @@ namespace abbe {
 template <bool BothWays>
 struct CosinePowerBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
   static constexpr bool kReciprocal = BothWays;
 
   SampledSpectrum reflectance;
@@ -32,6 +33,7 @@ struct CosinePowerBsdf {
 /// leaves than arrives, without bound. [Phong1975]
 struct PhongBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
   static constexpr bool kReciprocal = false;
   static constexpr bool kConserving = false;
 
@@ -50,6 +52,7 @@ struct PhongBsdf {
 /// these meet: C (n + 2)/(2 pi) makes it rho there. [Marschner2021, ch. 14, exercises]
 struct RetroreflectorBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
 
   SampledSpectrum reflectance;
   float exponent;  ///< In [0, 1e4].

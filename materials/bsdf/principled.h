@@ -66,6 +66,7 @@ class Principled {
 /// as it is where both directions conserve energy, makes all do so, and keeps it reciprocal.
 struct PrincipledBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
 
   SampledSpectrum base;  ///< In [0, 1].
   const Principled* look;

@@ -37,6 +37,7 @@ struct RoughInterface {
 /// reflectance averaged over the hemisphere. Reciprocal.
 struct RoughConductorBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
 
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
@@ -61,6 +62,7 @@ struct RoughConductorBsdf {
 /// n = 1 single transmission keeps its masking: the surface does not fade away as a real one does.
 struct RoughDielectricBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
 
   SampledSpectrum n;
   const RoughInterface* surface;

@@ -11,6 +11,7 @@ namespace abbe {
 /// for it: white matter returns all. [Portsmouth2025]
 struct OrenNayarBsdf {
   static constexpr bool kScatters = true;
+  static constexpr bool kDelta = false;
 
   SampledSpectrum reflectance;
   float roughness;  ///< In [0, 1]; 0 is Lambert's.

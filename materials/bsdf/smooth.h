@@ -10,12 +10,17 @@ namespace abbe {
 /// outside.
 struct DielectricBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum n;
   bool dispersive;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
+  }
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
   /// The index of the other side over that of the side of `wo`.
   [[nodiscard]] float eta(const Imath::V3f& wo, int lane) const { return wo.z < 0 ? 1 / n[lane] : n[lane]; }
@@ -26,12 +31,16 @@ struct DielectricBsdf {
 /// Smooth conductor, opaque, reflecting on both sides.
 struct ConductorBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum n;
   SampledSpectrum k;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
+  }
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };

@@ -14,6 +14,7 @@ namespace abbe {
 /// What all of them are to light that is not polarised.
 struct ThinElement {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum transmittance;  ///< Of unpolarised light.
 
@@ -21,6 +22,9 @@ struct ThinElement {
                                                  TransportMode /*mode*/) const {
     if (wo.z == 0) return std::nullopt;
     return BsdfSample{.wi = -wo, .weight = transmittance, .pdf = 1, .delta = true, .transmitted = true};
+  }
+  [[nodiscard]] static SampledSpectrum delta_probability(const Imath::V3f& /*wo*/) {
+    return SampledSpectrum(1);
   }
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& /*wo*/, bool through) const {
     return through ? transmittance : SampledSpectrum();

@@ -10,6 +10,7 @@ namespace abbe {
 /// or passes straight on. All wavelengths go the same ways.
 struct ThinGlassBsdf {
   static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
   SampledSpectrum n;      ///< Relative to the outside.
   SampledSpectrum depth;  ///< -ln a of the passage along the normal.

@@ -6,6 +6,7 @@
 #include <ImathVec.h>
 
 #include "materials/interface/complex.h"
+#include "materials/interface/quotient.h"
 #include "spectral/packet.h"
 
 namespace abbe {
@@ -34,6 +35,31 @@ template <typename T>
   if (!(sum > T(0))) return {};
   return {(S - P) / sum, T(1), T(2) * sp.re / sum, T(2) * sp.im / sum};
 }
+
+/// The mean of the matrices about one axis of what sends light the same way, by the power that each sends of
+/// unpolarised light. The elements of a sum of no power are 0, as of what depolarises.
+template <typename T>
+class MuellerMean {
+ public:
+  void add(const T& power, const MuellerElements<T>& part) {
+    sum_.d += power * part.d;
+    sum_.p += power * part.p;
+    sum_.c += power * part.c;
+    sum_.s += power * part.s;
+    add_unpolarised(power);
+  }
+  /// A part that depolarises.
+  void add_unpolarised(const T& power) { power_ += power; }
+
+  [[nodiscard]] MuellerElements<T> mean() const {
+    return {quotient(sum_.d, power_), quotient(sum_.p, power_), quotient(sum_.c, power_),
+            quotient(sum_.s, power_)};
+  }
+
+ private:
+  MuellerElements<T> sum_{T(0), T(0), T(0), T(0)};
+  T power_{0};
+};
 
 /// What an event does to polarised light over what it does to unpolarised light, lane by lane: Mueller's
 /// matrix over its first element,

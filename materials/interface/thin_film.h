@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -17,6 +19,8 @@ template <typename T>
 struct FilmLayer {
   T eta, k;     ///< Its index relative to n_i: eta + ik, k >= 0 absorbing.
   T thickness;  ///< In wavelengths of the medium of incidence: n_i d / lambda.
+
+  [[nodiscard]] bool operator==(const FilmLayer&) const = default;
 };
 
 /// Coherent layers on a substrate of relative index eta + ik, hit at cos_i in [0, 1]; `layers` from the side
@@ -59,7 +63,7 @@ struct Fields {
   T scale;  ///< They are this times those which 1 leaves in the substrate.
 };
 
-/// `at` carried through a layer to its other side; `decay` is e^(-Im d).
+/// `at` carried through a layer to its other side; see `Crossing`.
 template <typename T>
 void cross(Fields<T>& at, const Matrix<T>& m, const T& decay) {
   using std::abs;
@@ -88,6 +92,37 @@ std::pair<T, T> powers(const Fields<T>& at, const T& kappa_i, const T& kappa_t) 
   return {norm(waves.reflected) / incident, T(4) * kappa_i * kappa_t * (at.scale * at.scale / incident)};
 }
 
+/// What a layer does to both polarisations; `decay` is e^(-Im d).
+template <typename T>
+struct Crossing {
+  Matrix<T> s, p;
+  T decay;
+};
+template <typename T>
+Crossing<T> crossing_of(const T& cos_i, const FilmLayer<T>& layer) {
+  using std::cos;
+  using std::exp;
+  using std::expm1;
+  using std::sin;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Complex<T> q = normal_component(cos_i, layer.eta, layer.k);
+  const T length = T(kTurn) * layer.thickness;
+  const T phase = length * q.re;
+  const T loss = length * q.im;
+  const bool decays = loss > T(0);  // most layers do not, and exponentials cost
+  const T decay = decays ? exp(-loss) : T(1);
+  const T even = (T(1) + decay * decay) * T(0.5);  // cosh and sinh times e^-loss
+  const T odd = decays ? expm1(T(-2) * loss) * T(-0.5) : T(0);
+  const T c = cos(phase);
+  const T d = sin(phase);
+  const Complex<T> cosine{c * even, -d * odd};
+  const Complex<T> sine{d * even, c * odd};
+  // At the critical angle of a layer q is 0 and sin(length q)/q its length.
+  const Complex<T> over = norm(q) > T(0) ? sine / q : Complex<T>{length, T(0)};
+  const Complex<T> eps = square(layer.eta, layer.k);
+  return {{cosine, over, sine * q}, {cosine, over * eps, sine * q / eps}, decay};
+}
+
 /// Both polarisations at the first boundary, and what they are to the substrate.
 template <typename T>
 struct Stack {
@@ -96,11 +131,6 @@ struct Stack {
 };
 template <typename T>
 Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
-  using std::cos;
-  using std::exp;
-  using std::expm1;
-  using std::sin;
-  constexpr double kTurn = 2 * std::numbers::pi;
   const Complex<T> one{T(1), T(0)};
   const Complex<T> q_t = normal_component(cos_i, eta, k);
   const Complex<T> eps_t = square(eta, k);
@@ -109,24 +139,12 @@ Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& et
   const Complex<T> p_t = closed ? Complex<T>{T(0), T(0)} : q_t / eps_t;
   Fields<T> s{one, q_t, T(1)};
   Fields<T> p = closed ? Fields<T>{p_t, one, T(1)} : Fields<T>{one, p_t, T(1)};
-  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
-    const Complex<T> q = normal_component(cos_i, layer->eta, layer->k);
-    const T length = T(kTurn) * layer->thickness;
-    const T phase = length * q.re;
-    const T loss = length * q.im;
-    const bool decays = loss > T(0);  // most layers do not, and exponentials cost
-    const T decay = decays ? exp(-loss) : T(1);
-    const T even = (T(1) + decay * decay) * T(0.5);  // cosh and sinh times e^-loss
-    const T odd = decays ? expm1(T(-2) * loss) * T(-0.5) : T(0);
-    const T c = cos(phase);
-    const T d = sin(phase);
-    const Complex<T> cosine{c * even, -d * odd};
-    const Complex<T> sine{d * even, c * odd};
-    // At the critical angle of a layer q is 0 and sin(length q)/q its length.
-    const Complex<T> over = norm(q) > T(0) ? sine / q : Complex<T>{length, T(0)};
-    const Complex<T> eps = square(layer->eta, layer->k);
-    cross(s, {cosine, over, sine * q}, decay);
-    cross(p, {cosine, over * eps, sine * q / eps}, decay);
+  std::array<Crossing<T>, 2> last;  // of the two layers crossed last, as mirrors repeat the layer before one
+  for (std::size_t i = layers.size(); i-- > 0;) {
+    Crossing<T>& at = last[i % 2];
+    if (i + 2 >= layers.size() || layers[i] != layers[i + 2]) at = crossing_of(cos_i, layers[i]);
+    cross(s, at.s, at.decay);
+    cross(p, at.p, at.decay);
   }
   return {s, p, q_t, p_t};
 }

@@ -236,8 +236,9 @@ inline std::vector<DepolariserBsdf> examples() {
   return {{{SampledSpectrum(1)}}, {{ramp(0, 0.9F)}}};
 }
 
-// A mirror, Lambert's matter and rougher; a sheet of glass with holes and spots. Of each only one reflects in
-// a single direction, so that its way back is told from others'.
+// A mirror, Lambert's matter and rougher; a sheet of glass with holes and spots; a spotted film, which
+// absorbs more from one side. Of each only one reflects in a single direction, so that its way back is told
+// from others'.
 inline const std::vector<MixtureMaterial>& mixtures() {
   const auto part = [](double red, double blue, MaterialModel model) {
     return MixtureMaterial::Component{Curve({{390, blue}, {770, red}}),
@@ -247,7 +248,8 @@ inline const std::vector<MixtureMaterial>& mixtures() {
       {{part(0.2, 0.5, MirrorMaterial{Curve(0.8)}), part(0.8, 0.1, OrenNayarMaterial{Curve(0.7), 30}),
         part(0, 0.4, DiffuseMaterial{Curve(1.0)})}},
       {{part(0.3, 0.2, DiffuseMaterial{Curve(0.5)}),
-        part(0.5, 0.8, ThinGlassMaterial{"1.5", RefractiveIndex(1.5)})}}};
+        part(0.5, 0.8, ThinGlassMaterial{"1.5", RefractiveIndex(1.5)})}},
+      {{part(0.3, 0.2, DiffuseMaterial{Curve(0.5)}), part(0.5, 0.8, FilmMaterial{absorbing_film()})}}};
   return all;
 }
 template <>

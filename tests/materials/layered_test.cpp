@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "materials/interface/fresnel.h"
 #include "materials/interface/hemispherical.h"
 #include "materials/material.h"
+#include "tests/angles.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/hemisphere.h"
+#include "tests/materials/index_of.h"
 
 namespace abbe {
 namespace {
@@ -157,6 +161,21 @@ TEST(SchlickBsdf, IsTheNamedApproximation) {
   const auto s = SchlickBsdf{SampledSpectrum(0.04F)}.sample(direction(0.5, 0), {}, 0, TransportMode::power);
   ASSERT_TRUE(s && s->delta);
   EXPECT_NEAR(s->weight[0], 0.07, 1e-6);
+}
+
+// The figure of docs/materials.md, the largest over all wavelengths and angles.
+TEST(SchlickBsdf, IsOffByTheFigureOfTheDocsForAluminium) {
+  const RefractiveIndex aluminium = index_of("Al_Rakic");
+  double largest = 0;
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
+    for (int degrees = 0; degrees <= 90; ++degrees) {
+      const auto exact = [&](double cos_i) {
+        return fresnel_conductor(cos_i, aluminium.n(nm), aluminium.k(nm)).R();
+      };
+      const double cos_i = std::cos(degrees * kDegree);
+      largest = std::max(largest, std::abs(schlick(cos_i, exact(1)) - exact(cos_i)));
+    }
+  EXPECT_NEAR(largest, 0.19, 0.005);
 }
 
 }  // namespace

@@ -98,6 +98,23 @@ TYPED_TEST(BsdfLaws, DeltaProbabilityIsTheShareOfDeltaEvents) {
   });
 }
 
+// The other lanes come along unless the event is dispersive.
+TYPED_TEST(BsdfLaws, DeltaPowerIsWhatDeltaEventsCarry) {
+  Uniform random(8);
+  this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
+    for (int i = 0; i < 40; ++i) {
+      const int hero = i % kLanes;
+      const auto event = sample(bsdf, wo, random.event(), hero, TransportMode::power);
+      if (!event || !event->delta) continue;
+      ASSERT_TRUE(TypeParam::kDelta);
+      const SampledSpectrum told = delta_power(bsdf, wo, event->transmitted);
+      const SampledSpectrum carried = event->weight * event->pdf;
+      for (int lane = 0; lane < kLanes; ++lane)
+        EXPECT_NEAR(carried[lane], lane == hero || !event->dispersive ? told[lane] : 0, 1e-5);
+    }
+  });
+}
+
 TYPED_TEST(BsdfLaws, SamplesAreSound) {
   Uniform random(1);
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
