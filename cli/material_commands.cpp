@@ -45,7 +45,8 @@ Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, cons
 
 void add_material_queries(CLI::App& query, Command& command) {
   const Sub<IndexOptions> ior =
-      add_index_query(query, "ior", "Refractive index n + ik as catalogued", command, query_ior);
+      add_index_query(query, "ior", "Refractive index n + ik as catalogued; k is - where it is not measured",
+                      command, query_ior);
   add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
              "Also tell the internal transmittance of that many millimetres", "MM");
   add_index_query(query, "critical",
@@ -65,7 +66,7 @@ void add_material_queries(CLI::App& query, Command& command) {
              "Angles of incidence (default 0)", "DEG[,DEG...]");
   reflectance.app
       ->add_option("--coating", reflectance->coating,
-                   "Thin films on it, from outside inwards; T is then told too")
+                   "Thin films on it, from outside inwards; light then comes from air, and T is told too")
       ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
   add_json_with_arrays(*reflectance.app, reflectance->json, reflectance->arrays);
 

@@ -15,7 +15,8 @@ namespace abbe::cli {
 
 /// Questions about data and closed forms. Indices are the numbers as catalogued, at wavelengths the table
 /// covers; a name that is not found throws Error{input} with the nearest one, a wavelength outside the table
-/// Error{usage}. Each prints its answer and returns the exit code.
+/// Error{usage}, as does one at which k is not measured where an answer hangs on it. Each prints its answer
+/// and returns the exit code.
 
 /// `query ior`, `query critical`, `query brewster`.
 struct IndexOptions {
@@ -26,7 +27,7 @@ struct IndexOptions {
   bool arrays = false;                      ///< Lists of wavelengths stay lists where they hold only one.
 };
 /// Prints the index n + ik as catalogued. With a thickness d, also the share of the light between two faces
-/// that reaches the second: exp(-4 pi k d / lambda).
+/// that reaches the second: exp(-4 pi k d / lambda). That and k are null where k is not measured.
 int query_ior(const IndexOptions& options);
 /// Angle of total reflection against an index of 1 outside; null where n <= 1, and where the material absorbs
 /// so much, 4 pi k >= 1, that no wave goes on within for a wavelength, as in metals.
@@ -35,9 +36,9 @@ int query_critical(const IndexOptions& options);
 /// absorbs the pseudo-Brewster angle, where it is not.
 int query_brewster(const IndexOptions& options);
 
-/// `query reflectance`: of a polished surface, perhaps under thin films, for light from air; with the phases
-/// of the reflected fields, which go as exp(-i omega t) and of which that in the plane of incidence has the
-/// sign of `FresnelAmplitudes`.
+/// `query reflectance`: of a polished surface for light from what its index is relative to, or, under thin
+/// films, which may differ in that, from air; with the phases of the reflected fields, which go as
+/// exp(-i omega t) and of which that in the plane of incidence has the sign of `FresnelAmplitudes`.
 struct ReflectanceOptions {
   std::string name;
   std::vector<double> at_nm;

@@ -25,6 +25,13 @@ NamedIndex find(const std::string& name, const std::vector<double>& at_nm) {
   return found;
 }
 
+// The same, to tell what its surface reflects.
+NamedIndex find_surface(const std::string& name, const std::vector<double>& at_nm) {
+  NamedIndex found = find(name, at_nm);
+  require_k_at(found, at_nm, "--at");
+  return found;
+}
+
 // One value per wavelength.
 template <typename F>
 Json each(const std::vector<double>& at_nm, F value) {
@@ -51,8 +58,9 @@ Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   answer["name"] = material.name;
   answer["medium"] = medium_of(material);
   answer["wavelength_nm"] = options.at_nm;
-  answer["angle_deg"] = each(
-      options.at_nm, [&](double nm) { return angle(material.index.catalogued_n(nm), material.index.k(nm)); });
+  answer["angle_deg"] = each(options.at_nm, [&](double nm) {
+    return angle(material.index.catalogued_n(nm), material.index.catalogued_k(nm));
+  });
   return answer;
 }
 
@@ -93,7 +101,7 @@ Coating parse_coating(const std::string& text, const std::vector<double>& at_nm)
       throw Error(ErrorCode::usage, "--coating",
                   fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES, of {} nm", text,
                               Coating::kMaxMaterials, kFilmThickness.text()));
-    NamedIndex material = find(layer.substr(0, colon), at_nm);
+    NamedIndex material = find_surface(layer.substr(0, colon), at_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), *thickness});
     coating.materials.push_back({std::move(material.name), std::move(material.index)});
   }
@@ -104,11 +112,14 @@ struct ReflectedFromAir {
   FresnelPower<double> power;
   FilmReflection<double> amplitudes;
 };
+// Light comes from what the catalogued index is relative to; to a coated surface from air, as its layers may
+// be catalogued against another.
 ReflectedFromAir reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
                                   double angle_deg) {
   const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);
-  const double n = index.catalogued_n(nm);
-  const double k = index.k(nm);
+  const bool bare = coating.layers.empty();
+  const double n = bare ? index.catalogued_n(nm) : index.n(nm);
+  const double k = bare ? index.catalogued_k(nm) : index.k(nm);
   return {coated_power(coating, nm, n, k, cos_i, false), coated_reflection(coating, nm, n, k, cos_i, false)};
 }
 
@@ -128,9 +139,13 @@ int query_ior(const IndexOptions& options) {
   answer["medium"] = medium_of(material);
   answer["wavelength_nm"] = options.at_nm;
   answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
-  answer["k"] = each(options.at_nm, [&](double nm) { return material.index.k(nm); });
+  const auto where_k_is_known = [&](auto quantity) {
+    return each(options.at_nm,
+                [&](double nm) { return material.index.knows_k(nm) ? Json(quantity(nm)) : Json(); });
+  };
+  answer["k"] = where_k_is_known([&](double nm) { return material.index.catalogued_k(nm); });
   if (options.thickness_mm)
-    answer["internal_transmittance"] = each(options.at_nm, [&](double nm) {
+    answer["internal_transmittance"] = where_k_is_known([&](double nm) {
       return std::exp(-material.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
     });
   return print_material_answer(answer, options);
@@ -143,13 +158,13 @@ int query_critical(const IndexOptions& options) {
     const bool is_wave = 4 * std::numbers::pi * k < kMostOfWaves;
     return n > 1 && is_wave ? Json(std::asin(1 / n) / kDegree) : Json();
   };
-  return print_material_answer(angles(find(options.name, options.at_nm), options, critical), options);
+  return print_material_answer(angles(find_surface(options.name, options.at_nm), options, critical), options);
 }
 
 int query_brewster(const IndexOptions& options) {
   // A share of the light that is as good as none: what glass reflects for its k.
   constexpr double kNone = 1e-9;
-  const NamedIndex material = find(options.name, options.at_nm);
+  const NamedIndex material = find_surface(options.name, options.at_nm);
   const auto polarising = [](double n, double k) {
     return k > 0 ? least_p_deg(n, k) : std::atan(n) / kDegree;
   };
@@ -164,7 +179,7 @@ int query_brewster(const IndexOptions& options) {
 }
 
 int query_reflectance(const ReflectanceOptions& options) {
-  const NamedIndex material = find(options.name, options.at_nm);
+  const NamedIndex material = find_surface(options.name, options.at_nm);
   const Coating coating = parse_coating(options.coating, options.at_nm);
   const auto rows = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
@@ -176,7 +191,7 @@ int query_reflectance(const ReflectanceOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = medium_of(material);
+  answer["medium"] = coating.layers.empty() ? medium_of(material) : "air";
   answer["angle_deg"] = options.angles_deg;
   answer["wavelength_nm"] = options.at_nm;
   answer["Rs"] = rows([](const auto& f) { return f.power.Rs; });
@@ -189,10 +204,10 @@ int query_reflectance(const ReflectanceOptions& options) {
 }
 
 int query_prism(const PrismOptions& options) {
-  const NamedIndex material = find(options.name, options.at_nm);
+  const NamedIndex material = find_surface(options.name, options.at_nm);
   const auto column = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
-      if (material.index.k(nm) > kLargestGlassK) return Json();
+      if (material.index.catalogued_k(nm) > kLargestGlassK) return Json();
       const double n = material.index.catalogued_n(nm);
       const auto passage = options.incidence_deg ? prism_passage(n, options.apex_deg, *options.incidence_deg)
                                                  : prism_minimum(n, options.apex_deg);

@@ -1,6 +1,7 @@
 #include "cli/warnings.h"
 
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -28,11 +29,16 @@ void warn_of_dark_camera(const Scene& scene, bool strict) {
 }
 
 std::optional<std::string> held_index(const Material& material, double wavelength_nm) {
-  for (const IndexUse& use : indices(material))
-    if (const RefractiveIndex& index = *use.index;
-        wavelength_nm < index.low_nm() || wavelength_nm > index.high_nm())
-      return fmt::format("the index of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm",
-                         material.name, index.low_nm(), index.high_nm());
+  const auto held = [&](std::string_view what, const DataRange& data) {
+    return fmt::format("the {} of material \"{}\" is held from the end of its data, [{:g}, {:g}] nm", what,
+                       material.name, data.low_nm, data.high_nm);
+  };
+  for (const IndexUse& use : indices(material)) {
+    const DataRange n{use.index->low_nm(), use.index->high_nm()};
+    if (!n.contains(wavelength_nm)) return held("index", n);
+    const auto& k = use.index->k_range();
+    if (k && !k->contains(wavelength_nm)) return held("extinction", *k);
+  }
   return std::nullopt;
 }
 

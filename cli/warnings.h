@@ -15,8 +15,8 @@ void warn_of_lost_light(const Scene& scene, bool strict);
 /// Warns of a camera that stands within opaque matter where no light is: Error{scene} when `strict`.
 void warn_of_dark_camera(const Scene& scene, bool strict);
 
-/// What is to be said of a material an index of which is held from the end of its data at a wavelength [nm],
-/// if one is.
+/// What is to be said of a material an index of which, or its extinction, is held from the end of its data at
+/// a wavelength [nm], if one is.
 [[nodiscard]] std::optional<std::string> held_index(const Material& material, double wavelength_nm);
 
 /// What is to be said of the first index that a ray of a wavelength [nm] asked for beyond its data, if it

@@ -21,7 +21,8 @@ void check_lamps(const LoadContext& context, const Scene& scene);
 /// that emits, only few float steps large where it stands, and a view of little more than one direction, of
 /// the `camera` said there.
 void check_precision(const SourcePosition& camera, const LoadContext& context, const Scene& scene);
-/// Warns at `where` if this index does not hold for all wavelengths that the sensor sees.
+/// Warns at `where` if this index does not hold for all wavelengths that the sensor sees, and if its k, where
+/// it has one, is not measured for all of these that n is.
 void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
                     Diagnostics& diagnostics);
 /// Warns of every index of a material used beyond the wavelengths it holds for, and refuses what is taken as

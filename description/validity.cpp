@@ -19,12 +19,18 @@ void extend(Support& support, const Curve& curve) {
 void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
                     Diagnostics& diagnostics) {
   const RefractiveIndex& index = *use.index;
-  if (index.low_nm() <= sensor.low && sensor.high <= index.high_nm()) return;
+  const DataRange n{index.low_nm(), index.high_nm()};
+  const auto& k = index.k_range();
+  const bool k_ends_first =
+      k && (std::max(sensor.low, n.low_nm) < k->low_nm || k->high_nm < std::min(sensor.high, n.high_nm));
+  if (n.low_nm <= sensor.low && sensor.high <= n.high_nm && !k_ends_first) return;
   diagnostics.warning(
       where,
-      fmt::format("{} holds on [{:g}, {:g}] nm, the sensor sees [{:g}, {:g}] nm: outside, the index is "
+      fmt::format("{} holds on [{:g}, {:g}] nm{}, the sensor sees [{:g}, {:g}] nm: outside, the index is "
                   "held from the nearer end",
-                  *use.name, index.low_nm(), index.high_nm(), sensor.low, sensor.high));
+                  *use.name, n.low_nm, n.high_nm,
+                  k_ends_first ? fmt::format(", its k on [{:g}, {:g}] nm", k->low_nm, k->high_nm) : "",
+                  sensor.low, sensor.high));
 }
 
 namespace {

@@ -29,6 +29,13 @@ NamedIndex find(const std::string& name, const Numbers& wavelengths_nm) {
   return found;
 }
 
+// The same, to tell what its surface reflects.
+NamedIndex find_surface(const std::string& name, const Numbers& wavelengths_nm) {
+  NamedIndex found = find(name, wavelengths_nm);
+  require_k_at(found, all(wavelengths_nm), "wavelengths_nm");
+  return found;
+}
+
 py::object ior(const std::string& name, const Numbers& wavelengths_nm) {
   const NamedIndex matter = find(name, wavelengths_nm);
   return each(wavelengths_nm, [&](double nm) { return matter.index.catalogued_n(nm); });
@@ -36,7 +43,8 @@ py::object ior(const std::string& name, const Numbers& wavelengths_nm) {
 
 py::object extinction(const std::string& name, const Numbers& wavelengths_nm) {
   const NamedIndex matter = find(name, wavelengths_nm);
-  return each(wavelengths_nm, [&](double nm) { return matter.index.k(nm); });
+  return each(wavelengths_nm,
+              [&](double nm) { return matter.index.knows_k(nm) ? matter.index.catalogued_k(nm) : kNan; });
 }
 
 py::dict material(const std::string& name) {
@@ -58,17 +66,17 @@ Coating coating_of(const std::vector<std::pair<std::string, double>>& layers, co
       throw Error(ErrorCode::usage, "coating",
                   fmt::format("got {} nm of \"{}\", allowed up to {} layers of {} nm", thickness_nm, name,
                               Coating::kMaxMaterials, kFilmThickness.text()));
-    NamedIndex matter = find(name, wavelengths_nm);
+    NamedIndex matter = find_surface(name, wavelengths_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), thickness_nm});
     coating.materials.push_back({std::move(matter.name), std::move(matter.index)});
   }
   return coating;
 }
 
-// Rs and Rp for light from air.
+// Rs and Rp for light from what its index is relative to, under a coating from air.
 py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, const Numbers& angles_deg,
                       const std::vector<std::pair<std::string, double>>& layers) {
-  const NamedIndex matter = find(name, wavelengths_nm);
+  const NamedIndex matter = find_surface(name, wavelengths_nm);
   const Coating coating = coating_of(layers, wavelengths_nm);
   for (const double angle : all(angles_deg))
     if (!(angle >= 0 && angle <= 90))
@@ -78,13 +86,15 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
   Numbers rp = alike(nm);
   double* const s = rs.mutable_data();
   double* const p = rp.mutable_data();
+  const bool bare = coating.layers.empty();
   {
     const py::gil_scoped_release released;
     for (std::size_t i = 0; i < all(nm).size(); ++i) {
       const double at = all(nm)[i];
       const double cos_i = all(angle)[i] == 90 ? 0 : std::cos(all(angle)[i] * kDegree);
-      const FresnelPower<double> power =
-          coated_power(coating, at, matter.index.catalogued_n(at), matter.index.k(at), cos_i, false);
+      const double n = bare ? matter.index.catalogued_n(at) : matter.index.n(at);
+      const double k = bare ? matter.index.catalogued_k(at) : matter.index.k(at);
+      const FresnelPower<double> power = coated_power(coating, at, n, k, cos_i, false);
       s[i] = power.Rs;
       p[i] = power.Rp;
     }
@@ -98,9 +108,9 @@ py::object prism_deviation(const std::string& name, const Numbers& wavelengths_n
     throw Error(ErrorCode::usage, "apex_deg", fmt::format("got {}, allowed (0, 180)", apex_deg));
   if (incidence_deg && !(std::abs(*incidence_deg) < 90))
     throw Error(ErrorCode::usage, "incidence_deg", fmt::format("got {}, allowed (-90, 90)", *incidence_deg));
-  const NamedIndex matter = find(name, wavelengths_nm);
+  const NamedIndex matter = find_surface(name, wavelengths_nm);
   return each(wavelengths_nm, [&](double nm) {
-    if (matter.index.k(nm) > kLargestGlassK) return kNan;
+    if (matter.index.catalogued_k(nm) > kLargestGlassK) return kNan;
     const double n = matter.index.catalogued_n(nm);
     const auto passage =
         incidence_deg ? prism_passage(n, apex_deg, *incidence_deg) : prism_minimum(n, apex_deg);
@@ -118,10 +128,9 @@ void add_matter(py::module_& module) {
       "to air or vacuum, as `material(name)` tells.\n\nNames are those of `names(\"material\")` and "
       "`names(\"glass\")`, or files. Raises InputError for an unknown name and UsageError for a wavelength "
       "without data.");
-  module.def(
-      "extinction", extinction, py::arg("name"), py::arg("wavelengths_nm"),
-      "Returns the extinction coefficient k of a material, the imaginary part of its index n + ik. Raises as "
-      "`ior` does.");
+  module.def("extinction", extinction, py::arg("name"), py::arg("wavelengths_nm"),
+             "Returns the extinction coefficient k of a material, the imaginary part of its index n + ik, as "
+             "catalogued; NaN where it is not measured. Raises as `ior` does.");
   module.def(
       "material", material, py::arg("name"),
       "Returns a dict of what is known of a material: its full name, the source of its data, the medium its "
@@ -131,10 +140,9 @@ void add_matter(py::module_& module) {
       py::arg("coating") = std::vector<std::pair<std::string, double>>(),
       "Returns (Rs, Rp), the reflectance of a smooth surface for light from air, or from vacuum where the "
       "index is relative to that as `material(name)` tells, polarised across and in the plane of incidence, "
-      "by Fresnel's formulas.\n\nWavelengths and angles of incidence are broadcast "
-      "against "
-      "one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises as `ior` "
-      "does.");
+      "by Fresnel's formulas.\n\nWavelengths and angles of incidence are broadcast against one another. "
+      "`coating` lists films (material, thickness in nm) from outside inwards, for light from air. Raises as "
+      "`ior` does, and UsageError too where k is not measured and the reflectance hangs on it.");
   module.def("prism_deviation", prism_deviation, py::arg("name"), py::arg("wavelengths_nm"),
              py::arg("apex_deg") = 60.0, py::arg("incidence_deg") = py::none(),
              "Returns by how many degrees a prism in air, or in vacuum where its index is relative to that, "

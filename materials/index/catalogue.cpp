@@ -72,13 +72,13 @@ std::optional<NamedIndex> Catalogue::load(std::size_t row, const std::string& na
     diagnostics.error(table_.position(row), fmt::format("{}: {}", id, *fault), ErrorCode::input);
     return std::nullopt;
   }
-  std::optional<Curve> k;
+  std::optional<Extinction> k;
   const fs::path absorption = data_directory() / kGlassFolder / (id + "_k.csv");
   if (with_extinction_ && fs::exists(absorption)) {
     const auto loaded =
         load_curve(kGlassFolder, absorption.stem().string() + ":k", {}, diagnostics, kAnyWavelength);
     if (!loaded) return std::nullopt;
-    k = loaded->curve;
+    k = {loaded->curve, {loaded->low_nm, loaded->high_nm}};
   }
   const bool absolute = table_.column("index_relative_to") && cell(row, "index_relative_to") == "vacuum";
   return NamedIndex{name, source_of(row),

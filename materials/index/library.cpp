@@ -27,23 +27,52 @@ std::optional<fs::path> table_of(const char* folder, const std::string& name) {
   return found->path;
 }
 
+/// Complains of a column that an index does not have.
+bool has_index_columns(const Table& table, Diagnostics& diagnostics) {
+  const std::vector<std::string> known{"wavelength_nm", "wavelength_um", "n", "k"};
+  for (const std::string& column : table.columns) {
+    if (std::find(known.begin(), known.end(), column) != known.end()) continue;
+    const std::string word = lower_case(column);
+    diagnostics.error(table.where,
+                      word == "k" || word == "kappa"
+                          ? fmt::format("column \"{}\" (k is called k)", column)
+                          : fmt::format("unknown column of an index (got \"{}\", allowed {})", column,
+                                        fmt::join(known, ", ")),
+                      ErrorCode::input);
+    return false;
+  }
+  return true;
+}
+
+/// Complains of a table that would have an index of 0 beyond its rows.
+bool is_held_beyond(const Table& table, const NamedCurve& n, Diagnostics& diagnostics) {
+  const bool covers_all = n.low_nm <= kMinWavelengthNm && kMaxWavelengthNm <= n.high_nm;
+  if (table.outside != Outside::zero || covers_all) return true;
+  diagnostics.error(
+      table.where,
+      "no index is 0 beyond its rows (got \"# outside: zero\", allowed clamp, error: it is held "
+      "there from the nearer end)",
+      ErrorCode::input);
+  return false;
+}
+
 std::optional<NamedIndex> load_tables(const char* folder, const std::string& name, const fs::path& path,
                                       const SourcePosition& where, Diagnostics& diagnostics) {
+  const auto table = read_table(path, TableOrigin::user, diagnostics);
+  if (!table || !has_index_columns(*table, diagnostics)) return std::nullopt;
   const auto n = load_curve(folder, name + ":n", where, diagnostics, kAnyWavelength);
-  if (!n) return std::nullopt;
-  Curve k;
+  if (!n || !is_held_beyond(*table, *n, diagnostics)) return std::nullopt;
+  std::optional<Extinction> k;
   Diagnostics unheard;
   if (find_table(folder, name + ":k", where, unheard)) {
     const auto loaded = load_curve(folder, name + ":k", where, diagnostics, kAnyWavelength);
     if (!loaded) return std::nullopt;
-    k = loaded->curve;
+    k = {loaded->curve, {loaded->low_nm, loaded->high_nm}};
   }
-  if (const auto fault = index_fault(n->curve, k)) {
+  if (const auto fault = index_fault(n->curve, k ? k->k : Curve())) {
     diagnostics.error(where, fmt::format("{}: {}", path.string(), *fault), ErrorCode::input);
     return std::nullopt;
   }
-  const auto table = read_table(path, TableOrigin::user, diagnostics);
-  if (!table) return std::nullopt;
   const std::vector<std::string> media{"air", "vacuum"};
   const auto said = table->keys.find("index_relative_to");
   const std::string medium = said != table->keys.end() ? said->second : media.front();
@@ -51,11 +80,6 @@ std::optional<NamedIndex> load_tables(const char* folder, const std::string& nam
     diagnostics.error(table->where, unknown_name("index_relative_to", medium, media), ErrorCode::input);
     return std::nullopt;
   }
-  for (const std::string& column : table->columns)
-    if (const std::string word = lower_case(column); column != "k" && (word == "k" || word == "kappa")) {
-      diagnostics.error(table->where, fmt::format("column \"{}\" (k is called k)", column), ErrorCode::input);
-      return std::nullopt;
-    }
   const bool absolute = medium == "vacuum";
   return NamedIndex{
       path.stem().string(), n->source,
@@ -103,6 +127,14 @@ void require_data_at(const NamedIndex& material, std::span<const double> wavelen
   const double low = std::max<double>(material.index.low_nm(), kMinWavelengthNm);
   const double high = std::min<double>(material.index.high_nm(), kMaxWavelengthNm);
   require_between(material.name, low, high, wavelengths_nm, where);
+}
+
+void require_k_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
+                  const std::string& where) {
+  const auto& k = material.index.k_range();
+  for (const double nm : wavelengths_nm)
+    if (k && material.index.catalogued_k(nm) > kLargestGlassK)
+      require_between("the k of " + material.name, k->low_nm, k->high_nm, {&nm, 1}, where);
 }
 
 void require_between(const std::string& name, double low_nm, double high_nm,

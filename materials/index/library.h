@@ -24,7 +24,13 @@ namespace abbe {
 void require_data_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
                      const std::string& where);
 
-/// The same for data between two wavelengths [nm].
+/// Throws Error{usage} naming `where` for a wavelength [nm] at which k is not measured, and is held at more
+/// than a glass has, so that what the surface reflects hangs on it.
+void require_k_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
+                  const std::string& where);
+
+/// Throws Error{usage} naming `where` for a wavelength [nm] outside [low_nm, high_nm], between which `name`
+/// has data.
 void require_between(const std::string& name, double low_nm, double high_nm,
                      std::span<const double> wavelengths_nm, const std::string& where);
 

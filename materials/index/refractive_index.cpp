@@ -35,6 +35,18 @@ SampledSpectrum sellmeier_index(const DispersionFormula& f, const SampledSpectru
   return SampledSpectrum::map(n2, [](float x) { return std::sqrt(x); });
 }
 
+// A quantity of the wavelength, every 1 nm.
+template <typename F>
+Curve each_nm(F quantity) {
+  std::vector<Knot> knots;
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1) knots.push_back({nm, quantity(nm)});
+  return Curve(std::move(knots));
+}
+
+Curve per_index_of_air() {
+  return each_nm([](double nm) { return 1 / air_index(nm); });
+}
+
 }  // namespace
 
 std::optional<std::string> index_fault(const Curve& n, const Curve& k) {
@@ -45,28 +57,40 @@ std::optional<std::string> index_fault(const Curve& n, const Curve& k) {
 }
 
 RefractiveIndex::RefractiveIndex(double n, double k)
-    : n_(Constant{n}), k_(k), low_nm_(0), high_nm_(std::numeric_limits<double>::infinity()) {}
+    : n_(Constant{n}), k_(k), low_nm_(0), high_nm_(std::numeric_limits<double>::infinity()) {
+  k_range_ = {low_nm_, high_nm_};
+}
 
-RefractiveIndex::RefractiveIndex(const DispersionFormula& formula, std::optional<Curve> k, IndexMedium medium,
-                                 double low_nm, double high_nm)
-    : n_(formula), k_(k ? *std::move(k) : Curve()), medium_(medium), low_nm_(low_nm), high_nm_(high_nm) {
+RefractiveIndex::RefractiveIndex(const DispersionFormula& formula, std::optional<Extinction> k,
+                                 IndexMedium medium, double low_nm, double high_nm)
+    : n_(formula), medium_(medium), low_nm_(low_nm), high_nm_(high_nm) {
+  take(std::move(k));
+  bake();
+}
+
+RefractiveIndex::RefractiveIndex(Curve n, std::optional<Extinction> k, IndexMedium medium, double low_nm,
+                                 double high_nm)
+    : n_(std::move(n)), medium_(medium), low_nm_(low_nm), high_nm_(high_nm) {
+  take(std::move(k));
   bake();
 }
 
 RefractiveIndex::RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm)
-    : n_(std::move(n)), k_(std::move(k)), medium_(medium), low_nm_(low_nm), high_nm_(high_nm) {
-  bake();
+    : RefractiveIndex(std::move(n), Extinction{std::move(k), {low_nm, high_nm}}, medium, low_nm, high_nm) {}
+
+void RefractiveIndex::take(std::optional<Extinction> k) {
+  if (!k) return;
+  k_ = std::move(k->k);
+  k_range_ = k->range;
 }
 
 void RefractiveIndex::bake() {
+  if (medium_ == IndexMedium::vacuum && absorbing()) baked_k_ = product(k_, per_index_of_air());
   const auto* formula = std::get_if<DispersionFormula>(&n_);
   if (medium_ == IndexMedium::air && (!formula || (is_sellmeier(*formula) && !formula->vacuum_wavelengths)))
     return;
   const auto* table = std::get_if<Curve>(&n_);
-  std::vector<Knot> knots;
-  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1)
-    knots.push_back({nm, table ? 1 / air_index(nm) : n(nm)});
-  baked_n_ = table ? product(*table, Curve(std::move(knots))) : Curve(std::move(knots));
+  baked_n_ = table ? product(*table, per_index_of_air()) : each_nm([this](double nm) { return n(nm); });
 }
 
 double RefractiveIndex::catalogued_n(double wavelength_nm) const {
@@ -91,12 +115,17 @@ SampledSpectrum RefractiveIndex::n(const SampledSpectrum& wavelengths_nm) const 
   return std::get<Curve>(n_)(wavelengths_nm);
 }
 
-double RefractiveIndex::k(double wavelength_nm) const {
+double RefractiveIndex::catalogued_k(double wavelength_nm) const {
   return k_(wavelength_nm);
 }
 
+double RefractiveIndex::k(double wavelength_nm) const {
+  const double catalogued = catalogued_k(wavelength_nm);
+  return medium_ == IndexMedium::vacuum ? catalogued / air_index(wavelength_nm) : catalogued;
+}
+
 SampledSpectrum RefractiveIndex::k(const SampledSpectrum& wavelengths_nm) const {
-  return k_(wavelengths_nm);
+  return (baked_k_ ? *baked_k_ : k_)(wavelengths_nm);
 }
 
 double RefractiveIndex::absorption_per_m(double wavelength_nm) const {

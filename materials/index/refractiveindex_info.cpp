@@ -1,6 +1,7 @@
 #include "materials/index/refractiveindex_info.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <utility>
 #include <vector>
@@ -58,6 +59,11 @@ struct Count {
 constexpr Count kCounts[] = {{3, 17, 2}, {3, 17, 2}, {3, 17, 2}, {5, 17, 1}, {3, 11, 2},
                              {3, 11, 2}, {3, 6, 1},  {4, 4, 1},  {6, 6, 1}};
 
+// What a file may say of its references, and where.
+constexpr const char* kAbsolute = "n_is_absolute";
+constexpr const char* kVacuumWavelengths = "wavelength_is_vacuum";
+constexpr std::array kSections{"SPECS", "CONDITIONS", "PROPERTIES"};
+
 class EntryReader {
  public:
   EntryReader(std::shared_ptr<const SourceText> source, Diagnostics& diagnostics)
@@ -70,8 +76,9 @@ class EntryReader {
       complain(data ? data->where : root.where, "expected DATA, a list of formulas and tables");
       return std::nullopt;
     }
-    if (says(root, "n_is_absolute")) medium_ = IndexMedium::vacuum;
-    vacuum_wavelengths_ = says(root, "wavelength_is_vacuum");
+    check_places(root, true);
+    if (says(root, kAbsolute)) medium_ = IndexMedium::vacuum;
+    vacuum_wavelengths_ = says(root, kVacuumWavelengths);
     for (const JsonValue& block : *blocks) read_block(block);
     if (!complained_ && !formula_ && !n_) complain(data->where, "no block of DATA gives n");
     if (complained_) return std::nullopt;
@@ -90,9 +97,24 @@ class EntryReader {
     return found ? std::get_if<std::string>(&found->value) : nullptr;
   }
 
+  // What is said of references elsewhere than where it is heeded would be lost.
+  void check_places(const JsonValue& value, bool is_root, bool is_section = false) {
+    if (const auto* list = std::get_if<JsonValue::Array>(&value.value))
+      for (const JsonValue& item : *list) check_places(item, false);
+    const auto* object = std::get_if<JsonValue::Object>(&value.value);
+    if (object == nullptr) return;
+    for (const auto& [key, inner] : *object) {
+      if (!is_section && (key == kAbsolute || key == kVacuumWavelengths))
+        complain(inner.where, fmt::format("{} is not heeded there (allowed under {} alone)", key,
+                                          fmt::join(kSections, ", ")));
+      const bool names_section = std::find(kSections.begin(), kSections.end(), key) != kSections.end();
+      check_places(inner, false, is_root && names_section);
+    }
+  }
+
   // Editions of the database differ in where they say it.
   bool says(const JsonValue& root, std::string_view what) {
-    for (const char* section : {"SPECS", "CONDITIONS", "PROPERTIES"}) {
+    for (const char* section : kSections) {
       const JsonValue* specs = root.find(section);
       const std::string* value = specs ? scalar(*specs, what) : nullptr;
       if (value == nullptr) continue;
@@ -113,9 +135,8 @@ class EntryReader {
   }
 
   RefractiveIndex index() {
-    Curve k = k_ ? std::move(*k_) : Curve();
-    if (formula_) return {*formula_, std::move(k), medium_, low_nm_, high_nm_};
-    return {std::move(*n_), std::move(k), medium_, low_nm_, high_nm_};
+    if (formula_) return {*formula_, std::move(k_), medium_, low_nm_, high_nm_};
+    return {std::move(*n_), std::move(k_), medium_, low_nm_, high_nm_};
   }
 
   void read_block(const JsonValue& block) {
@@ -190,9 +211,9 @@ class EntryReader {
     if (with_k) {
       auto k = curve_of(table, "k", "k", diagnostics_, kAnyWavelength);
       complained_ = complained_ || !k;
-      if (k) k_ = std::move(k->curve);
+      if (k) k_ = {std::move(k->curve), {k->low_nm, k->high_nm}};
     }
-    if (auto fault = index_fault(n_ ? *n_ : Curve(1.0), k_ ? *k_ : Curve()))
+    if (auto fault = index_fault(n_ ? *n_ : Curve(1.0), k_ ? k_->k : Curve()))
       complain(table.where, std::move(*fault));
   }
 
@@ -263,7 +284,7 @@ class EntryReader {
   Diagnostics& diagnostics_;
   std::optional<DispersionFormula> formula_;
   std::optional<Curve> n_;
-  std::optional<Curve> k_;
+  std::optional<Extinction> k_;
   IndexMedium medium_ = IndexMedium::air;
   bool vacuum_wavelengths_ = false;
   bool gives_n_ = false;

@@ -161,6 +161,22 @@ TEST(Lab, RefusesWhatIsNotClearAndTellsOfIndicesThatAreHeld) {
             std::string::npos);
 }
 
+TEST(Lab, TellsOfAnExtinctionThatIsHeldWhereTheIndexIsMeasured) {
+  const auto heard_at = [](std::vector<double> nm) {
+    cli::LabOptions options = about(R"({"dielectric": {"ior": "N-LASF31A"}})");
+    options.at_nm = std::move(nm);
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    (void)cli::lab(options);
+    (void)testing::internal::GetCapturedStdout();
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string held = heard_at({320, 550});
+  EXPECT_NE(held.find("warning: the extinction of material "), std::string::npos) << held;
+  EXPECT_NE(held.find("is held from the end of its data, [334, 2500] nm"), std::string::npos) << held;
+  EXPECT_EQ(heard_at({334, 550}).find("is held"), std::string::npos);
+}
+
 TEST(Lab, SaysWhatIsWrongWithAMaterial) {
   const auto scene = scratch().write(
       "two.json",

@@ -1,10 +1,15 @@
+#include <cmath>
+#include <complex>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "cli/query.h"
+#include "spectral/air.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 
-// Angles of materials that absorb, and the medium that angles are in.
+// Materials that absorb, or of which nobody knows it, and the medium that angles are in.
 
 namespace abbe::test {
 namespace {
@@ -46,6 +51,63 @@ TEST(QueryAngles, AreInTheMediumThatIsTold) {
   };
   expect_medium("N-BK7", "air");
   expect_medium("water_20.0C", "vacuum");
+}
+
+// The characteristic matrix of one clear layer along the normal, [Born1999, sec. 1.6].
+TEST(QueryAngles, UnderACoatingAllIndicesAreRelativeToAir) {
+  cli::ReflectanceOptions options{"water", {550}};
+  options.coating = "MgF2:100";
+  const json coated = json_output(cli::query_reflectance, options);
+  EXPECT_EQ(coated["medium"], "air");
+  const double water = json_output(cli::query_ior, {"water", {550}})["n"].get<double>() / air_index(550);
+  const double film = json_output(cli::query_ior, {"MgF2", {550}})["n"];
+  const double phase = 2 * std::numbers::pi * film * 100 / 550;
+  const std::complex<double> b(std::cos(phase), -water / film * std::sin(phase));
+  const std::complex<double> c(water * std::cos(phase), -film * std::sin(phase));
+  EXPECT_NEAR(coated["R"].get<double>(), std::norm((b - c) / (b + c)), 1e-12);
+  options.coating = "";
+  EXPECT_EQ(json_output(cli::query_reflectance, options)["medium"], "vacuum");
+}
+
+TEST(QueryIor, ExtinctionThatIsNotMeasuredIsUnknownAndForbidsNoIndex) {
+  cli::IndexOptions options{"N-LASF31A", {300, 334, 500}};
+  options.thickness_mm = 10;
+  const json glass = json_output(cli::query_ior, options);
+  EXPECT_GT(glass["n"][0], 1.9);
+  EXPECT_TRUE(glass["k"][0].is_null());
+  EXPECT_TRUE(glass["internal_transmittance"][0].is_null());
+  EXPECT_DOUBLE_EQ(glass["k"][1].get<double>(), 5.4391e-06);
+  EXPECT_TRUE(glass["internal_transmittance"][2].is_number());
+  for (const char* clear : {"water", "hoya/FCD1"}) {
+    options = {clear, {650}};
+    options.thickness_mm = 1000;
+    const json found = json_output(cli::query_ior, options);
+    EXPECT_TRUE(found["n"].is_number());
+    EXPECT_TRUE(found["k"].is_null() && found["internal_transmittance"].is_null()) << found;
+  }
+  testing::internal::CaptureStdout();
+  options.json = false;
+  EXPECT_EQ(cli::query_ior(options), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("k  -\n"), std::string::npos);
+}
+
+TEST(QueryReflectance, WhereItHangsOnAnExtinctionThatIsNotMeasuredIsAnError) {
+  const auto metal = scratch().write("metal.yml",
+                                     "DATA:\n  - type: tabulated n\n    data: |\n      0.4 1\n      0.7 1\n"
+                                     "  - type: tabulated k\n    data: |\n      0.5 3\n      0.6 3\n");
+  const cli::ReflectanceOptions within{metal.string(), {550}};
+  EXPECT_NEAR(json_output(cli::query_reflectance, within)["R"].get<double>(), 9.0 / 13, 1e-12);
+  EXPECT_EQ(fault(
+                [&] {
+                  (void)cli::query_reflectance({metal.string(), {550, 450}});
+                },
+                "the k of metal has no data there (got 450 nm, allowed [500, 600] nm)"),
+            ErrorCode::usage);
+  cli::ReflectanceOptions coated{"N-BK7", {450}};
+  coated.coating = metal.string() + ":20";
+  EXPECT_EQ(fault([&] { (void)cli::query_reflectance(coated); }, "the k of metal"), ErrorCode::usage);
+  EXPECT_TRUE(json_output(cli::query_reflectance, {"N-LASF31A", {300}})["R"].is_number())
+      << "which its small k does not change";
 }
 
 }  // namespace

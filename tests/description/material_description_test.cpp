@@ -176,6 +176,24 @@ TEST_F(DescriptionTest, ReadsCoatings) {
   EXPECT_NE(narrow.find("diamond holds on [226, 760] nm"), std::string::npos) << narrow;
 }
 
+TEST_F(DescriptionTest, WarnsOfAnExtinctionThatEndsBeforeItsIndex) {
+  const auto told = [&](const char* ior, const char* band) {
+    return load(fmt::format(R"({{"materials": {{"m": {{"dielectric": {{"ior": "{}"}}}}}},
+      "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
+      "sensor": {{"resolution": [1, 1], "channels": {{"a": {{"band": {}}}}}}}}})",
+                            ior, band))
+        .text();
+  };
+  EXPECT_NE(
+      told("N-LASF31A", "[300, 330]")
+          .find("N-LASF31A holds on [250, 2500] nm, its k on [334, 2500] nm, the sensor sees [300, 330] nm"),
+      std::string::npos);
+  EXPECT_EQ(told("N-LASF31A", "[400, 700]"), "");
+  EXPECT_NE(told("BAF10_hoya", "[600, 710]").find("its k on [340, 700] nm"), std::string::npos);
+  EXPECT_EQ(told("N-SF11", "[350, 500]").find("its k"), std::string::npos) << "which begins where n does";
+  EXPECT_EQ(told("water", "[400, 700]"), "") << "of which no k is known";
+}
+
 TEST_F(DescriptionTest, RefusesImpossibleCoatings) {
   const auto told = [&](const std::string& layers) {
     const Loaded loaded =

@@ -62,6 +62,18 @@ TEST(IndexLibrary, GivesTheIdentity) {
   EXPECT_EQ(load_index("water_20.0C", {}, diagnostics)->index.medium(), IndexMedium::vacuum);
 }
 
+TEST(IndexLibrary, KnowsWhereExtinctionsAreMeasured) {
+  const auto lasf = index_of("N-LASF31A").k_range();
+  ASSERT_TRUE(lasf);
+  EXPECT_EQ(lasf->low_nm, 334);
+  EXPECT_EQ(lasf->high_nm, 2500);
+  const auto aluminium = index_of("Al_Rakic");
+  ASSERT_TRUE(aluminium.k_range());
+  EXPECT_EQ(aluminium.k_range()->low_nm, aluminium.low_nm());
+  for (const char* clear : {"water", "fused_silica", "hoya/FCD1"})
+    EXPECT_FALSE(index_of(clear).k_range()) << clear;
+}
+
 TEST(IndexLibrary, KnowsCustomaryNames) {
   Diagnostics diagnostics;
   EXPECT_EQ(load_index("BK7", {}, diagnostics)->name, "N-BK7");
@@ -96,7 +108,7 @@ TEST_F(UserTable, MayAbsorbAndBeRelativeToVacuum) {
   Diagnostics diagnostics;
   const auto named = load_index(path, {}, diagnostics);
   ASSERT_TRUE(named) << diagnostics.text();
-  EXPECT_DOUBLE_EQ(named->index.k(550.0), 0.15);
+  EXPECT_DOUBLE_EQ(named->index.catalogued_k(550.0), 0.15);
   EXPECT_EQ(named->index.medium(), IndexMedium::vacuum);
 }
 
@@ -117,6 +129,24 @@ TEST_F(UserTable, IsRefusedByWhatItMayHaveMeant) {
     EXPECT_NE(complaint(fmt::format("wavelength_nm,n,{}\n400,1.6,0.1\n700,1.5,0.1\n", column))
                   .find(fmt::format("column \"{}\" (k is called k)", column)),
               std::string::npos);
+}
+
+TEST_F(UserTable, IsRefusedWithColumnsOrRangesThatNoIndexHas) {
+  const auto complaint = [&](const std::string& text) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(load_index(write("# unit: index, nm\n" + text), {}, diagnostics)) << text;
+    EXPECT_EQ(diagnostics.code(), ErrorCode::input);
+    return diagnostics.text();
+  };
+  const std::string alpha = complaint("wavelength_nm,n,alpha\n400,1.6,100\n700,1.5,100\n");
+  EXPECT_NE(
+      alpha.find("unknown column of an index (got \"alpha\", allowed wavelength_nm, wavelength_um, n, k)"),
+      std::string::npos)
+      << alpha;
+  const std::string zero = complaint("# outside: zero\nwavelength_nm,n\n400,1.6\n700,1.5\n");
+  EXPECT_NE(zero.find("no index is 0 beyond its rows (got \"# outside: zero\", allowed clamp, error"),
+            std::string::npos)
+      << zero;
 }
 
 TEST_F(UserTable, IsRefusedWithoutAnIndexOrWithAnImpossibleOne) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "spectral/air.h"
 #include "tests/materials/index_of.h"
@@ -66,6 +67,35 @@ TEST(RefractiveIndex, VacuumTablesAreDividedByAir) {
   const RefractiveIndex table(Curve(1.5), Curve(), IndexMedium::vacuum, 300, 1100);
   EXPECT_NEAR(table.n(SampledSpectrum(632.8F))[0], 1.5 / air_index(632.8), 1e-7);
   EXPECT_NEAR(index_of("water_20.0C").n(589.2938), 1.33299, 1.1e-5);  // as tabulated against air
+}
+
+TEST(RefractiveIndex, ExtinctionsOfVacuumTablesAreDividedByAirToo) {
+  const Curve k({{300, 0.2}, {1100, 0.4}});
+  const RefractiveIndex vacuum(Curve(1.5), k, IndexMedium::vacuum, 300, 1100);
+  const RefractiveIndex formula(kBk7, Extinction{k, {300, 1100}}, IndexMedium::vacuum, 300, 2500);
+  EXPECT_EQ(vacuum.catalogued_k(550), k(550));
+  for (const RefractiveIndex& index : {vacuum, formula}) {
+    EXPECT_DOUBLE_EQ(index.k(550.0), k(550) / air_index(550));
+    EXPECT_NEAR(index.k(SampledSpectrum(550))[0], index.k(550.0), 3e-7);
+    // k and the wavelength are both shorter in air, so that a metre takes the same share.
+    const double alpha = 4e9 * std::numbers::pi * k(550) / air_to_vacuum(550);
+    EXPECT_NEAR(index.absorption_per_m(550.0), alpha, 1e-8 * alpha);
+  }
+  EXPECT_EQ(RefractiveIndex(Curve(1.5), k, IndexMedium::air, 300, 1100).k(550.0), k(550));
+}
+
+TEST(RefractiveIndex, KnowsWhereItsExtinctionIsMeasured) {
+  const RefractiveIndex glass(kBk7, Extinction{Curve({{400, 1e-6}, {500, 1e-7}}), {400, 500}},
+                              IndexMedium::air, 300, 2500);
+  EXPECT_FALSE(glass.knows_k(399));
+  EXPECT_TRUE(glass.knows_k(400));
+  EXPECT_FALSE(glass.knows_k(501));
+  EXPECT_EQ(glass.k(350.0), 1e-6) << "held";
+  const RefractiveIndex clear(kBk7, std::nullopt, IndexMedium::air, 300, 2500);
+  EXPECT_FALSE(clear.k_range());
+  EXPECT_EQ(clear.k(500.0), 0);
+  EXPECT_TRUE(RefractiveIndex(1.5).knows_k(500)) << "which is said to be 0";
+  EXPECT_FALSE(RefractiveIndex(Curve(1.5), Curve(), IndexMedium::air, 400, 700).knows_k(350));
 }
 
 TEST(RefractiveIndex, ConstantsAndTablesKnowTheirNature) {

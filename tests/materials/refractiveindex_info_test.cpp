@@ -160,6 +160,29 @@ TEST_F(Entry, SaysItInWordsThatAreKnown) {
             "7:18: n_is_absolute (got \"perhaps\", allowed true, false)");
 }
 
+TEST_F(Entry, SaysItWhereItIsHeeded) {
+  const std::string table = "  - type: tabulated n\n    data: |\n      0.4 1\n      0.5 1.5\n";
+  const std::string allowed = " is not heeded there (allowed under SPECS, CONDITIONS, PROPERTIES alone)";
+  EXPECT_EQ(fault(table + "n_is_absolute: true\n"), "6:16: n_is_absolute" + allowed);
+  EXPECT_EQ(fault(table + "    wavelength_is_vacuum: true\n"), "6:27: wavelength_is_vacuum" + allowed);
+  EXPECT_EQ(fault(table + "SPEC:\n  n_is_absolute: false\n"), "7:18: n_is_absolute" + allowed);
+  EXPECT_EQ(fault(table + "SPECS:\n  more:\n    n_is_absolute: true\n"), "8:20: n_is_absolute" + allowed);
+}
+
+TEST_F(Entry, KnowsWhereItsExtinctionIsMeasured) {
+  const std::string n = "DATA:\n  - type: tabulated n\n    data: |\n      0.4 1.6\n      0.7 1.5\n";
+  EXPECT_FALSE(good(n).k_range());
+  const RefractiveIndex both =
+      good(n + "  - type: tabulated k\n    data: |\n      0.5 1e-5\n      0.6 2e-5\n");
+  ASSERT_TRUE(both.k_range());
+  EXPECT_EQ(both.k_range()->low_nm, 500);
+  EXPECT_EQ(both.k_range()->high_nm, 600);
+  EXPECT_EQ(both.k(450.0), 1e-5);
+  EXPECT_FALSE(both.knows_k(450));
+  EXPECT_TRUE(both.knows_k(500) && both.knows_k(600));
+  EXPECT_FALSE(both.knows_k(650));
+}
+
 TEST_F(Entry, IsRefusedWithoutAnIndex) {
   EXPECT_EQ(fault_of("REFERENCES: x\n"), "1:1: expected DATA, a list of formulas and tables");
   EXPECT_EQ(fault_of("DATA: 3\n"), "1:7: expected DATA, a list of formulas and tables");

@@ -24,6 +24,20 @@ class Queries(Test):
         self.assertEqual(abbe.ior("N-BK7", numpy.full((2, 3), 500)).shape, (2, 3))
         self.assertEqual(abbe.material("N-BK7")["medium"], "air")
 
+    def test_extinctions_that_are_not_measured_are_unknown_as_to_the_command(self):
+        told = self.query("ior", "N-LASF31A", "--at", "300,334")
+        self.assertIsNone(told["k"][0])
+        first, second = abbe.extinction("N-LASF31A", [300, 334])
+        self.assertTrue(numpy.isnan(first))
+        self.assertEqual(second, told["k"][1])
+        self.assertTrue(numpy.isnan(abbe.extinction("water", 550)))
+
+    def test_what_coats_water_is_met_from_air(self):
+        told = self.query("reflectance", "water", "--at", "550", "--angle", "60", "--coating", "MgF2:100")
+        self.assertEqual(told["medium"], "air")
+        rs, rp = abbe.reflectance("water", 550, 60, coating=[("MgF2", 100)])
+        self.assertEqual((rs, rp), (told["Rs"], told["Rp"]))
+
     def test_reflectances_are_broadcast_and_those_of_the_command(self):
         told = self.query("reflectance", "Ag_Johnson", "--at", "500,600", "--angle", "0,60,90", "--coating", "MgF2:100", "--arrays")
         rs, rp = abbe.reflectance("Ag_Johnson", [[500], [600]], [0, 60, 90], coating=[("MgF2", 100)])
