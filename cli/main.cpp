@@ -25,7 +25,8 @@ namespace {
 // A reader that leaves must not end a render that only tells its progress. And a closed standard stream must
 // not be the number of the next file opened: the stand-in gives an end of file or refuses what is written.
 void prepare_streams() {
-  std::signal(SIGPIPE, SIG_IGN);
+  // Writing fails then, and that is told.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   for (const int stream : {0, 1, 2})
     if (::fcntl(stream, F_GETFD) < 0) (void)!::open("/dev/null", O_RDONLY);
 }

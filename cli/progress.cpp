@@ -44,11 +44,12 @@ std::string progress_line(const Progress& progress, bool with_bar) {
     line = fmt::format("[{}{}] ", std::string(filled, '='), std::string(kBarWidth - filled, ' '));
   }
   line += fmt::format("{:3.0f} %  {} samples/pixel", std::floor(100 * share), progress.samples);
-  if (progress.elapsed_s > 0)
-    line += fmt::format("  {:.3g}/s", static_cast<double>(progress.samples) / progress.elapsed_s);
-  line += error_text(progress.error, "  ");
-  if (share > 0 && share < 1)
-    line += fmt::format("  {} left", duration(progress.elapsed_s * (1 - share) / share));
+  if (progress.rate > 0) line += fmt::format("  {:.3g}/s", progress.rate);
+  const std::string error = error_text(progress.error, "  ");
+  line += error;
+  if (!error.empty() && progress.error_samples != progress.samples)
+    line += fmt::format(" at {}", progress.error_samples);
+  if (share < 1 && !std::isnan(progress.left_s)) line += fmt::format("  {} left", duration(progress.left_s));
   return line;
 }
 

@@ -294,11 +294,11 @@ void write_results(const RenderOptions& options, const Outputs& outputs,
 }
 
 void tell_results(const RenderOptions& options, const fs::path& film, const Scene& scene,
-                  const RenderResult& result) {
+                  const RenderResult& result, const Cost& plan) {
   const RenderStats& stats = result.stats;
   if (!options.quiet)
     say(fmt::format("{} after {} samples per pixel in {:.3g} s{}", film.string(), stats.samples_per_pixel,
-                    stats.wall_s, error_text(stats.error, ", ")));
+                    plan.wall_s + stats.wall_s, error_text(stats.error, ", ")));
   if (options.target_error && !options.time_limit_s && !stats.interrupted &&
       !std::isfinite(stats.error.median))
     say("warning: a pilot found no light on the film: --error had nothing to wait for");
@@ -328,10 +328,12 @@ int render(const RenderOptions& options) {
   for (const fs::path& output : files_of(outputs, options))
     if (!output.empty()) locks.emplace_back(output);
   const bool leaves_integrator = scene.render.integrator == Integrator::automatic;
+  costs.load = costs.command.spent();
+  const CostMeter planning;
   const IntegratorChoice choice = choose_integrator(scene, threads);
   scene.render.integrator = choice.integrator;
   settle_white(scene, options.scene, threads, choice.guides);
-  costs.load = costs.command.spent();
+  costs.plan = planning.spent();
   std::optional<DisplayTransform> display;
   if (!outputs.display.empty() || !outputs.gamut.empty())
     metered(costs.display, [&] { display = display_of(scene, chosen_view(options)); })();
@@ -352,7 +354,7 @@ int render(const RenderOptions& options) {
   write_results(options, outputs, display, scene, part, costs);
   watchers.end(part.result);
   const RenderStats& stats = part.result.stats;
-  tell_results(options, outputs.film, scene, part.result);
+  tell_results(options, outputs.film, scene, part.result, costs.plan);
   if (stats.interrupted) return kSignalExit + watch.signal();
   return options.strict && stats.nonfinite_samples > 0 ? static_cast<int>(ErrorCode::internal) : 0;
 }

@@ -37,11 +37,14 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["wall_s"] = stats.wall_s;
   answer["cpu_s"] = stats.cpu_s;
   answer["command"] = json_of(costs.command.spent());
-  answer["overhead"] = {
-      {"load", json_of(costs.load)}, {"display", json_of(costs.display)}, {"write", json_of(costs.write)}};
+  answer["overhead"] = {{"load", json_of(costs.load)},
+                        {"plan", json_of(costs.plan)},
+                        {"display", json_of(costs.display)},
+                        {"write", json_of(costs.write)}};
   answer["threads"] = stats.threads;
   answer["processes"] = stats.processes;
   answer["samples_per_pixel"] = stats.samples_per_pixel;
+  answer["samples_before"] = stats.samples_before;
   answer["photons_per_sample"] = result.film.shape().photons;
   answer["path_interval"] = result.film.shape().path_interval;
   answer["paths"] = stats.paths;

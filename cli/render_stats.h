@@ -11,7 +11,8 @@ namespace abbe::cli {
 /// Of the command, and of what comes before and after the render itself.
 struct Costs {
   CostMeter command;
-  Cost load;     ///< Reading the scene, building what it describes and finding its white.
+  Cost load;     ///< Reading the scene and building what it describes.
+  Cost plan;     ///< The pilots that choose the integrator, teach it and find the white.
   Cost display;  ///< Making pictures of the film, and writing them.
   Cost write;    ///< Writing the film and the last checkpoint.
 };

@@ -68,6 +68,18 @@ void add_layer(Image& film, const std::string& name, Image layer) {
   }
 }
 
+const char* unit_of(ResponseKind kind) {
+  switch (kind) {
+    case ResponseKind::energy:
+      return "energy, response-weighted J per m^2";
+    case ResponseKind::quantum:
+      return "quantum, electrons per m^2";
+    case ResponseKind::photometric:
+      return "photometric, lx s";
+  }
+  throw Error(ErrorCode::internal, "", "no such response");
+}
+
 }  // namespace
 
 FilmIdentity sensor_identity(const Scene& scene) {
@@ -81,9 +93,7 @@ FilmIdentity sensor_identity(const Scene& scene) {
   for (const Channel& channel : scene.channels) {
     if (channel.exposure_ratio != 1)
       identity["exposure_s." + channel.name] = fmt::format("{}", scene.exposure_s * channel.exposure_ratio);
-    identity["channel." + channel.name] = channel.kind == ResponseKind::quantum
-                                              ? "quantum, electrons per m^2"
-                                              : "energy, response-weighted J per m^2";
+    identity["channel." + channel.name] = unit_of(channel.kind);
   }
   const auto rows = polariser_rows(scene.channels);
   for (std::size_t k = 0; k < rows.size(); ++k)

@@ -170,7 +170,8 @@ std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, 
 JsonValue* element(JsonValue::Array& array, const std::string& token) {
   const bool digits = !token.empty() && std::all_of(token.begin(), token.end(),
                                                     [](unsigned char c) { return std::isdigit(c); });
-  if (token != "-" && (!digits || token.size() > 9)) return nullptr;
+  const bool leading_zero = token.size() > 1 && token.starts_with('0');
+  if (token != "-" && (!digits || leading_zero || token.size() > 9)) return nullptr;
   const std::size_t index = token == "-" ? array.size() : std::stoul(token);
   if (index > array.size()) return nullptr;
   if (index == array.size()) array.emplace_back();

@@ -104,14 +104,15 @@ PageAnswer Preview::state() const {
     const std::scoped_lock lock(progress_mutex_);
     progress = progress_;
   }
-  const double rest = progress.share > 0 ? progress.elapsed_s * (1 / progress.share - 1) : NAN;
   return json_page({{"scene", identity_.at("scene")},
                     {"ended", ended_.load()},
                     {"share", progress.share},
                     {"samples_per_pixel", progress.samples},
+                    {"samples_per_s", progress.rate},
                     {"elapsed_s", progress.elapsed_s},
-                    {"left_s", number_or_null(rest)},
+                    {"left_s", number_or_null(progress.left_s)},
                     {"relative_error", error_json(progress.error)},
+                    {"error_samples_per_pixel", progress.error_samples},
                     {"picture", film_.number()},
                     {"picture_samples_per_pixel", film_.samples()},
                     {"width", scene_.camera.width},

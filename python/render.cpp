@@ -71,10 +71,17 @@ void add_render(py::module_& module) {
       .def_readonly("share", &Progress::share,
                     "The share of the work that is done, in [0, 1]; an estimate where time or error decides.")
       .def_readonly("samples", &Progress::samples, "How many samples of each pixel are finished.")
+      .def_readonly("rate", &Progress::rate,
+                    "How many samples of each pixel this run finishes in a second, without its planning; 0 "
+                    "before its first.")
       .def_readonly("elapsed_s", &Progress::elapsed_s, "The time since the render began, in s.")
+      .def_readonly("left_s", &Progress::left_s,
+                    "An estimate of the time that is left, in s; NaN before there is one.")
       .def_property_readonly(
           "error", [](const Progress& p) { return p.error.median; },
-          "The median relative error of the lit values so far; infinite while it is not known.");
+          "The median relative error of the lit values so far; infinite while it is not known.")
+      .def_readonly("error_samples", &Progress::error_samples,
+                    "Of how many samples of each pixel `error` is.");
   module.def(
       "render",
       [](SceneHandle& scene, std::optional<std::int64_t> spp, std::optional<std::int64_t> seed,

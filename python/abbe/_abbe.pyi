@@ -131,12 +131,24 @@ class Progress:
         """How many samples of each pixel are finished."""
 
     @property
+    def rate(self) -> float:
+        """How many samples of each pixel this run finishes in a second, without its planning; 0 before its first."""
+
+    @property
     def elapsed_s(self) -> float:
         """The time since the render began, in s."""
 
     @property
+    def left_s(self) -> float:
+        """An estimate of the time that is left, in s; NaN before there is one."""
+
+    @property
     def error(self) -> float:
         """The median relative error of the lit values so far; infinite while it is not known."""
+
+    @property
+    def error_samples(self) -> int:
+        """Of how many samples of each pixel `error` is."""
 
 
 class Scene:
@@ -208,7 +220,7 @@ def develop(film: Film, *, readout: typing.Any = None, white: typing.Any = None,
 
 
 def extinction(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
-    """Returns the extinction coefficient k of a material, the imaginary part of its index n + ik. Raises as `ior` does."""
+    """Returns the extinction coefficient k of a material, the imaginary part of its index n + ik, as catalogued; NaN where it is not measured. Raises as `ior` does."""
 
 
 def help(key: str = '') -> str:
@@ -264,7 +276,7 @@ def recover_response(series: str | os.PathLike[str]) -> dict:
 def reflectance(name: str, wavelengths_nm: ArrayLike, angle_deg: ArrayLike = 0.0, coating: typing.List[typing.Tuple[str, float]] = []) -> tuple:
     """Returns (Rs, Rp), the reflectance of a smooth surface for light from air, or from vacuum where the index is relative to that as `material(name)` tells, polarised across and in the plane of incidence, by Fresnel's formulas.
 
-    Wavelengths and angles of incidence are broadcast against one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises as `ior` does."""
+    Wavelengths and angles of incidence are broadcast against one another. `coating` lists films (material, thickness in nm) from outside inwards, for light from air. Raises as `ior` does, and UsageError too where k is not measured and the reflectance hangs on it."""
 
 
 def render(scene: Scene, *, spp: typing.Optional[int] = None, seed: typing.Optional[int] = None, threads: int = 0, error: typing.Optional[float] = None, time: typing.Optional[float] = None, progress: typing.Any = None, sample_range: typing.Optional[typing.Tuple[int, int]] = None) -> Film:

@@ -18,12 +18,14 @@ std::vector<Crop> recorded_areas(const Image& film) {
   const auto found = film.metadata.find(kAreasKey);
   if (found == film.metadata.end()) return {around};
   std::vector<Crop> areas;
+  std::size_t held = 0;
   for (const std::string& area : split(found->second, ' ')) {
     const std::optional<Crop> pixels = parse_crop(area.substr(0, area.find('=')));
     if (!pixels || common_pixels(*pixels, around) != pixels) return {around};
     areas.push_back(*pixels);
+    held += pixel_count(*pixels);
   }
-  return areas;
+  return held < pixel_count(around) ? areas : std::vector<Crop>{around};
 }
 
 std::vector<std::size_t> recorded_pixels(const Image& film) {

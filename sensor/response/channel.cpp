@@ -139,9 +139,10 @@ std::optional<std::vector<Channel>> load_camera(const std::string& name, const S
 
 std::vector<Channel> observer_channels(Observer observer) {
   const ColorMatching& cmf = color_matching(observer);
-  return {energy_channel("X", scaled(cmf.x, kLuminousEfficacy)),
-          energy_channel("Y", scaled(cmf.y, kLuminousEfficacy)),
-          energy_channel("Z", scaled(cmf.z, kLuminousEfficacy))};
+  constexpr ResponseKind kKind = ResponseKind::photometric;
+  return {{"X", kKind, scaled(cmf.x, kLuminousEfficacy)},
+          {"Y", kKind, scaled(cmf.y, kLuminousEfficacy)},
+          {"Z", kKind, scaled(cmf.z, kLuminousEfficacy)}};
 }
 
 bool is_observer(std::span<const Channel> channels) {

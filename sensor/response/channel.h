@@ -14,8 +14,9 @@
 
 namespace abbe {
 
-/// What a response multiplies: the energy that arrives, or the photons that arrive.
-enum class ResponseKind { energy, quantum };
+/// What a response multiplies: the energy that arrives, the photons that arrive, or, of an observer's
+/// colour-matching functions, the luminous exposure.
+enum class ResponseKind { energy, quantum, photometric };
 
 /// How the weight of a channel depends on the angle of incidence.
 struct AngularResponse {
@@ -25,7 +26,7 @@ struct AngularResponse {
 
 /// One channel of a sensor. Its film value for a spectral irradiance E over the sensor's exposure t is t
 /// times the integral of E(lambda) weight(lambda): J/m^2 weighted by the response for an energy channel,
-/// electrons per m^2 for a quantum channel.
+/// electrons per m^2 for a quantum channel, lx s for one of an observer.
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;

@@ -132,6 +132,18 @@ TEST(CropParts, APartialFilmIsRightWherePixelsHaveDifferentSamples) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
+TEST(CropParts, AFilmOfUnevenSamplesTellsWhichPixelsHaveWhich) {
+  const std::string left = part_of(ball(), "left", "--crop 0,0,10,16");
+  const std::string right = part_of(ball(), "right", "--crop 10,0,24,16 --sample-range 0:6");
+  ASSERT_EQ(merged(left + " " + right, file("uneven.exr") + " --partial").code, 0);
+  const auto told = read_exr(file("uneven.exr")).metadata;
+  EXPECT_EQ(told.at("areas"), "0,0,10,16=0:8 10,0,24,16=0:6");
+  for (const char* of_the_whole : {"samples_per_pixel", "samples_stated"})
+    EXPECT_FALSE(told.contains(of_the_whole)) << of_the_whole;
+  const std::string compare = "compare " + file("uneven.exr") + " " + film_of(ball(), "whole");
+  EXPECT_EQ(abbe(compare + " --maps " + file("maps")).code, 0) << "all pixels are in common";
+}
+
 // Black for want of a render is no darkness.
 TEST(CropParts, AFilmWithGapsTellsWhichPixelsItHas) {
   const std::string a = part_of(ball(), "a", "--crop 0,0,10,8");

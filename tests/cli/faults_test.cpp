@@ -52,8 +52,8 @@ TEST(FullDisk, NoOldOutputIsLost) {
     // Beside a part no picture is written.
     if (fs::path(film).extension() == ".abbepart") outputs.erase(outputs.begin() + 1);
     outputs.emplace_back("--checkpoint", kCheckpoint);
-    const Outcome run = shell("cd " + there.string() + "; (trap '' XFSZ; ulimit -f 0; " +
-                              render_command(outputs) + "; echo $?) 2>&1 | cat");
+    const Outcome run = shell("cd " + there.string() + "; (ulimit -f 0; " + render_command(outputs) +
+                              "; echo $?) 2>&1 | cat");
     EXPECT_TRUE(run.out.ends_with("\n5\n")) << run.out;
     EXPECT_NE(run.out.find(std::string(film) + ": "), std::string::npos) << run.out;
     for (const auto& [option, name] : outputs)
@@ -71,8 +71,7 @@ TEST(FullDisk, AnOutputThatFailsTakesNoOtherWithIt) {
   put_old(there);
   OutputFiles outputs = kOutputs;
   outputs.emplace_back("--checkpoint", kCheckpoint);
-  const Outcome run =
-      shell("cd " + there.string() + "; trap '' XFSZ; ulimit -f 8; " + render_command(outputs));
+  const Outcome run = shell("cd " + there.string() + "; ulimit -f 8; " + render_command(outputs));
   EXPECT_EQ(run.code, 5) << run.err;
   EXPECT_EQ(read_file(there / "film.exr"), "old");
   EXPECT_EQ(read_picture(there / "picture.png").width, 24);

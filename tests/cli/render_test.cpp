@@ -26,13 +26,15 @@ TEST(Render, WritesImagePictureAndStats) {
   for (const char* name : {"X", "Y", "Z", "Variance.Y"}) EXPECT_NE(image.find(name), nullptr) << name;
   EXPECT_EQ(image.metadata.at("samples_per_pixel"), "8");
   EXPECT_EQ(image.metadata.at("seed"), "7");
+  EXPECT_EQ(image.metadata.at("channel.Y"), "photometric, lx s");
   EXPECT_EQ(image.metadata.at("version"), ABBE_VERSION);
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 23U);
+  EXPECT_EQ(stats.size(), 24U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
+  EXPECT_EQ(stats["samples_before"], 0);
   EXPECT_EQ(stats["seed"], 7);
   EXPECT_EQ(stats["nonfinite_samples"], 0);
   EXPECT_EQ(stats["cut_paths"], 0);
@@ -47,7 +49,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_TRUE(stats["embree_replay_share"].is_null());
   EXPECT_EQ(stats["photons_per_sample"], 0);
   EXPECT_EQ(stats["path_interval"], 1);
-  for (const char* part : {"load", "display", "write"}) {
+  for (const char* part : {"load", "plan", "display", "write"}) {
     EXPECT_GT(stats["overhead"][part]["wall_s"], 0) << part;
     EXPECT_GT(stats["overhead"][part]["cpu_s"], 0) << part;
     EXPECT_LT(stats["overhead"][part]["wall_s"], stats["command"]["wall_s"]) << part;

@@ -58,7 +58,8 @@ TEST_F(SetJson, BareWordsAndPathsAreStrings) {
 }
 
 TEST_F(SetJson, ReportsWhereThereIsNoWay) {
-  for (const char* pointer : {"/render/samples/x", "/none/x", "/list/9", "/list/x", "/list/01x", "render"})
+  for (const char* pointer :
+       {"/render/samples/x", "/none/x", "/list/9", "/list/x", "/list/01x", "/list/01", "render"})
     EXPECT_EQ(set(pointer, "1"),
               std::string("--set:1:1: ") + pointer + ": error: no such place in the scene\n1\n^\n");
   EXPECT_EQ(set("/list", "[1, 2"),

@@ -114,6 +114,9 @@ TEST(Preview, AtTheEndPixelsAreTheFilms) {
     Watched render("--time 1s --set '/sensor=" + sensor + "' -o " + path);
     const Json state = render.wait_for([](const Json& told) { return told["ended"] == true; });
     ASSERT_FALSE(state.is_null()) << "the render said nothing of its end";
+    EXPECT_EQ(state["error_samples_per_pixel"], state["samples_per_pixel"]);
+    EXPECT_EQ(state["left_s"], 0);
+    EXPECT_GT(state["samples_per_s"], 0);
     const Json pixel = render.json("/pixel?x=11&y=8");
     EXPECT_EQ(pixel["samples_per_pixel"], state["samples_per_pixel"]);
     render.wait_for_exit();

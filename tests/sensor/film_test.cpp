@@ -229,6 +229,8 @@ TEST(RecordedAreas, AreThoseOfTheFilmOrAllOfItsCrop) {
     film.metadata[kAreasKey] = nonsense;
     EXPECT_EQ(recorded_areas(film), (std::vector<Crop>{{0, 0, 6, 4}})) << nonsense;
   }
+  film.metadata[kAreasKey] = "0,0,2,4=0:8 2,0,6,4=0:4";
+  EXPECT_EQ(recorded_areas(film), (std::vector<Crop>{{0, 0, 6, 4}})) << "there are no gaps";
   film.metadata[kAreasKey] = "0,0,2,2=0:8 3,2,6,4=0:4,5:8";
   EXPECT_EQ(recorded_areas(film), (std::vector<Crop>{{0, 0, 2, 2}, {3, 2, 6, 4}}));
 }

@@ -144,7 +144,7 @@ Image developed(const Film& film, std::span<const std::string> names, const Rend
       film.develop(image, area.pixels, count_per_replicate(area.samples, film.replicates()));
   image.metadata = part.identity;
   for (const char* key : {kBuildKey, kInstructionSetKey}) image.metadata.erase(key);
-  if (!has_gaps(part)) return image;
+  if (!has_gaps(part) && !part.result.samples.empty()) return image;
   image.metadata[kAreasKey] = to_text(part.areas);
   image.metadata.erase(kStatedSamplesKey);
   return image;

@@ -40,8 +40,8 @@ void set_samples(RenderResult& films, const SampleRanges& samples);
 /// The names of the film's own planes.
 [[nodiscard]] std::vector<std::string> film_planes(const FilmIdentity& identity);
 
-/// A film of the part's, each pixel by the samples it has, and the part's identity; where pixels have none,
-/// by `kAreasKey` those that have some.
+/// A film of the part's, each pixel by the samples it has, and the part's identity; where some have
+/// none, or other samples than others, by `kAreasKey` which have which.
 [[nodiscard]] Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part);
 
 }  // namespace abbe

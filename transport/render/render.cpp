@@ -89,7 +89,7 @@ class Rendering {
     stats.processes = options_.crew.size;
     if (!leads()) forget();
     if (leads() && !result_.unfinished && look_is_due() && asks_for_error()) look_at_error();
-    started_with_ = samples();
+    stats.samples_before = samples();
     planned_s_ = elapsed();
   }
 
@@ -102,7 +102,10 @@ class Rendering {
     }
     collect();
     RenderStats& stats = result_.stats;
-    if (leads() && (asks_for_error() || options_.measure_error) && looked_at_ != samples()) look_at_error();
+    if (leads() && (asks_for_error() || options_.measure_error) && looked_at_ != samples()) {
+      look_at_error();
+      tell_progress();
+    }
     stats.wall_s = elapsed();
     stats.cpu_s = cpu_of_all();
     if (options_.measure_replay) stats.embree_replay_share = measure_replay_share(plan_);
@@ -111,6 +114,7 @@ class Rendering {
 
  private:
   [[nodiscard]] std::uint64_t samples() const { return result_.stats.samples_per_pixel; }
+  [[nodiscard]] std::uint64_t traced_samples() const { return samples() - result_.stats.samples_before; }
   [[nodiscard]] double elapsed() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
@@ -141,7 +145,7 @@ class Rendering {
   [[nodiscard]] std::uint64_t end_of_pass(std::uint64_t first) const {
     const std::uint64_t end = (first / step_ + 1) * step_;
     if (!options_.time_limit_s) return end;
-    const std::uint64_t traced = samples() - started_with_;
+    const std::uint64_t traced = traced_samples();
     const std::uint64_t most = all_follow(std::min(traced, affordable(traced)));
     return std::min(end, first + std::max<std::uint64_t>(1, most));
   }
@@ -169,7 +173,7 @@ class Rendering {
       collect();
       if (leads()) look_at_error();
     }
-    if (options_.progress) options_.progress({share(), samples(), elapsed(), result_.stats.error});
+    tell_progress();
   }
 
   // Brings together what all have traced since the last time.
@@ -286,11 +290,35 @@ class Rendering {
     if (leads()) options_.show(result_);
   }
 
+  void tell_progress() const {
+    if (!options_.progress) return;
+    const auto traced = static_cast<double>(traced_samples());
+    const double rate = traced > 0 ? traced / (elapsed() - planned_s_) : 0;
+    options_.progress({share(), samples(), rate, elapsed(), left_s(rate), result_.stats.error, looked_at_});
+  }
+
+  // Of the samples that are wanted, and of those that the error asks for by what they have brought so far.
+  [[nodiscard]] double share_of_samples() const {
+    const auto all = static_cast<double>(wanted_.last - wanted_.first);
+    return 1 - static_cast<double>(count(missing(result_.samples, wanted_))) / all;
+  }
+  [[nodiscard]] double share_of_error() const {
+    return options_.target_error ? std::pow(*options_.target_error / targeted(), 2) : NAN;
+  }
   [[nodiscard]] double share() const {
-    double share = static_cast<double>(samples()) / static_cast<double>(wanted_.last - wanted_.first);
-    if (options_.time_limit_s) share = std::max(share, elapsed() / *options_.time_limit_s);
-    if (options_.target_error) share = std::max(share, std::pow(*options_.target_error / targeted(), 2));
-    return std::min(share, 1.0);
+    double share = share_of_samples();
+    if (options_.time_limit_s) share = std::fmax(share, elapsed() / *options_.time_limit_s);
+    return std::min(std::fmax(share, share_of_error()), 1.0);
+  }
+  // Until the first of what may end the render does.
+  [[nodiscard]] double left_s(double rate) const {
+    double left = NAN;
+    if (rate > 0) {
+      left = static_cast<double>(count(missing(result_.samples, wanted_))) / rate;
+      left = std::fmin(left, static_cast<double>(samples()) * (1 / share_of_error() - 1) / rate);
+    }
+    if (options_.time_limit_s) left = std::fmin(left, *options_.time_limit_s - elapsed());
+    return left < 0 ? 0 : left;
   }
 
   [[nodiscard]] double targeted() const {
@@ -317,8 +345,7 @@ class Rendering {
   RenderResult result_;
   std::optional<std::vector<std::size_t>> lit_;  // once asked for
   std::uint64_t looked_at_ = 0;                  // samples of the film whose error was worked out last
-  std::uint64_t started_with_ = 0;               // of an earlier run
-  double planned_s_ = 0;                         // when the first of this one was begun
+  double planned_s_ = 0;                         // when the first of this run was begun
   double last_save_s_ = 0;
   double saving_s_ = 0;
   bool saved_at_stop_ = false;

@@ -23,9 +23,12 @@ namespace abbe {
 /// How far a render has come.
 struct Progress {
   double share;           ///< Of the work, in [0, 1]; an estimate where time or error decides.
-  std::uint64_t samples;  ///< Finished, per pixel.
+  std::uint64_t samples;  ///< Finished, per pixel, those of an earlier run too.
+  double rate;            ///< Of this run, without its planning [samples/s]; 0 before its first.
   double elapsed_s;
-  RelativeError error;  ///< Of the film so far.
+  double left_s;                ///< An estimate; NaN before there is one.
+  RelativeError error;          ///< Of the film when it had
+  std::uint64_t error_samples;  ///< so many per pixel.
 };
 
 struct RenderResult;
@@ -76,6 +79,7 @@ struct RenderStats {
   int threads = 1;    ///< Of each process.
   int processes = 1;  ///< Of the crew, whose work these figures count.
   std::uint64_t samples_per_pixel = 0;
+  std::uint64_t samples_before = 0;  ///< Of an earlier run: the counts are of these too, the times are not.
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
   std::uint64_t nonfinite_samples = 0;  ///< Dropped.
